@@ -1,0 +1,111 @@
+#ifndef talus_materials_material_model_h
+#define talus_materials_material_model_h
+
+#include <talus/points/points.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+#include <string>
+
+namespace talus
+{
+  /// A constitutive law with the parameters of one material. Laws work on
+  /// batches of points, [begin, end) in the sorted order; they see points and
+  /// never a weight or a node.
+  template <int dim>
+  class MaterialModel : public dealii::ParameterAcceptor
+  {
+  public:
+    /// @p section is the material's section in the parameter file, for example
+    /// "/Materials/clay".
+    MaterialModel(const std::string &section);
+
+    virtual ~MaterialModel() = default;
+
+    /// Throw ExcUser, naming the section, if parameters contradict each other.
+    /// Called once, after parsing.
+    virtual void
+    check() const
+    {}
+
+    /// Declare the law's internal variables as columns of the points.
+    virtual void
+    add_columns(Points<dim> & /*points*/)
+    {}
+
+    /// Set reference state dependent columns of newly made points: nothing for
+    /// most laws.
+    virtual void
+    initialize(Points<dim> & /*points*/,
+               unsigned int /*begin*/,
+               unsigned int /*end*/) const
+    {}
+
+    /// Advance deformation gradient, stress, elastic energy, plastic work and
+    /// internal variables over one step of @p dt seconds with the velocity
+    /// gradient that the points hold.
+    virtual void
+    update_stress(Points<dim> &points,
+                  unsigned int begin,
+                  unsigned int end,
+                  double       dt) const = 0;
+
+    /// Speed of the fastest wave at each point of the batch, m/s, written to
+    /// speed[p - begin].
+    virtual void
+    wave_speed(const Points<dim> &points,
+               unsigned int       begin,
+               unsigned int       end,
+               double            *speed) const = 0;
+
+    /// True if the stress is a function of the deformation gradient, so that an
+    /// initial stress cannot be prescribed.
+    virtual bool
+    is_hyperelastic() const = 0;
+
+    /// True if the anti-locking mean should be on unless the user decides.
+    virtual bool
+    locks() const = 0;
+
+    /// True if the anti-locking mean is on: the parameter, or locks().
+    bool
+    uses_cell_mean() const;
+
+    /// Density that gives inertia, kg/m^3.
+    double
+    density() const
+    {
+      return density_;
+    }
+
+    /// Density that gives weight, kg/m^3; equal to density() unless set.
+    double
+    submerged_density() const;
+
+    const std::string &
+    section() const
+    {
+      return section_;
+    }
+
+  private:
+    std::string section_;
+    double      density_           = 1000.;
+    std::string submerged_density_ = "";
+    std::string cell_mean_         = "auto";
+  };
+
+  /// The laws by the name used in the parameter file, in the order listed.
+  template <int dim>
+  std::vector<std::string>
+  material_names();
+
+  /// Make the law @p name with its parameters declared in @p section. Throws
+  /// ExcUser, listing the known laws, if there is none of that name.
+  template <int dim>
+  std::unique_ptr<MaterialModel<dim>>
+  make_material(const std::string &name, const std::string &section);
+} // namespace talus
+
+#endif

@@ -1,0 +1,259 @@
+#ifndef talus_points_points_h
+#define talus_points_points_h
+
+#include <talus/base/small_matrix.h>
+
+#include <deal.II/base/aligned_vector.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// What a column becomes when its point is split.
+  enum class Inheritance
+  {
+    /// Intensive: every daughter has the parent's value.
+    copied,
+    /// Extensive: the parent's value is shared equally by the daughters.
+    divided
+  };
+
+  /// A named property of the points: 1, dim, dim*dim, ... doubles per point.
+  struct Column
+  {
+    std::string  name;
+    std::string  unit;
+    unsigned int n_components;
+    Inheritance  inheritance;
+    /// Index of the first component among the scalar arrays.
+    unsigned int first;
+  };
+
+  /// The points of one body in one cell: [begin, end) in the sorted order.
+  struct Segment
+  {
+    unsigned int cell;
+    unsigned int body;
+    unsigned int begin;
+    unsigned int end;
+  };
+
+  /// A range of points, in the order before a reordering.
+  struct Run
+  {
+    unsigned int begin;
+    unsigned int end;
+  };
+
+  /// The material points: a structure of arrays with columns by name.
+  ///
+  /// Every column is stored as n_components contiguous arrays of doubles, so
+  /// that a loop over points is a loop over contiguous memory; output, sorting,
+  /// splitting and (later) checkpoints go over columns() and need not know what
+  /// a column means. Materials add their own internal variables.
+  ///
+  /// Points are sorted by cell, then by body (see Segment); within a segment
+  /// their order is part of the state. Points beyond n_sorted() were appended
+  /// and wait for Relocation::update() to sort them in.
+  ///
+  /// Arrays have at least n_lanes spare entries behind the last point, so that
+  /// a load of Lanes at any point is allowed.
+  template <int dim>
+  class Points
+  {
+    // Before the public column indices, whose initialisation fills them.
+    unsigned int                               size_     = 0;
+    unsigned int                               capacity_ = 0;
+    std::vector<Column>                        columns_;
+    std::vector<dealii::AlignedVector<double>> arrays_;
+    std::vector<dealii::AlignedVector<double>> workspace_{dim * dim + 1 + dim};
+    dealii::AlignedVector<double>              reordered_;
+    std::vector<Segment>                       segments_;
+
+  public:
+    Points();
+
+    /// Add a column, filled with zero, or return the one of that name. Throws
+    /// if one with this name exists with another shape.
+    unsigned int
+    add_column(const std::string &name,
+               const std::string &unit,
+               unsigned int       n_components,
+               Inheritance        inheritance);
+
+    const std::vector<Column> &
+    columns() const
+    {
+      return columns_;
+    }
+
+    /// First scalar array of the column called @p name; throws if there is
+    /// none.
+    unsigned int
+    find(const std::string &name) const;
+
+    double *
+    data(const unsigned int column, const unsigned int component = 0)
+    {
+      return arrays_[column + component].data();
+    }
+
+    const double *
+    data(const unsigned int column, const unsigned int component = 0) const
+    {
+      return arrays_[column + component].data();
+    }
+
+    unsigned int
+    size() const
+    {
+      return size_;
+    }
+
+    unsigned int
+    n_sorted() const
+    {
+      return segments_.empty() ? 0 : segments_.back().end;
+    }
+
+    /// Append @p n points with all columns zero. Returns the first new index.
+    unsigned int
+    append(unsigned int n);
+
+    /// Copy all columns of a point.
+    void
+    copy(unsigned int from, unsigned int to);
+
+    /// Reorder: the new order is the concatenation of @p runs, which name each
+    /// point once. @p segments describes the new order.
+    void
+    reorder(const std::vector<Run> &runs, std::vector<Segment> &&segments);
+
+    const std::vector<Segment> &
+    segments() const
+    {
+      return segments_;
+    }
+
+    /// Bytes of memory held.
+    std::size_t
+    memory_consumption() const;
+
+    // The columns every point has: index of the first scalar array of each.
+    // Tensors are stored row by row.
+    const unsigned int position;             ///< dim, m
+    const unsigned int velocity;             ///< dim, m/s, at the half step
+    const unsigned int deformation_gradient; ///< dim*dim
+    const unsigned int stress;             ///< Cauchy, n_stress_components, Pa
+    const unsigned int mass;               ///< 1, kg
+    const unsigned int reference_volume;   ///< 1, m^dim
+    const unsigned int reference_length;   ///< dim, m, of the undeformed box
+    const unsigned int stretch;            ///< dim, of the box along the axes
+    const unsigned int creation_stretch;   ///< dim, stretch when created
+    const unsigned int initial_position;   ///< dim, m
+    const unsigned int elastic_energy;     ///< 1, J
+    const unsigned int plastic_work;       ///< 1, J
+    const unsigned int id;                 ///< 1, unique
+    const unsigned int generation;         ///< 1, number of splits behind it
+    const unsigned int body;               ///< 1, index of its body
+
+    /// Velocity gradient after the anti-locking mean, dim*dim, 1/s. Not state:
+    /// written by the gather, read by the stress update of the same step, and
+    /// undefined after the points were reordered.
+    double *
+    velocity_gradient(const unsigned int i, const unsigned int j)
+    {
+      return workspace_[dim * i + j].data();
+    }
+
+    /// Shift of the mean stress by the anti-locking mean, Pa. Not state.
+    double *
+    mean_stress_shift()
+    {
+      return workspace_[dim * dim].data();
+    }
+
+    /// Acceleration by gravity and body forces, dim, m/s^2, as the weight of
+    /// the point divided by its mass. Not state.
+    double *
+    body_acceleration(const unsigned int d)
+    {
+      return workspace_[dim * dim + 1 + d].data();
+    }
+
+  private:
+    void
+    reserve(unsigned int n);
+  };
+
+
+
+  /// Read a dim x dim tensor column at point(s) p.
+  template <int dim, typename Number>
+  inline Matrix<dim, Number>
+  load_matrix(const Points<dim> &points,
+              const unsigned int column,
+              const unsigned int p)
+  {
+    Matrix<dim, Number> A;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        A[i][j] = load<Number>(points.data(column, dim * i + j) + p);
+    return A;
+  }
+
+
+
+  template <int dim, typename Number>
+  inline void
+  store_matrix(Points<dim>               &points,
+               const unsigned int         column,
+               const unsigned int         p,
+               const Matrix<dim, Number> &A)
+  {
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        store(points.data(column, dim * i + j) + p, A[i][j]);
+  }
+
+
+
+  /// Read the velocity gradient at point(s) p.
+  template <int dim, typename Number>
+  inline Matrix<dim, Number>
+  load_velocity_gradient(Points<dim> &points, const unsigned int p)
+  {
+    Matrix<dim, Number> L;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        L[i][j] = load<Number>(points.velocity_gradient(i, j) + p);
+    return L;
+  }
+
+
+
+  template <int dim, typename Number>
+  inline Stress<dim, Number>
+  load_stress(const Points<dim> &points, const unsigned int p)
+  {
+    Stress<dim, Number> sigma;
+    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+      sigma[c] = load<Number>(points.data(points.stress, c) + p);
+    return sigma;
+  }
+
+
+
+  template <int dim, typename Number>
+  inline void
+  store_stress(Points<dim>               &points,
+               const unsigned int         p,
+               const Stress<dim, Number> &sigma)
+  {
+    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+      store(points.data(points.stress, c) + p, sigma[c]);
+  }
+} // namespace talus
+
+#endif
