@@ -1,0 +1,19 @@
+#ifndef talus_adaptivity_split_statistics_h
+#define talus_adaptivity_split_statistics_h
+
+namespace talus
+{
+  /// What the splitter has done so far.
+  struct SplitStatistics
+  {
+    unsigned long n_splits           = 0;
+    unsigned int  largest_generation = 0;
+    /// Times a point wanted to split but was at the generation limit.
+    unsigned long n_refused = 0;
+    /// Largest relative error, over mass, momentum, kinetic and elastic energy
+    /// and centre of mass, of the sums over all splits of before - after.
+    double ledger = 0;
+  };
+} // namespace talus
+
+#endif

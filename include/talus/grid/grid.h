@@ -1,0 +1,245 @@
+#ifndef talus_grid_grid_h
+#define talus_grid_grid_h
+
+#include <talus/base/box.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <deal.II/distributed/tria.h>
+
+#include <deal.II/dofs/dof_handler.h>
+
+#include <deal.II/fe/fe_q.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <array>
+#include <unordered_map>
+#include <vector>
+
+namespace talus
+{
+  constexpr unsigned int
+  power(const unsigned int base, const unsigned int exponent)
+  {
+    return exponent == 0 ? 1 : base * power(base, exponent - 1);
+  }
+
+  /// Names of the faces of the mesh in deal.II's order of boundary ids.
+  extern const std::array<std::string, 6> face_names;
+
+  /// What the transfer needs to know about a cell of the background grid.
+  template <int dim>
+  struct Cell
+  {
+    dealii::Point<dim> lower; ///< corner, m
+    double             size;  ///< length of the edges, m
+
+    /// True if all neighbours, across corners too, have the same size. Then
+    /// the patch below is complete.
+    bool uniform;
+
+    /// Nodes of the patch from one cell below to one cell above, 4 per axis,
+    /// x fastest. Beyond the boundary of the mesh the outer row repeats the
+    /// boundary row: the boundary cell is continued outwards with shape
+    /// functions that are constant along the normal. The inner 2^dim entries
+    /// are the cell's own nodes, valid also where the cell is not uniform.
+    std::array<unsigned int, power(4, dim)> patch;
+
+    /// Neighbours of the same size, 3 per axis, x fastest, the cell itself in
+    /// the middle; invalid_unsigned_int beyond the boundary of the mesh or
+    /// where there is no active cell of the same size.
+    std::array<unsigned int, power(3, dim)> neighbors;
+  };
+
+  /// The background grid: a p4est mesh of square (cubic) cells over a box, with
+  /// Q1 elements and a flat cache of what the transfer needs.
+  ///
+  /// Cells are numbered as deal.II walks over the active cells this rank knows,
+  /// the locally owned ones first. Nodes are numbered as the locally relevant
+  /// degrees of freedom.
+  template <int dim>
+  class Grid : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Grid(MPI_Comm communicator);
+
+    /// Throw ExcUser if the parameters contradict each other.
+    void
+    check() const;
+
+    /// Make the mesh from the parameters.
+    /// @p may_move tells for each face (see face_names) whether it may be moved
+    /// outwards when the extent is not a multiple of the cell size.
+    void
+    create(const std::array<bool, 2 * dim> &may_move);
+
+    /// Rebuild degrees of freedom, constraints and the cell cache; to be called
+    /// after each change of the mesh.
+    void
+    prepare();
+
+    /// The box that the mesh fills.
+    const Box<dim> &
+    domain() const
+    {
+      return domain_;
+    }
+
+    /// Edge of the smallest cells, m.
+    double
+    finest_size() const
+    {
+      return finest_size_;
+    }
+
+    /// Sentence for the log if create() had to move a face, else empty.
+    const std::string &
+    adjustment() const
+    {
+      return adjustment_;
+    }
+
+    const std::vector<Cell<dim>> &
+    cells() const
+    {
+      return cells_;
+    }
+
+    unsigned int
+    n_owned_cells() const
+    {
+      return n_owned_cells_;
+    }
+
+    unsigned int
+    n_nodes() const
+    {
+      return n_nodes_;
+    }
+
+    /// The cells that share at least a corner with cell @p c, itself included,
+    /// whatever their size; kept only for cells that are not uniform.
+    const std::vector<unsigned int> &
+    touching_cells(const unsigned int c) const
+    {
+      return touching_.at(c);
+    }
+
+    /// The cell that contains @p x, which is moved onto the mesh first where it
+    /// lies outside; invalid_unsigned_int if this rank does not know that cell.
+    unsigned int
+    find_cell(dealii::Point<dim> x) const;
+
+    /// Bit f is set if the node lies on face f of the mesh.
+    unsigned char
+    faces_of_node(const unsigned int node) const
+    {
+      return faces_of_node_[node];
+    }
+
+    /// Area (2-D: length) of face @p face that node @p node stands for, m^(dim-1):
+    /// the integral of its shape function, hanging nodes condensed.
+    double
+    tributary_area(const unsigned int face, const unsigned int node) const;
+
+    /// A hanging node: its value is a mean of those of its masters.
+    struct HangingNode
+    {
+      unsigned int                                 node;
+      std::vector<std::pair<unsigned int, double>> masters;
+    };
+
+    const std::vector<HangingNode> &
+    hanging_nodes() const
+    {
+      return hanging_nodes_;
+    }
+
+    dealii::parallel::distributed::Triangulation<dim> &
+    triangulation()
+    {
+      return triangulation_;
+    }
+
+    const dealii::DoFHandler<dim> &
+    dof_handler() const
+    {
+      return dof_handler_;
+    }
+
+    /// Index among cells() of an active deal.II cell.
+    unsigned int
+    index_of(
+      const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const
+    {
+      return index_of_active_cell_[cell->active_cell_index()];
+    }
+
+    MPI_Comm
+    communicator() const
+    {
+      return triangulation_.get_communicator();
+    }
+
+  private:
+    using Lattice = std::array<long, dim>;
+
+    void
+    fit_domain(const std::array<bool, 2 * dim> &may_move);
+    unsigned int
+    refinement_that_divides() const;
+    void
+    list_cells();
+    void
+    link_cell(unsigned int c);
+    void
+    fill_patch(unsigned int c);
+    void
+    find_touching_cells(unsigned int c);
+    void
+    mark_boundary_nodes();
+    void
+    list_hanging_nodes();
+
+    Lattice
+    lattice_place(const dealii::Point<dim> &x, unsigned int level) const;
+    Lattice
+    place_of_cell(unsigned int c) const;
+    /// Number of cells of this size along each axis of the mesh.
+    Lattice
+    lattice_extent(double size) const;
+    unsigned int
+    cell_at(const Lattice &place, unsigned int level) const;
+
+    // Parameters
+    dealii::Point<dim> lower_corner_;
+    dealii::Point<dim> upper_corner_;
+    double             cell_size_      = 0.2;
+    unsigned int       coarsest_level_ = 3;
+
+    Box<dim>                                          domain_;
+    std::string                                       adjustment_;
+    std::array<unsigned int, dim>                     n_cells_per_axis_;
+    double                                            tree_size_   = 0;
+    double                                            finest_size_ = 0;
+    dealii::parallel::distributed::Triangulation<dim> triangulation_;
+    dealii::FE_Q<dim>                                 fe_;
+    dealii::DoFHandler<dim>                           dof_handler_;
+    dealii::AffineConstraints<double>                 constraints_;
+
+    // The flat cache
+    std::vector<Cell<dim>>    cells_;
+    std::vector<unsigned int> level_of_cell_;
+    std::vector<unsigned int> index_of_active_cell_;
+    unsigned int              n_owned_cells_ = 0;
+    unsigned int              n_nodes_       = 0;
+    std::unordered_map<unsigned long, unsigned int>             cell_map_;
+    std::unordered_map<unsigned int, std::vector<unsigned int>> touching_;
+    std::vector<unsigned char>                                  faces_of_node_;
+    std::array<std::unordered_map<unsigned int, double>, 2 * dim> areas_;
+    std::vector<HangingNode> hanging_nodes_;
+  };
+} // namespace talus
+
+#endif

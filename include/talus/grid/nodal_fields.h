@@ -1,0 +1,141 @@
+#ifndef talus_grid_nodal_fields_h
+#define talus_grid_nodal_fields_h
+
+#include <talus/base/lanes.h>
+#include <talus/grid/grid.h>
+
+#include <deal.II/base/aligned_vector.h>
+#include <deal.II/base/tensor.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// What the points send to a node: one register wide, so that one fused
+  /// multiply-add adds a point's share of everything.
+  template <int dim>
+  struct NodalSum
+  {
+    static constexpr unsigned int mass     = 0;       ///< kg
+    static constexpr unsigned int momentum = 1;       ///< kg m/s
+    static constexpr unsigned int force    = 1 + dim; ///< N
+    /// Volume of the soil in its reference density, m^dim.
+    static constexpr unsigned int volume = 1 + 2 * dim;
+    static_assert(volume < n_lanes);
+  };
+
+  /// What a node sends back: new velocity and its increment, padded to whole
+  /// registers.
+  template <int dim>
+  struct NodalMotion
+  {
+    static constexpr unsigned int width     = (dim == 2 ? 4 : 8);
+    static constexpr unsigned int velocity  = 0;   ///< m/s
+    static constexpr unsigned int increment = dim; ///< m/s
+    using Record = double __attribute__((vector_size(8 * width)));
+  };
+
+  /// The nodal values of one step on the background grid. Only nodes near soil
+  /// are active; nothing here loops over the others.
+  template <int dim>
+  class NodalFields
+  {
+  public:
+    using Sum    = NodalSum<dim>;
+    using Motion = NodalMotion<dim>;
+
+    /// Allocate for the nodes of @p grid; none is active.
+    void
+    prepare(const Grid<dim> &grid);
+
+    /// Make the nodes of the patches of these cells (ascending) active.
+    void
+    activate(const Grid<dim> &grid, const std::vector<unsigned int> &cells);
+
+    /// Set all sums of the active nodes to zero.
+    void
+    clear();
+
+    /// Add the sums at hanging nodes to their masters'.
+    void
+    condense(const Grid<dim> &grid);
+
+    /// v += dt f/m on all active nodes with more mass than @p least_mass; the
+    /// others carry nothing and get no velocity.
+    void
+    update_momentum(double dt, double least_mass);
+
+    /// Give hanging nodes the motion their masters imply.
+    void
+    distribute(const Grid<dim> &grid);
+
+    const std::vector<unsigned int> &
+    active_nodes() const
+    {
+      return active_nodes_;
+    }
+
+    /// Active nodes on a face of the mesh.
+    const std::vector<unsigned int> &
+    active_boundary_nodes() const
+    {
+      return active_boundary_nodes_;
+    }
+
+    double *
+    sum(const unsigned int node)
+    {
+      return sums_.data() + n_lanes * std::size_t(node);
+    }
+
+    const double *
+    sum(const unsigned int node) const
+    {
+      return sums_.data() + n_lanes * std::size_t(node);
+    }
+
+    double *
+    motion(const unsigned int node)
+    {
+      return motions_.data() + Motion::width * std::size_t(node);
+    }
+
+    const double *
+    motion(const unsigned int node) const
+    {
+      return motions_.data() + Motion::width * std::size_t(node);
+    }
+
+    double
+    mass(const unsigned int node) const
+    {
+      return sum(node)[Sum::mass];
+    }
+
+    dealii::Tensor<1, dim>
+    velocity(const unsigned int node) const;
+
+    /// Set the new velocity of a node and its increment accordingly. Returns
+    /// the impulse that this takes, N s.
+    dealii::Tensor<1, dim>
+    set_velocity(unsigned int node, const dealii::Tensor<1, dim> &velocity);
+
+    /// Mean of the velocities before and after the step: what a force's work
+    /// over the step is to be taken with.
+    dealii::Tensor<1, dim>
+    mean_velocity(const unsigned int node) const;
+
+    /// Kinetic energy of the active nodes, J.
+    double
+    kinetic_energy() const;
+
+  private:
+    dealii::AlignedVector<double> sums_;
+    dealii::AlignedVector<double> motions_;
+    std::vector<unsigned int>     active_nodes_;
+    std::vector<unsigned int>     active_boundary_nodes_;
+    std::vector<unsigned char>    is_active_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,187 @@
+#include <talus/grid/nodal_fields.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  NodalFields<dim>::prepare(const Grid<dim> &grid)
+  {
+    const std::size_t n_nodes = grid.n_nodes();
+    sums_.resize(0);
+    sums_.resize(n_lanes * n_nodes, 0.);
+    motions_.resize(0);
+    motions_.resize(Motion::width * n_nodes, 0.);
+    is_active_.assign(n_nodes, 0);
+    active_nodes_.clear();
+    active_boundary_nodes_.clear();
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::activate(const Grid<dim>                 &grid,
+                             const std::vector<unsigned int> &cells)
+  {
+    for (const unsigned int node : active_nodes_)
+      is_active_[node] = 0;
+    active_nodes_.clear();
+    active_boundary_nodes_.clear();
+
+    const auto add = [&](const unsigned int node) {
+      if (is_active_[node])
+        return;
+      is_active_[node] = 1;
+      active_nodes_.push_back(node);
+      if (grid.faces_of_node(node) != 0)
+        active_boundary_nodes_.push_back(node);
+    };
+    const auto add_patch = [&](const unsigned int c) {
+      for (const unsigned int node : grid.cells()[c].patch)
+        if (node != numbers::invalid_unsigned_int)
+          add(node);
+    };
+    for (const unsigned int c : cells)
+      if (grid.cells()[c].uniform)
+        add_patch(c);
+      else
+        for (const unsigned int t : grid.touching_cells(c))
+          add_patch(t);
+    if (!grid.hanging_nodes().empty())
+      for (const auto &hanging : grid.hanging_nodes())
+        if (is_active_[hanging.node])
+          for (const auto &master : hanging.masters)
+            add(master.first);
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::clear()
+  {
+    const Lanes zero{};
+    for (const unsigned int node : active_nodes_)
+      store(sum(node), zero);
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::condense(const Grid<dim> &grid)
+  {
+    for (const auto &hanging : grid.hanging_nodes())
+      if (is_active_[hanging.node])
+        {
+          const Lanes value = load<Lanes>(sum(hanging.node));
+          for (const auto &[node, weight] : hanging.masters)
+            store(sum(node), load<Lanes>(sum(node)) + weight * value);
+          store(sum(hanging.node), Lanes{});
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::update_momentum(const double dt, const double least_mass)
+  {
+    for (const unsigned int node : active_nodes_)
+      {
+        const double *s    = sum(node);
+        double       *v    = motion(node);
+        const double  mass = s[Sum::mass];
+        const double  inverse_mass = (mass > least_mass ? 1. / mass : 0.);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double increment   = dt * s[Sum::force + d] * inverse_mass;
+            v[Motion::increment + d] = increment;
+            v[Motion::velocity + d] =
+              s[Sum::momentum + d] * inverse_mass + increment;
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::distribute(const Grid<dim> &grid)
+  {
+    using Record = typename Motion::Record;
+    for (const auto &hanging : grid.hanging_nodes())
+      if (is_active_[hanging.node])
+        {
+          Record value{};
+          for (const auto &[node, weight] : hanging.masters)
+            value += weight * load<Record>(motion(node));
+          store(motion(hanging.node), value);
+        }
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  NodalFields<dim>::velocity(const unsigned int node) const
+  {
+    Tensor<1, dim> v;
+    for (unsigned int d = 0; d < dim; ++d)
+      v[d] = motion(node)[Motion::velocity + d];
+    return v;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  NodalFields<dim>::set_velocity(const unsigned int    node,
+                                 const Tensor<1, dim> &velocity)
+  {
+    double        *v = motion(node);
+    Tensor<1, dim> impulse;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double change = velocity[d] - v[Motion::velocity + d];
+        v[Motion::velocity + d] = velocity[d];
+        v[Motion::increment + d] += change;
+        impulse[d] = mass(node) * change;
+      }
+    return impulse;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  NodalFields<dim>::mean_velocity(const unsigned int node) const
+  {
+    Tensor<1, dim> v;
+    for (unsigned int d = 0; d < dim; ++d)
+      v[d] = motion(node)[Motion::velocity + d] -
+             0.5 * motion(node)[Motion::increment + d];
+    return v;
+  }
+
+
+
+  template <int dim>
+  double
+  NodalFields<dim>::kinetic_energy() const
+  {
+    double energy = 0;
+    for (const unsigned int node : active_nodes_)
+      energy += 0.5 * mass(node) * velocity(node).norm_square();
+    return energy;
+  }
+
+
+
+  template class NodalFields<2>;
+  template class NodalFields<3>;
+} // namespace talus
