@@ -167,15 +167,15 @@ namespace talus
   Grid<dim>::mark_boundary_nodes()
   {
     faces_of_node_.assign(n_nodes_, 0);
-    for (auto &area : areas_)
-      area.clear();
+    for (auto &shares : face_shares_)
+      shares.clear();
 
     for (unsigned int c = 0; c < cells_.size(); ++c)
       {
         const Cell<dim> &cell   = cells_[c];
         const Lattice    place  = place_of_cell(c);
         const Lattice    extent = lattice_extent(cell.size);
-        const double     share =
+        const double     area =
           std::pow(0.5 * cell.size, static_cast<double>(dim - 1));
         for (unsigned int face = 0; face < 2 * dim; ++face)
           {
@@ -191,29 +191,23 @@ namespace talus
                   ++a;
                 const unsigned int node = cell.patch[number<dim>(at, 4)];
                 faces_of_node_[node] |= 1u << face;
-                areas_[face][node] += share;
+                face_shares_[face][node].area += area;
+                face_shares_[face][node].volume += area * 0.5 * cell.size;
               }
           }
       }
     for (const auto &hanging : hanging_nodes_)
-      for (auto &area : areas_)
-        if (const auto it = area.find(hanging.node); it != area.end())
+      for (auto &shares : face_shares_)
+        if (const auto it = shares.find(hanging.node); it != shares.end())
           {
+            const FaceShare share = it->second;
+            shares.erase(it);
             for (const auto &[master, weight] : hanging.masters)
-              area[master] += weight * it->second;
-            area.erase(hanging.node);
+              {
+                shares[master].area += weight * share.area;
+                shares[master].volume += weight * share.volume;
+              }
           }
-  }
-
-
-
-  template <int dim>
-  double
-  Grid<dim>::tributary_area(const unsigned int face,
-                            const unsigned int node) const
-  {
-    const auto it = areas_[face].find(node);
-    return it == areas_[face].end() ? 0. : it->second;
   }
 
 
@@ -230,8 +224,4 @@ namespace talus
   Grid<2>::mark_boundary_nodes();
   template void
   Grid<3>::mark_boundary_nodes();
-  template double
-  Grid<2>::tributary_area(unsigned int, unsigned int) const;
-  template double
-  Grid<3>::tributary_area(unsigned int, unsigned int) const;
 } // namespace talus

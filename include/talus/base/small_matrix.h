@@ -9,7 +9,22 @@ namespace talus
 {
   /// dim x dim matrix of doubles or Lanes, A[row][column].
   template <int dim, typename Number>
-  using Matrix = std::array<std::array<Number, dim>, dim>;
+  struct Matrix
+  {
+    std::array<std::array<Number, dim>, dim> rows;
+
+    std::array<Number, dim> &
+    operator[](const unsigned int i)
+    {
+      return rows[i];
+    }
+
+    const std::array<Number, dim> &
+    operator[](const unsigned int i) const
+    {
+      return rows[i];
+    }
+  };
 
   /// Number of independent components of the stress. In 2-D it is plane strain
   /// with the stress out of the plane kept: xx, yy, zz, xy. In 3-D: xx, yy, zz,

@@ -14,6 +14,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -138,10 +139,21 @@ namespace talus
       return faces_of_node_[node];
     }
 
-    /// Area (2-D: length) of face @p face that node @p node stands for, m^(dim-1):
-    /// the integral of its shape function, hanging nodes condensed.
-    double
-    tributary_area(const unsigned int face, const unsigned int node) const;
+    /// What a node on a face of the mesh stands for, hanging nodes condensed.
+    struct FaceShare
+    {
+      /// Integral of its shape function over the face, m^(dim-1).
+      double area = 0;
+      /// Integral of its shape function over the cells at the face, m^dim.
+      double volume = 0;
+    };
+
+    /// Share of node @p node in face @p face of the mesh.
+    const FaceShare &
+    face_share(const unsigned int face, const unsigned int node) const
+    {
+      return face_shares_[face].at(node);
+    }
 
     /// A hanging node: its value is a mean of those of its masters.
     struct HangingNode
@@ -237,7 +249,8 @@ namespace talus
     std::unordered_map<unsigned long, unsigned int>             cell_map_;
     std::unordered_map<unsigned int, std::vector<unsigned int>> touching_;
     std::vector<unsigned char>                                  faces_of_node_;
-    std::array<std::unordered_map<unsigned int, double>, 2 * dim> areas_;
+    std::array<std::unordered_map<unsigned int, FaceShare>, 2 * dim>
+      face_shares_;
     std::vector<HangingNode> hanging_nodes_;
   };
 } // namespace talus

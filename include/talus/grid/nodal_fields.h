@@ -24,15 +24,30 @@ namespace talus
     static_assert(volume < n_lanes);
   };
 
-  /// What a node sends back: new velocity and its increment, padded to whole
-  /// registers.
+  /// 2 dim doubles, padded to whole registers.
+  template <int dim>
+  struct MotionRecord;
+
+  template <>
+  struct MotionRecord<2>
+  {
+    using type = double __attribute__((vector_size(8 * 4)));
+  };
+
+  template <>
+  struct MotionRecord<3>
+  {
+    using type = double __attribute__((vector_size(8 * 8)));
+  };
+
+  /// What a node sends back: new velocity and its increment.
   template <int dim>
   struct NodalMotion
   {
-    static constexpr unsigned int width     = (dim == 2 ? 4 : 8);
+    using Record = typename MotionRecord<dim>::type;
+    static constexpr unsigned int width     = sizeof(Record) / sizeof(double);
     static constexpr unsigned int velocity  = 0;   ///< m/s
     static constexpr unsigned int increment = dim; ///< m/s
-    using Record = double __attribute__((vector_size(8 * width)));
   };
 
   /// The nodal values of one step on the background grid. Only nodes near soil

@@ -1,0 +1,108 @@
+#include <talus/transfer/block.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  template <int dim>
+  void
+  BlockWalk<dim>::take_piece(Block<dim>        &block,
+                             const Segment     &segment,
+                             const unsigned int n)
+  {
+    const Cell<dim>   &cell  = grid_.cells()[segment.cell];
+    const unsigned int begin = block.size, end = begin + n;
+    block.pieces[block.n_pieces++] = {segment.cell, begin, end};
+
+    const auto  &acceleration = loads_.acceleration_of_body[segment.body];
+    const double inverse_size = 1. / cell.size;
+    for (unsigned int k = begin; k < end; ++k)
+      block.inverse_cell_size[k] = inverse_size;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int k = begin; k < end; ++k)
+        {
+          block.cell_lower[d][k]        = cell.lower[d];
+          block.body_acceleration[d][k] = acceleration[d];
+        }
+    block.size = end;
+  }
+
+
+
+  template <int dim>
+  void
+  BlockWalk<dim>::compute_weights(Block<dim> &block) const
+  {
+    // Whole lanes: what lies behind the last point of the block is computed,
+    // too, from whatever is there, and never used.
+    for (unsigned int k = 0; k < block.size; k += n_lanes)
+      {
+        const unsigned int p = block.begin + k;
+        const Lanes inverse_size = load<Lanes>(&block.inverse_cell_size[k]);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const Lanes x     = load<Lanes>(points_.data(points_.position, d) + p);
+            const Lanes lower = load<Lanes>(&block.cell_lower[d][k]);
+            const Lanes half =
+              half_length_in_cells<dim>(points_, shape_, d, p, inverse_size);
+            const auto w = axis_weights((x - lower) * inverse_size, half);
+            for (unsigned int i = 0; i < 4; ++i)
+              {
+                store(&block.value[d][i][k], w.value[i]);
+                store(&block.gradient[d][i][k], w.gradient[i] * inverse_size);
+              }
+          }
+      }
+    if (loads_.varies)
+      for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int k = 0; k < block.size; ++k)
+          block.body_acceleration[d][k] +=
+            points_.body_acceleration(d)[block.begin + k];
+  }
+
+
+
+  template <int dim>
+  bool
+  BlockWalk<dim>::next(Block<dim> &block)
+  {
+    block.size     = 0;
+    block.n_pieces = 0;
+    const auto &segments = points_.segments();
+    for (; segment_ < segments.size(); ++segment_, taken_ = 0)
+      {
+        const Segment &segment = segments[segment_];
+        if (!grid_.cells()[segment.cell].uniform)
+          {
+            if (block.size > 0)
+              break;
+            continue;
+          }
+        if (block.size == 0)
+          block.begin = segment.begin + taken_;
+        const unsigned int left = segment.end - segment.begin - taken_;
+        const unsigned int room = Block<dim>::n_points - block.size;
+        take_piece(block, segment, std::min(left, room));
+        if (left > room)
+          {
+            taken_ += room;
+            break;
+          }
+        if (left == room)
+          {
+            ++segment_;
+            taken_ = 0;
+            break;
+          }
+      }
+    if (block.size == 0)
+      return false;
+    compute_weights(block);
+    return true;
+  }
+
+
+
+  template class BlockWalk<2>;
+  template class BlockWalk<3>;
+} // namespace talus

@@ -1,0 +1,186 @@
+#include <talus/base/errors.h>
+#include <talus/transfer/box_rule.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Diagonal of the symmetric factor of F = R U, or of F^T = R V.
+    /// In 2-D U = (C + J I)/sqrt(tr C + 2 J), C = F^T F, @cite hoger1984.
+    template <typename Number>
+    std::array<Number, 2>
+    stretch_diagonal(const Matrix<2, Number> &F, const Number J)
+    {
+      const Number C_00  = F[0][0] * F[0][0] + F[1][0] * F[1][0];
+      const Number C_11  = F[0][1] * F[0][1] + F[1][1] * F[1][1];
+      const Number scale = 1. / square_root(C_00 + C_11 + 2. * J);
+      return {{(C_00 + J) * scale, (C_11 + J) * scale}};
+    }
+
+
+
+    /// In 3-D the rotation comes from Newton's iteration R <- (R + R^-T)/2,
+    /// which converges quadratically from R = F, @cite higham1986.
+    template <typename Number>
+    std::array<Number, 3>
+    stretch_diagonal(const Matrix<3, Number> &F, const Number /*J*/)
+    {
+      Matrix<3, Number> R = F;
+      for (unsigned int iteration = 0; iteration < 40; ++iteration)
+        {
+          const Matrix<3, Number> inverse_R = inverse(R);
+          Number                  change{};
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = 0; j < 3; ++j)
+              {
+                const Number step = 0.5 * (inverse_R[j][i] - R[i][j]);
+                R[i][j] += step;
+                change += step * step;
+              }
+          // The next iterate differs by the square of this change.
+          if (!any(change > broadcast<Number>(1e-16)))
+            break;
+        }
+      std::array<Number, 3> diagonal;
+      for (unsigned int d = 0; d < 3; ++d)
+        diagonal[d] =
+          R[0][d] * F[0][d] + R[1][d] * F[1][d] + R[2][d] * F[2][d];
+      return diagonal;
+    }
+
+
+
+    template <int dim, typename Number>
+    std::array<Number, dim>
+    stretch_along_axes(const Matrix<dim, Number>     &F,
+                       const Number                   J,
+                       const BoxRule                  rule,
+                       const std::array<Number, dim> &old_stretch,
+                       const std::array<Number, dim> &strain_increment)
+    {
+      std::array<Number, dim> stretch;
+      switch (rule)
+        {
+          case BoxRule::right_stretch:
+            return stretch_diagonal(F, J);
+          case BoxRule::left_stretch:
+            {
+              Matrix<dim, Number> transpose;
+              for (unsigned int i = 0; i < dim; ++i)
+                for (unsigned int j = 0; j < dim; ++j)
+                  transpose[i][j] = F[j][i];
+              return stretch_diagonal(transpose, J);
+            }
+          case BoxRule::deformation_gradient:
+            // May pass through zero; the criterion needs it positive.
+            for (unsigned int d = 0; d < dim; ++d)
+              stretch[d] = max(F[d][d], broadcast<Number>(0.01));
+            return stretch;
+          case BoxRule::fixed:
+          default:
+            for (unsigned int d = 0; d < dim; ++d)
+              stretch[d] = old_stretch[d] * exponential(strain_increment[d]);
+            return stretch;
+        }
+    }
+
+
+
+    template <int dim>
+    [[noreturn]] void
+    report_collapsed_point(const Points<dim> &points, const unsigned int begin)
+    {
+      for (unsigned int p = begin; p < points.size(); ++p)
+        {
+          const double J = determinant(
+            load_matrix<dim, double>(points, points.deformation_gradient, p));
+          if (J > 0)
+            continue;
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = points.data(points.position, d)[p];
+          AssertThrow(
+            false,
+            ExcPoint(text("Point ",
+                          points.data(points.id)[p],
+                          " at (",
+                          x,
+                          ") m has det F = ",
+                          J,
+                          ", which must be positive: its volume collapsed or "
+                          "its stress is not a number. The time step is "
+                          "probably too large for this material: lower 'Time "
+                          "step/CFL number', or refine the mesh.")));
+        }
+      AssertThrow(false, ExcInternalError());
+      std::abort();
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  update_stretch(Points<dim> &points, const BoxRule rule, const double dt)
+  {
+    for_lanes(0, points.size(), [&](const unsigned int p, const auto number) {
+      using Number = std::decay_t<decltype(number)>;
+      const auto F =
+        load_matrix<dim, Number>(points, points.deformation_gradient, p);
+      const Number            J = determinant(F);
+      std::array<Number, dim> old_stretch, strain_increment;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          old_stretch[d] = load<Number>(points.data(points.stretch, d) + p);
+          strain_increment[d] =
+            dt * load<Number>(points.velocity_gradient(d, d) + p);
+        }
+      // Written so that a J that is not a number is caught, too.
+      const auto is_positive = (J > broadcast<Number>(0.));
+      if (__builtin_expect(any(is_positive == (J < J)), 0))
+        report_collapsed_point(points, p);
+      const auto stretch =
+        stretch_along_axes<dim>(F, J, rule, old_stretch, strain_increment);
+      for (unsigned int d = 0; d < dim; ++d)
+        store(points.data(points.stretch, d) + p, stretch[d]);
+    });
+  }
+
+
+
+  template <int dim>
+  unsigned long
+  count_clipped_boxes(const Points<dim> &points,
+                      const Grid<dim>   &grid,
+                      const BoxShape    &shape)
+  {
+    unsigned long n_clipped = 0;
+    for (const Segment &segment : points.segments())
+      {
+        const double size = grid.cells()[segment.cell].size;
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int p = segment.begin; p < segment.end; ++p)
+            {
+              double half = 0.5 * points.data(points.reference_length, d)[p];
+              if (shape.rule != BoxRule::fixed)
+                half *= points.data(points.stretch, d)[p];
+              if (half < shape.least_half * size || half > shape.most_half * size)
+                ++n_clipped;
+            }
+      }
+    return n_clipped;
+  }
+
+
+
+  template void
+  update_stretch(Points<2> &, BoxRule, double);
+  template void
+  update_stretch(Points<3> &, BoxRule, double);
+  template unsigned long
+  count_clipped_boxes(const Points<2> &, const Grid<2> &, const BoxShape &);
+  template unsigned long
+  count_clipped_boxes(const Points<3> &, const Grid<3> &, const BoxShape &);
+} // namespace talus
