@@ -118,8 +118,8 @@ namespace talus
 
   template <int dim>
   void
-  Points<dim>::reorder(const std::vector<Run> &runs,
-                       std::vector<Segment>  &&segments)
+  Points<dim>::reorder(const std::vector<Run>     &runs,
+                       const std::vector<Segment> &segments)
   {
     for (auto &array : arrays_)
       {
@@ -131,7 +131,7 @@ namespace talus
         Assert(to == reordered_.begin() + size_, ExcInternalError());
         array.swap(reordered_);
       }
-    segments_ = std::move(segments);
+    segments_ = segments;
     Assert(n_sorted() == size_, ExcInternalError());
   }
 

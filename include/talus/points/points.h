@@ -128,7 +128,15 @@ namespace talus
     /// Reorder: the new order is the concatenation of @p runs, which name each
     /// point once. @p segments describes the new order.
     void
-    reorder(const std::vector<Run> &runs, std::vector<Segment> &&segments);
+    reorder(const std::vector<Run>     &runs,
+            const std::vector<Segment> &segments);
+
+    /// Forget the cells: all points wait to be sorted in.
+    void
+    forget_order()
+    {
+      segments_.clear();
+    }
 
     const std::vector<Segment> &
     segments() const

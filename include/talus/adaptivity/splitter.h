@@ -1,0 +1,79 @@
+#ifndef talus_adaptivity_splitter_h
+#define talus_adaptivity_splitter_h
+
+#include <talus/adaptivity/ledger.h>
+#include <talus/adaptivity/split_statistics.h>
+#include <talus/grid/grid.h>
+#include <talus/points/points.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// Splits points that were stretched too far, so that the soil stays a
+  /// continuum on the background grid.
+  ///
+  /// An axis violates when the stretch along it exceeds `Threshold` times its
+  /// value at the point's creation and the point is longer than `Minimum
+  /// length` cells, or when the point is longer than a cell whatever the
+  /// threshold says. The daughters inherit the state; what is extensive is
+  /// divided (see Inheritance). They tile the box of their parent, so that mass,
+  /// momentum and internal force of no node change. @cite esub
+  template <int dim>
+  class Splitter : public dealii::ParameterAcceptor
+  {
+  public:
+    Splitter();
+
+    /// Split every point that violates the criterion, once. The first daughter
+    /// takes the parent's place, the others are appended and wait for
+    /// Relocation::update(). Returns whether any point was split. Throws
+    /// ExcPoint if there would be too many points.
+    bool
+    enforce(Points<dim> &points, const Grid<dim> &grid);
+
+    const SplitStatistics &
+    statistics() const
+    {
+      return statistics_;
+    }
+
+    /// First id that no point has.
+    void
+    set_next_id(const double id)
+    {
+      next_id_ = id;
+    }
+
+  private:
+    /// Bit d: the point is to be split along axis d. Zero: not at all.
+    unsigned int
+    axes_to_split(const Points<dim> &points,
+                  unsigned int       p,
+                  double             cell_size) const;
+    void
+    split(Points<dim> &points, unsigned int p, unsigned int axes);
+
+    bool         enabled_            = true;
+    double       threshold_          = 1.4;
+    std::string  directions_         = "all";
+    double       minimum_length_     = 0.7;
+    unsigned int maximum_generation_ = 3;
+    unsigned int maximum_points_     = 10000000;
+
+    struct Violation
+    {
+      unsigned int point;
+      unsigned int axes;
+    };
+    std::vector<Violation> violations_;
+    double                 next_id_ = 0;
+    Ledger<dim>            ledger_;
+    SplitStatistics        statistics_;
+  };
+} // namespace talus
+
+#endif

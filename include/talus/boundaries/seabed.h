@@ -1,0 +1,40 @@
+#ifndef talus_boundaries_seabed_h
+#define talus_boundaries_seabed_h
+
+#include <talus/grid/nodal_fields.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+namespace talus
+{
+  /// One-sided contact with Coulomb friction whose shear stress is capped, on a
+  /// face of the mesh. The cap is the interface law of @cite dong2017: soft
+  /// soil cannot pass more shear to the seabed than its own remoulded strength.
+  template <int dim>
+  class Seabed : public dealii::ParameterAcceptor
+  {
+  public:
+    Seabed();
+
+    /// Change the velocity of @p node on @p face after a step of @p dt: where
+    /// it would move into the seabed, its normal velocity becomes zero with the
+    /// force N = m |v_n|/dt, and friction of at most
+    /// min(m |v_t|/dt, mu N, tau_max A) acts against the tangential velocity.
+    /// Soil that moves away is free. Returns normal and tangential impulse, N s.
+    ///
+    /// A, the area in contact, is the node's share of the face times the degree
+    /// to which soil fills the node's share of the boundary cells, at most one.
+    std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
+    apply(NodalFields<dim> &nodes,
+          const Grid<dim>  &grid,
+          unsigned int      face,
+          unsigned int      node,
+          double            dt) const;
+
+  private:
+    double friction_coefficient_ = 10.;
+    double maximum_shear_stress_ = 1000.;
+  };
+} // namespace talus
+
+#endif

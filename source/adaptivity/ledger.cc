@@ -1,0 +1,63 @@
+#include <talus/adaptivity/ledger.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  template <int dim>
+  void
+  Ledger<dim>::enter(const Points<dim> &points,
+                     const unsigned int p,
+                     const double       sign)
+  {
+    const double mass = points.data(points.mass)[p];
+    double       speed_square = 0, distance_square = 0;
+
+    std::array<double, n_entries> entry, scale;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double v = points.data(points.velocity, d)[p];
+        const double x = points.data(points.position, d)[p];
+        speed_square += v * v;
+        distance_square += x * x;
+        entry[d]       = mass * v;
+        entry[dim + d] = mass * x;
+      }
+    // Vectors are measured by their length: a component may well be zero.
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        scale[d]       = mass * std::sqrt(speed_square);
+        scale[dim + d] = mass * std::sqrt(distance_square);
+      }
+    entry[2 * dim]     = mass;
+    entry[2 * dim + 1] = 0.5 * mass * speed_square;
+    entry[2 * dim + 2] = points.data(points.elastic_energy)[p];
+    for (unsigned int i = 2 * dim; i < n_entries; ++i)
+      scale[i] = std::abs(entry[i]);
+
+    for (unsigned int i = 0; i < n_entries; ++i)
+      {
+        difference_[i] += sign * entry[i];
+        scale_[i] += 0.5 * scale[i];
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  Ledger<dim>::relative_error() const
+  {
+    double error = 0;
+    for (unsigned int i = 0; i < n_entries; ++i)
+      if (scale_[i] > 0)
+        error = std::max(error, std::abs(difference_[i]) / scale_[i]);
+    return error;
+  }
+
+
+
+  template class Ledger<2>;
+  template class Ledger<3>;
+} // namespace talus

@@ -1,0 +1,185 @@
+#include <talus/adaptivity/splitter.h>
+#include <talus/base/errors.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Splitter<dim>::Splitter()
+    : ParameterAcceptor("/Splitting")
+  {
+    add_parameter("Enabled", enabled_, "Whether points are split.");
+    add_parameter("Threshold",
+                  threshold_,
+                  "beta: a point is split when its stretch along an axis "
+                  "exceeds this many times its stretch when it was created "
+                  "[-]. The paper recommends 1.4 to 1.7.",
+                  this->prm,
+                  Patterns::Double(1. + 1e-6));
+    add_parameter("Directions",
+                  directions_,
+                  "'all': halve every axis (four daughters in 2-D, eight in "
+                  "3-D), as the paper does; 'stretched': halve only the axes "
+                  "that are too long, which needs a fifth to a third of the "
+                  "points.",
+                  this->prm,
+                  Patterns::Selection("all|stretched"));
+    add_parameter("Minimum length",
+                  minimum_length_,
+                  "The threshold applies only to points that are longer than "
+                  "this many cells [-]; 0 to apply it always.",
+                  this->prm,
+                  Patterns::Double(0., 1.));
+    add_parameter("Maximum generation",
+                  maximum_generation_,
+                  "Number of splits a point may have behind it. A point at the "
+                  "limit is not split; its box is clipped and counted [-].",
+                  this->prm,
+                  Patterns::Integer(0, 50));
+    add_parameter("Maximum number of points",
+                  maximum_points_,
+                  "The run stops with an error before there are more points "
+                  "than this.",
+                  this->prm,
+                  Patterns::Integer(1));
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Splitter<dim>::axes_to_split(const Points<dim> &points,
+                               const unsigned int p,
+                               const double       cell_size) const
+  {
+    unsigned int axes = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double stretch = points.data(points.stretch, d)[p];
+        const double length =
+          stretch * points.data(points.reference_length, d)[p];
+        const bool is_stretched =
+          stretch > threshold_ * points.data(points.creation_stretch, d)[p] &&
+          length > minimum_length_ * cell_size;
+        // Longer than a cell, a box would be clipped and leave gaps.
+        const bool is_too_long = length > (1. + 1e-9) * cell_size;
+        if (is_stretched || is_too_long)
+          axes |= 1u << d;
+      }
+    return axes;
+  }
+
+
+
+  template <int dim>
+  bool
+  Splitter<dim>::enforce(Points<dim> &points, const Grid<dim> &grid)
+  {
+    if (!enabled_)
+      return false;
+    violations_.clear();
+    std::size_t n_daughters = 0;
+    for (const Segment &segment : points.segments())
+      {
+        const double cell_size = grid.cells()[segment.cell].size;
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          if (unsigned int axes = axes_to_split(points, p, cell_size))
+            {
+              if (points.data(points.generation)[p] >= maximum_generation_)
+                {
+                  ++statistics_.n_refused;
+                  continue;
+                }
+              if (directions_ == "all")
+                axes = (1u << dim) - 1;
+              violations_.push_back({p, axes});
+              n_daughters += 1u << __builtin_popcount(axes);
+            }
+      }
+    if (violations_.empty())
+      return false;
+    const std::size_t n_points =
+      points.size() - violations_.size() + n_daughters;
+    AssertThrow(
+      n_points <= maximum_points_,
+      ExcPoint(text("Splitting ",
+                    violations_.size(),
+                    " points, the first of them point ",
+                    points.data(points.id)[violations_[0].point],
+                    " near x = ",
+                    points.data(points.position)[violations_[0].point],
+                    " m, would make ",
+                    n_points,
+                    " points, more than 'Splitting/Maximum number of points' = ",
+                    maximum_points_,
+                    ". Raise it, lower 'Splitting/Maximum generation', or use "
+                    "'Splitting/Directions = stretched'.")));
+    for (const Violation &violation : violations_)
+      split(points, violation.point, violation.axes);
+    statistics_.n_splits += violations_.size();
+    statistics_.ledger = ledger_.relative_error();
+    Assert(statistics_.ledger <= 1e-12, ExcInternalError());
+    return true;
+  }
+
+
+
+  template <int dim>
+  void
+  Splitter<dim>::split(Points<dim>       &points,
+                       const unsigned int p,
+                       const unsigned int axes)
+  {
+    ledger_.enter(points, p, +1.);
+    const unsigned int n_daughters = 1u << __builtin_popcount(axes);
+
+    // The state of every daughter, in the parent's place.
+    for (const Column &column : points.columns())
+      if (column.inheritance == Inheritance::divided)
+        for (unsigned int c = 0; c < column.n_components; ++c)
+          points.data(column.first, c)[p] /= n_daughters;
+    double quarter[dim], reference_quarter[dim];
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        double      &L0      = points.data(points.reference_length, d)[p];
+        const double stretch = points.data(points.stretch, d)[p];
+        quarter[d]           = 0.25 * stretch * L0;
+        reference_quarter[d] = 0.25 * L0;
+        if (axes & (1u << d))
+          L0 *= 0.5;
+        points.data(points.creation_stretch, d)[p] = stretch;
+      }
+    const double generation = ++points.data(points.generation)[p];
+    statistics_.largest_generation =
+      std::max(statistics_.largest_generation,
+               static_cast<unsigned int>(generation));
+
+    const unsigned int first = points.append(n_daughters - 1);
+    for (unsigned int i = 1; i < n_daughters; ++i)
+      {
+        points.copy(p, first + i - 1);
+        points.data(points.id)[first + i - 1] = next_id_++;
+      }
+    for (unsigned int i = 0; i < n_daughters; ++i)
+      {
+        const unsigned int q = (i == 0 ? p : first + i - 1);
+        for (unsigned int d = 0, bit = 0; d < dim; ++d)
+          if (axes & (1u << d))
+            {
+              const double side = ((i >> bit++) & 1 ? 1. : -1.);
+              points.data(points.position, d)[q] += side * quarter[d];
+              points.data(points.initial_position, d)[q] +=
+                side * reference_quarter[d];
+            }
+        ledger_.enter(points, q, -1.);
+      }
+  }
+
+
+
+  template class Splitter<2>;
+  template class Splitter<3>;
+} // namespace talus

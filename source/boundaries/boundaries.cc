@@ -1,0 +1,104 @@
+#include <talus/boundaries/boundaries.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    FaceCondition
+    condition_by_name(const std::string &name)
+    {
+      return name == "roller" ? FaceCondition::roller :
+             name == "fixed"  ? FaceCondition::fixed :
+             name == "seabed" ? FaceCondition::seabed :
+                                FaceCondition::free;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Boundaries<dim>::Boundaries()
+    : ParameterAcceptor("/Boundaries")
+  {
+    names_.fill("free");
+    conditions_.fill(FaceCondition::free);
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      add_parameter(
+        face_names[face],
+        names_[face],
+        "Condition on this face of the mesh: 'free' (a point that crosses it "
+        "has left, which is an error), 'roller' (no motion along the normal), "
+        "'fixed' (no motion) or 'seabed' (contact with friction, see the "
+        "section Seabed).",
+        this->prm,
+        Patterns::Selection("free|roller|fixed|seabed"));
+    parse_parameters_call_back.connect([this]() {
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+        conditions_[face] = condition_by_name(names_[face]);
+    });
+  }
+
+
+
+  template <int dim>
+  void
+  Boundaries<dim>::apply_to_node(NodalFields<dim>  &nodes,
+                                 const Grid<dim>   &grid,
+                                 const unsigned int node,
+                                 const double       dt,
+                                 BoundaryWork<dim> &work) const
+  {
+    const unsigned char faces = grid.faces_of_node(node);
+    Tensor<1, dim>      contact, friction, wall;
+    const auto          for_faces_with = [&](const FaceCondition condition,
+                                    const auto         &action) {
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+        if ((faces & (1u << face)) && conditions_[face] == condition)
+          action(face);
+    };
+    // Walls last: what they hold, no friction moves.
+    for_faces_with(FaceCondition::seabed, [&](const unsigned int face) {
+      const auto [normal, tangential] =
+        seabed_.apply(nodes, grid, face, node, dt);
+      contact += normal;
+      friction += tangential;
+    });
+    for_faces_with(FaceCondition::roller, [&](const unsigned int face) {
+      Tensor<1, dim> velocity = nodes.velocity(node);
+      velocity[face / 2]      = 0;
+      wall += nodes.set_velocity(node, velocity);
+    });
+    for_faces_with(FaceCondition::fixed, [&](const unsigned int) {
+      wall += nodes.set_velocity(node, Tensor<1, dim>());
+    });
+
+    const Tensor<1, dim> v = nodes.mean_velocity(node);
+    work.friction -= friction * v;
+    work.contact -= (contact + wall) * v;
+    work.seabed_impulse += contact + friction;
+    work.wall_impulse += wall;
+  }
+
+
+
+  template <int dim>
+  BoundaryWork<dim>
+  Boundaries<dim>::apply(NodalFields<dim> &nodes,
+                         const Grid<dim>  &grid,
+                         const double      dt,
+                         const double      least_mass) const
+  {
+    BoundaryWork<dim> work;
+    for (const unsigned int node : nodes.active_boundary_nodes())
+      if (nodes.mass(node) > least_mass)
+        apply_to_node(nodes, grid, node, dt, work);
+    return work;
+  }
+
+
+
+  template class Boundaries<2>;
+  template class Boundaries<3>;
+} // namespace talus

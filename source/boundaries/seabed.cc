@@ -1,0 +1,71 @@
+#include <talus/boundaries/seabed.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Seabed<dim>::Seabed()
+    : ParameterAcceptor("/Boundaries/Seabed")
+  {
+    add_parameter("Friction coefficient",
+                  friction_coefficient_,
+                  "Coulomb friction coefficient mu of soil on the seabed [-].",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("Maximum shear stress",
+                  maximum_shear_stress_,
+                  "Largest shear stress tau_max that the seabed passes to the "
+                  "soil [Pa].",
+                  this->prm,
+                  Patterns::Double(0.));
+  }
+
+
+
+  template <int dim>
+  std::pair<Tensor<1, dim>, Tensor<1, dim>>
+  Seabed<dim>::apply(NodalFields<dim>  &nodes,
+                     const Grid<dim>   &grid,
+                     const unsigned int face,
+                     const unsigned int node,
+                     const double       dt) const
+  {
+    const unsigned int   axis     = face / 2;
+    const double         outwards = (face % 2 == 0 ? -1. : 1.);
+    const Tensor<1, dim> trial    = nodes.velocity(node);
+    const double         v_n      = outwards * trial[axis];
+    if (v_n <= 0)
+      return {};
+
+    const double mass         = nodes.mass(node);
+    const double normal_force = mass * v_n / dt;
+
+    Tensor<1, dim> v_t   = trial;
+    v_t[axis]            = 0;
+    const double speed   = v_t.norm();
+    const auto  &share   = grid.face_share(face, node);
+    const double filling = std::min(
+      1., nodes.sum(node)[NodalSum<dim>::volume] / share.volume);
+    const double friction = std::min({mass * speed / dt,
+                                      friction_coefficient_ * normal_force,
+                                      maximum_shear_stress_ * share.area *
+                                        filling});
+
+    Tensor<1, dim> normal_impulse;
+    normal_impulse[axis] = -outwards * mass * v_n;
+    Tensor<1, dim> tangential_impulse;
+    if (speed > 0)
+      tangential_impulse = (-friction * dt / speed) * v_t;
+    nodes.set_velocity(
+      node, trial + (normal_impulse + tangential_impulse) / mass);
+    return {normal_impulse, tangential_impulse};
+  }
+
+
+
+  template class Seabed<2>;
+  template class Seabed<3>;
+} // namespace talus
