@@ -13,8 +13,8 @@ namespace talus
 {
   using namespace dealii;
 
-  const std::array<std::string, 6> face_names = {
-    {"Left", "Right", "Bottom", "Top", "Back", "Front"}};
+  const std::array<std::string, 6> face_names
+    = { { "Left", "Right", "Bottom", "Top", "Back", "Front" } };
 
   namespace
   {
@@ -41,8 +41,7 @@ namespace talus
         communicator,
         typename Triangulation<dim>::MeshSmoothing(
           Triangulation<dim>::limit_level_difference_at_vertices),
-        parallel::distributed::Triangulation<
-          dim>::no_automatic_repartitioning)
+        parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
     , fe_(1)
     , dof_handler_(triangulation_)
   {
@@ -96,7 +95,7 @@ namespace talus
   Grid<dim>::fit_domain(const std::array<bool, 2 * dim> &may_move)
   {
     adjustment_.clear();
-    domain_ = {lower_corner_, upper_corner_};
+    domain_ = { lower_corner_, upper_corner_ };
     for (unsigned int d = 0; d < dim; ++d)
       {
         const double exact = domain_.length(d) / cell_size_;
@@ -107,19 +106,19 @@ namespace talus
             continue;
           }
         const unsigned int face = 2 * d + 1;
-        AssertThrow(
-          may_move[face],
-          ExcUser(text("The mesh is ",
-                       domain_.length(d),
-                       " m long along axis ",
-                       d,
-                       ", which is no multiple of Grid/Cell size = ",
-                       cell_size_,
-                       " m, and its face '",
-                       face_names[face],
-                       "' is not free, so it must not move. Choose another "
-                       "cell size or corner.")));
-        n_cells_per_axis_[d]   = static_cast<unsigned int>(std::ceil(exact));
+        AssertThrow(may_move[face],
+                    ExcUser(
+                      text("The mesh is ",
+                           domain_.length(d),
+                           " m long along axis ",
+                           d,
+                           ", which is no multiple of Grid/Cell size = ",
+                           cell_size_,
+                           " m, and its face '",
+                           face_names[face],
+                           "' is not free, so it must not move. Choose another "
+                           "cell size or corner.")));
+        n_cells_per_axis_[d] = static_cast<unsigned int>(std::ceil(exact));
         domain_.upper[d] = domain_.lower[d] + n_cells_per_axis_[d] * cell_size_;
         adjustment_ += text("The face '",
                             face_names[face],
@@ -213,7 +212,7 @@ namespace talus
                                  numbers::invalid_unsigned_int);
     std::vector<types::global_dof_index> dofs(fe_.n_dofs_per_cell());
 
-    for (const bool owned : {true, false})
+    for (const bool owned : { true, false })
       {
         for (const auto &cell : dof_handler_.active_cell_iterators())
           {
@@ -263,8 +262,7 @@ namespace talus
 
   template <int dim>
   typename Grid<dim>::Lattice
-  Grid<dim>::lattice_place(const Point<dim>  &x,
-                           const unsigned int level) const
+  Grid<dim>::lattice_place(const Point<dim> &x, const unsigned int level) const
   {
     const double  size   = tree_size_ / (1u << level);
     const Lattice extent = lattice_extent(size);
@@ -273,9 +271,9 @@ namespace talus
       {
         const double at = std::floor((x[d] - domain_.lower[d]) / size);
         // Compared as doubles: a point may be anywhere, or not a number.
-        place[d] = !(at > 0.)          ? 0 :
-                   at < extent[d] - 1. ? static_cast<long>(at) :
-                                         extent[d] - 1;
+        place[d] = !(at > 0.)            ? 0
+                   : at < extent[d] - 1. ? static_cast<long>(at)
+                                         : extent[d] - 1;
       }
     return place;
   }

@@ -93,16 +93,16 @@ namespace talus
   {
     for (const unsigned int node : active_nodes_)
       {
-        const double *s    = sum(node);
-        double       *v    = motion(node);
-        const double  mass = s[Sum::mass];
+        const double *s            = sum(node);
+        double       *v            = motion(node);
+        const double  mass         = s[Sum::mass];
         const double  inverse_mass = (mass > least_mass ? 1. / mass : 0.);
         for (unsigned int d = 0; d < dim; ++d)
           {
             const double increment   = dt * s[Sum::force + d] * inverse_mass;
             v[Motion::increment + d] = increment;
-            v[Motion::velocity + d] =
-              s[Sum::momentum + d] * inverse_mass + increment;
+            v[Motion::velocity + d]
+              = s[Sum::momentum + d] * inverse_mass + increment;
           }
       }
   }
@@ -147,7 +147,7 @@ namespace talus
     Tensor<1, dim> impulse;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        const double change = velocity[d] - v[Motion::velocity + d];
+        const double change     = velocity[d] - v[Motion::velocity + d];
         v[Motion::velocity + d] = velocity[d];
         v[Motion::increment + d] += change;
         impulse[d] = mass(node) * change;
@@ -163,8 +163,8 @@ namespace talus
   {
     Tensor<1, dim> v;
     for (unsigned int d = 0; d < dim; ++d)
-      v[d] = motion(node)[Motion::velocity + d] -
-             0.5 * motion(node)[Motion::increment + d];
+      v[d] = motion(node)[Motion::velocity + d]
+             - 0.5 * motion(node)[Motion::increment + d];
     return v;
   }
 

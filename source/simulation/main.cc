@@ -1,3 +1,92 @@
+#include <talus/base/errors.h>
+#include <talus/simulation/command_line.h>
+#include <talus/simulation/parameter_file.h>
+#include <talus/simulation/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iostream>
+#include <sstream>
+
+namespace
+{
+  using namespace talus;
+
+  /// The message of an exception as one line.
+  std::string
+  sentence(const std::exception &exception)
+  {
+    std::ostringstream message;
+    if (const auto *e = dynamic_cast<const dealii::ExceptionBase *>(&exception))
+      e->print_info(message);
+    else
+      message << exception.what();
+    std::istringstream words(message.str());
+    std::string        line, word;
+    while (words >> word)
+      line += (line.empty() ? "" : " ") + word;
+    return line;
+  }
+
+
+
+  template <int dim>
+  int
+  run(const CommandLine &command_line, const ParameterFile &file)
+  {
+    Simulation<dim> simulation(file.preview());
+    file.parse();
+    if (!command_line.output_folder.empty())
+      simulation.output().set_folder(command_line.output_folder);
+    simulation.set_up();
+    if (command_line.validate)
+      {
+        std::cout << command_line.parameter_file << " is valid." << std::endl;
+        return 0;
+      }
+    try
+      {
+        simulation.run();
+      }
+    catch (const ExcPoint &)
+      {
+        simulation.write_last_state();
+        throw;
+      }
+    return 0;
+  }
+
+
+
+  int
+  act(const CommandLine &command_line)
+  {
+    if (command_line.document)
+      {
+        document(std::cout);
+        return 0;
+      }
+    const ParameterFile file(command_line.parameter_file,
+                             command_line.overrides);
+    return file.preview().dimension == 2 ? run<2>(command_line, file) :
+                                           run<3>(command_line, file);
+  }
+} // namespace
+
+
+
 int
-main()
-{}
+main(int argc, char **argv)
+{
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  try
+    {
+      const auto command_line = talus::parse_command_line(argc, argv);
+      return command_line.has_value() ? act(*command_line) : 0;
+    }
+  catch (const std::exception &exception)
+    {
+      std::cerr << "talus: " << sentence(exception) << std::endl;
+      return 1;
+    }
+}

@@ -241,16 +241,16 @@ namespace talus
     dealii::AffineConstraints<double>                 constraints_;
 
     // The flat cache
-    std::vector<Cell<dim>>    cells_;
-    std::vector<unsigned int> level_of_cell_;
-    std::vector<unsigned int> index_of_active_cell_;
-    unsigned int              n_owned_cells_ = 0;
-    unsigned int              n_nodes_       = 0;
-    std::unordered_map<unsigned long, unsigned int>             cell_map_;
+    std::vector<Cell<dim>>                          cells_;
+    std::vector<unsigned int>                       level_of_cell_;
+    std::vector<unsigned int>                       index_of_active_cell_;
+    unsigned int                                    n_owned_cells_ = 0;
+    unsigned int                                    n_nodes_       = 0;
+    std::unordered_map<unsigned long, unsigned int> cell_map_;
     std::unordered_map<unsigned int, std::vector<unsigned int>> touching_;
     std::vector<unsigned char>                                  faces_of_node_;
     std::array<std::unordered_map<unsigned int, FaceShare>, 2 * dim>
-      face_shares_;
+                             face_shares_;
     std::vector<HangingNode> hanging_nodes_;
   };
 } // namespace talus

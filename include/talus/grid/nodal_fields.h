@@ -44,7 +44,7 @@ namespace talus
   template <int dim>
   struct NodalMotion
   {
-    using Record = typename MotionRecord<dim>::type;
+    using Record                            = typename MotionRecord<dim>::type;
     static constexpr unsigned int width     = sizeof(Record) / sizeof(double);
     static constexpr unsigned int velocity  = 0;   ///< m/s
     static constexpr unsigned int increment = dim; ///< m/s

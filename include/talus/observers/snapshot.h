@@ -5,6 +5,7 @@
 #include <talus/boundaries/boundary_work.h>
 #include <talus/grid/nodal_fields.h>
 #include <talus/points/points.h>
+#include <talus/transfer/box_rule.h>
 
 namespace talus
 {
@@ -22,7 +23,7 @@ namespace talus
     double                   time;      ///< s
     double                   time_step; ///< of the last step, s
     double gravity_work; ///< of weight and body forces so far, J
-    unsigned long clipped_boxes;
+    const BoxShape          &box_shape;
   };
 } // namespace talus
 

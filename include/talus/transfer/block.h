@@ -25,10 +25,10 @@ namespace talus
   struct Block
   {
     static constexpr unsigned int n_points = 64;
-    using Row = std::array<double, n_points>;
+    using Row                              = std::array<double, n_points>;
 
-    unsigned int                begin = 0; ///< first point
-    unsigned int                size  = 0;
+    unsigned int                begin    = 0; ///< first point
+    unsigned int                size     = 0;
     unsigned int                n_pieces = 0;
     std::array<Piece, n_points> pieces;
 

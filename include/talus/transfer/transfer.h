@@ -40,10 +40,10 @@ namespace talus
     /// Add mass, momentum, internal and external force and reference volume of
     /// all points to their nodes.
     void
-    scatter(Points<dim>       &points,
-            const Grid<dim>   &grid,
-            const Loads<dim>  &loads,
-            NodalFields<dim>  &nodes) const;
+    scatter(Points<dim>      &points,
+            const Grid<dim>  &grid,
+            const Loads<dim> &loads,
+            NodalFields<dim> &nodes) const;
 
     /// Update velocity and position of all points from the motion of the nodes
     /// and store their velocity gradient. Returns the work of the loads, J.

@@ -1,0 +1,75 @@
+#ifndef talus_materials_materials_h
+#define talus_materials_materials_h
+
+#include <talus/materials/material_model.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// Name of a material and of its constitutive law.
+  struct MaterialName
+  {
+    std::string name;
+    std::string law;
+  };
+
+  /// The materials of all bodies.
+  template <int dim>
+  class Materials : public dealii::ParameterAcceptor
+  {
+  public:
+    /// One material for each entry, with its parameters in /Materials/name.
+    explicit Materials(const std::vector<MaterialName> &names);
+
+    /// Check all parameters and note which material each body is made of.
+    /// Throws ExcUser if there is none of that name; @p names_of_bodies are
+    /// named in the message.
+    void
+    assign(const std::vector<std::string> &names_of_bodies,
+           const std::vector<std::string> &materials_of_bodies);
+
+    const MaterialModel<dim> &
+    of_body(const unsigned int body) const
+    {
+      return *models_[material_of_body_[body]];
+    }
+
+    /// Declare the internal variables of all laws.
+    void
+    add_columns(Points<dim> &points);
+
+    /// Advance deformation and stress of all points: one batch for each run of
+    /// points of the same material.
+    void
+    update_stress(Points<dim> &points, double dt) const;
+
+    /// Call action(model, begin, end) for each run of sorted points of the same
+    /// material.
+    template <typename Action>
+    void
+    for_runs(const Points<dim> &points, const Action &action) const
+    {
+      const auto &segments = points.segments();
+      for (std::size_t s = 0; s < segments.size();)
+        {
+          const unsigned int begin    = segments[s].begin;
+          const unsigned int material = material_of_body_[segments[s].body];
+          while (s < segments.size() &&
+                 material_of_body_[segments[s].body] == material)
+            ++s;
+          action(*models_[material], begin, segments[s - 1].end);
+        }
+    }
+
+  private:
+    std::vector<MaterialName>                        names_;
+    std::vector<std::string>                         listed_names_;
+    std::vector<std::unique_ptr<MaterialModel<dim>>> models_;
+    std::vector<unsigned int>                        material_of_body_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,90 @@
+#ifndef talus_simulation_body_h
+#define talus_simulation_body_h
+
+#include <talus/grid/grid.h>
+#include <talus/points/points.h>
+#include <talus/simulation/shape.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// A body of one material: where it is at the start and how it moves.
+  template <int dim>
+  class Body : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Body(const std::string &name);
+
+    /// Fill the body with points: the given number per axis in each cell of the
+    /// mesh, those whose centre lies in the shape. Sets everything that does not
+    /// depend on the material but mass, which is @p density times the volume.
+    /// Throws ExcUser if the body does not lie in the mesh or gets no points.
+    void
+    create_points(const Grid<dim> &grid,
+                  unsigned int     index,
+                  double           density,
+                  Points<dim>     &points) const;
+
+    /// Set velocity (at time @p t) and stress of the points of body @p index.
+    void
+    set_initial_state(Points<dim> &points, unsigned int index, double t) const;
+
+    /// True if the user prescribes an initial stress.
+    bool
+    has_initial_stress() const
+    {
+      return !initial_stress_.empty();
+    }
+
+    const std::string &
+    name() const
+    {
+      return name_;
+    }
+
+    const std::string &
+    material() const
+    {
+      return material_;
+    }
+
+  private:
+    std::string
+    path(const std::string &entry) const
+    {
+      return "'Bodies/" + name_ + "/" + entry + "'";
+    }
+
+    std::unique_ptr<Shape<dim>>
+    make_shape(const Box<dim> &domain) const;
+    std::unique_ptr<Shape<dim>>
+    make_polygon(const Box<dim> &domain) const;
+    void
+    check_inside(const Box<dim> &box, const Box<dim> &domain) const;
+    void
+    add_point(Points<dim>              &points,
+              unsigned int              index,
+              const dealii::Point<dim> &x,
+              double                    cell_size,
+              double                    density) const;
+
+    std::string               name_;
+    std::string               shape_    = "box";
+    std::string               vertices_ = "";
+    std::string               extent_z_ = "";
+    dealii::Point<dim>        lower_corner_, upper_corner_;
+    dealii::Point<dim>        centre_;
+    double                    radius_   = 1.;
+    std::string               material_ = "";
+    std::vector<unsigned int> points_per_cell_{2};
+    std::string               initial_velocity_ = "";
+    std::string               initial_stress_   = "";
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,61 @@
+#ifndef talus_simulation_loading_h
+#define talus_simulation_loading_h
+
+#include <talus/materials/materials.h>
+#include <talus/simulation/expression.h>
+#include <talus/transfer/loads.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+
+namespace talus
+{
+  /// Gravity, turned by the slope angle, and a body force by expression.
+  template <int dim>
+  class Loading
+  {
+  public:
+    Loading();
+
+    /// To be called after parsing: gravity of each of @p n_bodies bodies.
+    void
+    prepare(const Materials<dim> &materials, unsigned int n_bodies);
+
+    /// Set the accelerations at time @p t, s.
+    void
+    update(Points<dim> &points, double t);
+
+    const Loads<dim> &
+    loads() const
+    {
+      return loads_;
+    }
+
+    /// Acceleration of gravity, m/s^2: x points down the slope, y away from it.
+    dealii::Tensor<1, dim>
+    gravity() const;
+
+  private:
+    struct Gravity : public dealii::ParameterAcceptor
+    {
+      Gravity();
+      double magnitude   = 9.81;
+      double slope_angle = 0.;
+    };
+
+    struct BodyForce : public dealii::ParameterAcceptor
+    {
+      BodyForce();
+      std::string expression  = "";
+      std::string coordinates = "spatial";
+    };
+
+    Gravity                          gravity_;
+    BodyForce                        body_force_;
+    std::unique_ptr<Expression<dim>> expression_;
+    Loads<dim>                       loads_;
+  };
+} // namespace talus
+
+#endif

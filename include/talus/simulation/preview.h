@@ -1,0 +1,20 @@
+#ifndef talus_simulation_preview_h
+#define talus_simulation_preview_h
+
+#include <talus/materials/materials.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// What must be known before the parameters can be declared.
+  struct Preview
+  {
+    unsigned int              dimension = 2;
+    std::vector<std::string>  bodies;
+    std::vector<MaterialName> materials;
+  };
+} // namespace talus
+
+#endif

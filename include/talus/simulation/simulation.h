@@ -1,0 +1,109 @@
+#ifndef talus_simulation_simulation_h
+#define talus_simulation_simulation_h
+
+#include <talus/adaptivity/splitter.h>
+#include <talus/boundaries/boundaries.h>
+#include <talus/grid/grid.h>
+#include <talus/grid/nodal_fields.h>
+#include <talus/materials/materials.h>
+#include <talus/observers/output.h>
+#include <talus/observers/snapshot.h>
+#include <talus/points/points.h>
+#include <talus/simulation/body.h>
+#include <talus/simulation/loading.h>
+#include <talus/simulation/preview.h>
+#include <talus/simulation/time_step.h>
+#include <talus/transfer/relocation.h>
+#include <talus/transfer/transfer.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/timer.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// A submarine landslide, or any other motion of soft bodies on a mesh, by
+  /// the material point method: explicit, update stress last.
+  /// @cite bardenhagen2002, @cite esub
+  template <int dim>
+  class Simulation : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Simulation(const Preview &preview);
+
+    /// Throw ExcUser if the parameters, which have been parsed, contradict each
+    /// other. Makes mesh and points, but writes nothing.
+    void
+    set_up();
+
+    /// From the start to the end time, with output.
+    void
+    run();
+
+    /// One step of the scheme.
+    void
+    advance();
+
+    /// Emergency output after an error.
+    void
+    write_last_state();
+
+    Output<dim> &
+    output()
+    {
+      return output_;
+    }
+
+    Snapshot<dim>
+    snapshot() const;
+
+  private:
+    void
+    create_bodies();
+    void
+    prepare();
+    void
+    choose_time_step();
+    void
+    points_to_grid();
+    void
+    grid_to_points();
+    void
+    relocate();
+
+    // Parameters
+    std::string  title_                 = "";
+    unsigned int dimension_             = dim;
+    double       end_time_              = 1.;
+    std::string  initial_velocity_time_ = "start";
+    std::vector<std::string> names_of_bodies_;
+
+    // Floor by floor
+    Points<dim>                             points_;
+    Grid<dim>                               grid_;
+    NodalFields<dim>                        nodes_;
+    Transfer<dim>                           transfer_;
+    Relocation<dim>                         relocation_;
+    Materials<dim>                          materials_;
+    Boundaries<dim>                         boundaries_;
+    Splitter<dim>                           splitter_;
+    std::vector<std::unique_ptr<Body<dim>>> bodies_;
+    Loading<dim>                            loading_;
+    TimeStep<dim>                           time_step_;
+    dealii::TimerOutput                     timer_;
+    Output<dim>                             output_;
+
+    // State besides points
+    double            time_         = 0; ///< s
+    double            dt_           = 0; ///< of the last step, s
+    unsigned long     step_         = 0;
+    double            gravity_work_ = 0; ///< J
+    BoundaryWork<dim> boundary_work_;
+    double            least_mass_ = 0; ///< kg
+  };
+} // namespace talus
+
+#endif

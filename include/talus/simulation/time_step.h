@@ -1,0 +1,61 @@
+#ifndef talus_simulation_time_step_h
+#define talus_simulation_time_step_h
+
+#include <talus/grid/grid.h>
+#include <talus/materials/materials.h>
+#include <talus/transfer/box_rule.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+
+namespace talus
+{
+  /// Chooses the time step of the explicit scheme: with c the speed of the
+  /// fastest wave at a point, v its speed, h its cell and l_d the clipped half
+  /// lengths of its box,
+  ///   dt = min over points of  cfl h/(c + |v|)  and
+  ///                            safety 2 (h/c)/sqrt(sum_d h/l_d).
+  /// The second bound is the stability limit of a thin box: its mass on the
+  /// nodes falls with l, its stiffness does not.
+  template <int dim>
+  class TimeStep : public dealii::ParameterAcceptor
+  {
+  public:
+    TimeStep();
+
+    /// The step for this state, s. Throws ExcPoint if it is not a positive
+    /// number.
+    double
+    choose(const Points<dim>    &points,
+           const Grid<dim>      &grid,
+           const Materials<dim> &materials,
+           const BoxShape       &shape);
+
+    /// Sentence that names what limits the step in this state.
+    std::string
+    limited_by(const Points<dim>    &points,
+               const Grid<dim>      &grid,
+               const Materials<dim> &materials,
+               const BoxShape       &shape) const;
+
+  private:
+    /// Inverse of both bounds at point(s) p.
+    template <typename Number>
+    std::array<Number, 2>
+    inverse_bounds(const Points<dim> &points,
+                   const BoxShape    &shape,
+                   unsigned int       p,
+                   Number             wave_speed,
+                   Number             inverse_cell_size) const;
+
+    double cfl_number_        = 0.4;
+    double box_safety_factor_ = 0.9;
+    double maximum_           = 0.;
+
+    std::vector<double> wave_speed_;
+    std::vector<double> inverse_cell_size_;
+  };
+} // namespace talus
+
+#endif

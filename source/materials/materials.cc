@@ -1,0 +1,95 @@
+#include <talus/base/errors.h>
+#include <talus/materials/materials.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Materials<dim>::Materials(const std::vector<MaterialName> &names)
+    : ParameterAcceptor("/Materials")
+    , names_(names)
+  {
+    add_parameter("Names",
+                  listed_names_,
+                  "Names of the materials, separated by commas; each has a "
+                  "section of that name.");
+    std::string laws;
+    for (const std::string &law : material_names<dim>())
+      laws += (laws.empty() ? "" : "|") + law;
+    for (MaterialName &material : names_)
+      {
+        enter_subsection(material.name);
+        add_parameter("Law",
+                      material.law,
+                      "Constitutive law.",
+                      this->prm,
+                      Patterns::Selection(laws));
+        leave_subsection();
+        models_.push_back(
+          make_material<dim>(material.law, "/Materials/" + material.name));
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Materials<dim>::assign(const std::vector<std::string> &names_of_bodies,
+                         const std::vector<std::string> &materials_of_bodies)
+  {
+    for (const auto &model : models_)
+      model->check();
+    std::string known;
+    for (const MaterialName &material : names_)
+      known += (known.empty() ? "" : ", ") + material.name;
+
+    material_of_body_.clear();
+    for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
+      {
+        unsigned int m = 0;
+        while (m < names_.size() && names_[m].name != materials_of_bodies[b])
+          ++m;
+        AssertThrow(m < names_.size(),
+                    ExcUser(text("The body '",
+                                 names_of_bodies[b],
+                                 "' is to be made of '",
+                                 materials_of_bodies[b],
+                                 "', but Materials/Names lists only: ",
+                                 known,
+                                 ". Correct 'Bodies/",
+                                 names_of_bodies[b],
+                                 "/Material' or add the material.")));
+        material_of_body_.push_back(m);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Materials<dim>::add_columns(Points<dim> &points)
+  {
+    for (const auto &model : models_)
+      model->add_columns(points);
+  }
+
+
+
+  template <int dim>
+  void
+  Materials<dim>::update_stress(Points<dim> &points, const double dt) const
+  {
+    for_runs(points,
+             [&](const MaterialModel<dim> &model,
+                 const unsigned int        begin,
+                 const unsigned int        end) {
+               model.update_stress(points, begin, end, dt);
+             });
+  }
+
+
+
+  template class Materials<2>;
+  template class Materials<3>;
+} // namespace talus

@@ -1,0 +1,109 @@
+#include <talus/simulation/loading.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Loading<dim>::Gravity::Gravity()
+    : ParameterAcceptor("/Gravity")
+  {
+    add_parameter("Magnitude",
+                  magnitude,
+                  "Acceleration of gravity [m/s^2].",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("Slope angle",
+                  slope_angle,
+                  "Angle by which the mesh is turned against the horizontal "
+                  "[degrees]: gravity points along (sin, -cos), so that x "
+                  "points down the slope.",
+                  this->prm,
+                  Patterns::Double(-90., 90.));
+  }
+
+
+
+  template <int dim>
+  Loading<dim>::BodyForce::BodyForce()
+    : ParameterAcceptor("/Body force")
+  {
+    add_parameter("Expression",
+                  expression,
+                  "Components of a force per unit mass as expressions in x, y, "
+                  "(z,) t, separated by semicolons [m/s^2]; empty for none.");
+    add_parameter("Coordinates",
+                  coordinates,
+                  "What x, y, z are: 'spatial' (where the point is now) or "
+                  "'material' (where it was at the start).",
+                  this->prm,
+                  Patterns::Selection("spatial|material"));
+  }
+
+
+
+  template <int dim>
+  Loading<dim>::Loading() = default;
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Loading<dim>::gravity() const
+  {
+    const double   angle = gravity_.slope_angle * numbers::PI / 180.;
+    Tensor<1, dim> g;
+    g[0] = gravity_.magnitude * std::sin(angle);
+    g[1] = -gravity_.magnitude * std::cos(angle);
+    return g;
+  }
+
+
+
+  template <int dim>
+  void
+  Loading<dim>::prepare(const Materials<dim> &materials,
+                        const unsigned int    n_bodies)
+  {
+    loads_.acceleration_of_body.clear();
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      loads_.acceleration_of_body.push_back(
+        materials.of_body(b).submerged_density() /
+        materials.of_body(b).density() * gravity());
+    loads_.varies = !body_force_.expression.empty();
+    if (loads_.varies)
+      expression_ = std::make_unique<Expression<dim>>("'Body force/Expression'",
+                                                      body_force_.expression,
+                                                      dim);
+  }
+
+
+
+  template <int dim>
+  void
+  Loading<dim>::update(Points<dim> &points, const double t)
+  {
+    if (!loads_.varies)
+      return;
+    const unsigned int coordinates = body_force_.coordinates == "material" ?
+                                       points.initial_position :
+                                       points.position;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = points.data(coordinates, d)[p];
+        for (unsigned int d = 0; d < dim; ++d)
+          points.body_acceleration(d)[p] = expression_->value(x, t, d);
+      }
+  }
+
+
+
+  template class Loading<2>;
+  template class Loading<3>;
+} // namespace talus

@@ -1,0 +1,257 @@
+#include <talus/base/errors.h>
+#include <talus/simulation/simulation.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Simulation<dim>::Simulation(const Preview &preview)
+    : ParameterAcceptor("/")
+    , grid_(MPI_COMM_WORLD)
+    , materials_(preview.materials)
+    , timer_(std::cout, TimerOutput::never, TimerOutput::wall_times)
+    , output_(timer_)
+  {
+    for (const std::string &name : preview.bodies)
+      bodies_.push_back(std::make_unique<Body<dim>>(name));
+
+    add_parameter("Title", title_, "One line about the case.");
+    add_parameter("Dimension",
+                  dimension_,
+                  "2 (plane strain; all values are per metre width) or 3.",
+                  this->prm,
+                  Patterns::Integer(2, 3));
+    add_parameter("End time",
+                  end_time_,
+                  "The simulation runs from time 0 to this time [s].",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("Initial velocity time",
+                  initial_velocity_time_,
+                  "Velocities live between the steps. 'start': take the initial "
+                  "velocity at t = 0; 'half step': at t = -dt/2, which keeps "
+                  "second order where the acceleration is not zero at the "
+                  "start.",
+                  this->prm,
+                  Patterns::Selection("start|half step"));
+    enter_subsection("Bodies");
+    add_parameter("Names",
+                  names_of_bodies_,
+                  "Names of the bodies, separated by commas; each has a section "
+                  "of that name.");
+    leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::set_up()
+  {
+    grid_.check();
+    transfer_.check();
+    output_.check();
+    std::vector<std::string> names, materials;
+    for (const auto &body : bodies_)
+      {
+        names.push_back(body->name());
+        materials.push_back(body->material());
+      }
+    materials_.assign(names, materials);
+    materials_.add_columns(points_);
+    loading_.prepare(materials_, bodies_.size());
+
+    std::array<bool, 2 * dim>   may_move;
+    std::array<double, 2 * dim> may_lie_outside;
+    std::vector<bool>           cell_mean;
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      {
+        may_move[face] = boundaries_.condition(face) == FaceCondition::free;
+        may_lie_outside[face] = (may_move[face] ? 0. : 0.5);
+      }
+    for (unsigned int b = 0; b < bodies_.size(); ++b)
+      cell_mean.push_back(materials_.of_body(b).uses_cell_mean());
+    transfer_.use_cell_mean(cell_mean);
+    relocation_.allow_outside(may_lie_outside);
+
+    grid_.create(may_move);
+    prepare();
+    create_bodies();
+  }
+
+
+
+  /// All that depends on the mesh.
+  template <int dim>
+  void
+  Simulation<dim>::prepare()
+  {
+    grid_.prepare();
+    nodes_.prepare(grid_);
+    relocation_.rebuild(points_, grid_);
+    nodes_.activate(grid_, relocation_.occupied_cells());
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::create_bodies()
+  {
+    double least_density = materials_.of_body(0).density();
+    for (unsigned int b = 0; b < bodies_.size(); ++b)
+      {
+        const MaterialModel<dim> &material = materials_.of_body(b);
+        AssertThrow(!(material.is_hyperelastic() &&
+                      bodies_[b]->has_initial_stress()),
+                    ExcUser("The body '" + bodies_[b]->name() +
+                            "' has an initial stress, but the stress of its "
+                            "material follows from its deformation alone. "
+                            "Remove 'Initial stress' or choose a law in rate "
+                            "form ('linear elastic', 'von Mises')."));
+        const unsigned int begin = points_.size();
+        bodies_[b]->create_points(grid_, b, material.density(), points_);
+        bodies_[b]->set_initial_state(points_, b, 0.);
+        material.initialize(points_, begin, points_.size());
+        least_density = std::min(least_density, material.density());
+      }
+    splitter_.set_next_id(points_.size());
+    least_mass_ = transfer_.least_mass(least_density, grid_.finest_size());
+    relocation_.update(points_, grid_);
+    nodes_.activate(grid_, relocation_.occupied_cells());
+
+    if (initial_velocity_time_ == "half step")
+      {
+        const double dt = time_step_.choose(points_,
+                                            grid_,
+                                            materials_,
+                                            transfer_.box_shape());
+        for (unsigned int b = 0; b < bodies_.size(); ++b)
+          bodies_[b]->set_initial_state(points_, b, -0.5 * dt);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::advance()
+  {
+    choose_time_step();
+    points_to_grid();
+    grid_to_points();
+    relocate();
+    if (splitter_.enforce(points_, grid_))
+      relocate(); // daughters may live next door
+    time_ += dt_;
+    ++step_;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::choose_time_step()
+  {
+    TimerOutput::Scope scope(timer_, "time step");
+    dt_ = time_step_.choose(points_,
+                            grid_,
+                            materials_,
+                            transfer_.box_shape());
+    dt_ = std::min(dt_, end_time_ - time_);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::points_to_grid()
+  {
+    TimerOutput::Scope scope(timer_, "points to grid");
+    loading_.update(points_, time_);
+    nodes_.clear();
+    transfer_.average_mean_stress(points_);
+    transfer_.scatter(points_, grid_, loading_.loads(), nodes_);
+    nodes_.condense(grid_);
+    nodes_.update_momentum(dt_, least_mass_);
+    boundary_work_ += boundaries_.apply(nodes_, grid_, dt_, least_mass_);
+    nodes_.distribute(grid_);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::grid_to_points()
+  {
+    {
+      TimerOutput::Scope scope(timer_, "grid to points");
+      gravity_work_ +=
+        transfer_.gather(nodes_, grid_, loading_.loads(), points_, dt_);
+      transfer_.average_dilatation(points_);
+    }
+    TimerOutput::Scope scope(timer_, "stress update");
+    materials_.update_stress(points_, dt_);
+    update_stretch(points_, transfer_.box_shape().rule, dt_);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::relocate()
+  {
+    TimerOutput::Scope scope(timer_, "relocation");
+    if (relocation_.update(points_, grid_))
+      nodes_.activate(grid_, relocation_.occupied_cells());
+  }
+
+
+
+  template <int dim>
+  Snapshot<dim>
+  Simulation<dim>::snapshot() const
+  {
+    return {points_,
+            grid_,
+            nodes_,
+            boundary_work_,
+            splitter_.statistics(),
+            step_,
+            time_,
+            dt_,
+            gravity_work_,
+            transfer_.box_shape()};
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::run()
+  {
+    output_.begin(snapshot(), end_time_);
+    while (time_ < end_time_)
+      {
+        advance();
+        output_.observe(snapshot(), time_ >= end_time_);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::write_last_state()
+  {
+    output_.write_last_state(snapshot());
+  }
+
+
+
+  template class Simulation<2>;
+  template class Simulation<3>;
+} // namespace talus

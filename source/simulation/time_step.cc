@@ -1,0 +1,154 @@
+#include <talus/base/errors.h>
+#include <talus/simulation/time_step.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  TimeStep<dim>::TimeStep()
+    : ParameterAcceptor("/Time step")
+  {
+    add_parameter("CFL number",
+                  cfl_number_,
+                  "Share of a cell that the fastest wave, carried by the "
+                  "fastest point, may cross in a step [-].",
+                  this->prm,
+                  Patterns::Double(1e-6, 1.));
+    add_parameter("Box safety factor",
+                  box_safety_factor_,
+                  "Share of the stability limit of thin boxes, 2 (h/c)/sqrt(sum "
+                  "over axes of h/l) with l the half length of the box [-].",
+                  this->prm,
+                  Patterns::Double(1e-6, 1.));
+    add_parameter("Maximum",
+                  maximum_,
+                  "Longest step [s]; 0 for no limit.",
+                  this->prm,
+                  Patterns::Double(0.));
+  }
+
+
+
+  template <int dim>
+  template <typename Number>
+  std::array<Number, 2>
+  TimeStep<dim>::inverse_bounds(const Points<dim> &points,
+                                const BoxShape    &shape,
+                                const unsigned int p,
+                                const Number       wave_speed,
+                                const Number       inverse_cell_size) const
+  {
+    Number speed_square{}, sum{};
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const Number v = load<Number>(points.data(points.velocity, d) + p);
+        speed_square += v * v;
+        sum +=
+          1. / half_length_in_cells<dim>(points, shape, d, p, inverse_cell_size);
+      }
+    return {{(wave_speed + square_root(speed_square)) * inverse_cell_size /
+               cfl_number_,
+             wave_speed * inverse_cell_size * square_root(sum) /
+               (2. * box_safety_factor_)}};
+  }
+
+
+
+  template <int dim>
+  double
+  TimeStep<dim>::choose(const Points<dim>    &points,
+                        const Grid<dim>      &grid,
+                        const Materials<dim> &materials,
+                        const BoxShape       &shape)
+  {
+    wave_speed_.resize(points.size() + n_lanes);
+    inverse_cell_size_.resize(points.size() + n_lanes);
+    materials.for_runs(points,
+                       [&](const MaterialModel<dim> &model,
+                           const unsigned int        begin,
+                           const unsigned int        end) {
+                         model.wave_speed(points,
+                                          begin,
+                                          end,
+                                          wave_speed_.data() + begin);
+                       });
+    for (const Segment &segment : points.segments())
+      std::fill(inverse_cell_size_.begin() + segment.begin,
+                inverse_cell_size_.begin() + segment.end,
+                1. / grid.cells()[segment.cell].size);
+
+    Lanes  largest_lanes{};
+    double largest = 0;
+    const auto raise = [](auto &to, const auto &bounds) {
+      // Written so that a bound that is not a number stays.
+      to = (to > bounds[0] ? to : bounds[0]);
+      to = (to > bounds[1] ? to : bounds[1]);
+    };
+    for_lanes(0, points.size(), [&](const unsigned int p, const auto number) {
+      using Number = std::decay_t<decltype(number)>;
+      const auto bounds =
+        inverse_bounds<Number>(points,
+                               shape,
+                               p,
+                               load<Number>(&wave_speed_[p]),
+                               load<Number>(&inverse_cell_size_[p]));
+      if constexpr (std::is_same_v<Number, Lanes>)
+        raise(largest_lanes, bounds);
+      else
+        raise(largest, bounds);
+    });
+    for (unsigned int i = 0; i < n_lanes; ++i)
+      raise(largest, std::array<double, 2>{{largest_lanes[i], 0.}});
+
+    const double dt = 1. / largest;
+    AssertThrow(std::isfinite(dt) && dt > 0,
+                ExcPoint(text("No time step can be chosen (it would be ",
+                              dt,
+                              " s): a velocity or a wave speed is not a finite "
+                              "number. Lower 'Time step/CFL number'.")));
+    return maximum_ > 0 ? std::min(dt, maximum_) : dt;
+  }
+
+
+
+  template <int dim>
+  std::string
+  TimeStep<dim>::limited_by(const Points<dim>    &points,
+                            const Grid<dim>      &grid,
+                            const Materials<dim> &materials,
+                            const BoxShape       &shape) const
+  {
+    double       largest = 0;
+    std::string  reason;
+    for (const Segment &segment : points.segments())
+      for (unsigned int p = segment.begin; p < segment.end; ++p)
+        {
+          double c;
+          materials.of_body(segment.body).wave_speed(points, p, p + 1, &c);
+          const auto bounds = inverse_bounds<double>(
+            points, shape, p, c, 1. / grid.cells()[segment.cell].size);
+          const unsigned int which = (bounds[0] >= bounds[1] ? 0 : 1);
+          if (bounds[which] <= largest)
+            continue;
+          largest = bounds[which];
+          reason  = text(which == 0 ? "the wave and flow speed at point " :
+                                      "the thin box of point ",
+                        points.data(points.id)[p],
+                        " (wave speed ",
+                        c,
+                        " m/s)");
+        }
+    if (maximum_ > 0 && 1. / largest > maximum_)
+      return "'Time step/Maximum'";
+    return reason;
+  }
+
+
+
+  template class TimeStep<2>;
+  template class TimeStep<3>;
+} // namespace talus
