@@ -14,8 +14,8 @@ namespace talus
     double
     kinetic_energy(const Points<dim> &points)
     {
-      const double *mass = points.data(points.mass);
-      double energy      = 0;
+      const double *mass   = points.data(points.mass);
+      double        energy = 0;
       for (unsigned int d = 0; d < dim; ++d)
         {
           const double *v = points.data(points.velocity, d);
@@ -41,20 +41,19 @@ namespace talus
     EnergyTerms
     sum_terms(const Snapshot<dim> &snapshot)
     {
-      const Points<dim> &points  = snapshot.points;
-      std::array<double, 7> sums = { { kinetic_energy(points),
+      const Points<dim>    &points = snapshot.points;
+      std::array<double, 7> sums   = {{kinetic_energy(points),
                                        snapshot.nodes.kinetic_energy(),
                                        total(points, points.elastic_energy),
                                        total(points, points.plastic_work),
                                        snapshot.boundary_work.friction,
                                        snapshot.boundary_work.contact,
-                                       snapshot.gravity_work } };
+                                       snapshot.gravity_work}};
       Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
                           snapshot.grid.communicator(),
                           ArrayView<double>(sums.data(), sums.size()));
       return {
-        sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], 0.
-      };
+        sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], 0.};
     }
   } // namespace
 
@@ -74,10 +73,10 @@ namespace talus
   EnergyBudget<dim>::evaluate(const Snapshot<dim> &snapshot) const
   {
     EnergyTerms now = sum_terms(snapshot);
-    now.remainder
-      = (now.gravity - start_.gravity) - (now.kinetic - start_.kinetic)
-        - (now.elastic - start_.elastic) - (now.plastic - start_.plastic)
-        - (now.friction - start_.friction) - (now.contact - start_.contact);
+    now.remainder =
+      (now.gravity - start_.gravity) - (now.kinetic - start_.kinetic) -
+      (now.elastic - start_.elastic) - (now.plastic - start_.plastic) -
+      (now.friction - start_.friction) - (now.contact - start_.contact);
     return now;
   }
 

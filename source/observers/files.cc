@@ -52,7 +52,7 @@ namespace talus
 
 
   void
-  write_file(const std::filesystem::path &path,
+  write_file(const std::filesystem::path               &path,
              const std::function<void(std::ostream &)> &write)
   {
     // Through memory, because deal.II's writers throw errors of their own at a
@@ -69,7 +69,7 @@ namespace talus
     if (!file)
       {
         const std::string sentence = failed_write(path);
-        std::error_code ignored;
+        std::error_code   ignored;
         std::filesystem::remove(part, ignored);
         AssertThrow(false, ExcUser(sentence));
       }
@@ -82,7 +82,7 @@ namespace talus
 
 
   void
-  CsvFile::open(const std::filesystem::path &path,
+  CsvFile::open(const std::filesystem::path    &path,
                 const std::vector<std::string> &names)
   {
     path_      = path;
@@ -105,7 +105,7 @@ namespace talus
     Assert(values.size() == n_columns_,
            ExcDimensionMismatch(values.size(), n_columns_));
     std::string row;
-    char number[32];
+    char        number[32];
     for (const double value : values)
       {
         std::snprintf(number, sizeof(number), "%.16g", value);

@@ -11,8 +11,8 @@ namespace talus
   {
     for (unsigned int d = 0; d < dim; ++d)
       {
-        extent_[d]
-          = static_cast<int>(std::lround(grid.domain().length(d) / size_));
+        extent_[d] =
+          static_cast<int>(std::lround(grid.domain().length(d) / size_));
         Assert(extent_[d] < int(mask), dealii::ExcInternalError());
       }
   }

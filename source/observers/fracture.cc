@@ -55,7 +55,7 @@ namespace talus
     find_occupied(const Points<dim> &points, const Grid<dim> &grid)
     {
       const FinestLattice<dim> lattice(grid);
-      std::vector<Occupied> cells;
+      std::vector<Occupied>    cells;
       for (unsigned int p = 0; p < points.size(); ++p)
         {
           // Points are nearly always sorted by cell, so the next one is mostly
@@ -64,7 +64,7 @@ namespace talus
           if (!cells.empty() && cells.back().key == key)
             ++cells.back().n_points;
           else
-            cells.push_back({ key, 1 });
+            cells.push_back({key, 1});
         }
       merge(cells);
       if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
@@ -140,7 +140,7 @@ namespace talus
   {
     using Lattice                     = FinestLattice<dim>;
     const std::vector<Occupied> cells = find_occupied(points, grid);
-    FractureCounts counts;
+    FractureCounts              counts;
     counts.occupied_cells   = cells.size();
     counts.connected_bodies = count_bodies<dim>(cells);
 
@@ -150,15 +150,14 @@ namespace talus
 
         // What lies unoccupied between this cell and the one below it.
         const auto place     = Lattice::place(cells[i].key);
-        const bool is_lowest = (i == 0
-                                || Lattice::column(cells[i - 1].key)
-                                     != Lattice::column(cells[i].key));
-        const int below
-          = (is_lowest ? -1 : Lattice::place(cells[i - 1].key)[1]);
+        const bool is_lowest = (i == 0 || Lattice::column(cells[i - 1].key) !=
+                                            Lattice::column(cells[i].key));
+        const int  below =
+          (is_lowest ? -1 : Lattice::place(cells[i - 1].key)[1]);
         counts.empty_interior_cells += place[1] - below - 1;
 
-        const int left
-          = (i == 0 ? place[0] : Lattice::place(cells[i - 1].key)[0]);
+        const int left =
+          (i == 0 ? place[0] : Lattice::place(cells[i - 1].key)[0]);
         counts.empty_columns += std::max(place[0] - left - 1, 0);
       }
     return counts;

@@ -10,37 +10,37 @@ namespace talus
   {
     template <int dim>
     std::vector<Field>
-    node_fields(const NodalFields<dim> &nodes,
+    node_fields(const NodalFields<dim>                 &nodes,
                 const std::unordered_set<unsigned int> &active)
     {
       using Sum      = NodalSum<dim>;
       const auto add = [&active](const std::string &name,
                                  const unsigned int n,
-                                 const auto &source) {
-        return Field{ name,
-                      n == 1 ? FieldKind::scalar : FieldKind::vector,
-                      n,
-                      [&active, n, source](const unsigned int node,
-                                           float *values) {
-                        // What inactive nodes hold is left from earlier steps.
-                        const bool is_active = active.count(node) > 0;
-                        for (unsigned int c = 0; c < n; ++c)
-                          values[c] = is_active ? source(node)[c] : 0.;
-                      } };
+                                 const auto        &source) {
+        return Field{name,
+                     n == 1 ? FieldKind::scalar : FieldKind::vector,
+                     n,
+                     [&active, n, source](const unsigned int node,
+                                          float             *values) {
+                       // What inactive nodes hold is left from earlier steps.
+                       const bool is_active = active.count(node) > 0;
+                       for (unsigned int c = 0; c < n; ++c)
+                         values[c] = is_active ? source(node)[c] : 0.;
+                     }};
       };
-      return { add("mass [kg]",
-                   1,
-                   [&nodes](const unsigned int node) {
-                     return nodes.sum(node) + Sum::mass;
-                   }),
-               add("velocity [m/s]",
-                   dim,
-                   [&nodes](const unsigned int node) {
-                     return nodes.motion(node) + NodalMotion<dim>::velocity;
-                   }),
-               add("force [N]", dim, [&nodes](const unsigned int node) {
-                 return nodes.sum(node) + Sum::force;
-               }) };
+      return {add("mass [kg]",
+                  1,
+                  [&nodes](const unsigned int node) {
+                    return nodes.sum(node) + Sum::mass;
+                  }),
+              add("velocity [m/s]",
+                  dim,
+                  [&nodes](const unsigned int node) {
+                    return nodes.motion(node) + NodalMotion<dim>::velocity;
+                  }),
+              add("force [N]", dim, [&nodes](const unsigned int node) {
+                return nodes.sum(node) + Sum::force;
+              })};
     }
 
 
@@ -50,7 +50,7 @@ namespace talus
     void
     add_cell(Patches<dim, dim> &patches, const Cell<dim> &cell)
     {
-      std::array<Point<dim>, (1 << dim)> corners;
+      std::array<Point<dim>, (1 << dim)>   corners;
       std::array<unsigned int, (1 << dim)> nodes;
       for (unsigned int v = 0; v < corners.size(); ++v)
         {
@@ -72,7 +72,7 @@ namespace talus
   template <int dim>
   void
   GridOutput<dim>::begin(const std::filesystem::path &folder,
-                         const MPI_Comm communicator)
+                         const MPI_Comm               communicator)
   {
     series_.begin(folder, "grid", communicator);
   }
@@ -83,7 +83,7 @@ namespace talus
   void
   GridOutput<dim>::write(const Snapshot<dim> &snapshot)
   {
-    const auto &list = snapshot.nodes.active_nodes();
+    const auto                            &list = snapshot.nodes.active_nodes();
     const std::unordered_set<unsigned int> active(list.begin(), list.end());
     Patches<dim, dim> patches(node_fields(snapshot.nodes, active));
 

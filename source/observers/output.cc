@@ -77,7 +77,7 @@ namespace talus
   Output<dim>::begin(const Snapshot<dim> &snapshot, const double end_time)
   {
     const TimerOutput::Scope scope(timer_, "output");
-    const MPI_Comm communicator = snapshot.grid.communicator();
+    const MPI_Comm           communicator = snapshot.grid.communicator();
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       {
         make_folder(folder_);
@@ -150,15 +150,14 @@ namespace talus
   std::string
   Output<dim>::write_last_state(const Snapshot<dim> &snapshot) const
   {
-    const MPI_Comm communicator = snapshot.grid.communicator();
-    const std::string rank
-      = (Utilities::MPI::n_mpi_processes(communicator) == 1
-           ? ""
-           : "."
-               + std::to_string(
-                 Utilities::MPI::this_mpi_process(communicator)));
-    const std::filesystem::path path
-      = std::filesystem::path(folder_) / ("last-state" + rank + ".vtu");
+    const MPI_Comm    communicator = snapshot.grid.communicator();
+    const std::string rank =
+      (Utilities::MPI::n_mpi_processes(communicator) == 1
+         ? ""
+         : "." +
+             std::to_string(Utilities::MPI::this_mpi_process(communicator)));
+    const std::filesystem::path path =
+      std::filesystem::path(folder_) / ("last-state" + rank + ".vtu");
     make_folder(folder_);
     write_points(snapshot, path);
     return path.string();

@@ -28,8 +28,8 @@ namespace talus
       std::fill(values, values + 9, 0.f);
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
-          values[3 * i + j]
-            = sigma[stress_index<dim>(std::min(i, j), std::max(i, j))];
+          values[3 * i + j] =
+            sigma[stress_index<dim>(std::min(i, j), std::max(i, j))];
       values[8] = sigma[2];
     }
 
@@ -40,37 +40,37 @@ namespace talus
     column_field(const Points<dim> &points, const Column &column)
     {
       const unsigned int first = column.first, n = column.n_components;
-      const std::string name = name_with_unit(column.name, column.unit, dim);
+      const std::string  name = name_with_unit(column.name, column.unit, dim);
       if (first == points.stress)
-        return { name,
-                 FieldKind::tensor,
-                 9,
-                 [&points](const unsigned int p, float *values) {
-                   write_stress<dim>(load_stress<dim, double>(points, p),
-                                     values);
-                 } };
+        return {name,
+                FieldKind::tensor,
+                9,
+                [&points](const unsigned int p, float *values) {
+                  write_stress<dim>(load_stress<dim, double>(points, p),
+                                    values);
+                }};
       if (n == dim * dim)
         {
           const bool is_F = (first == points.deformation_gradient);
-          return { name,
-                   FieldKind::tensor,
-                   9,
-                   [&points, first, is_F](const unsigned int p, float *values) {
-                     std::fill(values, values + 9, 0.f);
-                     if (is_F)
-                       values[8] = 1.f;
-                     for (unsigned int c = 0; c < dim * dim; ++c)
-                       values[3 * (c / dim) + c % dim]
-                         = points.data(first, c)[p];
-                   } };
+          return {name,
+                  FieldKind::tensor,
+                  9,
+                  [&points, first, is_F](const unsigned int p, float *values) {
+                    std::fill(values, values + 9, 0.f);
+                    if (is_F)
+                      values[8] = 1.f;
+                    for (unsigned int c = 0; c < dim * dim; ++c)
+                      values[3 * (c / dim) + c % dim] =
+                        points.data(first, c)[p];
+                  }};
         }
-      return { name,
-               n == dim ? FieldKind::vector : FieldKind::scalar,
-               n,
-               [&points, first, n](const unsigned int p, float *values) {
-                 for (unsigned int c = 0; c < n; ++c)
-                   values[c] = points.data(first, c)[p];
-               } };
+      return {name,
+              n == dim ? FieldKind::vector : FieldKind::scalar,
+              n,
+              [&points, first, n](const unsigned int p, float *values) {
+                for (unsigned int c = 0; c < n; ++c)
+                  values[c] = points.data(first, c)[p];
+              }};
     }
 
 
@@ -80,13 +80,13 @@ namespace talus
     std::pair<double, double>
     stress_measures(const Points<dim> &points, const unsigned int p)
     {
-      const auto sigma  = load_stress<dim, double>(points, p);
-      const double mean = (sigma[0] + sigma[1] + sigma[2]) / 3.;
-      double s_s        = 0;
+      const auto   sigma = load_stress<dim, double>(points, p);
+      const double mean  = (sigma[0] + sigma[1] + sigma[2]) / 3.;
+      double       s_s   = 0;
       for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
         s_s += (c < 3 ? (sigma[c] - mean) * (sigma[c] - mean)
                       : 2. * sigma[c] * sigma[c]);
-      return { mean, std::sqrt(1.5 * s_s) };
+      return {mean, std::sqrt(1.5 * s_s)};
     }
 
 
@@ -94,26 +94,26 @@ namespace talus
     template <int dim>
     void
     append_derived_vectors(std::vector<Field> &fields,
-                           const Points<dim> &points)
+                           const Points<dim>  &points)
     {
-      fields.push_back({ "displacement [m]",
-                         FieldKind::vector,
-                         dim,
-                         [&points](const unsigned int p, float *values) {
-                           for (unsigned int d = 0; d < dim; ++d)
-                             values[d]
-                               = points.data(points.position, d)[p]
-                                 - points.data(points.initial_position, d)[p];
-                         } });
-      fields.push_back({ "box length [m]",
-                         FieldKind::vector,
-                         dim,
-                         [&points](const unsigned int p, float *values) {
-                           for (unsigned int d = 0; d < dim; ++d)
-                             values[d]
-                               = points.data(points.stretch, d)[p]
-                                 * points.data(points.reference_length, d)[p];
-                         } });
+      fields.push_back({"displacement [m]",
+                        FieldKind::vector,
+                        dim,
+                        [&points](const unsigned int p, float *values) {
+                          for (unsigned int d = 0; d < dim; ++d)
+                            values[d] =
+                              points.data(points.position, d)[p] -
+                              points.data(points.initial_position, d)[p];
+                        }});
+      fields.push_back({"box length [m]",
+                        FieldKind::vector,
+                        dim,
+                        [&points](const unsigned int p, float *values) {
+                          for (unsigned int d = 0; d < dim; ++d)
+                            values[d] =
+                              points.data(points.stretch, d)[p] *
+                              points.data(points.reference_length, d)[p];
+                        }});
     }
 
 
@@ -121,15 +121,15 @@ namespace talus
     template <int dim>
     void
     append_derived_scalars(std::vector<Field> &fields,
-                           const Points<dim> &points)
+                           const Points<dim>  &points)
     {
       const auto add = [&fields](const std::string &name, const auto &value) {
-        fields.push_back({ name,
-                           FieldKind::scalar,
-                           1,
-                           [value](const unsigned int p, float *values) {
-                             *values = static_cast<float>(value(p));
-                           } });
+        fields.push_back({name,
+                          FieldKind::scalar,
+                          1,
+                          [value](const unsigned int p, float *values) {
+                            *values = static_cast<float>(value(p));
+                          }});
       };
       add("speed [m/s]", [&points](const unsigned int p) {
         Tensor<1, dim> v;
@@ -162,7 +162,7 @@ namespace talus
           Point<dim> x;
           for (unsigned int d = 0; d < dim; ++d)
             x[d] = points.data(points.position, d)[p];
-          patches.add({ { x } }, { { p } });
+          patches.add({{x}}, {{p}});
         }
       return patches;
     }
@@ -175,7 +175,7 @@ namespace talus
     {
       Patches<dim, dim> patches(point_fields(points));
       patches.reserve(points.size());
-      std::array<Point<dim>, (1 << dim)> corners;
+      std::array<Point<dim>, (1 << dim)>   corners;
       std::array<unsigned int, (1 << dim)> items;
       for (unsigned int p = 0; p < points.size(); ++p)
         {
@@ -183,11 +183,10 @@ namespace talus
           for (unsigned int v = 0; v < corners.size(); ++v)
             for (unsigned int d = 0; d < dim; ++d)
               {
-                const double half
-                  = 0.5 * points.data(points.stretch, d)[p]
-                    * points.data(points.reference_length, d)[p];
-                corners[v][d] = points.data(points.position, d)[p]
-                                + ((v >> d) & 1 ? half : -half);
+                const double half = 0.5 * points.data(points.stretch, d)[p] *
+                                    points.data(points.reference_length, d)[p];
+                corners[v][d] = points.data(points.position, d)[p] +
+                                ((v >> d) & 1 ? half : -half);
               }
           patches.add(corners, items);
         }
@@ -214,14 +213,14 @@ namespace talus
           {
             const unsigned int array = column.first + c;
             fields.push_back(
-              { name_with_unit(column.name + " " + std::to_string(c),
-                               column.unit,
-                               dim),
-                FieldKind::scalar,
-                1,
-                [&points, array](const unsigned int p, float *values) {
-                  *values = points.data(array)[p];
-                } });
+              {name_with_unit(column.name + " " + std::to_string(c),
+                              column.unit,
+                              dim),
+               FieldKind::scalar,
+               1,
+               [&points, array](const unsigned int p, float *values) {
+                 *values = points.data(array)[p];
+               }});
           }
       }
     append_derived_vectors(fields, points);
@@ -234,8 +233,8 @@ namespace talus
   template <int dim>
   void
   PointsOutput<dim>::begin(const std::filesystem::path &folder,
-                           const MPI_Comm communicator,
-                           const bool boxes_as_cells)
+                           const MPI_Comm               communicator,
+                           const bool                   boxes_as_cells)
   {
     series_.begin(folder, "points", communicator);
     boxes_as_cells_ = boxes_as_cells;

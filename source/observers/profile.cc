@@ -16,9 +16,9 @@ namespace talus
     struct Sums
     {
       std::uint64_t column;
-      double lowest, highest; // m
-      double mass;            // kg
-      double momentum_x, momentum_z;
+      double        lowest, highest; // m
+      double        mass;            // kg
+      double        momentum_x, momentum_z;
 
       void
       add(const Sums &more)
@@ -64,22 +64,22 @@ namespace talus
 
     template <int dim>
     Sums
-    contribution(const Points<dim> &points,
+    contribution(const Points<dim>        &points,
                  const FinestLattice<dim> &lattice,
-                 const unsigned int p)
+                 const unsigned int        p)
     {
       const double y           = points.data(points.position, 1)[p];
-      const double half_length = 0.5 * points.data(points.stretch, 1)[p]
-                                 * points.data(points.reference_length, 1)[p];
+      const double half_length = 0.5 * points.data(points.stretch, 1)[p] *
+                                 points.data(points.reference_length, 1)[p];
       const double mass = points.data(points.mass)[p];
-      const double v_z
-        = (dim == 3 ? points.data(points.velocity, dim - 1)[p] : 0.);
-      return { lattice.column(lattice.find(points, p)),
-               y - half_length,
-               y + half_length,
-               mass,
-               mass * points.data(points.velocity, 0)[p],
-               mass * v_z };
+      const double v_z =
+        (dim == 3 ? points.data(points.velocity, dim - 1)[p] : 0.);
+      return {lattice.column(lattice.find(points, p)),
+              y - half_length,
+              y + half_length,
+              mass,
+              mass * points.data(points.velocity, 0)[p],
+              mass * v_z};
     }
 
 
@@ -89,7 +89,7 @@ namespace talus
     sum_columns(const Points<dim> &points, const Grid<dim> &grid)
     {
       const FinestLattice<dim> lattice(grid);
-      std::vector<Sums> columns;
+      std::vector<Sums>        columns;
       for (unsigned int p = 0; p < points.size(); ++p)
         {
           const Sums more = contribution(points, lattice, p);
@@ -118,18 +118,18 @@ namespace talus
   find_profile(const Points<dim> &points, const Grid<dim> &grid)
   {
     using Lattice = FinestLattice<dim>;
-    const Lattice lattice(grid);
+    const Lattice              lattice(grid);
     std::vector<ProfileColumn> profile;
     for (const Sums &sums : sum_columns(points, grid))
       {
         const typename Lattice::Key cell = Lattice::lowest_cell(sums.column);
-        profile.push_back({ lattice.center(cell, 0),
-                            dim == 3 ? lattice.center(cell, dim - 1) : 0.,
-                            sums.lowest,
-                            sums.highest,
-                            sums.mass,
-                            sums.momentum_x / sums.mass,
-                            sums.momentum_z / sums.mass });
+        profile.push_back({lattice.center(cell, 0),
+                           dim == 3 ? lattice.center(cell, dim - 1) : 0.,
+                           sums.lowest,
+                           sums.highest,
+                           sums.mass,
+                           sums.momentum_x / sums.mass,
+                           sums.momentum_z / sums.mass});
       }
     return profile;
   }
@@ -139,13 +139,16 @@ namespace talus
   template <int dim>
   void
   Profile<dim>::begin(const std::filesystem::path &folder,
-                      const Grid<dim> &grid)
+                      const Grid<dim>             &grid)
   {
     if (Utilities::MPI::this_mpi_process(grid.communicator()) != 0)
       return;
-    std::vector<std::string> names
-      = { "time [s]",    "x [m]",         "lowest [m]",
-          "highest [m]", "thickness [m]", "depth-mean velocity [m/s]" };
+    std::vector<std::string> names = {"time [s]",
+                                      "x [m]",
+                                      "lowest [m]",
+                                      "highest [m]",
+                                      "thickness [m]",
+                                      "depth-mean velocity [m/s]"};
     if (dim == 3)
       {
         names.insert(names.begin() + 2, "z [m]");
@@ -165,12 +168,12 @@ namespace talus
       return;
     for (const ProfileColumn &column : profile)
       {
-        std::vector<double> row = { snapshot.time,
-                                    column.x,
-                                    column.lowest,
-                                    column.highest,
-                                    column.highest - column.lowest,
-                                    column.velocity_x };
+        std::vector<double> row = {snapshot.time,
+                                   column.x,
+                                   column.lowest,
+                                   column.highest,
+                                   column.highest - column.lowest,
+                                   column.velocity_x};
         if (dim == 3)
           {
             row.insert(row.begin() + 2, column.z);

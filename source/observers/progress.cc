@@ -26,7 +26,7 @@ namespace talus
     {
       if (!(seconds < 1e7))
         return "?";
-      const long whole = std::lround(seconds);
+      const long         whole = std::lround(seconds);
       std::ostringstream out;
       out << std::setfill('0');
       if (whole >= 3600)
@@ -62,13 +62,13 @@ namespace talus
 
 
   void
-  Progress::begin(const double time,
-                  const double end_time,
+  Progress::begin(const double   time,
+                  const double   end_time,
                   const MPI_Comm communicator)
   {
     communicator_ = communicator;
     end_time_     = end_time;
-    now_          = { Clock::now(), time, 0, 0 };
+    now_          = {Clock::now(), time, 0, 0};
     start_ = line_before_ = now_;
   }
 
@@ -79,12 +79,11 @@ namespace talus
   {
     now_.wall_time = Clock::now();
     now_.time      = time;
-    const double point_steps
-      = Utilities::MPI::sum(now_.point_steps - line_before_.point_steps,
-                            communicator_);
-    const unsigned long all_points
-      = Utilities::MPI::sum(static_cast<unsigned long>(n_points),
-                            communicator_);
+    const double point_steps =
+      Utilities::MPI::sum(now_.point_steps - line_before_.point_steps,
+                          communicator_);
+    const unsigned long all_points =
+      Utilities::MPI::sum(static_cast<unsigned long>(n_points), communicator_);
     const double elapsed = seconds(now_.wall_time - line_before_.wall_time);
     const double pace    = elapsed / (now_.time - line_before_.time);
     const double steps   = now_.steps - line_before_.steps;
@@ -107,16 +106,15 @@ namespace talus
 
 
   void
-  Progress::finish(const double time,
+  Progress::finish(const double       time,
                    const unsigned int n_points,
                    const TimerOutput &timer)
   {
     const double elapsed = seconds(Clock::now() - start_.wall_time);
-    const double point_steps
-      = Utilities::MPI::sum(now_.point_steps, communicator_);
-    const unsigned long all_points
-      = Utilities::MPI::sum(static_cast<unsigned long>(n_points),
-                            communicator_);
+    const double point_steps =
+      Utilities::MPI::sum(now_.point_steps, communicator_);
+    const unsigned long all_points =
+      Utilities::MPI::sum(static_cast<unsigned long>(n_points), communicator_);
     if (is_terminal_)
       timer.print_summary();
     if (is_first_rank())

@@ -71,14 +71,14 @@ namespace talus
 
   void
   write_run_record(const std::filesystem::path &path,
-                   const ParameterHandler &parameters)
+                   const ParameterHandler      &parameters)
   {
     write_file(path, [&](std::ostream &out) {
       out << "# The parameters of this run as they were understood by\n"
           << versions("#   ") << '\n';
       parameters.print_parameters(out,
-                                  ParameterHandler::ShortPRM
-                                    | ParameterHandler::KeepDeclarationOrder);
+                                  ParameterHandler::ShortPRM |
+                                    ParameterHandler::KeepDeclarationOrder);
     });
   }
 } // namespace talus

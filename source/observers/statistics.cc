@@ -17,14 +17,14 @@ namespace talus
     template <int dim>
     struct Motion
     {
-      double n_points = 0;
-      double mass     = 0;     // kg
-      Tensor<1, dim> moment;   // kg m
-      Tensor<1, dim> momentum; // kg m/s
-      double front         = std::numeric_limits<double>::lowest();
-      double rear          = std::numeric_limits<double>::max();
-      double top           = std::numeric_limits<double>::lowest();
-      double maximum_speed = 0; // m/s
+      double         n_points = 0;
+      double         mass     = 0; // kg
+      Tensor<1, dim> moment;       // kg m
+      Tensor<1, dim> momentum;     // kg m/s
+      double         front         = std::numeric_limits<double>::lowest();
+      double         rear          = std::numeric_limits<double>::max();
+      double         top           = std::numeric_limits<double>::lowest();
+      double         maximum_speed = 0; // m/s
     };
 
 
@@ -34,9 +34,9 @@ namespace talus
     sum_over_own_points(const Points<dim> &points)
     {
       Motion<dim> result;
-      result.n_points    = points.size();
-      const double *mass = points.data(points.mass);
-      double top_speed_2 = 0;
+      result.n_points           = points.size();
+      const double *mass        = points.data(points.mass);
+      double        top_speed_2 = 0;
       for (unsigned int p = 0; p < points.size(); ++p)
         {
           double speed_2 = 0;
@@ -82,13 +82,13 @@ namespace talus
     template <int dim>
     void
     append(std::vector<typename Statistics<dim>::Quantity> &row,
-           const std::string &name,
-           const std::string &unit,
-           const Tensor<1, dim> &vector)
+           const std::string                               &name,
+           const std::string                               &unit,
+           const Tensor<1, dim>                            &vector)
     {
       const std::string axes = "xyz";
       for (unsigned int d = 0; d < dim; ++d)
-        row.push_back({ name + ' ' + axes[d] + unit, vector[d] });
+        row.push_back({name + ' ' + axes[d] + unit, vector[d]});
     }
 
 
@@ -96,17 +96,17 @@ namespace talus
     template <int dim>
     void
     append(std::vector<typename Statistics<dim>::Quantity> &row,
-           const EnergyTerms &energy)
+           const EnergyTerms                               &energy)
     {
       row.insert(row.end(),
-                 { { "kinetic energy [J]", energy.kinetic },
-                   { "grid kinetic energy [J]", energy.grid_kinetic },
-                   { "elastic energy [J]", energy.elastic },
-                   { "plastic work [J]", energy.plastic },
-                   { "friction work [J]", energy.friction },
-                   { "contact work [J]", energy.contact },
-                   { "gravity work [J]", energy.gravity },
-                   { "energy remainder [J]", energy.remainder } });
+                 {{"kinetic energy [J]", energy.kinetic},
+                  {"grid kinetic energy [J]", energy.grid_kinetic},
+                  {"elastic energy [J]", energy.elastic},
+                  {"plastic work [J]", energy.plastic},
+                  {"friction work [J]", energy.friction},
+                  {"contact work [J]", energy.contact},
+                  {"gravity work [J]", energy.gravity},
+                  {"energy remainder [J]", energy.remainder}});
     }
 
 
@@ -115,14 +115,14 @@ namespace talus
     void
     append_fracture_and_splits(
       std::vector<typename Statistics<dim>::Quantity> &row,
-      const Snapshot<dim> &snapshot)
+      const Snapshot<dim>                             &snapshot)
     {
-      const MPI_Comm communicator   = snapshot.grid.communicator();
-      const SplitStatistics &splits = snapshot.splits;
-      const FractureCounts fracture
-        = count_fractures(snapshot.points, snapshot.grid);
+      const MPI_Comm         communicator = snapshot.grid.communicator();
+      const SplitStatistics &splits       = snapshot.splits;
+      const FractureCounts   fracture =
+        count_fractures(snapshot.points, snapshot.grid);
       const auto add = [&row](const std::string &name, const double value) {
-        row.push_back({ name, value });
+        row.push_back({name, value});
       };
       add("empty interior cells", fracture.empty_interior_cells);
       add("empty columns", fracture.empty_columns);
@@ -144,8 +144,8 @@ namespace talus
   template <int dim>
   double
   front_of_mass(const Points<dim> &points,
-                const double fraction,
-                const MPI_Comm communicator)
+                const double       fraction,
+                const MPI_Comm     communicator)
   {
     constexpr unsigned int n_bins = 1024;
     struct Candidate
@@ -153,17 +153,17 @@ namespace talus
       double x, mass;
     };
     std::vector<Candidate> candidates(points.size());
-    double mass = 0, mass_below = 0;
+    double                 mass = 0, mass_below = 0;
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        candidates[p]
-          = { points.data(points.position, 0)[p], points.data(points.mass)[p] };
+        candidates[p] = {points.data(points.position, 0)[p],
+                         points.data(points.mass)[p]};
         mass += candidates[p].mass;
       }
     // Less than any point's mass, more than the round-off of the sum: with 200
     // equal points it is surely the 199th that completes 99.5 %.
-    const double target
-      = (fraction - 1e-12) * Utilities::MPI::sum(mass, communicator);
+    const double target =
+      (fraction - 1e-12) * Utilities::MPI::sum(mass, communicator);
 
     while (true)
       {
@@ -206,36 +206,35 @@ namespace talus
   std::vector<typename Statistics<dim>::Quantity>
   Statistics<dim>::evaluate(const Snapshot<dim> &snapshot) const
   {
-    const MPI_Comm communicator = snapshot.grid.communicator();
+    const MPI_Comm    communicator = snapshot.grid.communicator();
     const Motion<dim> motion = sum_over_points(snapshot.points, communicator);
-    const double impulse
-      = Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
-                            communicator);
+    const double      impulse =
+      Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
+                          communicator);
     const double interval = snapshot.time - previous_time_;
 
-    std::vector<Quantity> row
-      = { { "time [s]", snapshot.time },
-          { "step", static_cast<double>(snapshot.step) },
-          { "time step [s]", snapshot.time_step },
-          { "points", motion.n_points },
-          { "front x [m]", motion.front },
-          { "front of 99.5 % mass x [m]",
-            front_of_mass(snapshot.points, 0.995, communicator) },
-          { "rear x [m]", motion.rear },
-          { "height [m]", motion.top - snapshot.grid.domain().lower[1] } };
+    std::vector<Quantity> row = {
+      {"time [s]", snapshot.time},
+      {"step", static_cast<double>(snapshot.step)},
+      {"time step [s]", snapshot.time_step},
+      {"points", motion.n_points},
+      {"front x [m]", motion.front},
+      {"front of 99.5 % mass x [m]",
+       front_of_mass(snapshot.points, 0.995, communicator)},
+      {"rear x [m]", motion.rear},
+      {"height [m]", motion.top - snapshot.grid.domain().lower[1]}};
     append<dim>(row, "centre", " [m]", motion.moment / motion.mass);
     append<dim>(row,
                 "centre velocity",
                 " [m/s]",
                 motion.momentum / motion.mass);
     row.insert(row.end(),
-               { { "maximum speed [m/s]", motion.maximum_speed },
-                 { "mass [kg]", motion.mass },
-                 { "momentum x [kg m/s]", motion.momentum[0] },
-                 { "seabed force x [N]",
-                   interval > 0 ? (impulse - previous_impulse_) / interval
-                                : 0. },
-                 { "seabed impulse x [N s]", impulse } });
+               {{"maximum speed [m/s]", motion.maximum_speed},
+                {"mass [kg]", motion.mass},
+                {"momentum x [kg m/s]", motion.momentum[0]},
+                {"seabed force x [N]",
+                 interval > 0 ? (impulse - previous_impulse_) / interval : 0.},
+                {"seabed impulse x [N s]", impulse}});
     append<dim>(row, budget_.evaluate(snapshot));
     append_fracture_and_splits<dim>(row, snapshot);
     return row;
@@ -246,14 +245,14 @@ namespace talus
   template <int dim>
   void
   Statistics<dim>::begin(const std::filesystem::path &folder,
-                         const Snapshot<dim> &snapshot)
+                         const Snapshot<dim>         &snapshot)
   {
     const MPI_Comm communicator = snapshot.grid.communicator();
     budget_.begin(snapshot);
     previous_time_ = snapshot.time;
-    previous_impulse_
-      = Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
-                            communicator);
+    previous_impulse_ =
+      Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
+                          communicator);
 
     std::vector<std::string> names;
     for (const Quantity &quantity : evaluate(snapshot))
@@ -269,7 +268,7 @@ namespace talus
   void
   Statistics<dim>::add_row(const Snapshot<dim> &snapshot)
   {
-    const MPI_Comm communicator = snapshot.grid.communicator();
+    const MPI_Comm      communicator = snapshot.grid.communicator();
     std::vector<double> values;
     for (const Quantity &quantity : evaluate(snapshot))
       values.push_back(quantity.value);
@@ -279,9 +278,9 @@ namespace talus
         file_.flush();
       }
     previous_time_ = snapshot.time;
-    previous_impulse_
-      = Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
-                            communicator);
+    previous_impulse_ =
+      Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
+                          communicator);
   }
 
 

@@ -1,8 +1,9 @@
 #include <talus/observers/files.h>
 #include <talus/observers/vtu.h>
 
-#include <cstdio>
-#include <numeric>
+#include <deal.II/grid/reference_cell.h>
+
+#include <iomanip>
 
 namespace talus
 {
@@ -32,11 +33,13 @@ namespace talus
   template <int patch_dim, int dim>
   void
   Patches<patch_dim, dim>::add(
-    const std::array<Point<dim>, (1 << patch_dim)> &vertices,
+    const std::array<Point<dim>, (1 << patch_dim)>   &vertices,
     const std::array<unsigned int, (1 << patch_dim)> &items)
   {
     Patch patch;
     patch.patch_index = patches_.size();
+    if constexpr (patch_dim > 0)
+      patch.reference_cell = ReferenceCells::get_hypercube<patch_dim>();
     patch.data.reinit(values_.size(), items.size());
     for (unsigned int v = 0; v < items.size(); ++v)
       {
@@ -61,8 +64,8 @@ namespace talus
 
   template <int patch_dim, int dim>
   void
-  Patches<patch_dim, dim>::write(std::ostream &out,
-                                 const double time,
+  Patches<patch_dim, dim>::write(std::ostream       &out,
+                                 const double        time,
                                  const unsigned long step)
   {
     DataOutBase::VtkFlags flags;
@@ -111,7 +114,7 @@ namespace talus
                            unsigned int,
                            std::string,
                            Interpretation::DataComponentInterpretation>>
-      ranges;
+                 ranges;
     unsigned int first = 0;
     for (const Field &field : fields_)
       {
@@ -133,10 +136,32 @@ namespace talus
 
 
 
+  namespace
+  {
+    // deal.II's function of this kind writes the date into the file and keeps
+    // only 12 digits of the times.
+    void
+    write_pvd(
+      std::ostream                                      &out,
+      const std::vector<std::pair<double, std::string>> &times_and_names)
+    {
+      out << "<?xml version=\"1.0\"?>\n"
+             "<VTKFile type=\"Collection\" version=\"0.1\">\n"
+             "  <Collection>\n"
+          << std::setprecision(16);
+      for (const auto &[time, name] : times_and_names)
+        out << "    <DataSet timestep=\"" << time
+            << "\" group=\"\" part=\"0\" file=\"" << name << "\"/>\n";
+      out << "  </Collection>\n</VTKFile>\n";
+    }
+  } // namespace
+
+
+
   void
   VtuSeries::begin(const std::filesystem::path &folder,
-                   const std::string &name,
-                   const MPI_Comm communicator)
+                   const std::string           &name,
+                   const MPI_Comm               communicator)
   {
     folder_       = folder;
     name_         = name;
@@ -149,13 +174,13 @@ namespace talus
   template <int patch_dim, int dim>
   void
   VtuSeries::write(Patches<patch_dim, dim> &patches,
-                   const double time,
-                   const unsigned long step)
+                   const double             time,
+                   const unsigned long      step)
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator_);
     const unsigned int rank = Utilities::MPI::this_mpi_process(communicator_);
-    const std::string base
-      = name_ + "-" + Utilities::int_to_string(times_and_names_.size(), 4);
+    const std::string  base =
+      name_ + "-" + Utilities::int_to_string(times_and_names_.size(), 4);
     const auto piece = [&](const unsigned int r) {
       return base + (n_ranks > 1 ? "." + std::to_string(r) : "") + ".vtu";
     };
@@ -176,9 +201,8 @@ namespace talus
           patches.write_pvtu_record(out, pieces);
         });
       }
-    write_file(folder_ / (name_ + ".pvd"), [&](std::ostream &out) {
-      DataOutBase::write_pvd_record(out, times_and_names_);
-    });
+    write_file(folder_ / (name_ + ".pvd"),
+               [&](std::ostream &out) { write_pvd(out, times_and_names_); });
   }
 
 

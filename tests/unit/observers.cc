@@ -35,10 +35,10 @@ namespace
     // 0.1 is no binary number: quotients are rounded, the answers must agree
     // between a run and one that starts anew at any of its steps.
     const double dt = 0.0371;
-    OutputTimes run;
+    OutputTimes  run;
     run.begin(0.1, 0.);
     unsigned int n = 0;
-    double t       = 0;
+    double       t = 0;
     for (unsigned int step = 0; step < 10000; ++step)
       {
         OutputTimes resumed;
@@ -75,7 +75,7 @@ namespace
     Scene<2> s("0, 0", "8, 4");
     for (unsigned int i = 2; i < 5; ++i)
       for (unsigned int j = 0; j < 2; ++j)
-        s.add({ i + 0.25, j + 0.5 }), s.add({ i + 0.75, j + 0.5 });
+        s.add({i + 0.25, j + 0.5}), s.add({i + 0.75, j + 0.5});
     const FractureCounts counts = count_fractures(s.points, s.grid);
     EXPECT_EQ(counts.occupied_cells, 6u);
     EXPECT_EQ(counts.empty_interior_cells, 0u);
@@ -93,13 +93,10 @@ namespace
     // . # . . . . . .
     // # . . # . . # .
     Scene<2> s("0, 0", "8, 4");
-    for (const auto &x : std::vector<Point<2>>{ { 0.5, 0.5 },
-                                                { 0.5, 2.5 },
-                                                { 1.5, 1.5 },
-                                                { 3.5, 0.5 },
-                                                { 6.5, 0.2 } })
+    for (const auto &x : std::vector<Point<2>>{
+           {0.5, 0.5}, {0.5, 2.5}, {1.5, 1.5}, {3.5, 0.5}, {6.5, 0.2}})
       s.add(x);
-    s.add({ 6.5, 0.8 });
+    s.add({6.5, 0.8});
     const FractureCounts counts = count_fractures(s.points, s.grid);
     EXPECT_EQ(counts.occupied_cells, 5u);
     // Below the diagonal neighbour too: down to the bottom face.
@@ -115,8 +112,8 @@ namespace
   TEST_F(Fracture, LastCellOfAColumnIsNoNeighborOfTheNextColumnsFirst)
   {
     Scene<2> s("0, 0", "8, 4");
-    s.add({ 0.5, 3.5 });
-    s.add({ 1.5, 0.5 });
+    s.add({0.5, 3.5});
+    s.add({1.5, 0.5});
     EXPECT_EQ(count_fractures(s.points, s.grid).connected_bodies, 2u);
   }
 
@@ -125,14 +122,14 @@ namespace
   TEST_F(Fracture, PointsOutsideTheMeshCountToTheBoundaryCell)
   {
     Scene<2> s("-4, -1", "4, 3");
-    s.add({ 0.5, -1.4 });
-    s.add({ 4.3, 3.2 });
+    s.add({0.5, -1.4});
+    s.add({4.3, 3.2});
     const FractureCounts counts = count_fractures(s.points, s.grid);
     EXPECT_EQ(counts.occupied_cells, 2u);
     EXPECT_EQ(counts.empty_interior_cells, 3u);
     EXPECT_EQ(counts.empty_columns, 2u);
     // In the cell it was counted to, it joins the others.
-    s.add({ 0.5, -0.9 });
+    s.add({0.5, -0.9});
     EXPECT_EQ(count_fractures(s.points, s.grid).occupied_cells, 2u);
   }
 
@@ -145,10 +142,10 @@ namespace
     Scene<2> s("0, 0", "16, 8");
     for (unsigned int j = 0; j < 8; j += 2)
       for (unsigned int i = 0; i < 9; ++i)
-        s.add({ i + 0.5, j + 0.5 });
+        s.add({i + 0.5, j + 0.5});
     EXPECT_EQ(count_fractures(s.points, s.grid).connected_bodies, 4u);
     for (unsigned int j = 0; j < 8; ++j)
-      s.add({ 9.5, j + 0.5 });
+      s.add({9.5, j + 0.5});
     EXPECT_EQ(count_fractures(s.points, s.grid).connected_bodies, 1u);
     EXPECT_EQ(count_fractures(s.points, s.grid).empty_interior_cells, 27u);
   }
@@ -158,11 +155,8 @@ namespace
   TEST_F(Fracture, IndependentOfTheCellsOfTheMesh)
   {
     Scene<2> coarse("0, 0", "8, 4");
-    for (const auto &x : std::vector<Point<2>>{ { 0.5, 0.5 },
-                                                { 0.5, 2.5 },
-                                                { 1.5, 1.5 },
-                                                { 3.5, 0.5 },
-                                                { 6.5, 0.2 } })
+    for (const auto &x : std::vector<Point<2>>{
+           {0.5, 0.5}, {0.5, 2.5}, {1.5, 1.5}, {3.5, 0.5}, {6.5, 0.2}})
       coarse.add(x);
     // Refine far from the points: the lattice is finer then, everywhere.
     auto &triangulation = coarse.grid.triangulation();
@@ -183,12 +177,12 @@ namespace
   TEST_F(Fracture, ThreeDimensions)
   {
     Scene<3> s("0, 0, 0", "8, 4, 4");
-    s.add({ 0.5, 0.5, 0.5 });
-    s.add({ 1.5, 1.5, 1.5 }); // touches the first across a corner
-    s.add({ 1.5, 2.5, 1.5 });
-    s.add({ 1.5, 0.5, 3.5 }); // not the one beside it: two cells away in z
-    s.add({ 4.5, 3.5, 0.5 });
-    s.add({ 4.6, 3.5, 0.5 });
+    s.add({0.5, 0.5, 0.5});
+    s.add({1.5, 1.5, 1.5}); // touches the first across a corner
+    s.add({1.5, 2.5, 1.5});
+    s.add({1.5, 0.5, 3.5}); // not the one beside it: two cells away in z
+    s.add({4.5, 3.5, 0.5});
+    s.add({4.6, 3.5, 0.5});
     const FractureCounts counts = count_fractures(s.points, s.grid);
     EXPECT_EQ(counts.occupied_cells, 5u);
     EXPECT_EQ(counts.empty_interior_cells, 1u + 3u);

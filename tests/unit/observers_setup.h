@@ -23,9 +23,9 @@ struct Scene
   {
     auto &prm = dealii::ParameterAcceptor::prm;
     dealii::ParameterAcceptor::declare_all_parameters();
-    prm.parse_input_from_string("subsection Grid\n set Lower corner = " + lower
-                                + "\n set Upper corner = " + upper
-                                + "\n set Cell size = 1\nend\n");
+    prm.parse_input_from_string(
+      "subsection Grid\n set Lower corner = " + lower +
+      "\n set Upper corner = " + upper + "\n set Cell size = 1\nend\n");
     dealii::ParameterAcceptor::parse_all_parameters();
     grid.create({});
     grid.prepare();
@@ -36,7 +36,7 @@ struct Scene
   /// because that can be written as a list.)
   unsigned int
   add(const dealii::Point<dim> &x,
-      const double mass                  = 1.,
+      const double              mass     = 1.,
       const dealii::Point<dim> &velocity = dealii::Point<dim>())
   {
     const unsigned int p        = points.append(1);
@@ -66,15 +66,15 @@ struct Scene
           x[d] = points.data(points.position, d)[p];
         of_cell[grid.find_cell(x)].push_back(p);
       }
-    std::vector<talus::Run> runs;
+    std::vector<talus::Run>     runs;
     std::vector<talus::Segment> segments;
     for (unsigned int c = 0; c < of_cell.size(); ++c)
       if (!of_cell[c].empty())
         {
           const unsigned int begin = runs.size();
           for (const unsigned int p : of_cell[c])
-            runs.push_back({ p, p + 1 });
-          segments.push_back({ c, 0, begin, unsigned(runs.size()) });
+            runs.push_back({p, p + 1});
+          segments.push_back({c, 0, begin, unsigned(runs.size())});
         }
     points.reorder(runs, std::move(segments));
   }
@@ -82,20 +82,28 @@ struct Scene
   talus::Snapshot<dim>
   snapshot() const
   {
-    return { points, grid, nodes,     boundary_work, splits,
-             step,   time, time_step, gravity_work,  clipped_boxes };
+    return {points,
+            grid,
+            nodes,
+            boundary_work,
+            splits,
+            step,
+            time,
+            time_step,
+            gravity_work,
+            clipped_boxes};
   }
 
-  talus::Points<dim> points;
-  talus::Grid<dim> grid;
-  talus::NodalFields<dim> nodes;
+  talus::Points<dim>       points;
+  talus::Grid<dim>         grid;
+  talus::NodalFields<dim>  nodes;
   talus::BoundaryWork<dim> boundary_work;
-  talus::SplitStatistics splits;
-  unsigned long step          = 0;
-  double time                 = 0;
-  double time_step            = 0;
-  double gravity_work         = 0;
-  unsigned long clipped_boxes = 0;
+  talus::SplitStatistics   splits;
+  unsigned long            step          = 0;
+  double                   time          = 0;
+  double                   time_step     = 0;
+  double                   gravity_work  = 0;
+  unsigned long            clipped_boxes = 0;
 };
 
 
@@ -108,9 +116,9 @@ protected:
   {
     dealii::ParameterAcceptor::clear();
     const auto *test = testing::UnitTest::GetInstance()->current_test_info();
-    folder           = std::filesystem::temp_directory_path()
-             / ("talus-" + std::string(test->test_suite_name()) + "-"
-                + test->name() + "-" + std::to_string(getpid()));
+    folder           = std::filesystem::temp_directory_path() /
+             ("talus-" + std::string(test->test_suite_name()) + "-" +
+              test->name() + "-" + std::to_string(getpid()));
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
   }
@@ -124,7 +132,7 @@ protected:
   lines(const std::string &name) const
   {
     std::vector<std::string> result;
-    std::ifstream file(folder / name);
+    std::ifstream            file(folder / name);
     for (std::string line; std::getline(file, line);)
       result.push_back(line);
     return result;

@@ -31,38 +31,38 @@ namespace
 
   TEST_F(StatisticsTest, Header)
   {
-    const std::string first
-      = "time [s],step,time step [s],points,front x [m],"
-        "front of 99.5 % mass x [m],rear x [m],height [m],";
-    const std::string last
-      = "seabed force x [N],seabed impulse x [N s],kinetic energy [J],"
-        "grid kinetic energy [J],elastic energy [J],plastic work [J],"
-        "friction work [J],contact work [J],gravity work [J],"
-        "energy remainder [J],empty interior cells,empty columns,"
-        "connected bodies,cells with one point,splits,largest generation,"
-        "clipped boxes,split ledger [-]";
+    const std::string first =
+      "time [s],step,time step [s],points,front x [m],"
+      "front of 99.5 % mass x [m],rear x [m],height [m],";
+    const std::string last =
+      "seabed force x [N],seabed impulse x [N s],kinetic energy [J],"
+      "grid kinetic energy [J],elastic energy [J],plastic work [J],"
+      "friction work [J],contact work [J],gravity work [J],"
+      "energy remainder [J],empty interior cells,empty columns,"
+      "connected bodies,cells with one point,splits,largest generation,"
+      "clipped boxes,split ledger [-]";
     {
       Scene<2> s("0, 0", "8, 4");
-      s.add({ 0.5, 0.5 });
+      s.add({0.5, 0.5});
       Statistics<2>().begin(folder, s.snapshot());
       EXPECT_EQ(lines("statistics.csv").at(0),
-                first
-                  + "centre x [m],centre y [m],centre velocity x [m/s],"
-                    "centre velocity y [m/s],maximum speed [m/s],mass [kg],"
-                    "momentum x [kg m/s],"
-                  + last);
+                first +
+                  "centre x [m],centre y [m],centre velocity x [m/s],"
+                  "centre velocity y [m/s],maximum speed [m/s],mass [kg],"
+                  "momentum x [kg m/s]," +
+                  last);
     }
     dealii::ParameterAcceptor::clear();
     Scene<3> s("0, 0, 0", "8, 4, 4");
-    s.add({ 0.5, 0.5, 0.5 });
+    s.add({0.5, 0.5, 0.5});
     Statistics<3>().begin(folder, s.snapshot());
     EXPECT_EQ(lines("statistics.csv").at(0),
-              first
-                + "centre x [m],centre y [m],centre z [m],"
-                  "centre velocity x [m/s],centre velocity y [m/s],"
-                  "centre velocity z [m/s],maximum speed [m/s],mass [kg],"
-                  "momentum x [kg m/s],"
-                + last);
+              first +
+                "centre x [m],centre y [m],centre z [m],"
+                "centre velocity x [m/s],centre velocity y [m/s],"
+                "centre velocity z [m/s],maximum speed [m/s],mass [kg],"
+                "momentum x [kg m/s]," +
+                last);
   }
 
 
@@ -70,8 +70,8 @@ namespace
   TEST_F(StatisticsTest, QuantitiesOfTwoPoints)
   {
     Scene<2> s("0, -1", "8, 3");
-    s.add({ 1., 0.5 }, 3., { 2., 0. });
-    s.add({ 5., 1.5 }, 1., { -3., 4. });
+    s.add({1., 0.5}, 3., {2., 0.});
+    s.add({5., 1.5}, 1., {-3., 4.});
     Statistics<2> statistics;
     statistics.begin(folder, s.snapshot());
 
@@ -82,7 +82,7 @@ namespace
     s.splits.n_splits              = 5;
     s.splits.largest_generation    = 2;
     s.splits.ledger                = 1e-16;
-    s.boundary_work.seabed_impulse = dealii::Tensor<1, 2>({ -6., 9. });
+    s.boundary_work.seabed_impulse = dealii::Tensor<1, 2>({-6., 9.});
     auto row                       = evaluate(statistics, s.snapshot());
     EXPECT_EQ(row["time [s]"], 0.5);
     EXPECT_EQ(row["step"], 7);
@@ -122,7 +122,7 @@ namespace
   TEST_F(StatisticsTest, EnergyBudget)
   {
     Scene<2> s("0, 0", "8, 4");
-    s.add({ 1.5, 0.5 }, 2., { 3., 0. }); // 9 J
+    s.add({1.5, 0.5}, 2., {3., 0.}); // 9 J
     s.points.data(s.points.elastic_energy)[0] = 5.;
     Statistics<2> statistics;
     statistics.begin(folder, s.snapshot());
@@ -135,7 +135,7 @@ namespace
     s.boundary_work.contact                   = 0.5;
     s.gravity_work                            = 50.;
     // A node with 2 kg at 3 m/s: (momentum + dt force) / mass.
-    s.nodes.activate(s.grid, { 0 });
+    s.nodes.activate(s.grid, {0});
     s.nodes.clear();
     double *sum                    = s.nodes.sum(s.nodes.active_nodes()[0]);
     sum[NodalSum<2>::mass]         = 2.;
@@ -160,14 +160,14 @@ namespace
   {
     Scene<2> s("0, 0", "8, 4");
     for (unsigned int p = 0; p < 200; ++p)
-      s.add({ (p * 77 % 200) * 0.01, 0.5 }, 0.1);
+      s.add({(p * 77 % 200) * 0.01, 0.5}, 0.1);
     // 199 of 200 equal points are 99.5 %, whatever the order.
     EXPECT_EQ(front_of_mass(s.points, 0.995, MPI_COMM_WORLD), 1.98);
     EXPECT_EQ(front_of_mass(s.points, 0.9951, MPI_COMM_WORLD), 1.99);
     EXPECT_EQ(front_of_mass(s.points, 0.5, MPI_COMM_WORLD), 0.99);
     EXPECT_EQ(front_of_mass(s.points, 1., MPI_COMM_WORLD), 1.99);
     // A light point far ahead does not count.
-    s.add({ 7.9, 0.5 }, 0.01);
+    s.add({7.9, 0.5}, 0.01);
     EXPECT_EQ(front_of_mass(s.points, 0.995, MPI_COMM_WORLD), 1.99);
   }
 
@@ -176,7 +176,7 @@ namespace
   TEST_F(StatisticsTest, NumbersKeepSixteenDigits)
   {
     Scene<2> s("0, 0", "8, 4");
-    s.add({ 1. / 3., 0.5 });
+    s.add({1. / 3., 0.5});
     Statistics<2>().begin(folder, s.snapshot());
     EXPECT_NE(lines("statistics.csv").at(1).find("0.3333333333333333,"),
               std::string::npos);
@@ -194,9 +194,9 @@ namespace
   TEST_F(ProfileTest, Columns)
   {
     Scene<2> s("0, 0", "8, 4");
-    s.add({ 2.25, 0.5 }, 1., { 1., 9. });
-    s.add({ 2.75, 1.5 }, 3., { 3., 9. });
-    s.add({ 4.5, 0.25 }, 1., { -1., 9. });
+    s.add({2.25, 0.5}, 1., {1., 9.});
+    s.add({2.75, 1.5}, 3., {3., 9.});
+    s.add({4.5, 0.25}, 1., {-1., 9.});
     for (unsigned int p = 0; p < 3; ++p)
       {
         s.points.data(s.points.stretch, 1)[p]          = 2.;
@@ -220,8 +220,8 @@ namespace
   TEST_F(ProfileTest, ColumnsInThreeDimensions)
   {
     Scene<3> s("0, 0, 0", "8, 4, 4");
-    s.add({ 2.5, 0.5, 3.5 }, 1., { 1., 9., 5. });
-    s.add({ 2.5, 0.5, 1.5 }, 1., { 2., 9., 6. });
+    s.add({2.5, 0.5, 3.5}, 1., {1., 9., 5.});
+    s.add({2.5, 0.5, 1.5}, 1., {2., 9., 6.});
     Profile<3> profile;
     profile.begin(folder, s.grid);
     profile.add_rows(s.snapshot());

@@ -17,7 +17,7 @@ namespace talus
 
   /// Make the file @p path from what @p write puts into the stream: all of it
   /// or, with ExcUser, nothing; an older file of that name survives a failure.
-  void write_file(const std::filesystem::path &path,
+  void write_file(const std::filesystem::path               &path,
                   const std::function<void(std::ostream &)> &write);
 
 
@@ -27,7 +27,7 @@ namespace talus
   {
   public:
     /// Start a new file with one header line. Throws ExcUser if that fails.
-    void open(const std::filesystem::path &path,
+    void open(const std::filesystem::path    &path,
               const std::vector<std::string> &names);
 
     /// Append a row; it is in the file only after flush().
@@ -39,8 +39,8 @@ namespace talus
 
   private:
     std::filesystem::path path_;
-    std::ofstream file_;
-    unsigned int n_columns_ = 0;
+    std::ofstream         file_;
+    unsigned int          n_columns_ = 0;
   };
 } // namespace talus
 

@@ -32,8 +32,8 @@ namespace talus
       Place place;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const double at
-            = (points.data(points.position, d)[p] - lower_[d]) / size_;
+          const double at =
+            (points.data(points.position, d)[p] - lower_[d]) / size_;
           // Compared as doubles: a point may be anywhere, or not a number.
           place[d] = !(at > 0.)            ? 0
                      : at < extent_[d] - 1 ? static_cast<int>(at)
@@ -87,11 +87,11 @@ namespace talus
 
   private:
     static constexpr unsigned int n_bits = (dim == 2 ? 31 : 21);
-    static constexpr Key mask            = (Key(1) << n_bits) - 1;
+    static constexpr Key          mask   = (Key(1) << n_bits) - 1;
 
     dealii::Point<dim> lower_;
-    double size_;
-    Place extent_;
+    double             size_;
+    Place              extent_;
   };
 } // namespace talus
 

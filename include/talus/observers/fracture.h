@@ -31,7 +31,7 @@ namespace talus
   /// mesh.
   template <int dim>
   FractureCounts count_fractures(const Points<dim> &points,
-                                 const Grid<dim> &grid);
+                                 const Grid<dim>   &grid);
 } // namespace talus
 
 #endif

@@ -30,7 +30,8 @@ namespace talus
     /// @p timer gets the section "output"; its table is printed at the end.
     explicit Output(dealii::TimerOutput &timer);
 
-    /// Write to this folder, whatever the parameter file says.
+    /// Write to this folder, whatever the parameter file says; to be called
+    /// after parsing.
     void set_folder(const std::string &folder);
 
     /// As given by the parameter or by set_folder().
@@ -62,23 +63,23 @@ namespace talus
     void write_fields(const Snapshot<dim> &snapshot);
 
     // Parameters
-    std::string folder_         = "output";
-    double statistics_interval_ = 0.25;
-    double field_interval_      = 1.;
-    bool write_points_          = true;
-    bool write_grid_            = true;
-    bool boxes_as_cells_        = false;
+    std::string folder_              = "output";
+    double      statistics_interval_ = 0.25;
+    double      field_interval_      = 1.;
+    bool        write_points_        = true;
+    bool        write_grid_          = true;
+    bool        boxes_as_cells_      = false;
 
     dealii::TimerOutput &timer_;
-    Statistics<dim> statistics_;
-    Profile<dim> profile_;
-    PointsOutput<dim> points_output_;
-    GridOutput<dim> grid_output_;
-    Progress progress_;
-    OutputTimes row_times_;
-    OutputTimes field_times_;
-    unsigned long step_of_last_row_    = 0;
-    unsigned long step_of_last_fields_ = 0;
+    Statistics<dim>      statistics_;
+    Profile<dim>         profile_;
+    PointsOutput<dim>    points_output_;
+    GridOutput<dim>      grid_output_;
+    Progress             progress_;
+    OutputTimes          row_times_;
+    OutputTimes          field_times_;
+    unsigned long        step_of_last_row_    = 0;
+    unsigned long        step_of_last_fields_ = 0;
   };
 } // namespace talus
 

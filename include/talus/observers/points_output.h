@@ -29,8 +29,8 @@ namespace talus
   {
   public:
     void begin(const std::filesystem::path &folder,
-               MPI_Comm communicator,
-               bool boxes_as_cells);
+               MPI_Comm                     communicator,
+               bool                         boxes_as_cells);
 
     /// Write the files of one output time; collective. Throws ExcUser if that
     /// fails.
@@ -38,7 +38,7 @@ namespace talus
 
   private:
     VtuSeries series_;
-    bool boxes_as_cells_ = false;
+    bool      boxes_as_cells_ = false;
   };
 
 
@@ -46,7 +46,7 @@ namespace talus
   /// Write the points of this rank, as vertices, to the file @p path. They need
   /// not be sorted, nor their values be numbers.
   template <int dim>
-  void write_points(const Snapshot<dim> &snapshot,
+  void write_points(const Snapshot<dim>         &snapshot,
                     const std::filesystem::path &path);
 } // namespace talus
 

@@ -30,7 +30,7 @@ namespace talus
   /// first rank.
   template <int dim>
   std::vector<ProfileColumn> find_profile(const Points<dim> &points,
-                                          const Grid<dim> &grid);
+                                          const Grid<dim>   &grid);
 
 
 

@@ -20,8 +20,8 @@ namespace talus
   class Progress
   {
   public:
-    explicit Progress(std::ostream &out = std::cout,
-                      bool is_terminal  = stdout_is_terminal());
+    explicit Progress(std::ostream &out         = std::cout,
+                      bool          is_terminal = stdout_is_terminal());
 
     /// Start the clock at simulated time @p time, on the way to @p end_time, s.
     void begin(double time, double end_time, MPI_Comm communicator);
@@ -40,8 +40,8 @@ namespace talus
     void print_line(double time, unsigned int n_points);
 
     /// The table of timers, on a terminal, and the throughput. Collective.
-    void finish(double time,
-                unsigned int n_points,
+    void finish(double                     time,
+                unsigned int               n_points,
                 const dealii::TimerOutput &timer);
 
   private:
@@ -50,20 +50,20 @@ namespace talus
     struct Count
     {
       Clock::time_point wall_time;
-      double time        = 0; // simulated, s
-      double steps       = 0;
-      double point_steps = 0; // of this rank
+      double            time        = 0; // simulated, s
+      double            steps       = 0;
+      double            point_steps = 0; // of this rank
     };
 
     bool is_first_rank() const;
 
     std::ostream &out_;
-    const bool is_terminal_;
-    MPI_Comm communicator_ = MPI_COMM_SELF;
-    double end_time_       = 0; // s
-    Count start_;
-    Count line_before_;
-    Count now_;
+    const bool    is_terminal_;
+    MPI_Comm      communicator_ = MPI_COMM_SELF;
+    double        end_time_     = 0; // s
+    Count         start_;
+    Count         line_before_;
+    Count         now_;
   };
 } // namespace talus
 

@@ -17,7 +17,7 @@ namespace talus
   /// Write the parameters as understood, defaults included, to the file
   /// @p path, which talus can read again; its head says which talus and which
   /// libraries understood them. Throws ExcUser if the file cannot be written.
-  void write_run_record(const std::filesystem::path &path,
+  void write_run_record(const std::filesystem::path    &path,
                         const dealii::ParameterHandler &parameters);
 } // namespace talus
 

@@ -14,8 +14,8 @@ namespace talus
   /// share @p fraction of the mass of all. Collective over @p communicator.
   template <int dim>
   double front_of_mass(const Points<dim> &points,
-                       double fraction,
-                       MPI_Comm communicator);
+                       double             fraction,
+                       MPI_Comm           communicator);
 
 
 
@@ -41,13 +41,13 @@ namespace talus
     struct Quantity
     {
       std::string name;
-      double value;
+      double      value;
     };
 
     /// Start the file and the energy budget, and write the first row. Throws
     /// ExcUser if the file cannot be written.
     void begin(const std::filesystem::path &folder,
-               const Snapshot<dim> &snapshot);
+               const Snapshot<dim>         &snapshot);
 
     /// Append a row; collective, the file belongs to the first rank.
     void add_row(const Snapshot<dim> &snapshot);
@@ -57,9 +57,9 @@ namespace talus
 
   private:
     EnergyBudget<dim> budget_;
-    CsvFile file_;
-    double previous_time_    = 0; // s
-    double previous_impulse_ = 0; // N s, along x
+    CsvFile           file_;
+    double            previous_time_    = 0; // s
+    double            previous_impulse_ = 0; // N s, along x
   };
 } // namespace talus
 

@@ -25,8 +25,8 @@ namespace talus
   /// A field of a VTU file: name with unit, and how to get its values.
   struct Field
   {
-    std::string name;
-    FieldKind kind;
+    std::string  name;
+    FieldKind    kind;
     unsigned int n_components;
     /// Write the components at item @p i (a point, a node) to @p values.
     std::function<void(unsigned int i, float *values)> evaluate;
@@ -52,7 +52,7 @@ namespace talus
     /// Append a patch with these vertices (deal.II's order) and fill in the
     /// fields: vertex v gets the values of item items[v].
     void add(const std::array<dealii::Point<dim>, (1 << patch_dim)> &vertices,
-             const std::array<unsigned int, (1 << patch_dim)> &items);
+             const std::array<unsigned int, (1 << patch_dim)>       &items);
 
     /// The whole file as VTU, single precision, without date.
     void write(std::ostream &out, double time, unsigned long step);
@@ -84,8 +84,8 @@ namespace talus
   public:
     /// Start anew.
     void begin(const std::filesystem::path &folder,
-               const std::string &name,
-               MPI_Comm communicator);
+               const std::string           &name,
+               MPI_Comm                     communicator);
 
     /// Write the files of the next output time; collective. Throws ExcUser if
     /// that fails.
@@ -94,9 +94,9 @@ namespace talus
     write(Patches<patch_dim, dim> &patches, double time, unsigned long step);
 
   private:
-    std::filesystem::path folder_;
-    std::string name_;
-    MPI_Comm communicator_ = MPI_COMM_NULL;
+    std::filesystem::path                       folder_;
+    std::string                                 name_;
+    MPI_Comm                                    communicator_ = MPI_COMM_NULL;
     std::vector<std::pair<double, std::string>> times_and_names_;
   };
 } // namespace talus
