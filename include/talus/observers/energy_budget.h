@@ -1,0 +1,46 @@
+#ifndef talus_observers_energy_budget_h
+#define talus_observers_energy_budget_h
+
+#include <talus/observers/snapshot.h>
+
+namespace talus
+{
+  /// Where the energy is and where it went, over all ranks; J, in 2-D J per
+  /// metre width.
+  struct EnergyTerms
+  {
+    double kinetic      = 0; ///< of the points, velocities at the half step
+    double grid_kinetic = 0; ///< of the background grid
+    double elastic      = 0;
+    double plastic      = 0; ///< plastic work so far
+    double friction     = 0; ///< taken by friction so far
+    double contact      = 0; ///< taken by normal contact and walls so far
+    double gravity      = 0; ///< work of weight and body forces so far
+    /// What the other terms leave of the gravity work since the start;
+    /// positive if energy was lost, negative if some was created.
+    double remainder = 0;
+  };
+
+
+
+  /// The energy budget
+  ///   remainder = gravity work - change of kinetic energy - change of elastic
+  ///   energy - plastic work - friction work - contact work,
+  /// every term counted from the start. It is the points' kinetic energy that
+  /// enters, so the remainder holds what the transfer dissipates.
+  template <int dim>
+  class EnergyBudget
+  {
+  public:
+    /// Count from here.
+    void begin(const Snapshot<dim> &snapshot);
+
+    /// The terms now; collective over the ranks of the grid.
+    EnergyTerms evaluate(const Snapshot<dim> &snapshot) const;
+
+  private:
+    EnergyTerms start_;
+  };
+} // namespace talus
+
+#endif

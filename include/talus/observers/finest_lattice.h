@@ -1,0 +1,98 @@
+#ifndef talus_observers_finest_lattice_h
+#define talus_observers_finest_lattice_h
+
+#include <talus/grid/grid.h>
+#include <talus/points/points.h>
+
+#include <array>
+#include <cstdint>
+
+namespace talus
+{
+  /// The lattice of cells of the finest size over the box of the mesh, whatever
+  /// the mesh's own cells are. y points up: a column is all cells with the same
+  /// x (2-D) or x and z (3-D).
+  ///
+  /// A cell is one number, its key. Keys sort by x, then z, then y, so the
+  /// cells of a column follow each other from the bottom to the top.
+  template <int dim>
+  class FinestLattice
+  {
+  public:
+    using Place = std::array<int, dim>;
+    using Key   = std::uint64_t;
+
+    explicit FinestLattice(const Grid<dim> &grid);
+
+    /// Cell of the centre of point @p p. A centre outside the mesh counts to
+    /// the nearest boundary cell, as it does for the transfer.
+    Key
+    find(const Points<dim> &points, const unsigned int p) const
+    {
+      Place place;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double at =
+            (points.data(points.position, d)[p] - lower_[d]) / size_;
+          // Compared as doubles: a point may be anywhere, or not a number.
+          place[d] = !(at > 0.)            ? 0
+                     : at < extent_[d] - 1 ? static_cast<int>(at)
+                                           : extent_[d] - 1;
+        }
+      return key(place);
+    }
+
+    /// Each coordinate of a key has a spare value below zero, so that adding
+    /// the difference of two keys walks to a neighbour and never wraps around.
+    static Key
+    key(const Place &place)
+    {
+      Key result = place[0] + 1;
+      if constexpr (dim == 3)
+        result = (result << n_bits) | Key(place[2] + 1);
+      return (result << n_bits) | Key(place[1] + 1);
+    }
+
+    static Place
+    place(const Key key)
+    {
+      Place result;
+      result[1] = int(key & mask) - 1;
+      if constexpr (dim == 3)
+        result[2] = int((key >> n_bits) & mask) - 1;
+      result[0] = int(key >> ((dim - 1) * n_bits)) - 1;
+      return result;
+    }
+
+    /// The same for all cells of a column and for no other.
+    static Key
+    column(const Key key)
+    {
+      return key >> n_bits;
+    }
+
+    /// The cell of a column that lies on the bottom face of the mesh.
+    static Key
+    lowest_cell(const Key column)
+    {
+      return (column << n_bits) | 1;
+    }
+
+    /// x-coordinate (d = 0), ... of the centre of the cell, m.
+    double
+    center(const Key key, const unsigned int d) const
+    {
+      return lower_[d] + (place(key)[d] + 0.5) * size_;
+    }
+
+  private:
+    static constexpr unsigned int n_bits = (dim == 2 ? 31 : 21);
+    static constexpr Key          mask   = (Key(1) << n_bits) - 1;
+
+    dealii::Point<dim> lower_;
+    double             size_;
+    Place              extent_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,37 @@
+#ifndef talus_observers_fracture_h
+#define talus_observers_fracture_h
+
+#include <talus/grid/grid.h>
+#include <talus/points/points.h>
+
+namespace talus
+{
+  /// Signs of numerical fracture: where the points no longer form a continuum.
+  /// Counted on cells of the finest size (see FinestLattice); a cell is
+  /// occupied when the centre of a point is in it.
+  struct FractureCounts
+  {
+    unsigned long occupied_cells = 0;
+    /// Unoccupied cells below the highest occupied one of their column, down
+    /// to the bottom face of the mesh.
+    unsigned long empty_interior_cells = 0;
+    /// Columns of the mesh without an occupied cell between the first and the
+    /// last with one; in 3-D slabs of cells with the same x.
+    unsigned long empty_columns = 0;
+    /// Groups of occupied cells that touch across faces, edges or corners.
+    unsigned long connected_bodies = 0;
+    /// Cells with exactly one point.
+    unsigned long cells_with_one_point = 0;
+  };
+
+
+
+  /// Count; collective over the ranks of the grid, the result is on the first
+  /// one. The points need not be sorted. The cost follows the points, not the
+  /// mesh.
+  template <int dim>
+  FractureCounts count_fractures(const Points<dim> &points,
+                                 const Grid<dim>   &grid);
+} // namespace talus
+
+#endif

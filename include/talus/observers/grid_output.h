@@ -1,0 +1,28 @@
+#ifndef talus_observers_grid_output_h
+#define talus_observers_grid_output_h
+
+#include <talus/observers/snapshot.h>
+#include <talus/observers/vtu.h>
+
+namespace talus
+{
+  /// grid.pvd and its VTU files: the cells of the background grid that hold
+  /// points, with the mass, velocity and force of the step before at their
+  /// nodes. All three are zero at nodes the step did not touch, and at the
+  /// start; mass and force of a hanging node went to its masters.
+  template <int dim>
+  class GridOutput
+  {
+  public:
+    void begin(const std::filesystem::path &folder, MPI_Comm communicator);
+
+    /// Write the files of one output time; collective. Throws ExcUser if that
+    /// fails.
+    void write(const Snapshot<dim> &snapshot);
+
+  private:
+    VtuSeries series_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,86 @@
+#ifndef talus_observers_output_h
+#define talus_observers_output_h
+
+#include <talus/observers/grid_output.h>
+#include <talus/observers/output_times.h>
+#include <talus/observers/points_output.h>
+#include <talus/observers/profile.h>
+#include <talus/observers/progress.h>
+#include <talus/observers/snapshot.h>
+#include <talus/observers/statistics.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/timer.h>
+
+#include <filesystem>
+#include <string>
+
+namespace talus
+{
+  /// All that a run leaves behind, in one folder: parameters.prm,
+  /// statistics.csv, profile.csv, points.pvd and grid.pvd with their VTU files;
+  /// and the progress on the terminal.
+  ///
+  /// Rows and fields are written at the start, at the first step that reaches
+  /// each multiple of their interval (see OutputTimes) and at the last step.
+  template <int dim>
+  class Output : public dealii::ParameterAcceptor
+  {
+  public:
+    /// @p timer gets the section "output"; its table is printed at the end.
+    explicit Output(dealii::TimerOutput &timer);
+
+    /// Write to this folder, whatever the parameter file says; to be called
+    /// after parsing.
+    void set_folder(const std::string &folder);
+
+    /// As given by the parameter or by set_folder().
+    const std::string &
+    folder() const
+    {
+      return folder_;
+    }
+
+    /// Throw ExcUser if the parameters contradict each other.
+    void check() const;
+
+    /// Make the folder, write the parameters and all that is due at the start
+    /// of a run to @p end_time, s. Throws ExcUser if the folder cannot be
+    /// written; then no file of an earlier run was touched.
+    void begin(const Snapshot<dim> &snapshot, double end_time);
+
+    /// To be called after each step: write what is due. At the @p last step
+    /// everything is due, and the throughput is printed. Throws ExcUser if a
+    /// file cannot be written.
+    void observe(const Snapshot<dim> &snapshot, bool last);
+
+    /// Write the points as they are, after an error that ends the run, to
+    /// last-state.vtu. Returns the path, for the message.
+    std::string write_last_state(const Snapshot<dim> &snapshot) const;
+
+  private:
+    void write_row(const Snapshot<dim> &snapshot);
+    void write_fields(const Snapshot<dim> &snapshot);
+
+    // Parameters
+    std::string folder_              = "output";
+    double      statistics_interval_ = 0.25;
+    double      field_interval_      = 1.;
+    bool        write_points_        = true;
+    bool        write_grid_          = true;
+    bool        boxes_as_cells_      = false;
+
+    dealii::TimerOutput &timer_;
+    Statistics<dim>      statistics_;
+    Profile<dim>         profile_;
+    PointsOutput<dim>    points_output_;
+    GridOutput<dim>      grid_output_;
+    Progress             progress_;
+    OutputTimes          row_times_;
+    OutputTimes          field_times_;
+    unsigned long        step_of_last_row_    = 0;
+    unsigned long        step_of_last_fields_ = 0;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,53 @@
+#ifndef talus_observers_points_output_h
+#define talus_observers_points_output_h
+
+#include <talus/observers/snapshot.h>
+#include <talus/observers/vtu.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// What ParaView gets to see of the points: every column by its name and
+  /// unit, and derived from them the displacement, speed, mean and von Mises
+  /// stress, volume ratio J and current length of the boxes.
+  ///
+  /// Columns with dim components are vectors; the stress and columns with
+  /// dim*dim components are 3x3 tensors (in 2-D with the stress out of the
+  /// plane, 1 for the deformation gradient); others are one scalar per
+  /// component, numbered.
+  template <int dim>
+  std::vector<Field> point_fields(const Points<dim> &points);
+
+
+
+  /// points.pvd and its VTU files: each point as a vertex, or its box as a quad
+  /// (hex) with the point's values at all corners, so that ParaView shows a
+  /// continuum. The boxes are unclipped: full current lengths.
+  template <int dim>
+  class PointsOutput
+  {
+  public:
+    void begin(const std::filesystem::path &folder,
+               MPI_Comm                     communicator,
+               bool                         boxes_as_cells);
+
+    /// Write the files of one output time; collective. Throws ExcUser if that
+    /// fails.
+    void write(const Snapshot<dim> &snapshot);
+
+  private:
+    VtuSeries series_;
+    bool      boxes_as_cells_ = false;
+  };
+
+
+
+  /// Write the points of this rank, as vertices, to the file @p path. They need
+  /// not be sorted, nor their values be numbers.
+  template <int dim>
+  void write_points(const Snapshot<dim>         &snapshot,
+                    const std::filesystem::path &path);
+} // namespace talus
+
+#endif

@@ -1,0 +1,55 @@
+#ifndef talus_observers_profile_h
+#define talus_observers_profile_h
+
+#include <talus/observers/files.h>
+#include <talus/observers/snapshot.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// The soil in one column of cells of the finest size.
+  struct ProfileColumn
+  {
+    double x;       ///< of the column's centre, m
+    double z;       ///< of the column's centre, m; 0 in 2-D
+    double lowest;  ///< lower edge of the lowest box, m
+    double highest; ///< upper edge of the highest box, m
+    double mass;    ///< kg
+    /// Mass-weighted mean of the points' velocities along x and z, m/s.
+    double velocity_x;
+    double velocity_z;
+  };
+
+
+
+  /// The columns with points, by growing x (then z). A point belongs to the
+  /// column its centre is in; its box reaches half a current length, stretch
+  /// times reference length, to either side of the centre, so the thickness of
+  /// a layer of boxes is that of the soil. Collective, the result is on the
+  /// first rank.
+  template <int dim>
+  std::vector<ProfileColumn> find_profile(const Points<dim> &points,
+                                          const Grid<dim>   &grid);
+
+
+
+  /// profile.csv: for each output time, one row per column of the mesh (of the
+  /// finest cell size) with points.
+  template <int dim>
+  class Profile
+  {
+  public:
+    /// Start the file. Throws ExcUser if it cannot be written.
+    void begin(const std::filesystem::path &folder, const Grid<dim> &grid);
+
+    /// Append the rows of one output time; collective, the file belongs to the
+    /// first rank.
+    void add_rows(const Snapshot<dim> &snapshot);
+
+  private:
+    CsvFile file_;
+  };
+} // namespace talus
+
+#endif

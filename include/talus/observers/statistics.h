@@ -1,0 +1,66 @@
+#ifndef talus_observers_statistics_h
+#define talus_observers_statistics_h
+
+#include <talus/observers/energy_budget.h>
+#include <talus/observers/files.h>
+#include <talus/observers/snapshot.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// Smallest x of a point, m, such that the points up to it have at least the
+  /// share @p fraction of the mass of all. Collective over @p communicator.
+  template <int dim>
+  double front_of_mass(const Points<dim> &points,
+                       double             fraction,
+                       MPI_Comm           communicator);
+
+
+
+  /// statistics.csv: one row of global quantities per output time, for plots
+  /// and tests. Places and speeds are those of the points' centres; quantities
+  /// of 2-D runs are per metre width.
+  ///
+  /// - `height [m]` is that of the highest centre above the bottom face of the
+  ///   mesh.
+  /// - `seabed force x [N]` is the mean force of the seabed on the soil since
+  ///   the row before (0 in the first one); `seabed impulse x [N s]` is the
+  ///   impulse since the start. Both are negative while friction brakes a
+  ///   slide that moves towards positive x.
+  /// - `kinetic energy [J]` is that of the points, `grid kinetic energy [J]`
+  ///   that of the background grid, without the points' FLIP noise: what tells
+  ///   whether the slide has come to rest. It is 0 before the first step.
+  /// - The energy terms are those of EnergyTerms; the columns from `empty
+  ///   interior cells` on are those of FractureCounts and SplitStatistics.
+  template <int dim>
+  class Statistics
+  {
+  public:
+    struct Quantity
+    {
+      std::string name;
+      double      value;
+    };
+
+    /// Start the file and the energy budget, and write the first row. Throws
+    /// ExcUser if the file cannot be written.
+    void begin(const std::filesystem::path &folder,
+               const Snapshot<dim>         &snapshot);
+
+    /// Append a row; collective, the file belongs to the first rank.
+    void add_row(const Snapshot<dim> &snapshot);
+
+    /// What a row holds, in the order of the columns; right on the first rank.
+    std::vector<Quantity> evaluate(const Snapshot<dim> &snapshot) const;
+
+  private:
+    EnergyBudget<dim> budget_;
+    CsvFile           file_;
+    double            previous_time_    = 0; // s
+    double            previous_impulse_ = 0; // N s, along x
+  };
+} // namespace talus
+
+#endif

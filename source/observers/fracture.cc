@@ -1,0 +1,170 @@
+#include <talus/observers/finest_lattice.h>
+#include <talus/observers/fracture.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// An occupied cell and the number of points in it.
+    struct Occupied
+    {
+      std::uint64_t key;
+      unsigned long n_points;
+
+      /// For the message between ranks.
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &key &n_points;
+      }
+    };
+
+
+
+    /// Sort the cells and add up what is listed more than once.
+    void
+    merge(std::vector<Occupied> &cells)
+    {
+      std::sort(cells.begin(),
+                cells.end(),
+                [](const Occupied &a, const Occupied &b) {
+                  return a.key < b.key;
+                });
+      std::size_t n = 0;
+      for (const Occupied &cell : cells)
+        if (n > 0 && cells[n - 1].key == cell.key)
+          cells[n - 1].n_points += cell.n_points;
+        else
+          cells[n++] = cell;
+      cells.resize(n);
+    }
+
+
+
+    template <int dim>
+    std::vector<Occupied>
+    find_occupied(const Points<dim> &points, const Grid<dim> &grid)
+    {
+      const FinestLattice<dim> lattice(grid);
+      std::vector<Occupied>    cells;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          // Points are nearly always sorted by cell, so the next one is mostly
+          // in the same cell: this keeps the list to sort short.
+          const std::uint64_t key = lattice.find(points, p);
+          if (!cells.empty() && cells.back().key == key)
+            ++cells.back().n_points;
+          else
+            cells.push_back({key, 1});
+        }
+      merge(cells);
+      if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
+        return cells;
+
+      std::vector<Occupied> all;
+      for (const auto &part :
+           Utilities::MPI::gather(grid.communicator(), cells))
+        all.insert(all.end(), part.begin(), part.end());
+      merge(all);
+      return all;
+    }
+
+
+
+    /// Differences of the keys to the neighbours that come earlier in the
+    /// order, across faces, edges and corners.
+    template <int dim>
+    std::vector<std::uint64_t>
+    steps_to_earlier_neighbors()
+    {
+      using Lattice = FinestLattice<dim>;
+      typename Lattice::Place center, neighbor;
+      center.fill(1);
+      std::vector<std::uint64_t> steps;
+      for (unsigned int k = 0; k < power(3, dim); ++k)
+        {
+          for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= 3)
+            neighbor[d] = rest % 3;
+          if (Lattice::key(neighbor) < Lattice::key(center))
+            steps.push_back(Lattice::key(center) - Lattice::key(neighbor));
+        }
+      return steps;
+    }
+
+
+
+    /// Number of connected groups, by union-find. The cells are sorted, so for
+    /// each direction the neighbours are found by walking along the list once.
+    template <int dim>
+    unsigned long
+    count_bodies(const std::vector<Occupied> &cells)
+    {
+      std::vector<std::size_t> parent(cells.size());
+      std::iota(parent.begin(), parent.end(), std::size_t(0));
+      const auto root = [&](std::size_t i) {
+        while (parent[i] != i)
+          i = parent[i] = parent[parent[i]];
+        return i;
+      };
+
+      unsigned long n_bodies = cells.size();
+      for (const std::uint64_t step : steps_to_earlier_neighbors<dim>())
+        for (std::size_t i = 0, j = 0; i < cells.size(); ++i)
+          {
+            while (cells[j].key + step < cells[i].key)
+              ++j;
+            if (cells[j].key + step != cells[i].key)
+              continue;
+            const std::size_t a = root(i), b = root(j);
+            parent[std::max(a, b)] = std::min(a, b);
+            n_bodies -= (a != b);
+          }
+      return n_bodies;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  FractureCounts
+  count_fractures(const Points<dim> &points, const Grid<dim> &grid)
+  {
+    using Lattice                     = FinestLattice<dim>;
+    const std::vector<Occupied> cells = find_occupied(points, grid);
+    FractureCounts              counts;
+    counts.occupied_cells   = cells.size();
+    counts.connected_bodies = count_bodies<dim>(cells);
+
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      {
+        counts.cells_with_one_point += (cells[i].n_points == 1);
+
+        // What lies unoccupied between this cell and the one below it.
+        const auto place     = Lattice::place(cells[i].key);
+        const bool is_lowest = (i == 0 || Lattice::column(cells[i - 1].key) !=
+                                            Lattice::column(cells[i].key));
+        const int  below =
+          (is_lowest ? -1 : Lattice::place(cells[i - 1].key)[1]);
+        counts.empty_interior_cells += place[1] - below - 1;
+
+        const int left =
+          (i == 0 ? place[0] : Lattice::place(cells[i - 1].key)[0]);
+        counts.empty_columns += std::max(place[0] - left - 1, 0);
+      }
+    return counts;
+  }
+
+
+
+  template FractureCounts count_fractures(const Points<2> &, const Grid<2> &);
+  template FractureCounts count_fractures(const Points<3> &, const Grid<3> &);
+} // namespace talus

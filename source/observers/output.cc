@@ -1,0 +1,170 @@
+#include <talus/base/errors.h>
+#include <talus/observers/files.h>
+#include <talus/observers/output.h>
+#include <talus/observers/run_record.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Output<dim>::Output(TimerOutput &timer)
+    : ParameterAcceptor("/Output")
+    , timer_(timer)
+  {
+    add_parameter("Folder",
+                  folder_,
+                  "Folder for all files of the run, made if it is not there; "
+                  "files of an earlier run are overwritten.");
+    add_parameter("Statistics interval",
+                  statistics_interval_,
+                  "Simulated time between two rows of statistics.csv, and "
+                  "between two lines on the terminal [s]. Rows are written at "
+                  "the first step that reaches a multiple of it.",
+                  this->prm,
+                  Patterns::Double(1e-12));
+    add_parameter("Field interval",
+                  field_interval_,
+                  "Simulated time between two outputs of points, grid and "
+                  "profile [s]; at the first step that reaches a multiple of "
+                  "it.",
+                  this->prm,
+                  Patterns::Double(1e-12));
+    add_parameter("Write points",
+                  write_points_,
+                  "Write the points with all their columns to points.pvd, for "
+                  "ParaView.");
+    add_parameter("Write grid",
+                  write_grid_,
+                  "Write the cells of the background grid that hold points, "
+                  "with nodal mass, velocity and force, to grid.pvd, for "
+                  "ParaView.");
+    add_parameter("Boxes as cells",
+                  boxes_as_cells_,
+                  "Write each point as its box, a quad or hex, so that "
+                  "ParaView shows a continuum, instead of as a dot. The files "
+                  "become about four (3-D: eight) times as large.");
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::set_folder(const std::string &folder)
+  {
+    // Through the parameter, so that parameters.prm tells it.
+    this->enter_my_subsection(this->prm);
+    this->prm.set("Folder", folder);
+    this->leave_my_subsection(this->prm);
+    folder_ = folder;
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::check() const
+  {
+    AssertThrow(!folder_.empty(),
+                ExcUser("Output/Folder is empty, but the name of a folder is "
+                        "expected. Name one there or with --output."));
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::begin(const Snapshot<dim> &snapshot, const double end_time)
+  {
+    const TimerOutput::Scope scope(timer_, "output");
+    const MPI_Comm           communicator = snapshot.grid.communicator();
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      {
+        make_folder(folder_);
+        // First, as it shows whether the folder can be written and replaces
+        // an earlier file only on success.
+        write_run_record(std::filesystem::path(folder_) / "parameters.prm",
+                         this->prm);
+      }
+    MPI_Barrier(communicator);
+
+    progress_.begin(snapshot.time, end_time, communicator);
+    row_times_.begin(statistics_interval_, snapshot.time);
+    statistics_.begin(folder_, snapshot);
+    step_of_last_row_ = snapshot.step;
+
+    field_times_.begin(field_interval_, snapshot.time);
+    profile_.begin(folder_, snapshot.grid);
+    points_output_.begin(folder_, communicator, boxes_as_cells_);
+    grid_output_.begin(folder_, communicator);
+    write_fields(snapshot);
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::observe(const Snapshot<dim> &snapshot, const bool last)
+  {
+    progress_.count_step(snapshot.points.size());
+    const bool row_due    = row_times_.reached(snapshot.time);
+    const bool fields_due = field_times_.reached(snapshot.time);
+    if (row_due || (last && step_of_last_row_ != snapshot.step))
+      write_row(snapshot);
+    if (fields_due || (last && step_of_last_fields_ != snapshot.step))
+      write_fields(snapshot);
+    if (last)
+      progress_.finish(snapshot.time, snapshot.points.size(), timer_);
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::write_row(const Snapshot<dim> &snapshot)
+  {
+    const TimerOutput::Scope scope(timer_, "output");
+    statistics_.add_row(snapshot);
+    progress_.print_line(snapshot.time, snapshot.points.size());
+    step_of_last_row_ = snapshot.step;
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::write_fields(const Snapshot<dim> &snapshot)
+  {
+    const TimerOutput::Scope scope(timer_, "output");
+    profile_.add_rows(snapshot);
+    if (write_points_)
+      points_output_.write(snapshot);
+    if (write_grid_)
+      grid_output_.write(snapshot);
+    step_of_last_fields_ = snapshot.step;
+  }
+
+
+
+  template <int dim>
+  std::string
+  Output<dim>::write_last_state(const Snapshot<dim> &snapshot) const
+  {
+    const MPI_Comm    communicator = snapshot.grid.communicator();
+    const std::string rank =
+      (Utilities::MPI::n_mpi_processes(communicator) == 1
+         ? ""
+         : "." +
+             std::to_string(Utilities::MPI::this_mpi_process(communicator)));
+    const std::filesystem::path path =
+      std::filesystem::path(folder_) / ("last-state" + rank + ".vtu");
+    make_folder(folder_);
+    write_points(snapshot, path);
+    return path.string();
+  }
+
+
+
+  template class Output<2>;
+  template class Output<3>;
+} // namespace talus

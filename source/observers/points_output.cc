@@ -1,0 +1,283 @@
+#include <talus/observers/files.h>
+#include <talus/observers/points_output.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string
+    name_with_unit(const std::string &name, std::string unit, const int dim)
+    {
+      if (const auto at = unit.find("dim"); at != std::string::npos)
+        unit.replace(at, 3, std::to_string(dim));
+      return unit.empty() || unit == "-" ? name : name + " [" + unit + "]";
+    }
+
+
+
+    /// 3x3 tensor from the stored components of the stress.
+    template <int dim>
+    void
+    write_stress(const Stress<dim, double> &sigma, float *values)
+    {
+      std::fill(values, values + 9, 0.f);
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          values[3 * i + j] =
+            sigma[stress_index<dim>(std::min(i, j), std::max(i, j))];
+      values[8] = sigma[2];
+    }
+
+
+
+    template <int dim>
+    Field
+    column_field(const Points<dim> &points, const Column &column)
+    {
+      const unsigned int first = column.first, n = column.n_components;
+      const std::string  name = name_with_unit(column.name, column.unit, dim);
+      if (first == points.stress)
+        return {name,
+                FieldKind::tensor,
+                9,
+                [&points](const unsigned int p, float *values) {
+                  write_stress<dim>(load_stress<dim, double>(points, p),
+                                    values);
+                }};
+      if (n == dim * dim)
+        {
+          const bool is_F = (first == points.deformation_gradient);
+          return {name,
+                  FieldKind::tensor,
+                  9,
+                  [&points, first, is_F](const unsigned int p, float *values) {
+                    std::fill(values, values + 9, 0.f);
+                    if (is_F)
+                      values[8] = 1.f;
+                    for (unsigned int c = 0; c < dim * dim; ++c)
+                      values[3 * (c / dim) + c % dim] =
+                        points.data(first, c)[p];
+                  }};
+        }
+      return {name,
+              n == dim ? FieldKind::vector : FieldKind::scalar,
+              n,
+              [&points, first, n](const unsigned int p, float *values) {
+                for (unsigned int c = 0; c < n; ++c)
+                  values[c] = points.data(first, c)[p];
+              }};
+    }
+
+
+
+    /// Mean and von Mises stress, Pa.
+    template <int dim>
+    std::pair<double, double>
+    stress_measures(const Points<dim> &points, const unsigned int p)
+    {
+      const auto   sigma = load_stress<dim, double>(points, p);
+      const double mean  = (sigma[0] + sigma[1] + sigma[2]) / 3.;
+      double       s_s   = 0;
+      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+        s_s += (c < 3 ? (sigma[c] - mean) * (sigma[c] - mean)
+                      : 2. * sigma[c] * sigma[c]);
+      return {mean, std::sqrt(1.5 * s_s)};
+    }
+
+
+
+    template <int dim>
+    void
+    append_derived_vectors(std::vector<Field> &fields,
+                           const Points<dim>  &points)
+    {
+      fields.push_back({"displacement [m]",
+                        FieldKind::vector,
+                        dim,
+                        [&points](const unsigned int p, float *values) {
+                          for (unsigned int d = 0; d < dim; ++d)
+                            values[d] =
+                              points.data(points.position, d)[p] -
+                              points.data(points.initial_position, d)[p];
+                        }});
+      fields.push_back({"box length [m]",
+                        FieldKind::vector,
+                        dim,
+                        [&points](const unsigned int p, float *values) {
+                          for (unsigned int d = 0; d < dim; ++d)
+                            values[d] =
+                              points.data(points.stretch, d)[p] *
+                              points.data(points.reference_length, d)[p];
+                        }});
+    }
+
+
+
+    template <int dim>
+    void
+    append_derived_scalars(std::vector<Field> &fields,
+                           const Points<dim>  &points)
+    {
+      const auto add = [&fields](const std::string &name, const auto &value) {
+        fields.push_back({name,
+                          FieldKind::scalar,
+                          1,
+                          [value](const unsigned int p, float *values) {
+                            *values = static_cast<float>(value(p));
+                          }});
+      };
+      add("speed [m/s]", [&points](const unsigned int p) {
+        Tensor<1, dim> v;
+        for (unsigned int d = 0; d < dim; ++d)
+          v[d] = points.data(points.velocity, d)[p];
+        return v.norm();
+      });
+      add("mean stress [Pa]", [&points](const unsigned int p) {
+        return stress_measures(points, p).first;
+      });
+      add("von Mises stress [Pa]", [&points](const unsigned int p) {
+        return stress_measures(points, p).second;
+      });
+      add("J", [&points](const unsigned int p) {
+        return determinant<dim>(
+          load_matrix<dim, double>(points, points.deformation_gradient, p));
+      });
+    }
+
+
+
+    template <int dim>
+    Patches<0, dim>
+    points_as_vertices(const Points<dim> &points)
+    {
+      Patches<0, dim> patches(point_fields(points));
+      patches.reserve(points.size());
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = points.data(points.position, d)[p];
+          patches.add({{x}}, {{p}});
+        }
+      return patches;
+    }
+
+
+
+    template <int dim>
+    Patches<dim, dim>
+    points_as_boxes(const Points<dim> &points)
+    {
+      Patches<dim, dim> patches(point_fields(points));
+      patches.reserve(points.size());
+      std::array<Point<dim>, (1 << dim)>   corners;
+      std::array<unsigned int, (1 << dim)> items;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          items.fill(p);
+          for (unsigned int v = 0; v < corners.size(); ++v)
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const double half = 0.5 * points.data(points.stretch, d)[p] *
+                                    points.data(points.reference_length, d)[p];
+                corners[v][d] = points.data(points.position, d)[p] +
+                                ((v >> d) & 1 ? half : -half);
+              }
+          patches.add(corners, items);
+        }
+      return patches;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<Field>
+  point_fields(const Points<dim> &points)
+  {
+    std::vector<Field> fields;
+    for (const Column &column : points.columns())
+      {
+        const Field field = column_field(points, column);
+        if (field.kind != FieldKind::scalar || field.n_components == 1)
+          {
+            fields.push_back(field);
+            continue;
+          }
+        for (unsigned int c = 0; c < column.n_components; ++c)
+          {
+            const unsigned int array = column.first + c;
+            fields.push_back(
+              {name_with_unit(column.name + " " + std::to_string(c),
+                              column.unit,
+                              dim),
+               FieldKind::scalar,
+               1,
+               [&points, array](const unsigned int p, float *values) {
+                 *values = points.data(array)[p];
+               }});
+          }
+      }
+    append_derived_vectors(fields, points);
+    append_derived_scalars(fields, points);
+    return fields;
+  }
+
+
+
+  template <int dim>
+  void
+  PointsOutput<dim>::begin(const std::filesystem::path &folder,
+                           const MPI_Comm               communicator,
+                           const bool                   boxes_as_cells)
+  {
+    series_.begin(folder, "points", communicator);
+    boxes_as_cells_ = boxes_as_cells;
+  }
+
+
+
+  template <int dim>
+  void
+  PointsOutput<dim>::write(const Snapshot<dim> &snapshot)
+  {
+    if (boxes_as_cells_)
+      {
+        auto patches = points_as_boxes(snapshot.points);
+        series_.write(patches, snapshot.time, snapshot.step);
+      }
+    else
+      {
+        auto patches = points_as_vertices(snapshot.points);
+        series_.write(patches, snapshot.time, snapshot.step);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  write_points(const Snapshot<dim> &snapshot, const std::filesystem::path &path)
+  {
+    auto patches = points_as_vertices(snapshot.points);
+    write_file(path, [&](std::ostream &out) {
+      patches.write(out, snapshot.time, snapshot.step);
+    });
+  }
+
+
+
+  template std::vector<Field> point_fields(const Points<2> &);
+  template std::vector<Field> point_fields(const Points<3> &);
+  template class PointsOutput<2>;
+  template class PointsOutput<3>;
+  template void write_points(const Snapshot<2> &,
+                             const std::filesystem::path &);
+  template void write_points(const Snapshot<3> &,
+                             const std::filesystem::path &);
+} // namespace talus

@@ -1,0 +1,193 @@
+#include <talus/observers/fracture.h>
+#include <talus/observers/output_times.h>
+
+#include <gtest/gtest.h>
+
+#include "observers_setup.h"
+
+namespace
+{
+  using namespace talus;
+  using dealii::Point;
+
+  // ----------------------------------------------------------- output times
+
+  TEST(OutputTimes, FirstStepThatReachesAMultiple)
+  {
+    OutputTimes times;
+    times.begin(0.25, 0.);
+    EXPECT_FALSE(times.reached(0.));
+    EXPECT_FALSE(times.reached(0.2499999999));
+    EXPECT_TRUE(times.reached(0.25));
+    EXPECT_FALSE(times.reached(0.25));
+    EXPECT_TRUE(times.reached(0.6));
+    EXPECT_FALSE(times.reached(0.7));
+    // Passing several counts once.
+    EXPECT_TRUE(times.reached(1.9));
+    EXPECT_FALSE(times.reached(1.99));
+    EXPECT_TRUE(times.reached(2.));
+  }
+
+
+
+  TEST(OutputTimes, DependOnTheTimeOnly)
+  {
+    // 0.1 is no binary number: quotients are rounded, the answers must agree
+    // between a run and one that starts anew at any of its steps.
+    const double dt = 0.0371;
+    OutputTimes  run;
+    run.begin(0.1, 0.);
+    unsigned int n = 0;
+    double       t = 0;
+    for (unsigned int step = 0; step < 10000; ++step)
+      {
+        OutputTimes resumed;
+        resumed.begin(0.1, t);
+        t += dt;
+        const bool due = run.reached(t);
+        n += due;
+        EXPECT_EQ(due, resumed.reached(t)) << "at t = " << t;
+      }
+    EXPECT_EQ(n, static_cast<unsigned int>(t / 0.1));
+  }
+
+
+
+  TEST(OutputTimes, NoneIsLostOnMultiples)
+  {
+    OutputTimes times;
+    times.begin(0.1, 0.);
+    for (unsigned int k = 1; k < 1000; ++k)
+      EXPECT_TRUE(times.reached(k * 0.1)) << k;
+  }
+
+
+
+  // --------------------------------------------------------------- fracture
+
+  class Fracture : public ObserversTest
+  {};
+
+
+
+  TEST_F(Fracture, SolidBlock)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    for (unsigned int i = 2; i < 5; ++i)
+      for (unsigned int j = 0; j < 2; ++j)
+        s.add({i + 0.25, j + 0.5}), s.add({i + 0.75, j + 0.5});
+    const FractureCounts counts = count_fractures(s.points, s.grid);
+    EXPECT_EQ(counts.occupied_cells, 6u);
+    EXPECT_EQ(counts.empty_interior_cells, 0u);
+    EXPECT_EQ(counts.empty_columns, 0u);
+    EXPECT_EQ(counts.connected_bodies, 1u);
+    EXPECT_EQ(counts.cells_with_one_point, 0u);
+  }
+
+
+
+  TEST_F(Fracture, HolesGapsAndLonelyPoints)
+  {
+    // . . . . . . . .
+    // # . . . . . . .
+    // . # . . . . . .
+    // # . . # . . # .
+    Scene<2> s("0, 0", "8, 4");
+    for (const auto &x : std::vector<Point<2>>{
+           {0.5, 0.5}, {0.5, 2.5}, {1.5, 1.5}, {3.5, 0.5}, {6.5, 0.2}})
+      s.add(x);
+    s.add({6.5, 0.8});
+    const FractureCounts counts = count_fractures(s.points, s.grid);
+    EXPECT_EQ(counts.occupied_cells, 5u);
+    // Below the diagonal neighbour too: down to the bottom face.
+    EXPECT_EQ(counts.empty_interior_cells, 2u);
+    EXPECT_EQ(counts.empty_columns, 3u);
+    // The three on the left touch across corners.
+    EXPECT_EQ(counts.connected_bodies, 3u);
+    EXPECT_EQ(counts.cells_with_one_point, 4u);
+  }
+
+
+
+  TEST_F(Fracture, LastCellOfAColumnIsNoNeighborOfTheNextColumnsFirst)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    s.add({0.5, 3.5});
+    s.add({1.5, 0.5});
+    EXPECT_EQ(count_fractures(s.points, s.grid).connected_bodies, 2u);
+  }
+
+
+
+  TEST_F(Fracture, PointsOutsideTheMeshCountToTheBoundaryCell)
+  {
+    Scene<2> s("-4, -1", "4, 3");
+    s.add({0.5, -1.4});
+    s.add({4.3, 3.2});
+    const FractureCounts counts = count_fractures(s.points, s.grid);
+    EXPECT_EQ(counts.occupied_cells, 2u);
+    EXPECT_EQ(counts.empty_interior_cells, 3u);
+    EXPECT_EQ(counts.empty_columns, 2u);
+    // In the cell it was counted to, it joins the others.
+    s.add({0.5, -0.9});
+    EXPECT_EQ(count_fractures(s.points, s.grid).occupied_cells, 2u);
+  }
+
+
+
+  TEST_F(Fracture, BodiesThatMeetLateAreOne)
+  {
+    // A U lying on its side and a comb: union-find must join what the sweep
+    // first takes for separate bodies.
+    Scene<2> s("0, 0", "16, 8");
+    for (unsigned int j = 0; j < 8; j += 2)
+      for (unsigned int i = 0; i < 9; ++i)
+        s.add({i + 0.5, j + 0.5});
+    EXPECT_EQ(count_fractures(s.points, s.grid).connected_bodies, 4u);
+    for (unsigned int j = 0; j < 8; ++j)
+      s.add({9.5, j + 0.5});
+    EXPECT_EQ(count_fractures(s.points, s.grid).connected_bodies, 1u);
+    EXPECT_EQ(count_fractures(s.points, s.grid).empty_interior_cells, 27u);
+  }
+
+
+
+  TEST_F(Fracture, IndependentOfTheCellsOfTheMesh)
+  {
+    Scene<2> coarse("0, 0", "8, 4");
+    for (const auto &x : std::vector<Point<2>>{
+           {0.5, 0.5}, {0.5, 2.5}, {1.5, 1.5}, {3.5, 0.5}, {6.5, 0.2}})
+      coarse.add(x);
+    // Refine far from the points: the lattice is finer then, everywhere.
+    auto &triangulation = coarse.grid.triangulation();
+    for (const auto &cell : triangulation.active_cell_iterators())
+      if (cell->center().distance(Point<2>(7.5, 3.5)) < 0.1)
+        cell->set_refine_flag();
+    triangulation.execute_coarsening_and_refinement();
+    coarse.grid.prepare();
+    const FractureCounts counts = count_fractures(coarse.points, coarse.grid);
+    EXPECT_EQ(counts.occupied_cells, 5u);
+    EXPECT_EQ(counts.connected_bodies, 5u);
+    EXPECT_EQ(counts.empty_columns, 9u); // 1, 3 | 7 | 13: 1 + 3 + 5
+    EXPECT_EQ(counts.empty_interior_cells, 4u + 3u + 1u);
+  }
+
+
+
+  TEST_F(Fracture, ThreeDimensions)
+  {
+    Scene<3> s("0, 0, 0", "8, 4, 4");
+    s.add({0.5, 0.5, 0.5});
+    s.add({1.5, 1.5, 1.5}); // touches the first across a corner
+    s.add({1.5, 2.5, 1.5});
+    s.add({1.5, 0.5, 3.5}); // not the one beside it: two cells away in z
+    s.add({4.5, 3.5, 0.5});
+    s.add({4.6, 3.5, 0.5});
+    const FractureCounts counts = count_fractures(s.points, s.grid);
+    EXPECT_EQ(counts.occupied_cells, 5u);
+    EXPECT_EQ(counts.empty_interior_cells, 1u + 3u);
+    EXPECT_EQ(counts.empty_columns, 2u);
+    EXPECT_EQ(counts.connected_bodies, 3u);
+    EXPECT_EQ(counts.cells_with_one_point, 4u);
+  }
+} // namespace

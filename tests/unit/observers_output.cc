@@ -1,0 +1,207 @@
+#include <talus/base/errors.h>
+#include <talus/observers/output.h>
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "observers_setup.h"
+
+namespace
+{
+  using namespace talus;
+  namespace fs = std::filesystem;
+
+  template <typename Action>
+  std::string
+  sentence_of(Action &&action)
+  {
+    try
+      {
+        action();
+      }
+    catch (const ExcUser &error)
+      {
+        std::ostringstream out;
+        error.print_info(out);
+        return out.str();
+      }
+    return "no error";
+  }
+
+
+
+  // ----------------------------------------------------------------- output
+
+  class OutputTest : public ObserversTest
+  {
+  protected:
+    OutputTest()
+      : timer(std::cout,
+              dealii::TimerOutput::never,
+              dealii::TimerOutput::wall_times)
+    {}
+
+    dealii::TimerOutput timer;
+  };
+
+
+
+  TEST_F(OutputTest, WritesWhatIsDueAndNoRowTwice)
+  {
+    Output<2> output(timer);
+    Scene<2>  s("0, 0", "8, 4");
+    s.add({0.5, 0.5});
+    s.sort();
+    output.set_folder(folder / "a" / "b");
+    output.begin(s.snapshot(), 1.25);
+    for (s.step = 1; s.step <= 12; ++s.step)
+      {
+        s.time = s.step * 0.1;
+        output.observe(s.snapshot(), s.step == 12);
+      }
+    // Rows at 0, 0.3, 0.5, 0.8, 1 and 1.2; fields at 0, 1 and 1.2.
+    const auto rows = lines("a/b/statistics.csv");
+    ASSERT_EQ(rows.size(), 1u + 6u);
+    EXPECT_EQ(std::stod(rows[2]), 0.3);
+    EXPECT_EQ(std::stod(rows[3]), 0.5);
+    EXPECT_EQ(std::stod(rows[6]), 1.2);
+    EXPECT_EQ(lines("a/b/profile.csv").size(), 1u + 3u);
+    for (const std::string file : {"points", "grid"})
+      {
+        EXPECT_TRUE(fs::exists(folder / "a/b" / (file + ".pvd")));
+        EXPECT_TRUE(fs::exists(folder / "a/b" / (file + "-0002.vtu")));
+        EXPECT_FALSE(fs::exists(folder / "a/b" / (file + "-0003.vtu")));
+      }
+  }
+
+
+
+  TEST_F(OutputTest, NoSecondRowIfTheLastStepIsDueAnyway)
+  {
+    Output<2> output(timer);
+    Scene<2>  s("0, 0", "8, 4");
+    s.add({0.5, 0.5});
+    s.sort();
+    output.set_folder(folder);
+    output.begin(s.snapshot(), 1.);
+    s.step = 1;
+    s.time = 1.;
+    output.observe(s.snapshot(), true);
+    EXPECT_EQ(lines("statistics.csv").size(), 3u);
+    EXPECT_EQ(lines("profile.csv").size(), 3u);
+  }
+
+
+
+  TEST_F(OutputTest, RecordsParametersAndVersions)
+  {
+    Output<2> output(timer);
+    Scene<2>  s("0, 0", "8, 4");
+    s.add({0.5, 0.5});
+    s.sort();
+    output.set_folder(folder);
+    output.begin(s.snapshot(), 1.);
+    std::string record;
+    for (const std::string &line : lines("parameters.prm"))
+      record += line + '\n';
+    for (const std::string part : {"#   talus ",
+                                   "git revision",
+                                   "#   deal.II 9",
+                                   "#   Trilinos 1",
+                                   "#   p4est 2",
+                                   "#   HDF5 1.",
+                                   "#   Boost 1.",
+                                   "subsection Output",
+                                   "Statistics interval = 0.25",
+                                   "Cell size"})
+      EXPECT_NE(record.find(part), std::string::npos) << part << record;
+    EXPECT_NE(record.find(folder.string()), std::string::npos) << record;
+    // It can be read again.
+    dealii::ParameterAcceptor::prm.parse_input_from_string(record);
+  }
+
+
+
+  // Root may write everywhere, so the folder's parent is a file.
+  TEST_F(OutputTest, FolderThatCannotBeMade)
+  {
+    std::ofstream(folder / "file") << "kept\n";
+    for (const fs::path &path : {folder / "file", folder / "file" / "below"})
+      {
+        Output<2> output(timer);
+        Scene<2>  s("0, 0", "8, 4");
+        s.add({0.5, 0.5});
+        s.sort();
+        output.set_folder(path);
+        const std::string sentence =
+          sentence_of([&]() { output.begin(s.snapshot(), 1.); });
+        EXPECT_NE(sentence.find("The output folder '" + path.string()),
+                  std::string::npos)
+          << sentence;
+        EXPECT_NE(sentence.find("Output/Folder"), std::string::npos);
+      }
+    EXPECT_EQ(lines("file").at(0), "kept");
+  }
+
+
+
+  TEST_F(OutputTest, FullDisk)
+  {
+    Output<2> output(timer);
+    Scene<2>  s("0, 0", "8, 4");
+    s.add({0.5, 0.5});
+    s.sort();
+    output.set_folder(folder);
+    fs::create_symlink("/dev/full", folder / "statistics.csv");
+    std::string sentence =
+      sentence_of([&]() { output.begin(s.snapshot(), 1.); });
+    EXPECT_NE(sentence.find("The file '" +
+                            (folder / "statistics.csv").string() +
+                            "' could not be written (No space left on device"),
+              std::string::npos)
+      << sentence;
+
+    // A file that is written as a whole is so or not at all.
+    fs::remove(folder / "statistics.csv");
+    std::ofstream(folder / "points-0000.vtu") << "earlier result\n";
+    fs::create_symlink("/dev/full", folder / "points-0000.vtu.part");
+    sentence = sentence_of([&]() { output.begin(s.snapshot(), 1.); });
+    EXPECT_NE(sentence.find("points-0000.vtu' could not be written (No space"),
+              std::string::npos)
+      << sentence;
+    EXPECT_EQ(lines("points-0000.vtu").at(0), "earlier result");
+    EXPECT_FALSE(
+      fs::exists(fs::symlink_status(folder / "points-0000.vtu.part")));
+  }
+
+
+
+  // --------------------------------------------------------------- progress
+
+  TEST(Progress, LinesOnATerminalAndThroughputAlways)
+  {
+    for (const bool is_terminal : {true, false})
+      {
+        std::ostringstream  out;
+        dealii::TimerOutput timer(out,
+                                  dealii::TimerOutput::never,
+                                  dealii::TimerOutput::wall_times);
+        Progress            progress(out, is_terminal);
+        progress.begin(0., 2., MPI_COMM_WORLD);
+        progress.count_step(100);
+        progress.count_step(120);
+        progress.print_line(0.5, 120);
+        EXPECT_EQ(out.str().empty(), !is_terminal);
+        for (const char *part : {"0.500 s", "25 %", "120 points"})
+          EXPECT_EQ(out.str().find(part) != std::string::npos, is_terminal);
+        out.str("");
+        progress.finish(0.5, 120, timer);
+        EXPECT_NE(out.str().find("2 steps to t = 0.5 s, 120 points"),
+                  std::string::npos);
+        EXPECT_NE(out.str().find("220 point-steps"), std::string::npos);
+        EXPECT_NE(out.str().find("million point-steps per second."),
+                  std::string::npos);
+      }
+  }
+} // namespace

@@ -1,0 +1,144 @@
+#ifndef observers_setup_h
+#define observers_setup_h
+
+#include <talus/observers/snapshot.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+/// A mesh of cells of 1 m, some points, and all else an observer looks at.
+template <int dim>
+struct Scene
+{
+  Scene(const std::string &lower, const std::string &upper)
+    : grid(MPI_COMM_WORLD)
+  {
+    auto &prm = dealii::ParameterAcceptor::prm;
+    dealii::ParameterAcceptor::declare_all_parameters();
+    prm.parse_input_from_string(
+      "subsection Grid\n set Lower corner = " + lower +
+      "\n set Upper corner = " + upper + "\n set Cell size = 1\nend\n");
+    dealii::ParameterAcceptor::parse_all_parameters();
+    grid.create({});
+    grid.prepare();
+    nodes.prepare(grid);
+  }
+
+  /// Boxes are half a cell wide and undeformed. (The velocity is a Point
+  /// because that can be written as a list.)
+  unsigned int
+  add(const dealii::Point<dim> &x,
+      const double              mass     = 1.,
+      const dealii::Point<dim> &velocity = dealii::Point<dim>())
+  {
+    const unsigned int p        = points.append(1);
+    points.data(points.mass)[p] = mass;
+    points.data(points.id)[p]   = p;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        points.data(points.position, d)[p]         = x[d];
+        points.data(points.initial_position, d)[p] = x[d];
+        points.data(points.velocity, d)[p]         = velocity[d];
+        points.data(points.deformation_gradient, d * (dim + 1))[p] = 1.;
+        points.data(points.stretch, d)[p]                          = 1.;
+        points.data(points.reference_length, d)[p]                 = 0.5;
+      }
+    return p;
+  }
+
+  /// Sort the points by cell.
+  void
+  sort()
+  {
+    std::vector<std::vector<unsigned int>> of_cell(grid.cells().size());
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        dealii::Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = points.data(points.position, d)[p];
+        of_cell[grid.find_cell(x)].push_back(p);
+      }
+    std::vector<talus::Run>     runs;
+    std::vector<talus::Segment> segments;
+    for (unsigned int c = 0; c < of_cell.size(); ++c)
+      if (!of_cell[c].empty())
+        {
+          const unsigned int begin = runs.size();
+          for (const unsigned int p : of_cell[c])
+            runs.push_back({p, p + 1});
+          segments.push_back({c, 0, begin, unsigned(runs.size())});
+        }
+    points.reorder(runs, std::move(segments));
+  }
+
+  talus::Snapshot<dim>
+  snapshot() const
+  {
+    return {points,
+            grid,
+            nodes,
+            boundary_work,
+            splits,
+            step,
+            time,
+            time_step,
+            gravity_work,
+            clipped_boxes};
+  }
+
+  talus::Points<dim>       points;
+  talus::Grid<dim>         grid;
+  talus::NodalFields<dim>  nodes;
+  talus::BoundaryWork<dim> boundary_work;
+  talus::SplitStatistics   splits;
+  unsigned long            step          = 0;
+  double                   time          = 0;
+  double                   time_step     = 0;
+  double                   gravity_work  = 0;
+  unsigned long            clipped_boxes = 0;
+};
+
+
+
+/// A test with an empty folder of its own.
+class ObserversTest : public testing::Test
+{
+protected:
+  ObserversTest()
+  {
+    dealii::ParameterAcceptor::clear();
+    const auto *test = testing::UnitTest::GetInstance()->current_test_info();
+    folder           = std::filesystem::temp_directory_path() /
+             ("talus-" + std::string(test->test_suite_name()) + "-" +
+              test->name() + "-" + std::to_string(getpid()));
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+  }
+
+  ~ObserversTest() override
+  {
+    std::filesystem::remove_all(folder);
+  }
+
+  std::vector<std::string>
+  lines(const std::string &name) const
+  {
+    std::vector<std::string> result;
+    std::ifstream            file(folder / name);
+    for (std::string line; std::getline(file, line);)
+      result.push_back(line);
+    return result;
+  }
+
+  std::filesystem::path folder;
+};
+
+#endif

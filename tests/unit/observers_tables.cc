@@ -1,0 +1,236 @@
+#include <talus/observers/profile.h>
+#include <talus/observers/statistics.h>
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "observers_setup.h"
+
+namespace
+{
+  using namespace talus;
+
+  // ------------------------------------------------------------- statistics
+
+  class StatisticsTest : public ObserversTest
+  {
+  protected:
+    template <int dim>
+    static std::map<std::string, double>
+    evaluate(const Statistics<dim> &statistics, const Snapshot<dim> &snapshot)
+    {
+      std::map<std::string, double> values;
+      for (const auto &quantity : statistics.evaluate(snapshot))
+        values[quantity.name] = quantity.value;
+      return values;
+    }
+  };
+
+
+
+  TEST_F(StatisticsTest, Header)
+  {
+    const std::string first =
+      "time [s],step,time step [s],points,front x [m],"
+      "front of 99.5 % mass x [m],rear x [m],height [m],";
+    const std::string last =
+      "seabed force x [N],seabed impulse x [N s],kinetic energy [J],"
+      "grid kinetic energy [J],elastic energy [J],plastic work [J],"
+      "friction work [J],contact work [J],gravity work [J],"
+      "energy remainder [J],empty interior cells,empty columns,"
+      "connected bodies,cells with one point,splits,largest generation,"
+      "clipped boxes,split ledger [-]";
+    {
+      Scene<2> s("0, 0", "8, 4");
+      s.add({0.5, 0.5});
+      Statistics<2>().begin(folder, s.snapshot());
+      EXPECT_EQ(lines("statistics.csv").at(0),
+                first +
+                  "centre x [m],centre y [m],centre velocity x [m/s],"
+                  "centre velocity y [m/s],maximum speed [m/s],mass [kg],"
+                  "momentum x [kg m/s]," +
+                  last);
+    }
+    dealii::ParameterAcceptor::clear();
+    Scene<3> s("0, 0, 0", "8, 4, 4");
+    s.add({0.5, 0.5, 0.5});
+    Statistics<3>().begin(folder, s.snapshot());
+    EXPECT_EQ(lines("statistics.csv").at(0),
+              first +
+                "centre x [m],centre y [m],centre z [m],"
+                "centre velocity x [m/s],centre velocity y [m/s],"
+                "centre velocity z [m/s],maximum speed [m/s],mass [kg],"
+                "momentum x [kg m/s]," +
+                last);
+  }
+
+
+
+  TEST_F(StatisticsTest, QuantitiesOfTwoPoints)
+  {
+    Scene<2> s("0, -1", "8, 3");
+    s.add({1., 0.5}, 3., {2., 0.});
+    s.add({5., 1.5}, 1., {-3., 4.});
+    Statistics<2> statistics;
+    statistics.begin(folder, s.snapshot());
+
+    s.time                         = 0.5;
+    s.step                         = 7;
+    s.time_step                    = 0.125;
+    s.clipped_boxes                = 11;
+    s.splits.n_splits              = 5;
+    s.splits.largest_generation    = 2;
+    s.splits.ledger                = 1e-16;
+    s.boundary_work.seabed_impulse = dealii::Tensor<1, 2>({-6., 9.});
+    auto row                       = evaluate(statistics, s.snapshot());
+    EXPECT_EQ(row["time [s]"], 0.5);
+    EXPECT_EQ(row["step"], 7);
+    EXPECT_EQ(row["time step [s]"], 0.125);
+    EXPECT_EQ(row["points"], 2);
+    EXPECT_EQ(row["front x [m]"], 5.);
+    EXPECT_EQ(row["front of 99.5 % mass x [m]"], 5.);
+    EXPECT_EQ(row["rear x [m]"], 1.);
+    EXPECT_EQ(row["height [m]"], 2.5);
+    EXPECT_EQ(row["centre x [m]"], 2.);
+    EXPECT_EQ(row["centre y [m]"], 0.75);
+    EXPECT_EQ(row["centre velocity x [m/s]"], 0.75);
+    EXPECT_EQ(row["centre velocity y [m/s]"], 1.);
+    EXPECT_EQ(row["maximum speed [m/s]"], 5.);
+    EXPECT_EQ(row["mass [kg]"], 4.);
+    EXPECT_EQ(row["momentum x [kg m/s]"], 3.);
+    EXPECT_EQ(row["seabed force x [N]"], -12.);
+    EXPECT_EQ(row["seabed impulse x [N s]"], -6.);
+    EXPECT_EQ(row["kinetic energy [J]"], 6. + 12.5);
+    EXPECT_EQ(row["splits"], 5);
+    EXPECT_EQ(row["largest generation"], 2);
+    EXPECT_EQ(row["clipped boxes"], 11);
+    EXPECT_EQ(row["split ledger [-]"], 1e-16);
+
+    // The force is the mean since the row before; the impulse goes on.
+    statistics.add_row(s.snapshot());
+    s.time                            = 1.;
+    s.boundary_work.seabed_impulse[0] = -7.;
+    row                               = evaluate(statistics, s.snapshot());
+    EXPECT_EQ(row["seabed force x [N]"], -2.);
+    EXPECT_EQ(row["seabed impulse x [N s]"], -7.);
+    EXPECT_EQ(lines("statistics.csv").size(), 3u);
+  }
+
+
+
+  TEST_F(StatisticsTest, EnergyBudget)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    s.add({1.5, 0.5}, 2., {3., 0.}); // 9 J
+    s.points.data(s.points.elastic_energy)[0] = 5.;
+    Statistics<2> statistics;
+    statistics.begin(folder, s.snapshot());
+    EXPECT_EQ(evaluate(statistics, s.snapshot())["energy remainder [J]"], 0.);
+
+    s.points.data(s.points.velocity, 1)[0]    = 4.; // 25 J
+    s.points.data(s.points.elastic_energy)[0] = 6.;
+    s.points.data(s.points.plastic_work)[0]   = 10.;
+    s.boundary_work.friction                  = 20.;
+    s.boundary_work.contact                   = 0.5;
+    s.gravity_work                            = 50.;
+    // A node with 2 kg at 3 m/s: (momentum + dt force) / mass.
+    s.nodes.activate(s.grid, {0});
+    s.nodes.clear();
+    double *sum                    = s.nodes.sum(s.nodes.active_nodes()[0]);
+    sum[NodalSum<2>::mass]         = 2.;
+    sum[NodalSum<2>::momentum + 1] = 5.;
+    sum[NodalSum<2>::force + 1]    = 10.;
+    s.nodes.update_momentum(0.1, 1e-9);
+
+    auto row = evaluate(statistics, s.snapshot());
+    EXPECT_EQ(row["kinetic energy [J]"], 25.);
+    EXPECT_EQ(row["grid kinetic energy [J]"], 9.);
+    EXPECT_EQ(row["elastic energy [J]"], 6.);
+    EXPECT_EQ(row["plastic work [J]"], 10.);
+    EXPECT_EQ(row["friction work [J]"], 20.);
+    EXPECT_EQ(row["contact work [J]"], 0.5);
+    EXPECT_EQ(row["gravity work [J]"], 50.);
+    EXPECT_EQ(row["energy remainder [J]"], 50. - 16. - 1. - 10. - 20. - 0.5);
+  }
+
+
+
+  TEST_F(StatisticsTest, FrontOfMass)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    for (unsigned int p = 0; p < 200; ++p)
+      s.add({(p * 77 % 200) * 0.01, 0.5}, 0.1);
+    // 199 of 200 equal points are 99.5 %, whatever the order.
+    EXPECT_EQ(front_of_mass(s.points, 0.995, MPI_COMM_WORLD), 1.98);
+    EXPECT_EQ(front_of_mass(s.points, 0.9951, MPI_COMM_WORLD), 1.99);
+    EXPECT_EQ(front_of_mass(s.points, 0.5, MPI_COMM_WORLD), 0.99);
+    EXPECT_EQ(front_of_mass(s.points, 1., MPI_COMM_WORLD), 1.99);
+    // A light point far ahead does not count.
+    s.add({7.9, 0.5}, 0.01);
+    EXPECT_EQ(front_of_mass(s.points, 0.995, MPI_COMM_WORLD), 1.99);
+  }
+
+
+
+  TEST_F(StatisticsTest, NumbersKeepSixteenDigits)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    s.add({1. / 3., 0.5});
+    Statistics<2>().begin(folder, s.snapshot());
+    EXPECT_NE(lines("statistics.csv").at(1).find("0.3333333333333333,"),
+              std::string::npos);
+  }
+
+
+
+  // ---------------------------------------------------------------- profile
+
+  class ProfileTest : public ObserversTest
+  {};
+
+
+
+  TEST_F(ProfileTest, Columns)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    s.add({2.25, 0.5}, 1., {1., 9.});
+    s.add({2.75, 1.5}, 3., {3., 9.});
+    s.add({4.5, 0.25}, 1., {-1., 9.});
+    for (unsigned int p = 0; p < 3; ++p)
+      {
+        s.points.data(s.points.stretch, 1)[p]          = 2.;
+        s.points.data(s.points.reference_length, 1)[p] = 0.25;
+      }
+    Profile<2> profile;
+    profile.begin(folder, s.grid);
+    s.time = 0.5;
+    profile.add_rows(s.snapshot());
+    const auto file = lines("profile.csv");
+    ASSERT_EQ(file.size(), 3u);
+    EXPECT_EQ(file[0],
+              "time [s],x [m],lowest [m],highest [m],thickness [m],"
+              "depth-mean velocity [m/s]");
+    EXPECT_EQ(file[1], "0.5,2.5,0.25,1.75,1.5,2.5");
+    EXPECT_EQ(file[2], "0.5,4.5,0,0.5,0.5,-1");
+  }
+
+
+
+  TEST_F(ProfileTest, ColumnsInThreeDimensions)
+  {
+    Scene<3> s("0, 0, 0", "8, 4, 4");
+    s.add({2.5, 0.5, 3.5}, 1., {1., 9., 5.});
+    s.add({2.5, 0.5, 1.5}, 1., {2., 9., 6.});
+    Profile<3> profile;
+    profile.begin(folder, s.grid);
+    profile.add_rows(s.snapshot());
+    const auto file = lines("profile.csv");
+    ASSERT_EQ(file.size(), 3u);
+    EXPECT_EQ(file[0],
+              "time [s],x [m],z [m],lowest [m],highest [m],thickness [m],"
+              "depth-mean velocity [m/s],depth-mean velocity z [m/s]");
+    EXPECT_EQ(file[1], "0,2.5,1.5,0.25,0.75,0.5,2,6");
+    EXPECT_EQ(file[2], "0,2.5,3.5,0.25,0.75,0.5,1,5");
+  }
+} // namespace

@@ -1,0 +1,258 @@
+#include <talus/observers/output.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <boost/property_tree/xml_parser.hpp>
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <cstring>
+#include <limits>
+#include <map>
+
+#include "observers_setup.h"
+
+namespace
+{
+  using namespace talus;
+  namespace fs = std::filesystem;
+
+  /// What a VTU file holds.
+  struct Vtu
+  {
+    std::size_t                               n_points, n_cells;
+    std::map<std::string, unsigned int>       n_components;
+    std::map<std::string, std::vector<float>> values;
+  };
+
+
+
+  /// VTK's inline binary: base64 of 4 numbers (blocks, sizes), then of the
+  /// block, compressed.
+  template <typename Number>
+  std::vector<Number>
+  decode(std::string text)
+  {
+    text.erase(std::remove_if(text.begin(), text.end(), isspace), text.end());
+    const auto    head = dealii::Utilities::decode_base64(text.substr(0, 24));
+    std::uint32_t numbers[4];
+    std::memcpy(numbers, head.data(), sizeof(numbers));
+    const auto packed = dealii::Utilities::decode_base64(text.substr(24));
+    std::vector<Number> values(numbers[1] / sizeof(Number));
+    uLongf              size = numbers[1];
+    EXPECT_EQ(numbers[0], 1u);
+    EXPECT_EQ(uncompress(reinterpret_cast<Bytef *>(values.data()),
+                         &size,
+                         packed.data(),
+                         numbers[3]),
+              Z_OK);
+    EXPECT_EQ(size, numbers[1]);
+    return values;
+  }
+
+
+
+  Vtu
+  read_vtu(const fs::path &path)
+  {
+    boost::property_tree::ptree tree;
+    boost::property_tree::read_xml(path.string(), tree);
+    const auto &piece = tree.get_child("VTKFile.UnstructuredGrid.Piece");
+    Vtu         vtu;
+    vtu.n_points = piece.get<std::size_t>("<xmlattr>.NumberOfPoints");
+    vtu.n_cells  = piece.get<std::size_t>("<xmlattr>.NumberOfCells");
+    for (const auto &[tag, array] : piece.get_child("PointData"))
+      if (tag == "DataArray")
+        {
+          const auto name = array.get<std::string>("<xmlattr>.Name");
+          vtu.n_components[name] =
+            array.get<unsigned int>("<xmlattr>.NumberOfComponents", 1);
+          EXPECT_EQ(array.get<std::string>("<xmlattr>.type"), "Float32");
+          vtu.values[name] = decode<float>(array.data());
+        }
+
+    // Every cell has its own vertices, one after the other.
+    for (const auto &[tag, array] : piece.get_child("Cells"))
+      if (tag == "DataArray" &&
+          array.get<std::string>("<xmlattr>.Name") == "offsets")
+        {
+          const auto offsets = decode<std::int32_t>(array.data());
+          EXPECT_EQ(offsets.size(), vtu.n_cells);
+          for (std::size_t c = 0; c < offsets.size(); ++c)
+            EXPECT_EQ(offsets[c], (c + 1) * vtu.n_points / vtu.n_cells);
+        }
+    return vtu;
+  }
+
+
+
+  // -------------------------------------------------------------------- VTU
+
+  class VtuTest : public ObserversTest
+  {
+  protected:
+    template <int dim>
+    void
+    add_points(Scene<dim> &s)
+    {
+      dealii::Point<dim> a, b;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          a[d] = 0.5;
+          b[d] = 1.5;
+        }
+      s.add(a, 2., 2. * a);
+      s.add(b, 3., -2. * b);
+      s.points.add_column("yield stress", "Pa", 1, Inheritance::copied);
+      s.points.add_column("two things", "m", 5, Inheritance::copied);
+      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+        s.points.data(s.points.stress, c)[1] = 1. + c;
+    }
+  };
+
+
+
+  TEST_F(VtuTest, EveryPointAndColumn)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    s.points.data(s.points.initial_position, 0)[1] = 1.;
+    s.points.data(s.points.stretch, 1)[1]          = 3.;
+    write_points(s.snapshot(), folder / "p.vtu");
+    Vtu vtu = read_vtu(folder / "p.vtu");
+    EXPECT_EQ(vtu.n_points, 2u);
+    EXPECT_EQ(vtu.n_cells, 2u);
+
+    const std::map<std::string, unsigned int> expected = {
+      {"position [m]", 3},
+      {"velocity [m/s]", 3},
+      {"deformation gradient", 9},
+      {"stress [Pa]", 9},
+      {"mass [kg]", 1},
+      {"reference volume [m^2]", 1},
+      {"reference length [m]", 3},
+      {"stretch", 3},
+      {"creation stretch", 3},
+      {"initial position [m]", 3},
+      {"elastic energy [J]", 1},
+      {"plastic work [J]", 1},
+      {"id", 1},
+      {"generation", 1},
+      {"body", 1},
+      {"yield stress [Pa]", 1},
+      {"two things 0 [m]", 1},
+      {"two things 1 [m]", 1},
+      {"two things 2 [m]", 1},
+      {"two things 3 [m]", 1},
+      {"two things 4 [m]", 1},
+      {"displacement [m]", 3},
+      {"box length [m]", 3},
+      {"speed [m/s]", 1},
+      {"mean stress [Pa]", 1},
+      {"von Mises stress [Pa]", 1},
+      {"J", 1}};
+    EXPECT_EQ(vtu.n_components, expected);
+
+    using V = std::vector<float>;
+    EXPECT_EQ(vtu.values["position [m]"], V({0.5, 0.5, 0, 1.5, 1.5, 0}));
+    EXPECT_EQ(vtu.values["velocity [m/s]"], V({1, 1, 0, -3, -3, 0}));
+    EXPECT_EQ(vtu.values["displacement [m]"], V({0, 0, 0, 0.5, 0, 0}));
+    EXPECT_EQ(vtu.values["box length [m]"], V({0.5, 0.5, 0, 0.5, 1.5, 0}));
+    // xx, yy, zz, xy = 1, 2, 3, 4; the deformation is none.
+    const V stress = {0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 4, 0, 4, 2, 0, 0, 0, 3};
+    EXPECT_EQ(vtu.values["stress [Pa]"], stress);
+    const V F = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    EXPECT_EQ(vtu.values["deformation gradient"], F);
+    EXPECT_EQ(vtu.values["mean stress [Pa]"], V({0, 2}));
+    // sqrt(3/2 s:s) with s = diag(-1, 0, 1) and 4 off the diagonal.
+    EXPECT_FLOAT_EQ(vtu.values["von Mises stress [Pa]"][1], std::sqrt(51.));
+    EXPECT_EQ(vtu.values["J"], V({1, 1}));
+  }
+
+
+
+  TEST_F(VtuTest, ThreeDimensions)
+  {
+    Scene<3> s("0, 0, 0", "4, 4, 4");
+    add_points(s);
+    PointsOutput<3> output;
+    output.begin(folder, MPI_COMM_WORLD, /*boxes_as_cells=*/true);
+    output.write(s.snapshot());
+    Vtu vtu = read_vtu(folder / "points-0000.vtu");
+    EXPECT_EQ(vtu.n_points, 16u);
+    EXPECT_EQ(vtu.n_cells, 2u);
+    EXPECT_EQ(vtu.n_components["stress [Pa]"], 9u);
+    const std::vector<float> &all = vtu.values["stress [Pa]"];
+    // xx, yy, zz, xy, xz, yz = 1, ..., 6 at the last corner of the last box.
+    EXPECT_EQ(std::vector<float>(all.end() - 9, all.end()),
+              std::vector<float>({1, 4, 5, 4, 2, 6, 5, 6, 3}));
+    EXPECT_EQ(vtu.n_components["reference volume [m^3]"], 1u);
+  }
+
+
+
+  TEST_F(VtuTest, GridOfCellsThatCarrySoil)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    s.sort();
+    GridOutput<2> output;
+    output.begin(folder, MPI_COMM_WORLD);
+    // Before the first step no node is active.
+    output.write(s.snapshot());
+    Vtu vtu = read_vtu(folder / "grid-0000.vtu");
+    EXPECT_EQ(vtu.n_cells, 2u);
+    EXPECT_EQ(vtu.n_points, 8u);
+    EXPECT_EQ(vtu.values["mass [kg]"], std::vector<float>(8, 0));
+
+    const unsigned int cell = s.grid.find_cell({1.5, 1.5});
+    const unsigned int node = s.grid.cells()[cell].patch[4 * 2 + 1];
+    s.nodes.activate(s.grid, {cell});
+    s.nodes.clear();
+    double *sum                 = s.nodes.sum(node);
+    sum[NodalSum<2>::mass]      = 2;
+    sum[NodalSum<2>::momentum]  = 6;
+    sum[NodalSum<2>::force + 1] = 4;
+    s.nodes.update_momentum(0.5, 1e-9);
+    s.time = 0.5;
+    output.write(s.snapshot());
+    vtu = read_vtu(folder / "grid-0001.vtu");
+    // deal.II's third vertex of the second cell.
+    EXPECT_EQ(vtu.n_components["velocity [m/s]"], 3u);
+    EXPECT_EQ(vtu.values["mass [kg]"][4 + 2], 2.);
+    EXPECT_EQ(vtu.values["velocity [m/s]"][3 * (4 + 2)], 3.);
+    EXPECT_EQ(vtu.values["velocity [m/s]"][3 * (4 + 2) + 1], 1.);
+    EXPECT_EQ(vtu.values["force [N]"][3 * (4 + 2) + 1], 4.);
+
+    const std::vector<std::string> pvd = {
+      R"(<?xml version="1.0"?>)",
+      R"(<VTKFile type="Collection" version="0.1">)",
+      R"(  <Collection>)",
+      R"(    <DataSet timestep="0" group="" part="0" file="grid-0000.vtu"/>)",
+      R"(    <DataSet timestep="0.5" group="" part="0" file="grid-0001.vtu"/>)",
+      R"(  </Collection>)",
+      R"(</VTKFile>)"};
+    EXPECT_EQ(lines("grid.pvd"), pvd);
+  }
+
+
+
+  TEST_F(VtuTest, LastState)
+  {
+    dealii::TimerOutput timer(std::cout,
+                              dealii::TimerOutput::never,
+                              dealii::TimerOutput::wall_times);
+    Output<2>           output(timer);
+    Scene<2>            s("0, 0", "8, 4");
+    s.add({0.5, 0.5});
+    s.points.data(s.points.velocity)[0] =
+      std::numeric_limits<double>::quiet_NaN();
+    output.set_folder(folder);
+    EXPECT_EQ(output.write_last_state(s.snapshot()),
+              (folder / "last-state.vtu").string());
+    const Vtu vtu = read_vtu(folder / "last-state.vtu");
+    EXPECT_EQ(vtu.n_points, 1u);
+    EXPECT_TRUE(std::isnan(vtu.values.at("velocity [m/s]")[0]));
+  }
+} // namespace
