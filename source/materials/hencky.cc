@@ -1,7 +1,7 @@
 #include <talus/materials/hencky.h>
 #include <talus/materials/hyperelastic.h>
 
-#include <deal.II/base/symmetric_tensor.h>
+#include <limits>
 
 namespace talus
 {
@@ -31,41 +31,65 @@ namespace talus
 
 
 
-    /// In space by the principal directions of b.
-    inline Stress<3, double>
-    logarithmic_strain(const DeformationState<3, double> &state)
+    /// One Jacobi rotation: turn the axes @p p and @p q so that A_pq vanishes.
+    /// The rows of @p A and the columns of @p n turn along.
+    template <typename Number>
+    inline void
+    rotate_axes(Matrix<3, Number> &A,
+                Matrix<3, Number> &n,
+                const unsigned int p,
+                const unsigned int q)
     {
-      using dealii::SymmetricTensor;
-      SymmetricTensor<2, 3> b;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = i; j < 3; ++j)
-          b[i][j] = state.b_minus_1[stress_index<3>(i, j)];
-      const auto principal =
-        eigenvectors(b, dealii::SymmetricTensorEigenvectorMethod::jacobi);
+      // The root of t^2 + t (A_qq - A_pp)/A_pq = 1 smaller than one; zero where
+      // nothing is to be done.
+      const Number half = 0.5 * (A[q][q] - A[p][p]);
+      const Number root = square_root(half * half + A[p][q] * A[p][q]) +
+                          std::numeric_limits<double>::min();
+      const Number t = A[p][q] / (half < 0. ? half - root : half + root);
+      const Number c = 1. / square_root(1. + t * t), s = t * c;
 
-      Stress<3, double> strain{};
-      for (const auto &[value, n] : principal)
-        for (unsigned int i = 0; i < 3; ++i)
-          for (unsigned int j = i; j < 3; ++j)
-            strain[stress_index<3>(i, j)] +=
-              0.5 * std::log1p(value) * n[i] * n[j];
-      return strain;
+      const unsigned int r = 3 - p - q;
+      A[p][p] -= t * A[p][q];
+      A[q][q] += t * A[p][q];
+      A[p][q] = A[q][p] = Number{};
+      const Number A_rp = A[r][p], A_rq = A[r][q];
+      A[r][p] = A[p][r] = c * A_rp - s * A_rq;
+      A[r][q] = A[q][r] = s * A_rp + c * A_rq;
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          const Number n_p = n[i][p], n_q = n[i][q];
+          n[i][p] = c * n_p - s * n_q;
+          n[i][q] = s * n_p + c * n_q;
+        }
     }
 
 
 
-    inline Stress<3, Lanes>
-    logarithmic_strain(const DeformationState<3, Lanes> &state)
+    /// In space by the principal directions n of b - I, found by Jacobi's
+    /// method: accurate for equal eigenvalues, too, and without branches. Off-
+    /// diagonal entries vanish to third order per sweep; five reach round-off.
+    template <typename Number>
+    inline Stress<3, Number>
+    logarithmic_strain(const DeformationState<3, Number> &state)
     {
-      Stress<3, Lanes> strain;
-      for (unsigned int lane = 0; lane < n_lanes; ++lane)
+      Matrix<3, Number> A, n = identity<3, Number>();
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = i; j < 3; ++j)
+          A[i][j] = A[j][i] = state.b_minus_1[stress_index<3>(i, j)];
+      for (unsigned int sweep = 0; sweep < 5; ++sweep)
         {
-          DeformationState<3, double> one;
-          for (unsigned int c = 0; c < 6; ++c)
-            one.b_minus_1[c] = state.b_minus_1[c][lane];
-          const auto one_strain = logarithmic_strain(one);
-          for (unsigned int c = 0; c < 6; ++c)
-            strain[c][lane] = one_strain[c];
+          rotate_axes(A, n, 0, 1);
+          rotate_axes(A, n, 0, 2);
+          rotate_axes(A, n, 1, 2);
+        }
+
+      Stress<3, Number> strain{};
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          const Number log_l = 0.5 * logarithm_1p(A[k][k]);
+          for (unsigned int i = 0; i < 3; ++i)
+            for (unsigned int j = i; j < 3; ++j)
+              strain[stress_index<3>(i, j)] += log_l * n[i][k] * n[j][k];
         }
       return strain;
     }

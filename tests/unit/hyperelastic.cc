@@ -243,6 +243,11 @@ TEST(Hyperelastic, HenckyPrincipalStretches)
       expect_near(plane.stress(), {{xx, yy, p / J, 0.}}, tol);
       space.energy_at({{{{{a, 0., 0.}}, {{0., 1., 0.}}, {{0., 0., b}}}}});
       expect_near(space.stress(), {{xx, p / J, yy, 0., 0., 0.}}, tol);
+      // The same with principal axes askew, V = R diag R^T.
+      const auto R     = rotation<3>(1.1);
+      const auto sigma = rotated(R, space.stress());
+      space.energy_at(product(product(R, space.F()), transpose(R)));
+      expect_near(space.stress(), sigma, 10. * tol);
     }
 }
 
