@@ -15,7 +15,7 @@ namespace talus
 
   /// Result of comparing two Lanes: all bits set where true. `mask ? a : b`
   /// selects lane by lane.
-  using LaneMask = long long __attribute__((vector_size(8 * n_lanes)));
+  using LaneMask = decltype(Lanes{} > Lanes{});
 
   // The one-point formulas are templates on Number, instantiated with Lanes
   // for the bulk and with double for the rest of a range; the functions below
@@ -153,20 +153,39 @@ namespace talus
 
 
 
+  inline bool
+  all(const bool mask)
+  {
+    return mask;
+  }
+
+
+
+  inline bool
+  all(const LaneMask mask)
+  {
+    return !any(mask == LaneMask{});
+  }
+
+
+
   /// ln(1 + x). One explicit step strains a point by less than a per cent, so
   /// nearly always the series 2 artanh(x/(2+x)) is exact to round-off with the
-  /// terms kept here (next one: below 1e-23 relative for |x| < 0.02).
+  /// terms kept here (next one: below 1e-20 relative for |x| < 0.02).
   template <typename Number>
   inline Number
   logarithm_1p(const Number x)
   {
-    const auto large = (x > broadcast<Number>(0.02)) |
-                       (x < broadcast<Number>(-0.02));
-    if (__builtin_expect(any(large), 0))
-      return logarithm(x + 1.);
     const Number s = x / (2. + x), s2 = s * s;
-    return 2. * s *
-           (1. + s2 * (1. / 3. + s2 * (1. / 5. + s2 * (1. / 7. + s2 / 9.))));
+    const Number series =
+      2. * s *
+      (1. + s2 * (1. / 3. + s2 * (1. / 5. + s2 * (1. / 7. + s2 * (1. / 9.)))));
+    const auto large =
+      (x > broadcast<Number>(0.02)) | (x < broadcast<Number>(-0.02));
+    // Lane by lane, so that a point's result never depends on its neighbours.
+    if (__builtin_expect(any(large), 0))
+      return large ? logarithm(x + 1.) : series;
+    return series;
   }
 
 

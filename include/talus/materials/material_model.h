@@ -7,6 +7,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace talus
 {
@@ -24,10 +25,9 @@ namespace talus
     virtual ~MaterialModel() = default;
 
     /// Throw ExcUser, naming the section, if parameters contradict each other.
-    /// Called once, after parsing.
+    /// Called once, after parsing. Laws that override it call this one.
     virtual void
-    check() const
-    {}
+    check() const;
 
     /// Declare the law's internal variables as columns of the points.
     virtual void
@@ -44,7 +44,10 @@ namespace talus
 
     /// Advance deformation gradient, stress, elastic energy, plastic work and
     /// internal variables over one step of @p dt seconds with the velocity
-    /// gradient that the points hold.
+    /// gradient that the points hold. Throws ExcPoint if a point is turned
+    /// inside out. With @p dt = 0 and any finite velocity gradient, a
+    /// hyperelastic law sets stress and energy to those of the deformation
+    /// gradient.
     virtual void
     update_stress(Points<dim> &points,
                   unsigned int begin,
@@ -91,9 +94,10 @@ namespace talus
 
   private:
     std::string section_;
-    double      density_           = 1000.;
-    std::string submerged_density_ = "";
-    std::string cell_mean_         = "auto";
+    double      density_ = 1000.;
+    // One number, or none where the user gave nothing.
+    std::vector<double> submerged_density_;
+    std::string         cell_mean_ = "auto";
   };
 
   /// The laws by the name used in the parameter file, in the order listed.

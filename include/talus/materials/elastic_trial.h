@@ -1,0 +1,126 @@
+#ifndef talus_materials_elastic_trial_h
+#define talus_materials_elastic_trial_h
+
+#include <talus/materials/elasticity.h>
+#include <talus/materials/kinematics.h>
+
+namespace talus
+{
+  /// Elastic predictor of the rate laws, Pa. Deviators are seen at mid-step,
+  /// where the strain increment lives.
+  template <int dim, typename Number>
+  struct ElasticTrial
+  {
+    Number              mean_before, mean_after;
+    Stress<dim, Number> deviator_before, deviator_after;
+  };
+
+
+
+  /// Hooke's law for the Jaumann rate of the Cauchy stress, integrated
+  /// objectively @cite hughes1980. The strain increment belongs to the
+  /// configuration at mid-step: the old deviator is turned there by half of the
+  /// step's rotation, and turned by the other half when stored. Adding the
+  /// increment to the wholly turned stress instead, as often done, is of first
+  /// order only where strain and stress are not coaxial; see @cite simo1998,
+  /// section 8.3.
+  /// The mean stress follows K ln det(I + H), so that -p = K ln J on any path.
+  template <int dim, typename Number>
+  inline ElasticTrial<dim, Number>
+  elastic_trial(const Stress<dim, Number>          &sigma,
+                const StrainIncrement<dim, Number> &strain,
+                const Moduli                       &moduli)
+  {
+    ElasticTrial<dim, Number> trial;
+    trial.mean_before = mean_normal(sigma);
+    trial.mean_after  = trial.mean_before + moduli.bulk * strain.volumetric;
+
+    trial.deviator_before =
+      turn(strain.half_rotation, add_mean(sigma, -trial.mean_before));
+    trial.deviator_after = trial.deviator_before;
+    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+      trial.deviator_after[c] += 2. * moduli.mu * strain.deviatoric[c];
+    return trial;
+  }
+
+
+
+  /// Volume times deviator, mean of the start and the end of the step, J: what
+  /// a deviatoric strain of the step, plastic or not, is multiplied with to
+  /// give work. @p deviator is that at the end, seen at mid-step.
+  template <int dim, typename Number>
+  inline Stress<dim, Number>
+  deviatoric_force(const Motion<dim, Number>       &motion,
+                   const Number                     reference_volume,
+                   const ElasticTrial<dim, Number> &trial,
+                   const Stress<dim, Number>       &deviator)
+  {
+    const Number        before = 0.5 * reference_volume * motion.J_before;
+    const Number        after  = 0.5 * reference_volume * motion.J_after;
+    Stress<dim, Number> force;
+    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+      force[c] = before * trial.deviator_before[c] + after * deviator[c];
+    return force;
+  }
+
+
+
+  /// Work of the stress over the step, J, by the trapezoidal rule: the sum that
+  /// the nodal forces do. With constant volume its deviatoric part, less that
+  /// of the plastic strain, is the exact change of V s:s/(4 mu), so that no
+  /// elastic energy is made or lost in a cycle.
+  template <int dim, typename Number>
+  inline Number
+  work_of_step(const Motion<dim, Number>          &motion,
+               const Number                        reference_volume,
+               const StrainIncrement<dim, Number> &strain,
+               const ElasticTrial<dim, Number>    &trial,
+               const Stress<dim, Number>          &force)
+  {
+    return 0.5 * reference_volume * strain.volumetric *
+             (motion.J_before * trial.mean_before +
+              motion.J_after * trial.mean_after) +
+           contract<dim>(force, strain.deviatoric);
+  }
+
+
+
+  /// Store the stress at the end of the step from its deviator at mid-step.
+  template <int dim, typename Number>
+  inline void
+  store_turned_stress(Points<dim>                        &points,
+                      const unsigned int                  p,
+                      const StrainIncrement<dim, Number> &strain,
+                      const Stress<dim, Number>          &deviator,
+                      const Number                        mean)
+  {
+    store_stress<dim, Number>(
+      points, p, add_mean(turn(strain.half_rotation, deviator), mean));
+  }
+
+
+
+  /// sqrt((lambda + 2 mu)/rho) with the current density.
+  template <int dim>
+  inline void
+  elastic_wave_speed(const Points<dim> &points,
+                     const unsigned int begin,
+                     const unsigned int end,
+                     const Moduli      &moduli,
+                     double            *speed)
+  {
+    const double modulus = moduli.lambda + 2. * moduli.mu;
+    for_lanes(begin, end, [&](const unsigned int p, auto number) {
+      using Number   = decltype(number);
+      const Number J = determinant(
+        load_matrix<dim, Number>(points, points.deformation_gradient, p));
+      const Number volume =
+        J * load<Number>(points.data(points.reference_volume) + p);
+      store(speed + (p - begin),
+            square_root(modulus * volume /
+                        load<Number>(points.data(points.mass) + p)));
+    });
+  }
+} // namespace talus
+
+#endif

@@ -1,0 +1,229 @@
+#ifndef talus_materials_kinematics_h
+#define talus_materials_kinematics_h
+
+#include <talus/points/points.h>
+
+namespace talus
+{
+  /// What one step does to the neighbourhood of a point.
+  template <int dim, typename Number>
+  struct Motion
+  {
+    /// H = dt L': displacement of the step, derived by the position at its
+    /// start.
+    Matrix<dim, Number> increment;
+    /// Deformation gradient at the end of the step.
+    Matrix<dim, Number> F;
+    /// det F at the start and at the end of the step.
+    Number J_before, J_after;
+    /// det(I + H) - 1.
+    Number dilatation;
+  };
+
+
+
+  /// Advance the deformation gradient of point(s) @p p over @p dt seconds,
+  /// F <- (I + dt L') F, and store it. Exact for the motion that the step
+  /// makes: a point moves on a straight line from its old to its new place.
+  template <int dim, typename Number>
+  inline Motion<dim, Number>
+  advance_deformation(Points<dim>       &points,
+                      const unsigned int p,
+                      const double       dt)
+  {
+    Motion<dim, Number> motion;
+    motion.increment = load_velocity_gradient<dim, Number>(points, p);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        motion.increment[i][j] *= dt;
+
+    const auto F_before =
+      load_matrix<dim, Number>(points, points.deformation_gradient, p);
+    motion.F = product(motion.increment, F_before);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        motion.F[i][j] += F_before[i][j];
+    store_matrix(points, points.deformation_gradient, p, motion.F);
+
+    motion.J_before   = determinant(F_before);
+    motion.J_after    = determinant(motion.F);
+    motion.dilatation = determinant_increment(motion.increment);
+    return motion;
+  }
+
+
+
+  /// Throw ExcPoint for the first point of [@p begin, @p end) whose deformation
+  /// gradient has no positive determinant.
+  template <int dim>
+  void
+  throw_inverted_point(const Points<dim> &points,
+                       unsigned int       begin,
+                       unsigned int       end);
+
+
+
+  /// A : B of two symmetric 3x3 tensors.
+  template <int dim, typename Number>
+  inline Number
+  contract(const Stress<dim, Number> &A, const Stress<dim, Number> &B)
+  {
+    Number sum = A[0] * B[0] + A[1] * B[1] + A[2] * B[2];
+    for (unsigned int c = 3; c < n_stress_components<dim>; ++c)
+      sum += 2. * A[c] * B[c];
+    return sum;
+  }
+
+
+
+  /// Mean of the three normal components.
+  template <std::size_t n, typename Number>
+  inline Number
+  mean_normal(const std::array<Number, n> &A)
+  {
+    return (A[0] + A[1] + A[2]) * (1. / 3.);
+  }
+
+
+
+  /// Add @p mean to the three normal components.
+  template <std::size_t n, typename Number>
+  inline std::array<Number, n>
+  add_mean(std::array<Number, n> A, const Number mean)
+  {
+    for (unsigned int c = 0; c < 3; ++c)
+      A[c] += mean;
+    return A;
+  }
+
+
+
+  /// Half of the rotation of a step. In 2-D a symmetric tensor turns by twice
+  /// the angle of the axes, so that the cosine and sine of the whole angle
+  /// serve for the half rotation.
+  template <int dim, typename Number>
+  struct HalfRotation
+  {
+    Matrix<3, Number> r;
+  };
+
+  template <typename Number>
+  struct HalfRotation<2, Number>
+  {
+    Number cosine, sine;
+  };
+
+
+
+  /// Half of Hughes and Winget's rotation Q = (I - W/2)^-1 (I + W/2) for the
+  /// skew part W of @p G; its angle phi has tan(phi/2) = w/2.
+  template <typename Number>
+  inline HalfRotation<2, Number>
+  half_rotation(const Matrix<2, Number> &G)
+  {
+    const Number t = 0.25 * (G[1][0] - G[0][1]), scale = 1. / (1. + t * t);
+    return {(1. - t * t) * scale, 2. * t * scale};
+  }
+
+
+
+  /// In 3-D, with w the axial vector of W, c = cos(phi/2) and Rodrigues'
+  /// formula, r = I + c W/2 + c^2 W^2 / (4 (1 + c)) and Q = r r.
+  template <typename Number>
+  inline HalfRotation<3, Number>
+  half_rotation(const Matrix<3, Number> &G)
+  {
+    Matrix<3, Number> W;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        W[i][j] = 0.5 * (G[i][j] - G[j][i]);
+    const Number w2 = W[0][1] * W[0][1] + W[0][2] * W[0][2] + W[1][2] * W[1][2];
+    const Number c2 = 1. / (1. + 0.25 * w2), c = square_root(c2);
+    const Number linear = 0.5 * c, square = 0.25 * c2 / (1. + c);
+
+    HalfRotation<3, Number> half{identity<3, Number>()};
+    const auto              W2 = product(W, W);
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        half.r[i][j] += linear * W[i][j] + square * W2[i][j];
+    return half;
+  }
+
+
+
+  /// The symmetric tensor @p A turned by @p half.
+  template <typename Number>
+  inline Stress<2, Number>
+  turn(const HalfRotation<2, Number> &half, const Stress<2, Number> &A)
+  {
+    const Number m = 0.5 * (A[0] + A[1]), d = 0.5 * (A[0] - A[1]);
+    const Number turned_d = half.cosine * d - half.sine * A[3];
+    return {
+      {m + turned_d, m - turned_d, A[2], half.sine * d + half.cosine * A[3]}};
+  }
+
+
+
+  template <typename Number>
+  inline Stress<3, Number>
+  turn(const HalfRotation<3, Number> &half, const Stress<3, Number> &A)
+  {
+    const Matrix<3, Number> S = {
+      {{{{A[0], A[3], A[4]}}, {{A[3], A[1], A[5]}}, {{A[4], A[5], A[2]}}}}};
+    const auto        rS = product(half.r, S);
+    Stress<3, Number> B;
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = i; j < 3; ++j)
+        B[stress_index<3>(i, j)] = rS[i][0] * half.r[j][0] +
+                                   rS[i][1] * half.r[j][1] +
+                                   rS[i][2] * half.r[j][2];
+    return B;
+  }
+
+
+
+  /// Strain of one step as the rate laws take it.
+  template <int dim, typename Number>
+  struct StrainIncrement
+  {
+    /// ln det(I + H).
+    Number volumetric;
+    /// Deviator of sym G, G = H (I + H/2)^-1; shear components are not doubled.
+    Stress<dim, Number> deviatoric;
+    /// Half of the rotation by skew G.
+    HalfRotation<dim, Number> half_rotation;
+  };
+
+
+
+  /// Split the motion of a step into strain and rotation. G is the displacement
+  /// of the step derived by the position at mid-step: free of strain if the
+  /// motion is a rotation, however large @cite hughes1980. The trace of G
+  /// approximates ln det(I + H) to third order only and is not used: pressure
+  /// and volume would drift apart.
+  template <int dim, typename Number>
+  inline StrainIncrement<dim, Number>
+  strain_increment(const Motion<dim, Number> &motion)
+  {
+    auto mid_step = identity<dim, Number>();
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        mid_step[i][j] += 0.5 * motion.increment[i][j];
+    const auto G = product(motion.increment, inverse(mid_step));
+
+    StrainIncrement<dim, Number> strain;
+    strain.volumetric = logarithm_1p(motion.dilatation);
+
+    const Number        mean = trace(G) * (1. / 3.);
+    Stress<dim, Number> D;
+    D[2] = Number{};
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = i; j < dim; ++j)
+        D[stress_index<dim>(i, j)] = 0.5 * (G[i][j] + G[j][i]);
+    strain.deviatoric    = add_mean(D, -mean);
+    strain.half_rotation = half_rotation(G);
+    return strain;
+  }
+} // namespace talus
+
+#endif

@@ -1,0 +1,58 @@
+#include <talus/base/errors.h>
+#include <talus/materials/elasticity.h>
+
+namespace talus
+{
+  using dealii::ParameterAcceptor;
+  using dealii::Patterns::Double;
+
+  void
+  Elasticity::declare(ParameterAcceptor &law)
+  {
+    law.add_parameter("Young's modulus",
+                      young_modulus_,
+                      "Young's modulus E for small strains [Pa].",
+                      ParameterAcceptor::prm,
+                      Double(0.));
+    law.add_parameter("Poisson's ratio",
+                      poisson_ratio_,
+                      "Poisson's ratio nu for small strains [-]; more than -1 "
+                      "and less than 0.5, which is incompressible and cannot "
+                      "be reached. Undrained clay: 0.49.",
+                      ParameterAcceptor::prm,
+                      Double(-1., 0.5));
+  }
+
+
+
+  void
+  Elasticity::check(const std::string &section) const
+  {
+    AssertThrow(young_modulus_ > 0.,
+                ExcUser(text("Section ",
+                             section,
+                             ": `Young's modulus` is ",
+                             young_modulus_,
+                             " Pa. Give a positive number.")));
+    AssertThrow(
+      poisson_ratio_ > -1. && poisson_ratio_ < 0.5,
+      ExcUser(text("Section ",
+                   section,
+                   ": `Poisson's ratio` is ",
+                   poisson_ratio_,
+                   ", which makes an elastic modulus zero or infinite. Give a "
+                   "number between -1 and 0.5, both excluded; 0.49 for "
+                   "undrained clay.")));
+  }
+
+
+
+  Moduli
+  Elasticity::moduli() const
+  {
+    const double E = young_modulus_, nu = poisson_ratio_;
+    return {E * nu / ((1. + nu) * (1. - 2. * nu)),
+            E / (2. * (1. + nu)),
+            E / (3. * (1. - 2. * nu))};
+  }
+} // namespace talus

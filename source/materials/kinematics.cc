@@ -1,0 +1,43 @@
+#include <talus/base/errors.h>
+#include <talus/materials/kinematics.h>
+
+namespace talus
+{
+  template <int dim>
+  void
+  throw_inverted_point(const Points<dim> &points,
+                       const unsigned int begin,
+                       const unsigned int end)
+  {
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        const double J = determinant(
+          load_matrix<dim, double>(points, points.deformation_gradient, p));
+        if (J > 0)
+          continue;
+        std::string place;
+        for (unsigned int d = 0; d < dim; ++d)
+          place +=
+            (d > 0 ? ", " : "") + text(points.data(points.position, d)[p]);
+        AssertThrow(
+          false,
+          ExcPoint(text("Point ",
+                        points.data(points.id)[p],
+                        " at (",
+                        place,
+                        ") m was turned inside out: the determinant of its "
+                        "deformation gradient is ",
+                        J,
+                        " where a positive number was expected. Shorten the "
+                        "time step, or look for what throws the points there "
+                        "about.")));
+      }
+  }
+
+
+
+  template void
+  throw_inverted_point(const Points<2> &, unsigned int, unsigned int);
+  template void
+  throw_inverted_point(const Points<3> &, unsigned int, unsigned int);
+} // namespace talus

@@ -1,0 +1,73 @@
+#include <talus/base/errors.h>
+#include <talus/materials/material_model.h>
+
+namespace talus
+{
+  using dealii::ParameterAcceptor;
+  namespace Patterns = dealii::Patterns;
+
+  template <int dim>
+  MaterialModel<dim>::MaterialModel(const std::string &section)
+    : ParameterAcceptor(section)
+    , section_(section)
+  {
+    this->add_parameter("Density",
+                        density_,
+                        "Density of the undeformed material that gives inertia "
+                        "[kg/m^3].",
+                        ParameterAcceptor::prm,
+                        Patterns::Double(0.));
+    this->add_parameter("Submerged density",
+                        submerged_density_,
+                        "Density of the undeformed material less that of the "
+                        "water, which gives weight [kg/m^3]. Empty: as "
+                        "`Density`.",
+                        ParameterAcceptor::prm,
+                        Patterns::List(Patterns::Double(0.), 0, 1));
+    this->add_parameter("Cell mean",
+                        cell_mean_,
+                        "Take the dilatation and the mean stress as their "
+                        "averages over a cell, so that nearly incompressible "
+                        "material does not lock: on, off, or auto, which is on "
+                        "for Poisson's ratio above 0.4 and for plastic laws.",
+                        ParameterAcceptor::prm,
+                        Patterns::Selection("auto|on|off"));
+  }
+
+
+
+  template <int dim>
+  void
+  MaterialModel<dim>::check() const
+  {
+    AssertThrow(density_ > 0.,
+                ExcUser(text("Section ",
+                             section_,
+                             ": `Density` is ",
+                             density_,
+                             " kg/m^3. Give a positive number.")));
+  }
+
+
+
+  template <int dim>
+  bool
+  MaterialModel<dim>::uses_cell_mean() const
+  {
+    return cell_mean_ == "auto" ? locks() : cell_mean_ == "on";
+  }
+
+
+
+  template <int dim>
+  double
+  MaterialModel<dim>::submerged_density() const
+  {
+    return submerged_density_.empty() ? density_ : submerged_density_.front();
+  }
+
+
+
+  template class MaterialModel<2>;
+  template class MaterialModel<3>;
+} // namespace talus

@@ -1,0 +1,160 @@
+// What all laws share: batches, factory, parameters.
+
+#include <talus/base/errors.h>
+
+#include "soil.h"
+
+using namespace talus;
+
+namespace
+{
+  const Elastic paper{250e3, 0.49};
+
+
+
+  /// All columns of 11 points after a step: in one batch, and one by one.
+  template <int dim>
+  void
+  check_lanes(const std::string &name)
+  {
+    constexpr unsigned int n = 11;
+    Soil<dim>              batch(name, paper.parameters(), n);
+    Soil<dim>              single(name, paper.parameters(), n);
+    for (Soil<dim> *soil : {&batch, &single})
+      {
+        std::mt19937 random(2);
+        for (unsigned int p = 0; p < n; ++p)
+          {
+            soil->set_F(add(identity<dim, double>(),
+                            random_matrix<dim>(random, 0.2),
+                            1.),
+                        p);
+            soil->set_increment(random_matrix<dim>(random,
+                                                   p % 3 == 0 ? 0.05 : 5e-3),
+                                p);
+            for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+              soil->points.data(soil->points.stress, c)[p] =
+                random_matrix<2>(random, 2000.)[0][0];
+          }
+      }
+    batch.law->update_stress(batch.points, 0, n, batch.dt);
+    for (unsigned int p = 0; p < n; ++p)
+      single.law->update_stress(single.points, p, p + 1, single.dt);
+
+    double speed[n + n_lanes];
+    batch.law->wave_speed(batch.points, 0, n, speed);
+    for (const Column &column : batch.points.columns())
+      for (unsigned int c = 0; c < column.n_components; ++c)
+        for (unsigned int p = 0; p < n; ++p)
+          {
+            const double expected = single.points.data(column.first, c)[p];
+            // Of the size of the moduli, which the stress is a difference of.
+            const double scale =
+              column.unit == "Pa" ? paper.bulk : std::abs(expected) + 1.;
+            EXPECT_NEAR(batch.points.data(column.first, c)[p],
+                        expected,
+                        1e-14 * scale)
+              << name << ", " << column.name << ", point " << p;
+          }
+    for (unsigned int p = 0; p < n; ++p)
+      EXPECT_NEAR(speed[p], single.wave_speed(p), 1e-14 * speed[p]) << name;
+  }
+
+
+
+  template <typename Call>
+  std::string
+  message_of(const Call &call)
+  {
+    try
+      {
+        call();
+      }
+    catch (const ExcUser &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+} // namespace
+
+
+
+TEST(Materials, LanesEqualScalars)
+{
+  for (const std::string &name : material_names<2>())
+    {
+      check_lanes<2>(name);
+      check_lanes<3>(name);
+    }
+}
+
+
+
+TEST(Materials, FactoryKnowsItsLaws)
+{
+  for (const std::string &name : material_names<3>())
+    EXPECT_NE(make_law<3>(name, ""), nullptr);
+  const std::string message =
+    message_of([] { make_material<2>("jelly", "/Materials/clay"); });
+  for (const std::string part :
+       {"jelly", "/Materials/clay", "linear elastic, von Mises, Hencky"})
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+
+
+TEST(Materials, ContradictionsAreRefused)
+{
+  EXPECT_NE(message_of([] {
+              make_law<2>("von Mises",
+                          "set Young's modulus = 1e5\n"
+                          "set Poisson's ratio = 0.25\n"
+                          "set Hardening modulus = -1.2e5");
+            }).find("more than -120000 Pa"),
+            std::string::npos);
+  EXPECT_NE(message_of([] {
+              make_law<2>("Hencky", "set Poisson's ratio = 0.5");
+            }).find("0.49"),
+            std::string::npos);
+  EXPECT_NE(message_of([] {
+              make_law<2>("von Mises",
+                          "set Residual undrained shear strength = 2501");
+            }).find("must not exceed"),
+            std::string::npos);
+  EXPECT_THROW(make_law<2>("Hencky", "set Submerged density = heavy"),
+               dealii::ExceptionBase);
+}
+
+
+
+TEST(Materials, CommonParameters)
+{
+  const auto plain = make_law<2>("linear elastic", "set Density = 1600");
+  EXPECT_EQ(plain->submerged_density(), 1600.);
+  EXPECT_FALSE(plain->uses_cell_mean());
+  const auto clay =
+    make_law<2>("linear elastic",
+                "set Submerged density = 600\nset Poisson's ratio = 0.49");
+  EXPECT_EQ(clay->density(), 1000.);
+  EXPECT_EQ(clay->submerged_density(), 600.);
+  EXPECT_TRUE(clay->uses_cell_mean());
+  EXPECT_TRUE(make_law<2>("von Mises", "")->uses_cell_mean());
+  EXPECT_FALSE(
+    make_law<2>("von Mises", "set Cell mean = off")->uses_cell_mean());
+}
+
+
+
+TEST(Materials, PointsTurnedInsideOutAreReported)
+{
+  for (const std::string &name : material_names<2>())
+    {
+      Soil<2> soil(name, paper.parameters(), 9);
+      for (unsigned int p = 0; p < 9; ++p)
+        soil.set_increment(Matrix<2, double>{}, p);
+      soil.set_increment({{{{{-1.5, 0.}}, {{0., 0.}}}}}, 4);
+      EXPECT_THROW(soil.law->update_stress(soil.points, 0, 9, soil.dt),
+                   ExcPoint);
+    }
+}

@@ -1,0 +1,269 @@
+#ifndef talus_tests_unit_soil_h
+#define talus_tests_unit_soil_h
+
+#include <talus/materials/material_model.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace talus
+{
+  // A law and a few points of it, driven by prescribed velocity gradients.
+
+  constexpr double pi = 3.14159265358979323846;
+
+
+
+  /// The law @p name with "set ..." lines @p parameters, checked.
+  template <int dim>
+  std::unique_ptr<MaterialModel<dim>>
+  make_law(const std::string &name, const std::string &parameters)
+  {
+    using dealii::ParameterAcceptor;
+    // A section of its own: several laws may be alive in one test, and
+    // ParameterAcceptor::clear() must not meet living objects.
+    static unsigned int counter = 0;
+    const std::string   soil    = "soil " + std::to_string(counter++);
+    auto                law = make_material<dim>(name, "/Materials/" + soil);
+    ParameterAcceptor::declare_all_parameters();
+    ParameterAcceptor::prm.parse_input_from_string(
+      "subsection Materials\nsubsection " + soil + "\n" + parameters +
+      "\nend\nend\n");
+    ParameterAcceptor::parse_all_parameters();
+    law->check();
+    return law;
+  }
+
+
+
+  template <int dim>
+  class Soil
+  {
+  public:
+    std::unique_ptr<MaterialModel<dim>> law;
+    Points<dim>                         points;
+
+    Soil(const std::string &name,
+         const std::string &parameters,
+         const unsigned int n_points = 1)
+      : law(make_law<dim>(name, parameters))
+    {
+      law->add_columns(points);
+      points.append(n_points);
+      for (unsigned int p = 0; p < n_points; ++p)
+        {
+          points.data(points.reference_volume)[p] = volume;
+          points.data(points.mass)[p]             = law->density() * volume;
+          set_F(identity<dim, double>(), p);
+        }
+    }
+
+    void
+    set_F(const Matrix<dim, double> &F, const unsigned int p = 0)
+    {
+      store_matrix(points, points.deformation_gradient, p, F);
+    }
+
+    Matrix<dim, double>
+    F(const unsigned int p = 0) const
+    {
+      return load_matrix<dim, double>(points, points.deformation_gradient, p);
+    }
+
+    void
+    set_increment(const Matrix<dim, double> &H, const unsigned int p = 0)
+    {
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          points.velocity_gradient(i, j)[p] = H[i][j] / dt;
+    }
+
+    /// One step of point @p p with dt L' = @p H.
+    void
+    step(const Matrix<dim, double> &H, const unsigned int p = 0)
+    {
+      set_increment(H, p);
+      law->update_stress(points, p, p + 1, dt);
+    }
+
+    /// Energy per undeformed volume of a hyperelastic law at @p F; sets the
+    /// stress of point 0, too.
+    double
+    energy_at(const Matrix<dim, double> &F)
+    {
+      set_F(F);
+      law->update_stress(points, 0, 1, 0.);
+      return elastic_energy() / volume;
+    }
+
+    Stress<dim, double>
+    stress(const unsigned int p = 0) const
+    {
+      return load_stress<dim, double>(points, p);
+    }
+
+    double
+    mean_stress(const unsigned int p = 0) const
+    {
+      const auto sigma = stress(p);
+      return (sigma[0] + sigma[1] + sigma[2]) / 3.;
+    }
+
+    /// s : s of the deviator s.
+    double
+    deviator_squared(const unsigned int p = 0) const
+    {
+      const auto   sigma = stress(p);
+      const double m     = mean_stress(p);
+      double       sum   = 0.;
+      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+        sum +=
+          c < 3 ? (sigma[c] - m) * (sigma[c] - m) : 2. * sigma[c] * sigma[c];
+      return sum;
+    }
+
+    double
+    elastic_energy() const
+    {
+      return points.data(points.elastic_energy)[0];
+    }
+
+    double
+    plastic_work() const
+    {
+      return points.data(points.plastic_work)[0];
+    }
+
+    double
+    plastic_strain() const
+    {
+      return points.data(points.find("plastic strain"))[0];
+    }
+
+    double
+    wave_speed(const unsigned int p = 0) const
+    {
+      double speed;
+      law->wave_speed(points, p, p + 1, &speed);
+      return speed;
+    }
+
+    static constexpr double volume = 0.37;
+    static constexpr double dt     = 0.01;
+  };
+
+
+
+  /// Young's modulus and Poisson's ratio as parameters and as moduli.
+  struct Elastic
+  {
+    double E, nu;
+    double mu     = E / (2. * (1. + nu));
+    double lambda = E * nu / ((1. + nu) * (1. - 2. * nu));
+    double bulk   = lambda + 2. / 3. * mu;
+
+    std::string
+    parameters(const std::string &more = "") const
+    {
+      std::ostringstream out;
+      out.precision(17);
+      out << "set Young's modulus = " << E << "\nset Poisson's ratio = " << nu
+          << "\nset Density = 600\n"
+          << more;
+      return out.str();
+    }
+  };
+
+
+
+  /// dim x dim matrix with entries in [-size, size].
+  template <int dim>
+  Matrix<dim, double>
+  random_matrix(std::mt19937 &random, const double size)
+  {
+    Matrix<dim, double> A;
+    for (auto &row : A.rows)
+      for (double &entry : row)
+        entry = size * (2. * random() / 4294967295. - 1.);
+    return A;
+  }
+
+
+
+  template <int dim>
+  Matrix<dim, double>
+  add(Matrix<dim, double> A, const Matrix<dim, double> &B, const double scale)
+  {
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        A[i][j] += scale * B[i][j];
+    return A;
+  }
+
+
+
+  template <int dim>
+  Matrix<dim, double>
+  transpose(const Matrix<dim, double> &A)
+  {
+    Matrix<dim, double> B;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        B[i][j] = A[j][i];
+    return B;
+  }
+
+
+
+  /// Rotation by @p angle: in 3-D about the axis (1, 2, -2)/3.
+  template <int dim>
+  Matrix<dim, double>
+  rotation(const double angle)
+  {
+    const double c = std::cos(angle), s = std::sin(angle);
+    if constexpr (dim == 2)
+      return {{{{{c, -s}}, {{s, c}}}}};
+    else
+      {
+        const std::array<double, 3> n = {{1. / 3., 2. / 3., -2. / 3.}};
+        const Matrix<3, double>     K = {
+              {{{{0., -n[2], n[1]}}, {{n[2], 0., -n[0]}}, {{-n[1], n[0], 0.}}}}};
+        return add(add(identity<3, double>(), K, s), product(K, K), 1. - c);
+      }
+  }
+
+
+
+  /// R sigma R^T.
+  template <int dim>
+  Stress<dim, double>
+  rotated(const Matrix<dim, double> &R, const Stress<dim, double> &sigma)
+  {
+    Matrix<dim, double> S;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        S[i][j] = sigma[stress_index<dim>(std::min(i, j), std::max(i, j))];
+    S           = product(product(R, S), transpose(R));
+    auto result = sigma;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = i; j < dim; ++j)
+        result[stress_index<dim>(i, j)] = S[i][j];
+    return result;
+  }
+
+
+
+  template <std::size_t n>
+  void
+  expect_near(const std::array<double, n> &a,
+              const std::array<double, n> &b,
+              const double                 tolerance)
+  {
+    for (unsigned int c = 0; c < n; ++c)
+      EXPECT_NEAR(a[c], b[c], tolerance) << "component " << c;
+  }
+} // namespace talus
+
+#endif
