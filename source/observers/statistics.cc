@@ -132,7 +132,9 @@ namespace talus
       add("largest generation",
           Utilities::MPI::max(splits.largest_generation, communicator));
       add("clipped boxes",
-          Utilities::MPI::sum(snapshot.clipped_boxes, communicator));
+          Utilities::MPI::sum(count_clipped_boxes(snapshot.points,
+                                                     snapshot.grid,
+                                                     snapshot.box_shape), communicator));
       add("split ledger [-]", Utilities::MPI::max(splits.ledger, communicator));
     }
   } // namespace

@@ -91,7 +91,7 @@ struct Scene
             time,
             time_step,
             gravity_work,
-            clipped_boxes};
+            box_shape};
   }
 
   talus::Points<dim>       points;
@@ -103,7 +103,7 @@ struct Scene
   double                   time          = 0;
   double                   time_step     = 0;
   double                   gravity_work  = 0;
-  unsigned long            clipped_boxes = 0;
+  talus::BoxShape          box_shape;
 };
 
 
