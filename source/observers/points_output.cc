@@ -272,12 +272,14 @@ namespace talus
 
 
 
-  template std::vector<Field> point_fields(const Points<2> &);
-  template std::vector<Field> point_fields(const Points<3> &);
+  template std::vector<Field>
+  point_fields(const Points<2> &);
+  template std::vector<Field>
+  point_fields(const Points<3> &);
   template class PointsOutput<2>;
   template class PointsOutput<3>;
-  template void write_points(const Snapshot<2> &,
-                             const std::filesystem::path &);
-  template void write_points(const Snapshot<3> &,
-                             const std::filesystem::path &);
+  template void
+  write_points(const Snapshot<2> &, const std::filesystem::path &);
+  template void
+  write_points(const Snapshot<3> &, const std::filesystem::path &);
 } // namespace talus

@@ -186,10 +186,10 @@ namespace talus
 
 
 
-  template std::vector<ProfileColumn> find_profile(const Points<2> &,
-                                                   const Grid<2> &);
-  template std::vector<ProfileColumn> find_profile(const Points<3> &,
-                                                   const Grid<3> &);
+  template std::vector<ProfileColumn>
+  find_profile(const Points<2> &, const Grid<2> &);
+  template std::vector<ProfileColumn>
+  find_profile(const Points<3> &, const Grid<3> &);
   template class Profile<2>;
   template class Profile<3>;
 } // namespace talus

@@ -29,8 +29,8 @@ namespace talus
   /// a layer of boxes is that of the soil. Collective, the result is on the
   /// first rank.
   template <int dim>
-  std::vector<ProfileColumn> find_profile(const Points<dim> &points,
-                                          const Grid<dim>   &grid);
+  std::vector<ProfileColumn>
+  find_profile(const Points<dim> &points, const Grid<dim> &grid);
 
 
 
@@ -41,11 +41,13 @@ namespace talus
   {
   public:
     /// Start the file. Throws ExcUser if it cannot be written.
-    void begin(const std::filesystem::path &folder, const Grid<dim> &grid);
+    void
+    begin(const std::filesystem::path &folder, const Grid<dim> &grid);
 
     /// Append the rows of one output time; collective, the file belongs to the
     /// first rank.
-    void add_rows(const Snapshot<dim> &snapshot);
+    void
+    add_rows(const Snapshot<dim> &snapshot);
 
   private:
     CsvFile file_;

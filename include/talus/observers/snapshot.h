@@ -22,8 +22,8 @@ namespace talus
     unsigned long            step;
     double                   time;      ///< s
     double                   time_step; ///< of the last step, s
-    double gravity_work; ///< of weight and body forces so far, J
-    const BoxShape          &box_shape;
+    double          gravity_work;       ///< of weight and body forces so far, J
+    const BoxShape &box_shape;
   };
 } // namespace talus
 
