@@ -132,7 +132,10 @@ namespace talus
       add("largest generation",
           Utilities::MPI::max(splits.largest_generation, communicator));
       add("clipped boxes",
-          Utilities::MPI::sum(snapshot.clipped_boxes, communicator));
+          Utilities::MPI::sum(count_clipped_boxes(snapshot.points,
+                                                  snapshot.grid,
+                                                  snapshot.box_shape),
+                              communicator));
       add("split ledger [-]", Utilities::MPI::max(splits.ledger, communicator));
     }
   } // namespace
@@ -285,8 +288,10 @@ namespace talus
 
 
 
-  template double front_of_mass(const Points<2> &, double, MPI_Comm);
-  template double front_of_mass(const Points<3> &, double, MPI_Comm);
+  template double
+  front_of_mass(const Points<2> &, double, MPI_Comm);
+  template double
+  front_of_mass(const Points<3> &, double, MPI_Comm);
   template class Statistics<2>;
   template class Statistics<3>;
 } // namespace talus
