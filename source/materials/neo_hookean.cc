@@ -31,7 +31,7 @@ namespace talus
 
 
     /// J times the largest eigenvalue of the acoustic tensor. In direction n it
-    /// is Q = [(lambda (1 - ln J) + mu) n n + mu (n.b.n) I]/J, so the longitudinal
+    /// is [(lambda (1 - ln J) + mu) n n + mu (n.b.n) I]/J, so the longitudinal
     /// wave along the largest stretch is the fastest; far in tension the first
     /// factor turns negative and the shear wave is. Exact in 2-D, from above in
     /// 3-D (EigenvalueRange).

@@ -43,8 +43,8 @@ namespace talus
   Box<dim>
   Polygon<dim>::bounding_box() const
   {
-    bg::model::box<BoostPoint> envelope;
-    bg::envelope(polygon_, envelope);
+    const auto envelope =
+      bg::return_envelope<bg::model::box<BoostPoint>>(polygon_);
     Box<dim> box;
     box.lower[0] = envelope.min_corner().x();
     box.lower[1] = envelope.min_corner().y();
