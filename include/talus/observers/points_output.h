@@ -15,10 +15,10 @@ namespace talus
   /// Columns with dim components are vectors; the stress and columns with
   /// dim*dim components are 3x3 tensors (in 2-D with the stress out of the
   /// plane, 1 for the deformation gradient); others are one scalar per
-  /// component, numbered.
+  /// component, numbered. The points must outlive the fields.
   template <int dim>
   std::vector<Field>
-  point_fields(const Points<dim> &points);
+  point_fields(const Snapshot<dim> &snapshot);
 
 
 

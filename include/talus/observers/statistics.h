@@ -33,6 +33,7 @@ namespace talus
   /// - `kinetic energy [J]` is that of the points, `grid kinetic energy [J]`
   ///   that of the background grid, without the points' FLIP noise: what tells
   ///   whether the slide has come to rest. It is 0 before the first step.
+  /// - `clipped boxes` counts axes of boxes that the weights clip now.
   /// - The energy terms are those of EnergyTerms; the columns from `empty
   ///   interior cells` on are those of FractureCounts and SplitStatistics.
   template <int dim>
