@@ -66,6 +66,13 @@ namespace
         document(std::cout);
         return 0;
       }
+    const unsigned int n_ranks =
+      dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    AssertThrow(n_ranks == 1,
+                ExcUser(text("talus was started on ",
+                             n_ranks,
+                             " MPI ranks, but so far it runs on one only. "
+                             "Start it without mpirun.")));
     const ParameterFile file(command_line.parameter_file,
                              command_line.overrides);
     return file.preview().dimension == 2 ? run<2>(command_line, file)

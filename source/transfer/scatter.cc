@@ -9,11 +9,24 @@ namespace talus
 
   namespace
   {
-    /// What each point of a block gives to its nodes: the first register is
-    /// multiplied by the weight, register 1 + d by component d of its gradient.
+    /// What a point gives to its nodes: register 0 is multiplied by the weight,
+    /// register 1 + d by component d of its gradient. Entries that are not set
+    /// stay zero. Kept as doubles: they are written one by one, and read as
+    /// registers only when the whole block is written.
     template <int dim>
-    using Contributions =
-      std::array<std::array<Lanes, 1 + dim>, Block<dim>::n_points>;
+    struct alignas(sizeof(Lanes)) Contribution
+    {
+      double entry[1 + dim][n_lanes] = {};
+
+      Lanes
+      operator[](const unsigned int i) const
+      {
+        return load<Lanes>(entry[i]);
+      }
+    };
+
+    template <int dim>
+    using Contributions = std::array<Contribution<dim>, Block<dim>::n_points>;
 
 
 
@@ -35,10 +48,11 @@ namespace talus
     /// f_i = -sum_p V_p sigma_p . grad S_ip + sum_p m_p b_p S_ip, and the sums
     /// of mass, momentum and reference volume. @cite bardenhagen2004, eq. 19 ff.
     template <int dim>
-    inline std::array<Lanes, 1 + dim>
-    contribution_of_point(Points<dim>                   &points,
-                          const unsigned int             p,
-                          const std::array<double, dim> &acceleration)
+    inline void
+    set_contribution(Points<dim>       &points,
+                     const unsigned int p,
+                     const double      *acceleration,
+                     Contribution<dim> &r)
     {
       using Sum            = NodalSum<dim>;
       const double mass    = points.data(points.mass)[p];
@@ -49,17 +63,16 @@ namespace talus
           load_matrix<dim, double>(points, points.deformation_gradient, p));
       const Matrix<dim, double> sigma = averaged_stress(points, p);
 
-      std::array<Lanes, 1 + dim> r{};
-      r[0][Sum::mass]   = mass;
-      r[0][Sum::volume] = volume0;
+      r.entry[0][Sum::mass]   = mass;
+      r.entry[0][Sum::volume] = volume0;
       for (unsigned int i = 0; i < dim; ++i)
         {
-          r[0][Sum::momentum + i] = mass * points.data(points.velocity, i)[p];
-          r[0][Sum::force + i]    = mass * acceleration[i];
+          r.entry[0][Sum::momentum + i] =
+            mass * points.data(points.velocity, i)[p];
+          r.entry[0][Sum::force + i] = mass * acceleration[i];
           for (unsigned int d = 0; d < dim; ++d)
-            r[1 + d][Sum::force + i] = -volume * sigma[i][d];
+            r.entry[1 + d][Sum::force + i] = -volume * sigma[i][d];
         }
-      return r;
     }
 
 
@@ -72,11 +85,13 @@ namespace talus
     {
       for (unsigned int k = 0; k < block.size; ++k)
         {
-          std::array<double, dim> acceleration;
+          double acceleration[dim];
           for (unsigned int d = 0; d < dim; ++d)
             acceleration[d] = block.body_acceleration[d][k];
-          contributions[k] =
-            contribution_of_point<dim>(points, block.begin + k, acceleration);
+          set_contribution(points,
+                           block.begin + k,
+                           acceleration,
+                           contributions[k]);
         }
     }
 
@@ -92,7 +107,9 @@ namespace talus
     {
       for (unsigned int k = piece.begin; k < piece.end; ++k)
         {
-          const auto &r = contributions[k];
+          const Lanes r[3] = {contributions[k][0],
+                              contributions[k][1],
+                              contributions[k][2]};
           Lanes       P[4], Q[4];
           for (unsigned int i = 0; i < 4; ++i)
             {
@@ -117,7 +134,10 @@ namespace talus
     {
       for (unsigned int k = piece.begin; k < piece.end; ++k)
         {
-          const auto &r = contributions[k];
+          const Lanes r[4] = {contributions[k][0],
+                              contributions[k][1],
+                              contributions[k][2],
+                              contributions[k][3]};
           Lanes       P[4], Q[4], T[4];
           for (unsigned int i = 0; i < 4; ++i)
             {
@@ -155,12 +175,13 @@ namespace talus
       for (unsigned int p = segment.begin; p < segment.end; ++p)
         {
           weights_of_point(points, grid, shape, segment.cell, p, weights);
-          std::array<double, dim> acceleration;
+          double acceleration[dim];
           for (unsigned int d = 0; d < dim; ++d)
             acceleration[d] =
               loads.acceleration_of_body[segment.body][d] +
               (loads.varies ? points.body_acceleration(d)[p] : 0.);
-          const auto r = contribution_of_point<dim>(points, p, acceleration);
+          Contribution<dim> r;
+          set_contribution(points, p, acceleration, r);
           for (const auto &w : weights)
             {
               Lanes sum = load<Lanes>(nodes.sum(w.node)) + w.value * r[0];
