@@ -11,7 +11,7 @@ namespace talus
                      const unsigned int p,
                      const double       sign)
   {
-    const double mass = points.data(points.mass)[p];
+    const double mass         = points.data(points.mass)[p];
     double       speed_square = 0, distance_square = 0;
 
     std::array<double, n_entries> entry, scale;

@@ -89,10 +89,7 @@ namespace talus
           if (unsigned int axes = axes_to_split(points, p, cell_size))
             {
               if (points.data(points.generation)[p] >= maximum_generation_)
-                {
-                  ++statistics_.n_refused;
-                  continue;
-                }
+                continue;
               if (directions_ == "all")
                 axes = (1u << dim) - 1;
               violations_.push_back({p, axes});
@@ -103,20 +100,20 @@ namespace talus
       return false;
     const std::size_t n_points =
       points.size() - violations_.size() + n_daughters;
-    AssertThrow(
-      n_points <= maximum_points_,
-      ExcPoint(text("Splitting ",
-                    violations_.size(),
-                    " points, the first of them point ",
-                    points.data(points.id)[violations_[0].point],
-                    " near x = ",
-                    points.data(points.position)[violations_[0].point],
-                    " m, would make ",
-                    n_points,
-                    " points, more than 'Splitting/Maximum number of points' = ",
-                    maximum_points_,
-                    ". Raise it, lower 'Splitting/Maximum generation', or use "
-                    "'Splitting/Directions = stretched'.")));
+    AssertThrow(n_points <= maximum_points_,
+                ExcPoint(text(
+                  "Splitting ",
+                  violations_.size(),
+                  " points, the first of them point ",
+                  points.data(points.id)[violations_[0].point],
+                  " near x = ",
+                  points.data(points.position)[violations_[0].point],
+                  " m, would make ",
+                  n_points,
+                  " points, more than 'Splitting/Maximum number of points' = ",
+                  maximum_points_,
+                  ". Raise it, lower 'Splitting/Maximum generation', or use "
+                  "'Splitting/Directions = stretched'.")));
     for (const Violation &violation : violations_)
       split(points, violation.point, violation.axes);
     statistics_.n_splits += violations_.size();

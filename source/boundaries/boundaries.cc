@@ -9,10 +9,10 @@ namespace talus
     FaceCondition
     condition_by_name(const std::string &name)
     {
-      return name == "roller" ? FaceCondition::roller :
-             name == "fixed"  ? FaceCondition::fixed :
-             name == "seabed" ? FaceCondition::seabed :
-                                FaceCondition::free;
+      return name == "roller"   ? FaceCondition::roller
+             : name == "fixed"  ? FaceCondition::fixed
+             : name == "seabed" ? FaceCondition::seabed
+                                : FaceCondition::free;
     }
   } // namespace
 

@@ -43,24 +43,24 @@ namespace talus
     const double mass         = nodes.mass(node);
     const double normal_force = mass * v_n / dt;
 
-    Tensor<1, dim> v_t   = trial;
-    v_t[axis]            = 0;
-    const double speed   = v_t.norm();
-    const auto  &share   = grid.face_share(face, node);
-    const double filling = std::min(
-      1., nodes.sum(node)[NodalSum<dim>::volume] / share.volume);
-    const double friction = std::min({mass * speed / dt,
-                                      friction_coefficient_ * normal_force,
-                                      maximum_shear_stress_ * share.area *
-                                        filling});
+    Tensor<1, dim> v_t = trial;
+    v_t[axis]          = 0;
+    const double speed = v_t.norm();
+    const auto  &share = grid.face_share(face, node);
+    const double filling =
+      std::min(1., nodes.sum(node)[NodalSum<dim>::volume] / share.volume);
+    const double friction =
+      std::min({mass * speed / dt,
+                friction_coefficient_ * normal_force,
+                maximum_shear_stress_ * share.area * filling});
 
     Tensor<1, dim> normal_impulse;
     normal_impulse[axis] = -outwards * mass * v_n;
     Tensor<1, dim> tangential_impulse;
     if (speed > 0)
       tangential_impulse = (-friction * dt / speed) * v_t;
-    nodes.set_velocity(
-      node, trial + (normal_impulse + tangential_impulse) / mass);
+    nodes.set_velocity(node,
+                       trial + (normal_impulse + tangential_impulse) / mass);
     return {normal_impulse, tangential_impulse};
   }
 

@@ -13,8 +13,8 @@ namespace talus
 {
   using namespace dealii;
 
-  const std::array<std::string, 6> face_names
-    = { { "Left", "Right", "Bottom", "Top", "Back", "Front" } };
+  const std::array<std::string, 6> face_names = {
+    {"Left", "Right", "Bottom", "Top", "Back", "Front"}};
 
   namespace
   {
@@ -95,7 +95,7 @@ namespace talus
   Grid<dim>::fit_domain(const std::array<bool, 2 * dim> &may_move)
   {
     adjustment_.clear();
-    domain_ = { lower_corner_, upper_corner_ };
+    domain_ = {lower_corner_, upper_corner_};
     for (unsigned int d = 0; d < dim; ++d)
       {
         const double exact = domain_.length(d) / cell_size_;
@@ -212,7 +212,7 @@ namespace talus
                                  numbers::invalid_unsigned_int);
     std::vector<types::global_dof_index> dofs(fe_.n_dofs_per_cell());
 
-    for (const bool owned : { true, false })
+    for (const bool owned : {true, false})
       {
         for (const auto &cell : dof_handler_.active_cell_iterators())
           {

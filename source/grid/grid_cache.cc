@@ -175,8 +175,8 @@ namespace talus
         const Cell<dim> &cell   = cells_[c];
         const Lattice    place  = place_of_cell(c);
         const Lattice    extent = lattice_extent(cell.size);
-        const double     area
-          = std::pow(0.5 * cell.size, static_cast<double>(dim - 1));
+        const double     area =
+          std::pow(0.5 * cell.size, static_cast<double>(dim - 1));
         for (unsigned int face = 0; face < 2 * dim; ++face)
           {
             const unsigned int d = face / 2, side = face % 2;

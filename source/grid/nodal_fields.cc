@@ -101,8 +101,8 @@ namespace talus
           {
             const double increment   = dt * s[Sum::force + d] * inverse_mass;
             v[Motion::increment + d] = increment;
-            v[Motion::velocity + d]
-              = s[Sum::momentum + d] * inverse_mass + increment;
+            v[Motion::velocity + d] =
+              s[Sum::momentum + d] * inverse_mass + increment;
           }
       }
   }
@@ -163,8 +163,8 @@ namespace talus
   {
     Tensor<1, dim> v;
     for (unsigned int d = 0; d < dim; ++d)
-      v[d] = motion(node)[Motion::velocity + d]
-             - 0.5 * motion(node)[Motion::increment + d];
+      v[d] = motion(node)[Motion::velocity + d] -
+             0.5 * motion(node)[Motion::increment + d];
     return v;
   }
 

@@ -165,6 +165,8 @@ namespace talus
 
 
 
-  template FractureCounts count_fractures(const Points<2> &, const Grid<2> &);
-  template FractureCounts count_fractures(const Points<3> &, const Grid<3> &);
+  template FractureCounts
+  count_fractures(const Points<2> &, const Grid<2> &);
+  template FractureCounts
+  count_fractures(const Points<3> &, const Grid<3> &);
 } // namespace talus

@@ -76,8 +76,7 @@ namespace talus
   void
   Output<dim>::begin(const Snapshot<dim> &snapshot, const double end_time)
   {
-    const TimerOutput::Scope scope(timer_, "output");
-    const MPI_Comm           communicator = snapshot.grid.communicator();
+    const MPI_Comm communicator = snapshot.grid.communicator();
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       {
         make_folder(folder_);

@@ -93,9 +93,10 @@ namespace talus
 
     template <int dim>
     void
-    append_derived_vectors(std::vector<Field> &fields,
-                           const Points<dim>  &points)
+    append_derived_vectors(std::vector<Field>  &fields,
+                           const Snapshot<dim> &snapshot)
     {
+      const Points<dim> &points = snapshot.points;
       fields.push_back({"displacement [m]",
                         FieldKind::vector,
                         dim,
@@ -108,11 +109,9 @@ namespace talus
       fields.push_back({"box length [m]",
                         FieldKind::vector,
                         dim,
-                        [&points](const unsigned int p, float *values) {
+                        [snapshot](const unsigned int p, float *values) {
                           for (unsigned int d = 0; d < dim; ++d)
-                            values[d] =
-                              points.data(points.stretch, d)[p] *
-                              points.data(points.reference_length, d)[p];
+                            values[d] = box_length(snapshot, d, p);
                         }});
     }
 
@@ -153,9 +152,10 @@ namespace talus
 
     template <int dim>
     Patches<0, dim>
-    points_as_vertices(const Points<dim> &points)
+    points_as_vertices(const Snapshot<dim> &snapshot)
     {
-      Patches<0, dim> patches(point_fields(points));
+      const Points<dim> &points = snapshot.points;
+      Patches<0, dim>    patches(point_fields(snapshot));
       patches.reserve(points.size());
       for (unsigned int p = 0; p < points.size(); ++p)
         {
@@ -171,9 +171,10 @@ namespace talus
 
     template <int dim>
     Patches<dim, dim>
-    points_as_boxes(const Points<dim> &points)
+    points_as_boxes(const Snapshot<dim> &snapshot)
     {
-      Patches<dim, dim> patches(point_fields(points));
+      const Points<dim> &points = snapshot.points;
+      Patches<dim, dim>  patches(point_fields(snapshot));
       patches.reserve(points.size());
       std::array<Point<dim>, (1 << dim)>   corners;
       std::array<unsigned int, (1 << dim)> items;
@@ -183,9 +184,8 @@ namespace talus
           for (unsigned int v = 0; v < corners.size(); ++v)
             for (unsigned int d = 0; d < dim; ++d)
               {
-                const double half = 0.5 * points.data(points.stretch, d)[p] *
-                                    points.data(points.reference_length, d)[p];
-                corners[v][d] = points.data(points.position, d)[p] +
+                const double half = 0.5 * box_length(snapshot, d, p);
+                corners[v][d]     = points.data(points.position, d)[p] +
                                 ((v >> d) & 1 ? half : -half);
               }
           patches.add(corners, items);
@@ -198,8 +198,9 @@ namespace talus
 
   template <int dim>
   std::vector<Field>
-  point_fields(const Points<dim> &points)
+  point_fields(const Snapshot<dim> &snapshot)
   {
+    const Points<dim> &points = snapshot.points;
     std::vector<Field> fields;
     for (const Column &column : points.columns())
       {
@@ -223,7 +224,7 @@ namespace talus
                }});
           }
       }
-    append_derived_vectors(fields, points);
+    append_derived_vectors(fields, snapshot);
     append_derived_scalars(fields, points);
     return fields;
   }
@@ -248,12 +249,12 @@ namespace talus
   {
     if (boxes_as_cells_)
       {
-        auto patches = points_as_boxes(snapshot.points);
+        auto patches = points_as_boxes(snapshot);
         series_.write(patches, snapshot.time, snapshot.step);
       }
     else
       {
-        auto patches = points_as_vertices(snapshot.points);
+        auto patches = points_as_vertices(snapshot);
         series_.write(patches, snapshot.time, snapshot.step);
       }
   }
@@ -264,7 +265,7 @@ namespace talus
   void
   write_points(const Snapshot<dim> &snapshot, const std::filesystem::path &path)
   {
-    auto patches = points_as_vertices(snapshot.points);
+    auto patches = points_as_vertices(snapshot);
     write_file(path, [&](std::ostream &out) {
       patches.write(out, snapshot.time, snapshot.step);
     });
@@ -272,12 +273,14 @@ namespace talus
 
 
 
-  template std::vector<Field> point_fields(const Points<2> &);
-  template std::vector<Field> point_fields(const Points<3> &);
+  template std::vector<Field>
+  point_fields(const Snapshot<2> &);
+  template std::vector<Field>
+  point_fields(const Snapshot<3> &);
   template class PointsOutput<2>;
   template class PointsOutput<3>;
-  template void write_points(const Snapshot<2> &,
-                             const std::filesystem::path &);
-  template void write_points(const Snapshot<3> &,
-                             const std::filesystem::path &);
+  template void
+  write_points(const Snapshot<2> &, const std::filesystem::path &);
+  template void
+  write_points(const Snapshot<3> &, const std::filesystem::path &);
 } // namespace talus

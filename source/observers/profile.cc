@@ -64,15 +64,15 @@ namespace talus
 
     template <int dim>
     Sums
-    contribution(const Points<dim>        &points,
+    contribution(const Snapshot<dim>      &snapshot,
                  const FinestLattice<dim> &lattice,
                  const unsigned int        p)
     {
-      const double y           = points.data(points.position, 1)[p];
-      const double half_length = 0.5 * points.data(points.stretch, 1)[p] *
-                                 points.data(points.reference_length, 1)[p];
-      const double mass = points.data(points.mass)[p];
-      const double v_z =
+      const Points<dim> &points      = snapshot.points;
+      const double       y           = points.data(points.position, 1)[p];
+      const double       half_length = 0.5 * box_length(snapshot, 1, p);
+      const double       mass        = points.data(points.mass)[p];
+      const double       v_z =
         (dim == 3 ? points.data(points.velocity, dim - 1)[p] : 0.);
       return {lattice.column(lattice.find(points, p)),
               y - half_length,
@@ -86,13 +86,14 @@ namespace talus
 
     template <int dim>
     std::vector<Sums>
-    sum_columns(const Points<dim> &points, const Grid<dim> &grid)
+    sum_columns(const Snapshot<dim> &snapshot)
     {
+      const Grid<dim>         &grid = snapshot.grid;
       const FinestLattice<dim> lattice(grid);
       std::vector<Sums>        columns;
-      for (unsigned int p = 0; p < points.size(); ++p)
+      for (unsigned int p = 0; p < snapshot.points.size(); ++p)
         {
-          const Sums more = contribution(points, lattice, p);
+          const Sums more = contribution(snapshot, lattice, p);
           if (!columns.empty() && columns.back().column == more.column)
             columns.back().add(more);
           else
@@ -115,12 +116,12 @@ namespace talus
 
   template <int dim>
   std::vector<ProfileColumn>
-  find_profile(const Points<dim> &points, const Grid<dim> &grid)
+  find_profile(const Snapshot<dim> &snapshot)
   {
     using Lattice = FinestLattice<dim>;
-    const Lattice              lattice(grid);
+    const Lattice              lattice(snapshot.grid);
     std::vector<ProfileColumn> profile;
-    for (const Sums &sums : sum_columns(points, grid))
+    for (const Sums &sums : sum_columns(snapshot))
       {
         const typename Lattice::Key cell = Lattice::lowest_cell(sums.column);
         profile.push_back({lattice.center(cell, 0),
@@ -163,7 +164,7 @@ namespace talus
   void
   Profile<dim>::add_rows(const Snapshot<dim> &snapshot)
   {
-    const auto profile = find_profile(snapshot.points, snapshot.grid);
+    const auto profile = find_profile(snapshot);
     if (Utilities::MPI::this_mpi_process(snapshot.grid.communicator()) != 0)
       return;
     for (const ProfileColumn &column : profile)
@@ -186,10 +187,10 @@ namespace talus
 
 
 
-  template std::vector<ProfileColumn> find_profile(const Points<2> &,
-                                                   const Grid<2> &);
-  template std::vector<ProfileColumn> find_profile(const Points<3> &,
-                                                   const Grid<3> &);
+  template std::vector<ProfileColumn>
+  find_profile(const Snapshot<2> &);
+  template std::vector<ProfileColumn>
+  find_profile(const Snapshot<3> &);
   template class Profile<2>;
   template class Profile<3>;
 } // namespace talus

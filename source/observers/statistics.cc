@@ -133,8 +133,9 @@ namespace talus
           Utilities::MPI::max(splits.largest_generation, communicator));
       add("clipped boxes",
           Utilities::MPI::sum(count_clipped_boxes(snapshot.points,
-                                                     snapshot.grid,
-                                                     snapshot.box_shape), communicator));
+                                                  snapshot.grid,
+                                                  snapshot.box_shape),
+                              communicator));
       add("split ledger [-]", Utilities::MPI::max(splits.ledger, communicator));
     }
   } // namespace
@@ -287,8 +288,10 @@ namespace talus
 
 
 
-  template double front_of_mass(const Points<2> &, double, MPI_Comm);
-  template double front_of_mass(const Points<3> &, double, MPI_Comm);
+  template double
+  front_of_mass(const Points<2> &, double, MPI_Comm);
+  template double
+  front_of_mass(const Points<3> &, double, MPI_Comm);
   template class Statistics<2>;
   template class Statistics<3>;
 } // namespace talus

@@ -11,14 +11,10 @@ namespace talus
   Points<dim>::Points()
     : position(add_column("position", "m", dim, Inheritance::copied))
     , velocity(add_column("velocity", "m/s", dim, Inheritance::copied))
-    , deformation_gradient(add_column("deformation gradient",
-                                      "-",
-                                      dim * dim,
-                                      Inheritance::copied))
-    , stress(add_column("stress",
-                        "Pa",
-                        n_stress_components<dim>,
-                        Inheritance::copied))
+    , deformation_gradient(
+        add_column("deformation gradient", "-", dim * dim, Inheritance::copied))
+    , stress(add_column(
+        "stress", "Pa", n_stress_components<dim>, Inheritance::copied))
     , mass(add_column("mass", "kg", 1, Inheritance::divided))
     , reference_volume(
         add_column("reference volume", "m^dim", 1, Inheritance::divided))
@@ -125,9 +121,8 @@ namespace talus
       {
         double *to = reordered_.begin();
         for (const Run &run : runs)
-          to = std::copy(array.begin() + run.begin,
-                         array.begin() + run.end,
-                         to);
+          to =
+            std::copy(array.begin() + run.begin, array.begin() + run.end, to);
         Assert(to == reordered_.begin() + size_, ExcInternalError());
         array.swap(reordered_);
       }
@@ -141,8 +136,8 @@ namespace talus
   std::size_t
   Points<dim>::memory_consumption() const
   {
-    return (arrays_.size() + workspace_.size() + 1) *
-           (capacity_ + n_lanes) * sizeof(double);
+    return (arrays_.size() + workspace_.size() + 1) * (capacity_ + n_lanes) *
+           sizeof(double);
   }
 
 

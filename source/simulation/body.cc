@@ -50,16 +50,18 @@ namespace talus
                   "number for all axes, or one for each, separated by commas.",
                   this->prm,
                   Patterns::List(Patterns::Integer(1, 16), 1, dim));
-    add_parameter("Initial velocity",
-                  initial_velocity_,
-                  "Expressions in x, y, (z,) t for the components of the "
-                  "velocity, separated by semicolons [m/s]; empty for rest. See "
-                  "'Initial velocity time'.");
-    add_parameter("Initial stress",
-                  initial_stress_,
-                  "Expressions in x, y, (z,) t for the Cauchy stress, tension "
-                  "positive [Pa]: in 2-D xx; yy; zz; xy, in 3-D xx; yy; zz; xy; "
-                  "xz; yz. Empty for none. Only for laws in rate form.");
+    add_parameter(
+      "Initial velocity",
+      initial_velocity_,
+      "Expressions in x, y, (z,) t for the components of the "
+      "velocity, separated by semicolons [m/s]; empty for rest. See "
+      "'Initial velocity time'.");
+    add_parameter(
+      "Initial stress",
+      initial_stress_,
+      "Expressions in x, y, (z,) t for the Cauchy stress, tension "
+      "positive [Pa]: in 2-D xx; yy; zz; xy, in 3-D xx; yy; zz; xy; "
+      "xz; yz. Empty for none. Only for laws in rate form.");
   }
 
 
@@ -158,11 +160,11 @@ namespace talus
 
   template <int dim>
   void
-  Body<dim>::add_point(Points<dim>        &points,
-                       const unsigned int  index,
-                       const Point<dim>   &x,
-                       const double        cell_size,
-                       const double        density) const
+  Body<dim>::add_point(Points<dim>       &points,
+                       const unsigned int index,
+                       const Point<dim>  &x,
+                       const double       cell_size,
+                       const double       density) const
   {
     const unsigned int p      = points.append(1);
     double             volume = 1.;
@@ -207,9 +209,9 @@ namespace talus
     const unsigned int n_before = points.size();
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
       {
-        const Cell<dim>                &cell     = grid.cells()[c];
-        bool                            overlaps = true;
-        std::array<unsigned int, dim>   n, at{};
+        const Cell<dim>              &cell     = grid.cells()[c];
+        bool                          overlaps = true;
+        std::array<unsigned int, dim> n, at{};
         for (unsigned int d = 0; d < dim; ++d)
           {
             overlaps = overlaps && cell.lower[d] < box.upper[d] &&

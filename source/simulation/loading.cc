@@ -89,9 +89,9 @@ namespace talus
   {
     if (!loads_.varies)
       return;
-    const unsigned int coordinates = body_force_.coordinates == "material" ?
-                                       points.initial_position :
-                                       points.position;
+    const unsigned int coordinates = body_force_.coordinates == "material"
+                                       ? points.initial_position
+                                       : points.position;
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         Point<dim> x;

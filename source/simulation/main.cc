@@ -68,8 +68,8 @@ namespace
       }
     const ParameterFile file(command_line.parameter_file,
                              command_line.overrides);
-    return file.preview().dimension == 2 ? run<2>(command_line, file) :
-                                           run<3>(command_line, file);
+    return file.preview().dimension == 2 ? run<2>(command_line, file)
+                                         : run<3>(command_line, file);
   }
 } // namespace
 

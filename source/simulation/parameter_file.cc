@@ -30,7 +30,8 @@ namespace talus
       std::string result;
       for (const std::string &section : path)
         result += "subsection " + section + "\n";
-      result += "set " + entry + " = " + override_text.substr(equals + 1) + "\n";
+      result +=
+        "set " + entry + " = " + override_text.substr(equals + 1) + "\n";
       for (std::size_t i = 0; i < path.size(); ++i)
         result += "end\n";
       return result;
@@ -44,8 +45,7 @@ namespace talus
       const auto result = Utilities::split_string_list(list, ',');
       for (const std::string &name : result)
         {
-          AssertThrow(!name.empty() &&
-                        name.find('/') == std::string::npos,
+          AssertThrow(!name.empty() && name.find('/') == std::string::npos,
                       ExcUser("'" + where + " = " + list +
                               "' must be a list of names separated by commas, "
                               "without slashes."));
@@ -69,8 +69,9 @@ namespace talus
     , overrides_(overrides)
   {
     AssertThrow(std::ifstream(file_name_).good(),
-                ExcUser("The parameter file '" + file_name_ +
-                        "' cannot be read. Give the path of an existing file."));
+                ExcUser(
+                  "The parameter file '" + file_name_ +
+                  "' cannot be read. Give the path of an existing file."));
   }
 
 
@@ -84,10 +85,7 @@ namespace talus
     for (const std::string &override_text : overrides_)
       {
         std::istringstream input(as_parameter_file(override_text));
-        prm.parse_input(input,
-                        "--set " + override_text,
-                        "",
-                        skip_undefined);
+        prm.parse_input(input, "--set " + override_text, "", skip_undefined);
       }
   }
 

@@ -2,10 +2,31 @@
 #include <talus/simulation/simulation.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace talus
 {
   using namespace dealii;
+
+  namespace
+  {
+    /// Coverage and reach: the weights of every point sum to one. (Used in
+    /// Debug only.)
+    template <int dim>
+    [[maybe_unused]] bool
+    nobody_is_lost(const Points<dim> &points, const NodalFields<dim> &nodes)
+    {
+      const double *mass      = points.data(points.mass);
+      const double  of_points = std::accumulate(mass, mass + points.size(), 0.);
+      double        of_nodes  = 0;
+      for (const unsigned int node : nodes.active_nodes())
+        of_nodes += nodes.mass(node);
+      return std::abs(of_nodes - of_points) <= 1e-12 * of_points;
+    }
+  } // namespace
+
+
 
   template <int dim>
   Simulation<dim>::Simulation(const Preview &preview)
@@ -29,19 +50,21 @@ namespace talus
                   "The simulation runs from time 0 to this time [s].",
                   this->prm,
                   Patterns::Double(0.));
-    add_parameter("Initial velocity time",
-                  initial_velocity_time_,
-                  "Velocities live between the steps. 'start': take the initial "
-                  "velocity at t = 0; 'half step': at t = -dt/2, which keeps "
-                  "second order where the acceleration is not zero at the "
-                  "start.",
-                  this->prm,
-                  Patterns::Selection("start|half step"));
+    add_parameter(
+      "Initial velocity time",
+      initial_velocity_time_,
+      "Velocities live between the steps. 'start': take the initial "
+      "velocity at t = 0; 'half step': at t = -dt/2, which keeps "
+      "second order where the acceleration is not zero at the "
+      "start.",
+      this->prm,
+      Patterns::Selection("start|half step"));
     enter_subsection("Bodies");
-    add_parameter("Names",
-                  names_of_bodies_,
-                  "Names of the bodies, separated by commas; each has a section "
-                  "of that name.");
+    add_parameter(
+      "Names",
+      names_of_bodies_,
+      "Names of the bodies, separated by commas; each has a section "
+      "of that name.");
     leave_subsection();
   }
 
@@ -125,10 +148,8 @@ namespace talus
 
     if (initial_velocity_time_ == "half step")
       {
-        const double dt = time_step_.choose(points_,
-                                            grid_,
-                                            materials_,
-                                            transfer_.box_shape());
+        const double dt =
+          time_step_.choose(points_, grid_, materials_, transfer_.box_shape());
         for (unsigned int b = 0; b < bodies_.size(); ++b)
           bodies_[b]->set_initial_state(points_, b, -0.5 * dt);
       }
@@ -157,10 +178,7 @@ namespace talus
   Simulation<dim>::choose_time_step()
   {
     TimerOutput::Scope scope(timer_, "time step");
-    dt_ = time_step_.choose(points_,
-                            grid_,
-                            materials_,
-                            transfer_.box_shape());
+    dt_ = time_step_.choose(points_, grid_, materials_, transfer_.box_shape());
     dt_ = std::min(dt_, end_time_ - time_);
   }
 
@@ -176,6 +194,9 @@ namespace talus
     transfer_.average_mean_stress(points_);
     transfer_.scatter(points_, grid_, loading_.loads(), nodes_);
     nodes_.condense(grid_);
+    Assert(nobody_is_lost(points_, nodes_),
+           ExcMessage("The nodes do not carry all mass of the points: a box "
+                      "reaches beyond the cells around its own."));
     nodes_.update_momentum(dt_, least_mass_);
     boundary_work_ += boundaries_.apply(nodes_, grid_, dt_, least_mass_);
     nodes_.distribute(grid_);

@@ -18,12 +18,13 @@ namespace talus
                   "fastest point, may cross in a step [-].",
                   this->prm,
                   Patterns::Double(1e-6, 1.));
-    add_parameter("Box safety factor",
-                  box_safety_factor_,
-                  "Share of the stability limit of thin boxes, 2 (h/c)/sqrt(sum "
-                  "over axes of h/l) with l the half length of the box [-].",
-                  this->prm,
-                  Patterns::Double(1e-6, 1.));
+    add_parameter(
+      "Box safety factor",
+      box_safety_factor_,
+      "Share of the stability limit of thin boxes, 2 (h/c)/sqrt(sum "
+      "over axes of h/l) with l the half length of the box [-].",
+      this->prm,
+      Patterns::Double(1e-6, 1.));
     add_parameter("Maximum",
                   maximum_,
                   "Longest step [s]; 0 for no limit.",
@@ -48,7 +49,8 @@ namespace talus
         const Number v = load<Number>(points.data(points.velocity, d) + p);
         speed_square += v * v;
         sum +=
-          1. / half_length_in_cells<dim>(points, shape, d, p, inverse_cell_size);
+          1. /
+          half_length_in_cells<dim>(points, shape, d, p, inverse_cell_size);
       }
     return {{(wave_speed + square_root(speed_square)) * inverse_cell_size /
                cfl_number_,
@@ -81,9 +83,9 @@ namespace talus
                 inverse_cell_size_.begin() + segment.end,
                 1. / grid.cells()[segment.cell].size);
 
-    Lanes  largest_lanes{};
-    double largest = 0;
-    const auto raise = [](auto &to, const auto &bounds) {
+    Lanes      largest_lanes{};
+    double     largest = 0;
+    const auto raise   = [](auto &to, const auto &bounds) {
       // Written so that a bound that is not a number stays.
       to = (to > bounds[0] ? to : bounds[0]);
       to = (to > bounds[1] ? to : bounds[1]);
@@ -122,8 +124,8 @@ namespace talus
                             const Materials<dim> &materials,
                             const BoxShape       &shape) const
   {
-    double       largest = 0;
-    std::string  reason;
+    double      largest = 0;
+    std::string reason;
     for (const Segment &segment : points.segments())
       for (unsigned int p = segment.begin; p < segment.end; ++p)
         {
@@ -135,8 +137,8 @@ namespace talus
           if (bounds[which] <= largest)
             continue;
           largest = bounds[which];
-          reason  = text(which == 0 ? "the wave and flow speed at point " :
-                                      "the thin box of point ",
+          reason  = text(which == 0 ? "the wave and flow speed at point "
+                                   : "the thin box of point ",
                         points.data(points.id)[p],
                         " (wave speed ",
                         c,

@@ -37,11 +37,11 @@ namespace talus
     // too, from whatever is there, and never used.
     for (unsigned int k = 0; k < block.size; k += n_lanes)
       {
-        const unsigned int p = block.begin + k;
+        const unsigned int p     = block.begin + k;
         const Lanes inverse_size = load<Lanes>(&block.inverse_cell_size[k]);
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const Lanes x     = load<Lanes>(points_.data(points_.position, d) + p);
+            const Lanes x = load<Lanes>(points_.data(points_.position, d) + p);
             const Lanes lower = load<Lanes>(&block.cell_lower[d][k]);
             const Lanes half =
               half_length_in_cells<dim>(points_, shape_, d, p, inverse_size);
@@ -66,8 +66,8 @@ namespace talus
   bool
   BlockWalk<dim>::next(Block<dim> &block)
   {
-    block.size     = 0;
-    block.n_pieces = 0;
+    block.size           = 0;
+    block.n_pieces       = 0;
     const auto &segments = points_.segments();
     for (; segment_ < segments.size(); ++segment_, taken_ = 0)
       {

@@ -1,4 +1,3 @@
-#include <talus/base/errors.h>
 #include <talus/transfer/box_rule.h>
 
 namespace talus
@@ -45,8 +44,7 @@ namespace talus
         }
       std::array<Number, 3> diagonal;
       for (unsigned int d = 0; d < 3; ++d)
-        diagonal[d] =
-          R[0][d] * F[0][d] + R[1][d] * F[1][d] + R[2][d] * F[2][d];
+        diagonal[d] = R[0][d] * F[0][d] + R[1][d] * F[1][d] + R[2][d] * F[2][d];
       return diagonal;
     }
 
@@ -65,8 +63,7 @@ namespace talus
         {
           case BoxRule::right_stretch:
             return stretch_diagonal(F, J);
-          case BoxRule::left_stretch:
-            {
+            case BoxRule::left_stretch: {
               Matrix<dim, Number> transpose;
               for (unsigned int i = 0; i < dim; ++i)
                 for (unsigned int j = 0; j < dim; ++j)
@@ -84,38 +81,6 @@ namespace talus
               stretch[d] = old_stretch[d] * exponential(strain_increment[d]);
             return stretch;
         }
-    }
-
-
-
-    template <int dim>
-    [[noreturn]] void
-    report_collapsed_point(const Points<dim> &points, const unsigned int begin)
-    {
-      for (unsigned int p = begin; p < points.size(); ++p)
-        {
-          const double J = determinant(
-            load_matrix<dim, double>(points, points.deformation_gradient, p));
-          if (J > 0)
-            continue;
-          Point<dim> x;
-          for (unsigned int d = 0; d < dim; ++d)
-            x[d] = points.data(points.position, d)[p];
-          AssertThrow(
-            false,
-            ExcPoint(text("Point ",
-                          points.data(points.id)[p],
-                          " at (",
-                          x,
-                          ") m has det F = ",
-                          J,
-                          ", which must be positive: its volume collapsed or "
-                          "its stress is not a number. The time step is "
-                          "probably too large for this material: lower 'Time "
-                          "step/CFL number', or refine the mesh.")));
-        }
-      AssertThrow(false, ExcInternalError());
-      std::abort();
     }
   } // namespace
 
@@ -137,10 +102,6 @@ namespace talus
           strain_increment[d] =
             dt * load<Number>(points.velocity_gradient(d, d) + p);
         }
-      // Written so that a J that is not a number is caught, too.
-      const auto is_positive = (J > broadcast<Number>(0.));
-      if (__builtin_expect(any(is_positive == (J < J)), 0))
-        report_collapsed_point(points, p);
       const auto stretch =
         stretch_along_axes<dim>(F, J, rule, old_stretch, strain_increment);
       for (unsigned int d = 0; d < dim; ++d)
@@ -166,7 +127,8 @@ namespace talus
               double half = 0.5 * points.data(points.reference_length, d)[p];
               if (shape.rule != BoxRule::fixed)
                 half *= points.data(points.stretch, d)[p];
-              if (half < shape.least_half * size || half > shape.most_half * size)
+              if (half < shape.least_half * size ||
+                  half > shape.most_half * size)
                 ++n_clipped;
             }
       }

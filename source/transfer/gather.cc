@@ -113,19 +113,19 @@ namespace talus
     /// Returns the work of the loads on the points: m b . (mean velocity) dt.
     template <int dim, typename Number>
     inline Number
-    move_points(Points<dim>        &points,
-                const Block<dim>   &block,
-                const Told<dim>    &told,
-                const unsigned int  k,
-                const double        flip,
-                const double        dt)
+    move_points(Points<dim>       &points,
+                const Block<dim>  &block,
+                const Told<dim>   &told,
+                const unsigned int k,
+                const double       flip,
+                const double       dt)
     {
       const unsigned int p = block.begin + k;
       Number             power_of_loads{};
       for (unsigned int i = 0; i < dim; ++i)
         {
-          const Number v  = load<Number>(&told.velocity[i][k]);
-          const Number dv = load<Number>(&told.increment[i][k]);
+          const Number v    = load<Number>(&told.velocity[i][k]);
+          const Number dv   = load<Number>(&told.increment[i][k]);
           double      *to_v = points.data(points.velocity, i) + p;
           double      *to_x = points.data(points.position, i) + p;
           store(to_v, flip * (load<Number>(to_v) + dv) + (1. - flip) * v);
@@ -214,7 +214,8 @@ namespace talus
       if (!grid.cells()[segment.cell].uniform)
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
-            weights_of_point(points, grid, box_shape_, segment.cell, p, weights);
+            weights_of_point(
+              points, grid, box_shape_, segment.cell, p, weights);
             interpolate_general(nodes, weights, told);
             block.begin = p;
             for (unsigned int d = 0; d < dim; ++d)

@@ -35,9 +35,8 @@ namespace talus
     for (unsigned int face = 0; face < 2 * dim; ++face)
       {
         const unsigned int d = face / 2;
-        const double       outside =
-          (face % 2 == 0 ? grid.domain().lower[d] - x[d] :
-                           x[d] - grid.domain().upper[d]);
+        const double outside = (face % 2 == 0 ? grid.domain().lower[d] - x[d]
+                                              : x[d] - grid.domain().upper[d]);
         // Written so that a coordinate that is not a number fails.
         if (outside <= allowed_outside_[face] * cell_size)
           continue;
@@ -49,8 +48,8 @@ namespace talus
             points.data(points.id)[p],
             " of body ",
             points.data(points.body)[p],
-            is_number ? " left the mesh through the face '" :
-                        " has no finite position near the face '",
+            is_number ? " left the mesh through the face '"
+                      : " has no finite position near the face '",
             face_names[face],
             "': its centre is at (",
             x,
@@ -59,12 +58,12 @@ namespace talus
             " m outside, where at most ",
             allowed_outside_[face] * cell_size,
             " m are allowed. ",
-            is_number ?
-              "Make the mesh larger ('Grid/Lower corner', 'Grid/Upper "
-              "corner'), or lower 'Time step/CFL number' if the point was "
-              "thrown out." :
-              "The simulation became unstable: lower 'Time step/CFL "
-              "number'.")));
+            is_number
+              ? "Make the mesh larger ('Grid/Lower corner', 'Grid/Upper "
+                "corner'), or lower 'Time step/CFL number' if the point was "
+                "thrown out."
+              : "The simulation became unstable: lower 'Time step/CFL "
+                "number'.")));
       }
   }
 
@@ -77,7 +76,7 @@ namespace talus
                           const unsigned int p,
                           const unsigned int old_cell) const
   {
-    const Point<dim> x = position_of(points, p);
+    const Point<dim> x    = position_of(points, p);
     const Cell<dim> &cell = grid.cells()[old_cell];
     if (!grid.domain().contains(x))
       check_inside(points, grid, p, cell.size);
@@ -90,7 +89,7 @@ namespace talus
           {
             const double       xi     = (x[d] - cell.lower[d]) / cell.size;
             const unsigned int offset = (xi < 0 ? 0 : (xi < 1 ? 1 : 2));
-            is_near = is_near && xi >= -1 && xi < 2;
+            is_near                   = is_near && xi >= -1 && xi < 2;
             neighbor += offset * power(3, d);
           }
         if (is_near &&
@@ -104,8 +103,7 @@ namespace talus
 
   template <int dim>
   void
-  Relocation<dim>::find_movers(const Points<dim> &points,
-                               const Grid<dim>   &grid)
+  Relocation<dim>::find_movers(const Points<dim> &points, const Grid<dim> &grid)
   {
     movers_.clear();
     for (const Segment &segment : points.segments())
@@ -117,8 +115,8 @@ namespace talus
             for (unsigned int d = 0; d < dim; ++d)
               {
                 const double x = points.data(points.position, d)[p];
-                is_inside &= (x >= cell.lower[d]) &
-                             (x < cell.lower[d] + cell.size);
+                is_inside &=
+                  (x >= cell.lower[d]) & (x < cell.lower[d] + cell.size);
               }
             if (__builtin_expect(is_inside, 1))
               continue;
@@ -210,9 +208,9 @@ namespace talus
 
     runs_.clear();
     segments_.clear();
-    n_merged_         = 0;
-    std::size_t skip  = 0;
-    auto        mover = movers_.begin();
+    n_merged_                     = 0;
+    std::size_t skip              = 0;
+    auto        mover             = movers_.begin();
     const auto  add_movers_before = [&](const auto &is_before) {
       for (; mover != movers_.end() && is_before(*mover); ++mover)
         {

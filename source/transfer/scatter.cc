@@ -36,16 +36,17 @@ namespace talus
     /// of mass, momentum and reference volume. @cite bardenhagen2004, eq. 19 ff.
     template <int dim>
     inline std::array<Lanes, 1 + dim>
-    contribution_of_point(Points<dim>                      &points,
-                          const unsigned int                p,
-                          const std::array<double, dim>    &acceleration)
+    contribution_of_point(Points<dim>                   &points,
+                          const unsigned int             p,
+                          const std::array<double, dim> &acceleration)
     {
       using Sum            = NodalSum<dim>;
       const double mass    = points.data(points.mass)[p];
       const double volume0 = points.data(points.reference_volume)[p];
       const double volume =
-        volume0 * determinant(load_matrix<dim, double>(
-                    points, points.deformation_gradient, p));
+        volume0 *
+        determinant(
+          load_matrix<dim, double>(points, points.deformation_gradient, p));
       const Matrix<dim, double> sigma = averaged_stress(points, p);
 
       std::array<Lanes, 1 + dim> r{};
@@ -95,13 +96,14 @@ namespace talus
           Lanes       P[4], Q[4];
           for (unsigned int i = 0; i < 4; ++i)
             {
-              P[i] = block.value[0][i][k] * r[0] + block.gradient[0][i][k] * r[1];
+              P[i] =
+                block.value[0][i][k] * r[0] + block.gradient[0][i][k] * r[1];
               Q[i] = block.value[0][i][k] * r[2];
             }
           for (unsigned int j = 0; j < 4; ++j)
             for (unsigned int i = 0; i < 4; ++i)
-              sum[4 * j + i] += block.value[1][j][k] * P[i] +
-                                block.gradient[1][j][k] * Q[i];
+              sum[4 * j + i] +=
+                block.value[1][j][k] * P[i] + block.gradient[1][j][k] * Q[i];
         }
     }
 
@@ -119,19 +121,20 @@ namespace talus
           Lanes       P[4], Q[4], T[4];
           for (unsigned int i = 0; i < 4; ++i)
             {
-              P[i] = block.value[0][i][k] * r[0] + block.gradient[0][i][k] * r[1];
+              P[i] =
+                block.value[0][i][k] * r[0] + block.gradient[0][i][k] * r[1];
               Q[i] = block.value[0][i][k] * r[2];
               T[i] = block.value[0][i][k] * r[3];
             }
           for (unsigned int j = 0; j < 4; ++j)
             for (unsigned int i = 0; i < 4; ++i)
               {
-                const Lanes A = block.value[1][j][k] * P[i] +
-                                block.gradient[1][j][k] * Q[i];
+                const Lanes A =
+                  block.value[1][j][k] * P[i] + block.gradient[1][j][k] * Q[i];
                 const Lanes B = block.value[1][j][k] * T[i];
                 for (unsigned int l = 0; l < 4; ++l)
-                  sum[16 * l + 4 * j + i] += block.value[2][l][k] * A +
-                                             block.gradient[2][l][k] * B;
+                  sum[16 * l + 4 * j + i] +=
+                    block.value[2][l][k] * A + block.gradient[2][l][k] * B;
               }
         }
     }

@@ -28,13 +28,14 @@ namespace talus
                   this->prm,
                   Patterns::Selection(
                     "fixed|deformation gradient|right stretch|left stretch"));
-    add_parameter("Minimum half-size",
-                  box_shape_.least_half,
-                  "Half of the length of a box is clipped to at least this many "
-                  "cell sizes for the weights; thinner boxes would lower the "
-                  "stable time step [-].",
-                  this->prm,
-                  Patterns::Double(1e-3, 0.5));
+    add_parameter(
+      "Minimum half-size",
+      box_shape_.least_half,
+      "Half of the length of a box is clipped to at least this many "
+      "cell sizes for the weights; thinner boxes would lower the "
+      "stable time step [-].",
+      this->prm,
+      Patterns::Double(1e-3, 0.5));
     add_parameter("Maximum half-size",
                   box_shape_.most_half,
                   "Half of the length of a box is clipped to at most this many "
@@ -50,11 +51,11 @@ namespace talus
                   this->prm,
                   Patterns::Double(0., 1e-3));
     parse_parameters_call_back.connect([this]() {
-      box_shape_.rule =
-        box_rule_ == "fixed"                ? BoxRule::fixed :
-        box_rule_ == "deformation gradient" ? BoxRule::deformation_gradient :
-        box_rule_ == "left stretch"         ? BoxRule::left_stretch :
-                                              BoxRule::right_stretch;
+      box_shape_.rule = box_rule_ == "fixed" ? BoxRule::fixed
+                        : box_rule_ == "deformation gradient"
+                          ? BoxRule::deformation_gradient
+                        : box_rule_ == "left stretch" ? BoxRule::left_stretch
+                                                      : BoxRule::right_stretch;
     });
   }
 

@@ -1,6 +1,8 @@
 #include <talus/transfer/weights.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
 
 namespace talus
 {
@@ -65,8 +67,9 @@ namespace talus
       std::array<CellShare, dim> share;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const bool lowest  = cell.lower[d] < domain.lower[d] + eps;
-          const bool highest = cell.lower[d] + cell.size > domain.upper[d] - eps;
+          const bool lowest = cell.lower[d] < domain.lower[d] + eps;
+          const bool highest =
+            cell.lower[d] + cell.size > domain.upper[d] - eps;
           share[d] = share_of_cell(centre[d] - half[d],
                                    centre[d] + half[d],
                                    cell.lower[d],
@@ -142,6 +145,14 @@ namespace talus
           size * half_length_in_cells<dim>(points, shape, d, p, 1. / size);
       }
     general_weights(grid, c, centre, half, weights);
+    Assert(std::abs(std::accumulate(weights.begin(),
+                                    weights.end(),
+                                    -1.,
+                                    [](const double           sum,
+                                       const NodeWeight<dim> &weight) {
+                                      return sum + weight.value;
+                                    })) < 1e-12,
+           ExcMessage("The weights of a point do not sum to one."));
   }
 
 

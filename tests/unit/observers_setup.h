@@ -76,7 +76,7 @@ struct Scene
             runs.push_back({p, p + 1});
           segments.push_back({c, 0, begin, unsigned(runs.size())});
         }
-    points.reorder(runs, std::move(segments));
+    points.reorder(runs, segments);
   }
 
   talus::Snapshot<dim>
@@ -99,10 +99,10 @@ struct Scene
   talus::NodalFields<dim>  nodes;
   talus::BoundaryWork<dim> boundary_work;
   talus::SplitStatistics   splits;
-  unsigned long            step          = 0;
-  double                   time          = 0;
-  double                   time_step     = 0;
-  double                   gravity_work  = 0;
+  unsigned long            step         = 0;
+  double                   time         = 0;
+  double                   time_step    = 0;
+  double                   gravity_work = 0;
   talus::BoxShape          box_shape;
 };
 

@@ -73,12 +73,13 @@ namespace
     s.add({1., 0.5}, 3., {2., 0.});
     s.add({5., 1.5}, 1., {-3., 4.});
     Statistics<2> statistics;
+    s.points.data(s.points.stretch, 1)[1] = 3.;
+    s.sort();
     statistics.begin(folder, s.snapshot());
 
     s.time                         = 0.5;
     s.step                         = 7;
     s.time_step                    = 0.125;
-    s.points.data(s.points.reference_length, 0)[0] = 0.1;
     s.splits.n_splits              = 5;
     s.splits.largest_generation    = 2;
     s.splits.ledger                = 1e-16;
@@ -104,6 +105,7 @@ namespace
     EXPECT_EQ(row["kinetic energy [J]"], 6. + 12.5);
     EXPECT_EQ(row["splits"], 5);
     EXPECT_EQ(row["largest generation"], 2);
+    // 0.1 to 0.5 cells are allowed to either side of the centre.
     EXPECT_EQ(row["clipped boxes"], 1);
     EXPECT_EQ(row["split ledger [-]"], 1e-16);
 
@@ -213,6 +215,10 @@ namespace
               "depth-mean velocity [m/s]");
     EXPECT_EQ(file[1], "0.5,2.5,0.25,1.75,1.5,2.5");
     EXPECT_EQ(file[2], "0.5,4.5,0,0.5,0.5,-1");
+
+    // Boxes that do not follow the deformation keep their reference length.
+    s.box_shape.rule = BoxRule::fixed;
+    EXPECT_EQ(find_profile(s.snapshot()).at(1).highest, 0.375);
   }
 
 

@@ -8,8 +8,6 @@ namespace talus
   {
     unsigned long n_splits           = 0;
     unsigned int  largest_generation = 0;
-    /// Times a point wanted to split but was at the generation limit.
-    unsigned long n_refused = 0;
     /// Largest relative error, over mass, momentum, kinetic and elastic energy
     /// and centre of mass, of the sums over all splits of before - after.
     double ledger = 0;

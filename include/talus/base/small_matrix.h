@@ -114,9 +114,9 @@ namespace talus
       return trace(A) + determinant(A);
     else
       {
-        const Number second_invariant =
-          A[0][0] * A[1][1] - A[0][1] * A[1][0] + A[0][0] * A[2][2] -
-          A[0][2] * A[2][0] + A[1][1] * A[2][2] - A[1][2] * A[2][1];
+        const Number second_invariant = A[0][0] * A[1][1] - A[0][1] * A[1][0] +
+                                        A[0][0] * A[2][2] - A[0][2] * A[2][0] +
+                                        A[1][1] * A[2][2] - A[1][2] * A[2][1];
         return trace(A) + second_invariant + determinant(A);
       }
   }

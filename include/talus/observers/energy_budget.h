@@ -33,10 +33,12 @@ namespace talus
   {
   public:
     /// Count from here.
-    void begin(const Snapshot<dim> &snapshot);
+    void
+    begin(const Snapshot<dim> &snapshot);
 
     /// The terms now; collective over the ranks of the grid.
-    EnergyTerms evaluate(const Snapshot<dim> &snapshot) const;
+    EnergyTerms
+    evaluate(const Snapshot<dim> &snapshot) const;
 
   private:
     EnergyTerms start_;

@@ -11,14 +11,16 @@ namespace talus
 {
   /// Make the folder (and those above it) unless it is there. Throws ExcUser
   /// if that fails.
-  void make_folder(const std::filesystem::path &folder);
+  void
+  make_folder(const std::filesystem::path &folder);
 
 
 
   /// Make the file @p path from what @p write puts into the stream: all of it
   /// or, with ExcUser, nothing; an older file of that name survives a failure.
-  void write_file(const std::filesystem::path               &path,
-                  const std::function<void(std::ostream &)> &write);
+  void
+  write_file(const std::filesystem::path               &path,
+             const std::function<void(std::ostream &)> &write);
 
 
 
@@ -27,15 +29,18 @@ namespace talus
   {
   public:
     /// Start a new file with one header line. Throws ExcUser if that fails.
-    void open(const std::filesystem::path    &path,
-              const std::vector<std::string> &names);
+    void
+    open(const std::filesystem::path    &path,
+         const std::vector<std::string> &names);
 
     /// Append a row; it is in the file only after flush().
-    void add_row(const std::vector<double> &values);
+    void
+    add_row(const std::vector<double> &values);
 
     /// Hand all rows to the operating system, so that a reader sees them while
     /// the simulation runs. Throws ExcUser if that fails.
-    void flush();
+    void
+    flush();
 
   private:
     std::filesystem::path path_;

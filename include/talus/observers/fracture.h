@@ -30,8 +30,8 @@ namespace talus
   /// one. The points need not be sorted. The cost follows the points, not the
   /// mesh.
   template <int dim>
-  FractureCounts count_fractures(const Points<dim> &points,
-                                 const Grid<dim>   &grid);
+  FractureCounts
+  count_fractures(const Points<dim> &points, const Grid<dim> &grid);
 } // namespace talus
 
 #endif

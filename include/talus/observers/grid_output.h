@@ -14,11 +14,13 @@ namespace talus
   class GridOutput
   {
   public:
-    void begin(const std::filesystem::path &folder, MPI_Comm communicator);
+    void
+    begin(const std::filesystem::path &folder, MPI_Comm communicator);
 
     /// Write the files of one output time; collective. Throws ExcUser if that
     /// fails.
-    void write(const Snapshot<dim> &snapshot);
+    void
+    write(const Snapshot<dim> &snapshot);
 
   private:
     VtuSeries series_;

@@ -32,7 +32,8 @@ namespace talus
 
     /// Write to this folder, whatever the parameter file says; to be called
     /// after parsing.
-    void set_folder(const std::string &folder);
+    void
+    set_folder(const std::string &folder);
 
     /// As given by the parameter or by set_folder().
     const std::string &
@@ -42,25 +43,31 @@ namespace talus
     }
 
     /// Throw ExcUser if the parameters contradict each other.
-    void check() const;
+    void
+    check() const;
 
     /// Make the folder, write the parameters and all that is due at the start
     /// of a run to @p end_time, s. Throws ExcUser if the folder cannot be
     /// written; then no file of an earlier run was touched.
-    void begin(const Snapshot<dim> &snapshot, double end_time);
+    void
+    begin(const Snapshot<dim> &snapshot, double end_time);
 
     /// To be called after each step: write what is due. At the @p last step
     /// everything is due, and the throughput is printed. Throws ExcUser if a
     /// file cannot be written.
-    void observe(const Snapshot<dim> &snapshot, bool last);
+    void
+    observe(const Snapshot<dim> &snapshot, bool last);
 
     /// Write the points as they are, after an error that ends the run, to
     /// last-state.vtu. Returns the path, for the message.
-    std::string write_last_state(const Snapshot<dim> &snapshot) const;
+    std::string
+    write_last_state(const Snapshot<dim> &snapshot) const;
 
   private:
-    void write_row(const Snapshot<dim> &snapshot);
-    void write_fields(const Snapshot<dim> &snapshot);
+    void
+    write_row(const Snapshot<dim> &snapshot);
+    void
+    write_fields(const Snapshot<dim> &snapshot);
 
     // Parameters
     std::string folder_              = "output";

@@ -15,9 +15,10 @@ namespace talus
   /// Columns with dim components are vectors; the stress and columns with
   /// dim*dim components are 3x3 tensors (in 2-D with the stress out of the
   /// plane, 1 for the deformation gradient); others are one scalar per
-  /// component, numbered.
+  /// component, numbered. The points must outlive the fields.
   template <int dim>
-  std::vector<Field> point_fields(const Points<dim> &points);
+  std::vector<Field>
+  point_fields(const Snapshot<dim> &snapshot);
 
 
 
@@ -28,13 +29,15 @@ namespace talus
   class PointsOutput
   {
   public:
-    void begin(const std::filesystem::path &folder,
-               MPI_Comm                     communicator,
-               bool                         boxes_as_cells);
+    void
+    begin(const std::filesystem::path &folder,
+          MPI_Comm                     communicator,
+          bool                         boxes_as_cells);
 
     /// Write the files of one output time; collective. Throws ExcUser if that
     /// fails.
-    void write(const Snapshot<dim> &snapshot);
+    void
+    write(const Snapshot<dim> &snapshot);
 
   private:
     VtuSeries series_;
@@ -46,8 +49,9 @@ namespace talus
   /// Write the points of this rank, as vertices, to the file @p path. They need
   /// not be sorted, nor their values be numbers.
   template <int dim>
-  void write_points(const Snapshot<dim>         &snapshot,
-                    const std::filesystem::path &path);
+  void
+  write_points(const Snapshot<dim>         &snapshot,
+               const std::filesystem::path &path);
 } // namespace talus
 
 #endif

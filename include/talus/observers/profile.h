@@ -24,13 +24,13 @@ namespace talus
 
 
   /// The columns with points, by growing x (then z). A point belongs to the
-  /// column its centre is in; its box reaches half a current length, stretch
-  /// times reference length, to either side of the centre, so the thickness of
-  /// a layer of boxes is that of the soil. Collective, the result is on the
+  /// column its centre is in; its box reaches half its current (unclipped)
+  /// length to either side of the centre, so the thickness of a layer of boxes
+  /// is that of the soil. Collective, the result is on the
   /// first rank.
   template <int dim>
-  std::vector<ProfileColumn> find_profile(const Points<dim> &points,
-                                          const Grid<dim>   &grid);
+  std::vector<ProfileColumn>
+  find_profile(const Snapshot<dim> &snapshot);
 
 
 
@@ -41,11 +41,13 @@ namespace talus
   {
   public:
     /// Start the file. Throws ExcUser if it cannot be written.
-    void begin(const std::filesystem::path &folder, const Grid<dim> &grid);
+    void
+    begin(const std::filesystem::path &folder, const Grid<dim> &grid);
 
     /// Append the rows of one output time; collective, the file belongs to the
     /// first rank.
-    void add_rows(const Snapshot<dim> &snapshot);
+    void
+    add_rows(const Snapshot<dim> &snapshot);
 
   private:
     CsvFile file_;

@@ -10,7 +10,8 @@
 namespace talus
 {
   /// True if standard output is a terminal.
-  bool stdout_is_terminal();
+  bool
+  stdout_is_terminal();
 
 
 
@@ -24,7 +25,8 @@ namespace talus
                       bool          is_terminal = stdout_is_terminal());
 
     /// Start the clock at simulated time @p time, on the way to @p end_time, s.
-    void begin(double time, double end_time, MPI_Comm communicator);
+    void
+    begin(double time, double end_time, MPI_Comm communicator);
 
     /// To be called after each step, with the number of this rank's points.
     void
@@ -37,12 +39,14 @@ namespace talus
     /// Time, share of the end time, steps and point-steps per second since the
     /// line before, time left at that pace, points. Nothing unless on a
     /// terminal; collective.
-    void print_line(double time, unsigned int n_points);
+    void
+    print_line(double time, unsigned int n_points);
 
     /// The table of timers, on a terminal, and the throughput. Collective.
-    void finish(double                     time,
-                unsigned int               n_points,
-                const dealii::TimerOutput &timer);
+    void
+    finish(double                     time,
+           unsigned int               n_points,
+           const dealii::TimerOutput &timer);
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -55,7 +59,8 @@ namespace talus
       double            point_steps = 0; // of this rank
     };
 
-    bool is_first_rank() const;
+    bool
+    is_first_rank() const;
 
     std::ostream &out_;
     const bool    is_terminal_;

@@ -10,15 +10,17 @@ namespace talus
 {
   /// Version of talus and of the libraries under it, one per line, each line
   /// after @p prefix.
-  std::string versions(const std::string &prefix = "");
+  std::string
+  versions(const std::string &prefix = "");
 
 
 
   /// Write the parameters as understood, defaults included, to the file
   /// @p path, which talus can read again; its head says which talus and which
   /// libraries understood them. Throws ExcUser if the file cannot be written.
-  void write_run_record(const std::filesystem::path    &path,
-                        const dealii::ParameterHandler &parameters);
+  void
+  write_run_record(const std::filesystem::path    &path,
+                   const dealii::ParameterHandler &parameters);
 } // namespace talus
 
 #endif

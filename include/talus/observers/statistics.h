@@ -13,9 +13,10 @@ namespace talus
   /// Smallest x of a point, m, such that the points up to it have at least the
   /// share @p fraction of the mass of all. Collective over @p communicator.
   template <int dim>
-  double front_of_mass(const Points<dim> &points,
-                       double             fraction,
-                       MPI_Comm           communicator);
+  double
+  front_of_mass(const Points<dim> &points,
+                double             fraction,
+                MPI_Comm           communicator);
 
 
 
@@ -32,6 +33,7 @@ namespace talus
   /// - `kinetic energy [J]` is that of the points, `grid kinetic energy [J]`
   ///   that of the background grid, without the points' FLIP noise: what tells
   ///   whether the slide has come to rest. It is 0 before the first step.
+  /// - `clipped boxes` counts axes of boxes that the weights clip now.
   /// - The energy terms are those of EnergyTerms; the columns from `empty
   ///   interior cells` on are those of FractureCounts and SplitStatistics.
   template <int dim>
@@ -46,14 +48,16 @@ namespace talus
 
     /// Start the file and the energy budget, and write the first row. Throws
     /// ExcUser if the file cannot be written.
-    void begin(const std::filesystem::path &folder,
-               const Snapshot<dim>         &snapshot);
+    void
+    begin(const std::filesystem::path &folder, const Snapshot<dim> &snapshot);
 
     /// Append a row; collective, the file belongs to the first rank.
-    void add_row(const Snapshot<dim> &snapshot);
+    void
+    add_row(const Snapshot<dim> &snapshot);
 
     /// What a row holds, in the order of the columns; right on the first rank.
-    std::vector<Quantity> evaluate(const Snapshot<dim> &snapshot) const;
+    std::vector<Quantity>
+    evaluate(const Snapshot<dim> &snapshot) const;
 
   private:
     EnergyBudget<dim> budget_;

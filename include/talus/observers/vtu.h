@@ -47,20 +47,25 @@ namespace talus
     explicit Patches(const std::vector<Field> &fields);
 
     /// Make room for @p n more patches.
-    void reserve(unsigned int n);
+    void
+    reserve(unsigned int n);
 
     /// Append a patch with these vertices (deal.II's order) and fill in the
     /// fields: vertex v gets the values of item items[v].
-    void add(const std::array<dealii::Point<dim>, (1 << patch_dim)> &vertices,
-             const std::array<unsigned int, (1 << patch_dim)>       &items);
+    void
+    add(const std::array<dealii::Point<dim>, (1 << patch_dim)> &vertices,
+        const std::array<unsigned int, (1 << patch_dim)>       &items);
 
     /// The whole file as VTU, single precision, without date.
-    void write(std::ostream &out, double time, unsigned long step);
+    void
+    write(std::ostream &out, double time, unsigned long step);
 
   private:
-    const std::vector<Patch> &get_patches() const override;
+    const std::vector<Patch> &
+    get_patches() const override;
 
-    std::vector<std::string> get_dataset_names() const override;
+    std::vector<std::string>
+    get_dataset_names() const override;
 
     std::vector<std::tuple<
       unsigned int,
@@ -83,9 +88,10 @@ namespace talus
   {
   public:
     /// Start anew.
-    void begin(const std::filesystem::path &folder,
-               const std::string           &name,
-               MPI_Comm                     communicator);
+    void
+    begin(const std::filesystem::path &folder,
+          const std::string           &name,
+          MPI_Comm                     communicator);
 
     /// Write the files of the next output time; collective. Throws ExcUser if
     /// that fails.

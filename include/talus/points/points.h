@@ -128,8 +128,7 @@ namespace talus
     /// Reorder: the new order is the concatenation of @p runs, which name each
     /// point once. @p segments describes the new order.
     void
-    reorder(const std::vector<Run>     &runs,
-            const std::vector<Segment> &segments);
+    reorder(const std::vector<Run> &runs, const std::vector<Segment> &segments);
 
     /// Forget the cells: all points wait to be sorted in.
     void
@@ -153,18 +152,18 @@ namespace talus
     const unsigned int position;             ///< dim, m
     const unsigned int velocity;             ///< dim, m/s, at the half step
     const unsigned int deformation_gradient; ///< dim*dim
-    const unsigned int stress;             ///< Cauchy, n_stress_components, Pa
-    const unsigned int mass;               ///< 1, kg
-    const unsigned int reference_volume;   ///< 1, m^dim
-    const unsigned int reference_length;   ///< dim, m, of the undeformed box
-    const unsigned int stretch;            ///< dim, of the box along the axes
-    const unsigned int creation_stretch;   ///< dim, stretch when created
-    const unsigned int initial_position;   ///< dim, m
-    const unsigned int elastic_energy;     ///< 1, J
-    const unsigned int plastic_work;       ///< 1, J
-    const unsigned int id;                 ///< 1, unique
-    const unsigned int generation;         ///< 1, number of splits behind it
-    const unsigned int body;               ///< 1, index of its body
+    const unsigned int stress;           ///< Cauchy, n_stress_components, Pa
+    const unsigned int mass;             ///< 1, kg
+    const unsigned int reference_volume; ///< 1, m^dim
+    const unsigned int reference_length; ///< dim, m, of the undeformed box
+    const unsigned int stretch;          ///< dim, of the box along the axes
+    const unsigned int creation_stretch; ///< dim, stretch when created
+    const unsigned int initial_position; ///< dim, m
+    const unsigned int elastic_energy;   ///< 1, J
+    const unsigned int plastic_work;     ///< 1, J
+    const unsigned int id;               ///< 1, unique
+    const unsigned int generation;       ///< 1, number of splits behind it
+    const unsigned int body;             ///< 1, index of its body
 
     /// Velocity gradient after the anti-locking mean, dim*dim, 1/s. Not state:
     /// written by the gather, read by the stress update of the same step, and

@@ -97,10 +97,10 @@ namespace talus
     /// @p vertices are listed in either sense, the last one need not repeat the
     /// first. Throws ExcUser, starting with @p name, if the polygon intersects
     /// itself or has no area.
-    Polygon(const std::string                          &name,
-            const std::vector<std::array<double, 2>>   &vertices,
-            const double                                z_lower,
-            const double                                z_upper);
+    Polygon(const std::string                        &name,
+            const std::vector<std::array<double, 2>> &vertices,
+            const double                              z_lower,
+            const double                              z_upper);
 
     bool
     contains(const dealii::Point<dim> &x) const override;

@@ -75,10 +75,10 @@ namespace talus
     relocate();
 
     // Parameters
-    std::string  title_                 = "";
-    unsigned int dimension_             = dim;
-    double       end_time_              = 1.;
-    std::string  initial_velocity_time_ = "start";
+    std::string              title_                 = "";
+    unsigned int             dimension_             = dim;
+    double                   end_time_              = 1.;
+    std::string              initial_velocity_time_ = "start";
     std::vector<std::string> names_of_bodies_;
 
     // Floor by floor

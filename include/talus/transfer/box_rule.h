@@ -39,8 +39,8 @@ namespace talus
                        const unsigned int p,
                        const Number       inverse_cell_size)
   {
-    Number half
-      = 0.5 * load<Number>(points.data(points.reference_length, d) + p);
+    Number half =
+      0.5 * load<Number>(points.data(points.reference_length, d) + p);
     if (shape.rule != BoxRule::fixed)
       half *= load<Number>(points.data(points.stretch, d) + p);
     return clamp(half * inverse_cell_size, shape.least_half, shape.most_half);
@@ -48,11 +48,9 @@ namespace talus
 
 
 
-  /// Set the stretch of the points [begin, end) from their deformation
-  /// gradient, after a step of @p dt. With the rule `fixed` the box does not use
-  /// it, only the splitter does: it is exp(integral of D_dd dt), positive by
-  /// construction. Throws ExcPoint, naming the point, where det F is not
-  /// positive.
+  /// Set the stretch of all points from their deformation gradient, after a
+  /// step of @p dt. With the rule `fixed` the box does not use it, only the
+  /// splitter does: it is exp(integral of D_dd dt), positive by construction.
   template <int dim>
   void
   update_stretch(Points<dim> &points, BoxRule rule, double dt);

@@ -39,8 +39,8 @@ namespace talus
     AxisWeights<Number> w;
     w.value[0] = 0.5 * scale * (a_below * a_below - b_below * b_below);
     w.value[3] = 0.5 * scale * (b_above * b_above - a_above * a_above);
-    w.value[2] = 0.5 * scale * (b_in * b_in - a_in * a_in)
-                 + scale * (b_above - a_above) - w.value[3];
+    w.value[2] = 0.5 * scale * (b_in * b_in - a_in * a_in) +
+                 scale * (b_above - a_above) - w.value[3];
     w.value[1] = 1. - w.value[0] - w.value[2] - w.value[3];
 
     const Number in_below = scale * (b_below - a_below),
