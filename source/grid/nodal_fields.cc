@@ -27,7 +27,8 @@ namespace talus
   NodalFields<dim>::activate(const Grid<dim>                 &grid,
                              const std::vector<unsigned int> &cells)
   {
-    for (const unsigned int node : active_nodes_)
+    std::swap(active_nodes_, formerly_active_nodes_);
+    for (const unsigned int node : formerly_active_nodes_)
       is_active_[node] = 0;
     active_nodes_.clear();
     active_boundary_nodes_.clear();
@@ -56,6 +57,14 @@ namespace talus
         if (is_active_[hanging.node])
           for (const auto &master : hanging.masters)
             add(master.first);
+
+    // Nodes that soil has left are empty when it comes back.
+    for (const unsigned int node : formerly_active_nodes_)
+      if (!is_active_[node])
+        {
+          store(sum(node), Lanes{});
+          store(motion(node), typename Motion::Record{});
+        }
   }
 
 

@@ -148,6 +148,7 @@ namespace talus
     dealii::AlignedVector<double> sums_;
     dealii::AlignedVector<double> motions_;
     std::vector<unsigned int>     active_nodes_;
+    std::vector<unsigned int>     formerly_active_nodes_;
     std::vector<unsigned int>     active_boundary_nodes_;
     std::vector<unsigned char>    is_active_;
   };
