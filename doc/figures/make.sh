@@ -1,0 +1,49 @@
+#!/bin/sh
+# Run the cases and make all pictures of the documentation, doc/figures/*.png.
+#
+#   doc/figures/make.sh [TALUS [SCRATCH]]
+#
+# TALUS is the program (default build/release/talus), SCRATCH the folder for
+# the results (default build/figures, about 200 MB). Takes some minutes. A case
+# whose folder is there is not run again: remove the folder to repeat it.
+#
+# Needs Debian's packages paraview, xvfb, xauth and python3-matplotlib.
+set -eu
+
+cd "$(dirname "$0")/../.."
+talus=${1:-build/release/talus}
+scratch=${2:-build/figures}
+here=doc/figures
+
+# run NAME FILE OPTIONS...: NAME.part becomes NAME when the run has ended well.
+run() {
+  name=$1
+  file=$2
+  shift 2
+  [ -d "$scratch/$name" ] && return
+  rm -rf "$scratch/$name.part"
+  "$talus" "$file" --output "$scratch/$name.part" \
+    --set "Output/Write grid=false" "$@"
+  mv "$scratch/$name.part" "$scratch/$name"
+}
+
+mkdir -p "$scratch"
+run landslide prm/landslide-quick.prm --set "Splitting/Directions=stretched" \
+    --set "Output/Field interval=5"
+run landslide-unsplit prm/landslide-quick.prm --set "Splitting/Enabled=false" \
+    --set "Output/Field interval=5"
+run bar prm/bar.prm --set "Output/Boxes as cells=true" \
+    --set "Output/Field interval=0.5"
+run bar-unsplit prm/bar.prm --set "Splitting/Enabled=false" \
+    --set "Output/Write points=false"
+
+# One display for all that ParaView draws.
+export here scratch
+xvfb-run -a sh -eu -c '
+  pvbatch $here/bar.py $here/bar.png $scratch/bar $scratch/bar-unsplit
+  pvbatch $here/landslide.py $scratch/landslide $here/landslide.png
+  pvbatch $here/toe.py $here/toe.png $scratch/landslide-unsplit \
+          $scratch/landslide'
+/usr/bin/python3 $here/runout.py $here/runout.png \
+  "$scratch/landslide=with splitting" \
+  "$scratch/landslide-unsplit=without splitting"
