@@ -174,7 +174,7 @@ namespace
   {
     Core<dim> core(cube<dim>() + splitting(directions));
     auto     &points = core.points;
-    for (unsigned int i = 0; i < 40; ++i)
+    for (unsigned int i = 0; i < 60; ++i)
       core.randomize(core.add(core.place(0.7), core.vector(0.2, 0.9)));
     const Totals<dim> before(core);
     for (unsigned int step = 0; step < 200; ++step)
