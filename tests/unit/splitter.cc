@@ -162,8 +162,8 @@ namespace
   // --------------------------------------------------------------- daughters
 
   /// A point with id 1 in a random state with columns of both kinds, stretched
-  /// along the axes whose bits are set, and with id 2 what it was before, at its
-  /// generation limit.
+  /// along the axes whose bits are set, and its copy with id 2, which is at the
+  /// generation limit and stays what it is.
   template <int dim>
   void
   add_parent(Core<dim> &core, const unsigned int axes)
