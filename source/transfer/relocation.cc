@@ -79,7 +79,12 @@ namespace talus
     const Point<dim> x    = position_of(points, p);
     const Cell<dim> &cell = grid.cells()[old_cell];
     if (!grid.domain().contains(x))
-      check_inside(points, grid, p, cell.size);
+      {
+        // The wall is that of the cell it belongs to now.
+        const unsigned int c = grid.find_cell(x);
+        check_inside(points, grid, p, grid.cells()[c].size);
+        return c;
+      }
     if (cell.uniform)
       {
         // Nearly always the new cell is a neighbour.

@@ -1,0 +1,272 @@
+#include "core_setup.h"
+
+namespace
+{
+  using namespace talus;
+  using dealii::Point;
+  using dealii::Tensor;
+
+  constexpr double dt = 0.1;
+
+  /// One node of a mesh of cells of 1 m with a mass and a trial velocity.
+  template <int dim>
+  struct OneNode : Core<dim>
+  {
+    OneNode(const std::string    &conditions,
+            const std::string    &seabed,
+            const Point<dim>     &place,
+            const double          mass,
+            const Tensor<1, dim> &before,
+            const Tensor<1, dim> &trial,
+            const double          volume = 1e3)
+      : Core<dim>(cube<dim>() +
+                  in_section("Boundaries",
+                             conditions + "\n" + in_section("Seabed", seabed)))
+    {
+      using Sum         = NodalSum<dim>;
+      const auto places = places_of_nodes(this->grid);
+      node              = 0;
+      while (places[node].distance(place) > 1e-12)
+        ++node;
+      std::vector<unsigned int> all(this->grid.cells().size());
+      for (unsigned int c = 0; c < all.size(); ++c)
+        all[c] = c;
+      auto &nodes = this->nodes;
+      nodes.activate(this->grid, all);
+      nodes.clear();
+      nodes.sum(node)[Sum::mass]   = mass;
+      nodes.sum(node)[Sum::volume] = volume;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          nodes.sum(node)[Sum::momentum + d] = mass * before[d];
+          nodes.sum(node)[Sum::force + d] = mass * (trial[d] - before[d]) / dt;
+        }
+      nodes.update_momentum(dt, 0.);
+      kinetic_energy_before = 0.5 * mass * before.norm_square();
+      work                  = this->boundaries.apply(nodes, this->grid, dt, 0.);
+      // Work is taken with the mean of the velocities before and after.
+      force_work = mass * (trial - before) * nodes.mean_velocity(node);
+    }
+
+    void
+    expect_velocity(const Tensor<1, dim> &v) const
+    {
+      EXPECT_LT((this->nodes.velocity(node) - v).norm(), 1e-14)
+        << this->nodes.velocity(node);
+    }
+
+    void
+    expect_impulses(const Tensor<1, dim> &seabed,
+                    const Tensor<1, dim> &wall) const
+    {
+      EXPECT_LT((work.seabed_impulse - seabed).norm(), 1e-13)
+        << work.seabed_impulse;
+      EXPECT_LT((work.wall_impulse - wall).norm(), 1e-13) << work.wall_impulse;
+    }
+
+    unsigned int      node;
+    double            kinetic_energy_before, force_work;
+    BoundaryWork<dim> work;
+  };
+
+  const std::string bottom = "set Bottom = seabed";
+  const Point<2>    on_bottom(2., 0.);
+
+
+
+  /// Law with a friction coefficient and a cap, Pa.
+  std::string
+  law(const double mu, const double cap)
+  {
+    return text(
+      "set Friction coefficient = ", mu, "\nset Maximum shear stress = ", cap);
+  }
+
+
+
+  // Mass 2 kg, before (1, -0.2), trial (3, -0.5) m/s: N = 2 0.5/0.1 = 10 N,
+  // and 60 N would stop it.
+  const Tensor<1, 2> before = Point<2>(1., -0.2), trial = Point<2>(3., -0.5);
+
+
+
+  TEST(Seabed, Stick)
+  {
+    // mu N = 70 N.
+    const OneNode<2> n(bottom, law(7., 1e9), on_bottom, 2., before, trial);
+    n.expect_velocity(Point<2>(0., 0.));
+    n.expect_impulses(Point<2>(-6., 1.), Point<2>());
+    // Mean velocities over the step: 1/2 and -0.1.
+    EXPECT_NEAR(n.work.friction, 6. * 0.5, 1e-14);
+    EXPECT_NEAR(n.work.contact, 1. * 0.1, 1e-14);
+  }
+
+
+
+  TEST(Seabed, CoulombSlip)
+  {
+    // mu N = 5 N: -0.25 m/s in a step.
+    const OneNode<2> n(bottom, law(0.5, 1e9), on_bottom, 2., before, trial);
+    n.expect_velocity(Point<2>(2.75, 0.));
+    n.expect_impulses(Point<2>(-0.5, 1.), Point<2>());
+    EXPECT_NEAR(n.work.friction, 0.5 * 0.5 * (1. + 2.75), 1e-14);
+    EXPECT_NEAR(n.work.contact, 1. * 0.1, 1e-14);
+  }
+
+
+
+  TEST(Seabed, CappedSlip)
+  {
+    // tau A = 3 Pa 1 m (per m): -0.15 m/s in a step.
+    const OneNode<2> n(bottom, law(0.5, 3.), on_bottom, 2., before, trial);
+    n.expect_velocity(Point<2>(2.85, 0.));
+    n.expect_impulses(Point<2>(-0.3, 1.), Point<2>());
+    EXPECT_NEAR(n.work.friction, 0.3 * 0.5 * (1. + 2.85), 1e-14);
+  }
+
+
+
+  TEST(Seabed, CapCountsTheAreaThatSoilFills)
+  {
+    // The node stands for 1 m of the face and 0.5 m^2 of the cells at it.
+    const OneNode<2> half(
+      bottom, law(0.5, 3.), on_bottom, 2., before, trial, 0.2);
+    half.expect_velocity(Point<2>(3. - 0.4 * 0.15, 0.));
+    const OneNode<2> full(
+      bottom, law(0.5, 3.), on_bottom, 2., before, trial, 0.5);
+    full.expect_velocity(Point<2>(2.85, 0.));
+    // At the end of the face it is half of both.
+    const OneNode<2> end(
+      bottom, law(0.5, 3.), Point<2>(0., 0.), 2., before, trial, 0.25);
+    end.expect_velocity(Point<2>(3. - 0.075, 0.));
+  }
+
+
+
+  TEST(Seabed, SeparationIsFree)
+  {
+    for (const double v_n : {0.5, 0.})
+      {
+        const Point<2>   away(3., v_n);
+        const OneNode<2> n(bottom, law(7., 1e9), on_bottom, 2., before, away);
+        n.expect_velocity(away);
+        n.expect_impulses(Point<2>(), Point<2>());
+        EXPECT_EQ(n.work.friction, 0.);
+        EXPECT_EQ(n.work.contact, 0.);
+      }
+  }
+
+
+
+  /// The face looks the other way; friction acts against both tangents.
+  TEST(Seabed, UpperFaceIn3D)
+  {
+    const OneNode<3> n("set Front = seabed",
+                       law(0.5, 1e9),
+                       Point<3>(2., 2., 4.),
+                       2.,
+                       Tensor<1, 3>(),
+                       Point<3>(3., -4., 0.5));
+    // 5 N against 5 m/s: 0.25 m/s less.
+    n.expect_velocity(Point<3>(3. * 0.95, -4. * 0.95, 0.));
+    n.expect_impulses(Point<3>(-0.3, 0.4, -1.), Point<3>());
+    // Without load at rest before, means are half of the new velocity.
+    EXPECT_NEAR(n.work.friction, 0.5 * 0.5 * 4.75, 1e-14);
+  }
+
+
+
+  TEST(Boundaries, FreeFaceDoesNothing)
+  {
+    const OneNode<2> n("", law(7., 1e9), on_bottom, 2., before, trial);
+    n.expect_velocity(trial);
+    n.expect_impulses(Point<2>(), Point<2>());
+  }
+
+
+
+  TEST(Boundaries, RollerHoldsTheNormalBothWays)
+  {
+    for (const double v_n : {-0.5, 0.5})
+      {
+        const OneNode<2> n(
+          "set Bottom = roller", "", on_bottom, 2., before, Point<2>(3., v_n));
+        n.expect_velocity(Point<2>(3., 0.));
+        n.expect_impulses(Point<2>(), Point<2>(0., -2. * v_n));
+        EXPECT_EQ(n.work.friction, 0.);
+        EXPECT_NEAR(n.work.contact, 2. * v_n * 0.5 * -0.2, 1e-14);
+      }
+  }
+
+
+
+  TEST(Boundaries, FixedHoldsAll)
+  {
+    const OneNode<2> n("set Bottom = fixed", "", on_bottom, 2., before, trial);
+    n.expect_velocity(Point<2>(0., 0.));
+    n.expect_impulses(Point<2>(), -2. * trial);
+    EXPECT_NEAR(n.work.contact, 2. * trial * (0.5 * before), 1e-14);
+  }
+
+
+
+  TEST(Boundaries, CornerOfSeabedAndRoller)
+  {
+    // Seabed first: 0.25 m/s less; the roller stops the rest, and friction
+    // keeps only what it did before the wall.
+    const OneNode<2> n("set Bottom = seabed\nset Left = roller",
+                       law(0.5, 1e9),
+                       Point<2>(0., 0.),
+                       2.,
+                       before,
+                       trial);
+    n.expect_velocity(Point<2>(0., 0.));
+    n.expect_impulses(Point<2>(-0.5, 1.), Point<2>(-5.5, 0.));
+    EXPECT_NEAR(n.work.friction, 0.5 * 0.5, 1e-14);
+    EXPECT_NEAR(n.work.contact, 5.5 * 0.5 + 1. * 0.1, 1e-14);
+  }
+
+
+
+  /// What forces and boundaries do is the change of the kinetic energy.
+  TEST(Boundaries, WorkClosesTheBudget)
+  {
+    for (const std::string conditions :
+         {"set Bottom = seabed\nset Left = roller",
+          "set Bottom = seabed\nset Left = seabed",
+          "set Bottom = roller\nset Left = fixed",
+          "set Bottom = seabed"})
+      for (const double mu : {0.1, 0.5, 100.})
+        {
+          const OneNode<2> n(conditions,
+                             law(mu, 40.),
+                             Point<2>(0., 0.),
+                             2.,
+                             before,
+                             Point<2>(-3., -0.5));
+          EXPECT_NEAR(n.nodes.kinetic_energy() - n.kinetic_energy_before,
+                      n.force_work - n.work.friction - n.work.contact,
+                      1e-13)
+            << conditions << mu;
+        }
+  }
+
+
+
+  /// Nodes inside, and on other faces, are left alone; so are light ones.
+  TEST(Boundaries, OnlyNodesOnTheFaceWithMass)
+  {
+    for (const Point<2> place : {Point<2>(2., 1.), Point<2>(4., 4.)})
+      OneNode<2>(
+        "set Bottom = fixed\nset Left = roller", "", place, 2., before, trial)
+        .expect_velocity(trial);
+    OneNode<2> n("", "", on_bottom, 2., before, trial);
+    dealii::ParameterAcceptor::prm.parse_input_from_string(
+      in_section("Boundaries", "set Bottom = fixed"));
+    dealii::ParameterAcceptor::parse_all_parameters();
+    n.boundaries.apply(n.nodes, n.grid, dt, 2.1);
+    n.expect_velocity(trial);
+    n.boundaries.apply(n.nodes, n.grid, dt, 1.9);
+    n.expect_velocity(Point<2>());
+  }
+} // namespace

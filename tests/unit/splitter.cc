@@ -1,0 +1,326 @@
+#include "core_setup.h"
+
+namespace
+{
+  using namespace talus;
+  using dealii::Point;
+  using dealii::Tensor;
+
+  std::string
+  splitting(const std::string &entries)
+  {
+    return in_section("Splitting", entries);
+  }
+
+
+
+  /// One point with a stretch along x; returns the number of points after.
+  template <int dim>
+  unsigned int
+  count_after(const std::string &parameters,
+              const double       reference_length,
+              const double       stretch,
+              const double       creation_stretch = 1.,
+              const unsigned int generation       = 0)
+  {
+    Core<dim>      core(cube<dim>() + splitting(parameters));
+    auto          &points = core.points;
+    Point<dim>     x;
+    Tensor<1, dim> length;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = 1.5, length[d] = 0.1;
+    length[0]                               = reference_length;
+    const unsigned int p                    = core.add(x, length);
+    points.data(points.stretch)[p]          = stretch;
+    points.data(points.creation_stretch)[p] = creation_stretch;
+    points.data(points.generation)[p]       = generation;
+    core.sort();
+    const bool has_split = core.splitter.enforce(points, core.grid);
+    EXPECT_EQ(has_split, points.size() > 1);
+    EXPECT_EQ(core.splitter.statistics().n_splits, has_split ? 1u : 0u);
+    return points.size();
+  }
+
+
+
+  // --------------------------------------------------------------- criterion
+
+  TEST(Splitter, ThresholdIsExact)
+  {
+    // Cells of 1 m; the length must exceed 0.7 m, too.
+    const std::string beta = "set Threshold = 1.5";
+    EXPECT_EQ(count_after<2>(beta, 0.5, 1.5), 1u);
+    EXPECT_EQ(count_after<2>(beta, 0.5, std::nextafter(1.5, 2.)), 4u);
+    EXPECT_EQ(count_after<3>(beta, 0.5, 1.5), 1u);
+    EXPECT_EQ(count_after<3>(beta, 0.5, std::nextafter(1.5, 2.)), 8u);
+    // Relative to the stretch at creation.
+    EXPECT_EQ(count_after<2>(beta, 0.25, 3., 2.), 1u);
+    EXPECT_EQ(count_after<2>(beta, 0.25, 3.0001, 2.), 4u);
+    EXPECT_EQ(count_after<2>(beta, 0.9, 0.9, 0.5), 4u);
+  }
+
+
+
+  TEST(Splitter, MinimumLength)
+  {
+    // Lengths of 0.75 m and a bit.
+    const std::string least = "set Threshold = 1.2\nset Minimum length = 0.75";
+    EXPECT_EQ(count_after<2>(least, 0.5, 1.5), 1u);
+    EXPECT_EQ(count_after<2>(least, 0.5, std::nextafter(1.5, 2.)), 4u);
+    const std::string off = "set Threshold = 1.2\nset Minimum length = 0";
+    EXPECT_EQ(count_after<2>(off, 0.01, 1.21), 4u);
+    EXPECT_EQ(count_after<2>(off, 0.01, 1.2), 1u);
+  }
+
+
+
+  TEST(Splitter, LongerThanACellWhateverTheThreshold)
+  {
+    const std::string beta = "set Threshold = 100";
+    EXPECT_EQ(count_after<2>(beta, 0.8, 1.25), 1u);
+    EXPECT_EQ(count_after<2>(beta, 0.8, 1.25 * (1 + 0.9e-9)), 1u);
+    EXPECT_EQ(count_after<2>(beta, 0.8, 1.25 * (1 + 1.1e-9)), 4u);
+    EXPECT_EQ(count_after<2>(beta, 1.2, 1.), 4u);
+  }
+
+
+
+  TEST(Splitter, LengthsAreInUnitsOfTheOwnCell)
+  {
+    Core<2> core(cube<2>() + splitting("set Threshold = 1.2"));
+    refine_corner(core);
+    auto &points = core.points;
+    // 0.48 m: below 0.7 of the large cell, above 0.7 of the small one.
+    for (const Point<2> x : {Point<2>(0.25, 0.25), Point<2>(3.5, 3.5)})
+      {
+        const unsigned int p           = core.add(x, Point<2>(0.3, 0.1));
+        points.data(points.stretch)[p] = 1.6;
+      }
+    core.sort();
+    EXPECT_TRUE(core.splitter.enforce(points, core.grid));
+    EXPECT_EQ(core.splitter.statistics().n_splits, 1u);
+    for (unsigned int p = 0; p < points.size(); ++p)
+      EXPECT_EQ(points.data(points.generation)[p],
+                points.data(points.position)[p] < 2. ? 1. : 0.);
+  }
+
+
+
+  TEST(Splitter, GenerationLimit)
+  {
+    EXPECT_EQ(count_after<2>("", 0.6, 1.5, 1., 2), 4u);
+    EXPECT_EQ(count_after<2>("", 0.6, 1.5, 1., 3), 1u);
+    EXPECT_EQ(count_after<2>("set Maximum generation = 0", 0.6, 1.5), 1u);
+    EXPECT_EQ(count_after<2>("set Enabled = false", 0.6, 1.5), 1u);
+
+    Core<2> core(cube<2>() + splitting("set Maximum generation = 2"));
+    core.add({1.5, 1.5}, Point<2>(3., 3.));
+    core.points.data(core.points.stretch)[0] = 1.5;
+    core.sort();
+    // 4.5 m: one split, then four, then sixteen refusals.
+    for (unsigned int n : {4u, 16u, 16u})
+      {
+        core.splitter.enforce(core.points, core.grid);
+        core.sort();
+        EXPECT_EQ(core.points.size(), n);
+      }
+    EXPECT_EQ(core.splitter.statistics().n_splits, 5u);
+    EXPECT_EQ(core.splitter.statistics().n_refused, 16u);
+    EXPECT_EQ(core.splitter.statistics().largest_generation, 2u);
+  }
+
+
+
+  TEST(Splitter, BudgetOfPoints)
+  {
+    const auto enforce = [](const unsigned int budget) {
+      Core<2> core(cube<2>() +
+                   splitting(text("set Maximum number of points = ", budget)));
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          core.add(Point<2>(0.5 + i, 0.5), Point<2>(0.6, 0.6));
+          core.points.data(core.points.stretch)[i] = (i == 1 ? 1.5 : 1.);
+        }
+      core.sort();
+      const std::string message = message_of<ExcPoint>(
+        [&]() { core.splitter.enforce(core.points, core.grid); });
+      EXPECT_EQ(core.points.size(), message.empty() ? 6u : 3u);
+      return message;
+    };
+    EXPECT_EQ(enforce(6), "");
+    const std::string message = enforce(5);
+    for (const std::string part : {"point 1",
+                                   "x = 1.5 m",
+                                   "6 points",
+                                   "'Splitting/Maximum number of points' = 5",
+                                   "'Splitting/Maximum generation'"})
+      EXPECT_TRUE(contains(message, part)) << message;
+  }
+
+
+
+  // --------------------------------------------------------------- daughters
+
+  /// A point with id 1 in a random state with columns of both kinds, stretched
+  /// along the axes whose bits are set, and its copy with id 2, which is at the
+  /// generation limit and stays what it is.
+  template <int dim>
+  void
+  add_parent(Core<dim> &core, const unsigned int axes)
+  {
+    auto &points = core.points;
+    points.add_column("plastic strain", "-", 1, Inheritance::copied);
+    points.add_column("heat", "J", 2, Inheritance::divided);
+    core.add(core.place(0.5), core.vector(0.2, 0.3));
+    const unsigned int p = core.add(core.place(0.5), core.vector(0.4, 0.5));
+    for (const Column &column : points.columns())
+      for (unsigned int c = 0; c < column.n_components; ++c)
+        if (column.first != points.position && column.first != points.body &&
+            column.first != points.id && column.first != points.generation &&
+            column.first != points.reference_length)
+          points.data(column.first, c)[p] = core.number(1., 2.);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        points.data(points.stretch, d)[p] = (axes >> d & 1) ? 1.9 : 1.1;
+        points.data(points.creation_stretch, d)[p] = 1.;
+      }
+    const unsigned int copy = points.append(1);
+    points.copy(p, copy);
+    points.data(points.id)[copy]         = 2;
+    points.data(points.generation)[copy] = 3;
+    core.splitter.set_next_id(100);
+    core.sort();
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  index_of(const Core<dim> &core, const double id)
+  {
+    unsigned int p = 0;
+    while (core.points.data(core.points.id)[p] != id)
+      ++p;
+    return p;
+  }
+
+
+
+  /// Box and place of daughter @p q. Returns the corner of the parent where it
+  /// lies, a bit per axis.
+  template <int dim>
+  unsigned int
+  expect_box_of_daughter(const Core<dim>   &core,
+                         const unsigned int parent,
+                         const unsigned int q,
+                         const unsigned int halved_axes)
+  {
+    const auto  &points = core.points;
+    unsigned int corner = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double L0      = points.data(points.reference_length, d)[parent];
+        const double stretch = points.data(points.stretch, d)[parent];
+        const bool   halved  = halved_axes >> d & 1;
+        const double offset  = points.data(points.position, d)[q] -
+                              points.data(points.position, d)[parent];
+        const double offset_0 = points.data(points.initial_position, d)[q] -
+                                points.data(points.initial_position, d)[parent];
+        if (offset > 0)
+          corner |= 1u << d;
+        EXPECT_NEAR(std::abs(offset), halved ? 0.25 * stretch * L0 : 0., 1e-15);
+        EXPECT_NEAR(offset_0,
+                    halved ? std::copysign(0.25 * L0, offset) : 0.,
+                    1e-15);
+        EXPECT_EQ(points.data(points.reference_length, d)[q],
+                  halved ? 0.5 * L0 : L0);
+        EXPECT_EQ(points.data(points.creation_stretch, d)[q], stretch);
+      }
+    return corner;
+  }
+
+
+
+  template <int dim>
+  void
+  expect_state_of_daughter(const Core<dim>   &core,
+                           const unsigned int parent,
+                           const unsigned int q,
+                           const unsigned int n_daughters)
+  {
+    const auto &points = core.points;
+    EXPECT_EQ(points.data(points.generation)[q], 1.);
+    for (const Column &column : points.columns())
+      for (unsigned int c = 0; c < column.n_components; ++c)
+        if (column.first != points.position &&
+            column.first != points.initial_position &&
+            column.first != points.reference_length &&
+            column.first != points.creation_stretch &&
+            column.first != points.generation && column.first != points.id)
+          {
+            const bool divided = column.inheritance == Inheritance::divided;
+            EXPECT_EQ(points.data(column.first, c)[q],
+                      points.data(column.first, c)[parent] /
+                        (divided ? n_daughters : 1))
+              << column.name;
+          }
+  }
+
+
+
+  template <int dim>
+  void
+  expect_daughters(const std::string &directions, const unsigned int axes)
+  {
+    Core<dim> core(cube<dim>() + splitting("set Directions = " + directions));
+    auto     &points = core.points;
+    add_parent(core, axes);
+    const unsigned int parent = index_of(core, 2), child = index_of(core, 1);
+    const unsigned int n_before = points.size();
+    ASSERT_TRUE(core.splitter.enforce(points, core.grid));
+
+    const unsigned int mask = directions == "all" ? (1u << dim) - 1 : axes;
+    const unsigned int n    = 1u << __builtin_popcount(mask);
+    ASSERT_EQ(points.size(), n_before + n - 1);
+    std::map<unsigned int, unsigned int> ids, corners;
+    for (unsigned int k = 0; k < n; ++k)
+      {
+        const unsigned int q = (k == 0 ? child : n_before + k - 1);
+        ++ids[points.data(points.id)[q]];
+        ++corners[expect_box_of_daughter(core, parent, q, mask)];
+        expect_state_of_daughter(core, parent, q, n);
+      }
+    EXPECT_EQ(corners.size(), n) << "one daughter in each corner";
+    EXPECT_EQ(ids.size(), n);
+    EXPECT_EQ(ids.count(1), 1u) << "the first keeps its parent's id";
+    for (unsigned int k = 0; k + 1 < n; ++k)
+      EXPECT_EQ(ids.count(100 + k), 1u);
+  }
+
+
+
+  TEST(Splitter, DaughtersInheritTheState)
+  {
+    expect_daughters<2>("all", 1);
+    expect_daughters<2>("stretched", 1);
+    expect_daughters<2>("stretched", 2);
+    expect_daughters<2>("stretched", 3);
+    expect_daughters<3>("all", 4);
+    for (unsigned int axes = 1; axes < 8; ++axes)
+      expect_daughters<3>("stretched", axes);
+  }
+
+
+
+  /// What is extensive is divided, what is intensive is not.
+  TEST(Splitter, KindsOfColumns)
+  {
+    const Points<2> points;
+    for (const Column &column : points.columns())
+      EXPECT_EQ(column.inheritance == Inheritance::divided,
+                column.name == "mass" || column.name == "reference volume" ||
+                  column.name == "elastic energy" ||
+                  column.name == "plastic work")
+        << column.name;
+  }
+} // namespace

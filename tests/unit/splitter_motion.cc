@@ -1,0 +1,239 @@
+#include "core_setup.h"
+
+namespace
+{
+  using namespace talus;
+  using dealii::Point;
+  using dealii::Tensor;
+
+  std::string
+  splitting(const std::string &directions)
+  {
+    return in_section("Splitting",
+                      "set Minimum length = 0\nset Threshold = 1.5"
+                      "\nset Directions = " +
+                        directions);
+  }
+
+
+
+  // ------------------------------------------------------------ rigid motion
+
+  const std::array<std::pair<BoxRule, std::string>, 4> rules{
+    {{BoxRule::fixed, "fixed"},
+     {BoxRule::deformation_gradient, "deformation gradient"},
+     {BoxRule::right_stretch, "right stretch"},
+     {BoxRule::left_stretch, "left stretch"}}};
+
+
+
+  template <int dim>
+  Tensor<2, dim>
+  rotation(const double angle)
+  {
+    Tensor<2, dim> R;
+    for (unsigned int d = 0; d < dim; ++d)
+      R[d][d] = 1.;
+    R[0][0] = R[1][1] = std::cos(angle);
+    R[0][1]           = -std::sin(angle);
+    R[1][0]           = std::sin(angle);
+    return R;
+  }
+
+
+
+  /// 50 points within 1.8 m of the centre of a mesh of 4 m.
+  template <int dim>
+  struct RigidBody : Core<dim>
+  {
+    // Lengths above the minimum, a threshold that round-off does not reach.
+    RigidBody(const BoxRule rule, const bool is_deformed)
+      : Core<dim>(cube<dim>() + in_section("Splitting",
+                                           "set Threshold = 1.000001"
+                                           "\nset Minimum length = 0.1"))
+      , rule(rule)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        middle[d] = 2.;
+      for (unsigned int i = 0; i < 50; ++i)
+        {
+          start.push_back(this->vector(-1., 1.));
+          this->add(middle + start[i], this->vector(0.3, 0.5));
+          F.push_back(rotation<dim>(0.));
+          if (is_deformed)
+            F[i] += this->tensor(-0.2, 0.2);
+          this->set_deformation(i, F[i]);
+        }
+      auto &points = this->points;
+      update_stretch(points, rule, 0.);
+      for (unsigned int i = 0; i < 50; ++i)
+        this->set(points.creation_stretch, i, this->get(points.stretch, i));
+      this->sort();
+    }
+
+    /// One step of a turn about the axis z, and of a motion along x.
+    void
+    step(const double t, const double dt)
+    {
+      const double         rate = 2. * dealii::numbers::PI;
+      const Tensor<2, dim> R    = rotation<dim>(rate * t);
+      Tensor<1, dim>       shift;
+      shift[0]     = 0.8 * std::sin(20. * t);
+      auto &points = this->points;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          const unsigned int i = points.data(points.id)[p];
+          this->set_deformation(p, R * F[i]);
+          this->set(points.position, p, middle + shift + R * start[i]);
+          for (unsigned int k = 0; k < dim; ++k)
+            for (unsigned int l = 0; l < dim; ++l)
+              points.velocity_gradient(k, l)[p] = 0.;
+          points.velocity_gradient(0, 1)[p] = -rate;
+          points.velocity_gradient(1, 0)[p] = rate;
+        }
+      update_stretch(points, rule, dt);
+      this->sort();
+    }
+
+    BoxRule                     rule;
+    Point<dim>                  middle;
+    std::vector<Tensor<1, dim>> start;
+    std::vector<Tensor<2, dim>> F;
+  };
+
+
+
+  template <int dim>
+  void
+  expect_no_split(const BoxRule rule, const bool is_deformed)
+  {
+    RigidBody<dim>     body(rule, is_deformed);
+    const unsigned int n_steps = 720;
+    for (unsigned int step = 1; step <= n_steps; ++step)
+      {
+        body.step(double(step) / n_steps, 1. / n_steps);
+        ASSERT_FALSE(body.splitter.enforce(body.points, body.grid)) << step;
+      }
+    EXPECT_EQ(body.points.size(), 50u);
+    EXPECT_EQ(body.splitter.statistics().n_refused, 0u);
+  }
+
+
+
+  TEST(SplitInvariance, RigidMotionSplitsNothing)
+  {
+    for (const auto &[rule, name] : rules)
+      {
+        SCOPED_TRACE(name);
+        expect_no_split<2>(rule, false);
+        expect_no_split<3>(rule, false);
+      }
+    // A deformed body that turns keeps its stretch only in its own axes.
+    for (const BoxRule rule : {BoxRule::right_stretch, BoxRule::fixed})
+      {
+        expect_no_split<2>(rule, true);
+        expect_no_split<3>(rule, true);
+      }
+  }
+
+
+
+  // ------------------------------------------------------------------ ledger
+
+  template <int dim>
+  struct Totals
+  {
+    explicit Totals(const Core<dim> &core)
+    {
+      const auto &points = core.points;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          const double         m = points.data(points.mass)[p];
+          const Tensor<1, dim> v = core.get(points.velocity, p);
+          mass += m;
+          volume += core.volume(p);
+          kinetic += 0.5 * m * v.norm_square();
+          elastic += points.data(points.elastic_energy)[p];
+          momentum += m * v;
+          moment += m * core.get(points.position, p);
+          speed += m * v.norm();
+        }
+    }
+
+    double         mass = 0, volume = 0, kinetic = 0, elastic = 0, speed = 0;
+    Tensor<1, dim> momentum, moment;
+  };
+
+
+
+  /// Hundreds of splits of points in random states; sums that are counted here
+  /// agree with the ledger.
+  template <int dim>
+  void
+  expect_closed_ledger(const std::string &directions)
+  {
+    Core<dim> core(cube<dim>() + splitting(directions));
+    auto     &points = core.points;
+    for (unsigned int i = 0; i < 60; ++i)
+      core.randomize(core.add(core.place(0.7), core.vector(0.2, 0.9)));
+    const Totals<dim> before(core);
+    for (unsigned int step = 0; step < 200; ++step)
+      {
+        for (unsigned int p = 0; p < points.size(); ++p)
+          for (unsigned int d = 0; d < dim; ++d)
+            points.data(points.stretch, d)[p] *= core.number(0.99, 1.04);
+        core.sort();
+        core.splitter.enforce(points, core.grid);
+      }
+    const Totals<dim> after(core);
+    EXPECT_GT(core.splitter.statistics().n_splits, 300u);
+    EXPECT_GT(core.splitter.statistics().ledger, 0.);
+    EXPECT_LE(core.splitter.statistics().ledger, 1e-12);
+    EXPECT_NEAR(after.mass / before.mass, 1., 1e-12);
+    EXPECT_NEAR(after.volume / before.volume, 1., 1e-12);
+    EXPECT_NEAR(after.kinetic / before.kinetic, 1., 1e-12);
+    EXPECT_NEAR(after.elastic / before.elastic, 1., 1e-12);
+    EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12 * before.speed);
+    EXPECT_LT((after.moment - before.moment).norm(),
+              1e-12 * before.moment.norm());
+    std::map<double, unsigned int> ids;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      ++ids[points.data(points.id)[p]];
+    EXPECT_EQ(ids.size(), points.size());
+  }
+
+
+
+  TEST(SplitInvariance, Ledger)
+  {
+    expect_closed_ledger<2>("all");
+    expect_closed_ledger<2>("stretched");
+    expect_closed_ledger<3>("stretched");
+  }
+
+
+
+  /// The ledger must see what is lost.
+  TEST(SplitInvariance, LedgerSeesLosses)
+  {
+    const auto error = [](const auto &spoil) {
+      Core<2> core(cube<2>());
+      core.randomize(core.add({1.5, 1.5}, Point<2>(0.5, 0.5)));
+      Ledger<2> ledger;
+      ledger.enter(core.points, 0, +1.);
+      spoil(core.points);
+      ledger.enter(core.points, 0, -1.);
+      return ledger.relative_error();
+    };
+    EXPECT_EQ(error([](Points<2> &) {}), 0.);
+    for (const unsigned int column : {Points<2>().mass,
+                                      Points<2>().velocity + 1,
+                                      Points<2>().position,
+                                      Points<2>().elastic_energy})
+      EXPECT_GT(error([column](Points<2> &points) {
+                  points.data(column)[0] += 1e-9;
+                }),
+                1e-12)
+        << column;
+  }
+} // namespace
