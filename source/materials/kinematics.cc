@@ -28,9 +28,9 @@ namespace talus
                         ") m was turned inside out: the determinant of its "
                         "deformation gradient is ",
                         J,
-                        " where a positive number was expected. Shorten the "
-                        "time step, or look for what throws the points there "
-                        "about.")));
+                        " where a positive number was expected. Lower 'Time "
+                        "step/CFL number', or look for what throws the points "
+                        "there about.")));
       }
   }
 

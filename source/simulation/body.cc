@@ -266,7 +266,20 @@ namespace talus
           for (unsigned int d = 0; d < dim; ++d)
             x[d] = points.data(points.position, d)[p];
           for (unsigned int c = 0; c < n_components; ++c)
-            points.data(column, c)[p] = expression.value(x, t, c);
+            {
+              const double value = expression.value(x, t, c);
+              AssertThrow(std::isfinite(value),
+                          ExcUser(text(path(entry),
+                                       " = '",
+                                       expressions,
+                                       "' is ",
+                                       value,
+                                       " at (",
+                                       x,
+                                       ") m, where a finite number was "
+                                       "expected; correct the expression.")));
+              points.data(column, c)[p] = value;
+            }
         }
     };
     set("Initial velocity", initial_velocity_, points.velocity, dim);

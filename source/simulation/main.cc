@@ -1,34 +1,16 @@
 #include <talus/base/errors.h>
 #include <talus/simulation/command_line.h>
+#include <talus/simulation/message.h>
 #include <talus/simulation/parameter_file.h>
 #include <talus/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <iostream>
-#include <sstream>
 
 namespace
 {
   using namespace talus;
-
-  /// The message of an exception as one line.
-  std::string
-  sentence(const std::exception &exception)
-  {
-    std::ostringstream message;
-    if (const auto *e = dynamic_cast<const dealii::ExceptionBase *>(&exception))
-      e->print_info(message);
-    else
-      message << exception.what();
-    std::istringstream words(message.str());
-    std::string        line, word;
-    while (words >> word)
-      line += (line.empty() ? "" : " ") + word;
-    return line;
-  }
-
-
 
   template <int dim>
   int
@@ -48,10 +30,10 @@ namespace
       {
         simulation.run();
       }
-    catch (const ExcPoint &)
+    catch (const ExcPoint &exception)
       {
-        simulation.write_last_state();
-        throw;
+        throw ExcPoint(message(exception) + " The last state is in '" +
+                       simulation.write_last_state() + "'.");
       }
     return 0;
   }
@@ -93,7 +75,7 @@ main(int argc, char **argv)
     }
   catch (const std::exception &exception)
     {
-      std::cerr << "talus: " << sentence(exception) << std::endl;
+      std::cerr << "talus: " << talus::message(exception) << std::endl;
       return 1;
     }
 }

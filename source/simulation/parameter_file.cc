@@ -5,6 +5,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -68,7 +69,8 @@ namespace talus
     : file_name_(file_name)
     , overrides_(overrides)
   {
-    AssertThrow(std::ifstream(file_name_).good(),
+    AssertThrow(std::ifstream(file_name_).good() &&
+                  !std::filesystem::is_directory(file_name_),
                 ExcUser(
                   "The parameter file '" + file_name_ +
                   "' cannot be read. Give the path of an existing file."));
@@ -110,11 +112,14 @@ namespace talus
     preview.bodies = names(prm.get("Names"), "Bodies/Names");
     prm.leave_subsection();
     prm.enter_subsection("Materials");
-    const auto materials = names(prm.get("Names"), "Materials/Names");
+    const auto  materials = names(prm.get("Names"), "Materials/Names");
+    std::string laws;
+    for (const std::string &law : material_names<2>())
+      laws += (laws.empty() ? "" : "|") + law;
     for (const std::string &name : materials)
       {
         prm.enter_subsection(name);
-        prm.declare_entry("Law", "linear elastic");
+        prm.declare_entry("Law", "linear elastic", Patterns::Selection(laws));
         prm.leave_subsection();
       }
     prm.leave_subsection();

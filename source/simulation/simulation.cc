@@ -265,10 +265,10 @@ namespace talus
 
 
   template <int dim>
-  void
+  std::string
   Simulation<dim>::write_last_state()
   {
-    output_.write_last_state(snapshot());
+    return output_.write_last_state(snapshot());
   }
 
 

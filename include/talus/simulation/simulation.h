@@ -47,8 +47,8 @@ namespace talus
     void
     advance();
 
-    /// Emergency output after an error.
-    void
+    /// Emergency output after an error. Returns the path of the file.
+    std::string
     write_last_state();
 
     Output<dim> &

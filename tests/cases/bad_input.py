@@ -1,0 +1,403 @@
+"""What talus says to bad input: exit status 1 and one helpful line on stderr,
+with earlier results untouched.
+
+Usage: bad_input.py TALUS FOLDER [TestClass]. Exits with 77 if every test was
+skipped, which ctest shows.
+"""
+
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import unittest
+
+TALUS = pathlib.Path(sys.argv[1]).resolve()
+FOLDER = pathlib.Path(sys.argv[2]).resolve()
+
+# A body of 4 x 4 points on a plane, done in some steps. Tests count its lines.
+GOOD = """\
+set End time = 0.01
+
+subsection Grid
+  set Lower corner = 0, 0
+  set Upper corner = 4, 4
+  set Cell size    = 1
+end
+
+subsection Bodies
+  set Names = block
+  subsection block
+    set Shape        = box
+    set Lower corner = 1, 0
+    set Upper corner = 3, 2
+    set Material     = clay
+  end
+end
+
+subsection Materials
+  set Names = clay
+  subsection clay
+    set Law             = linear elastic
+    set Density         = 1000
+    set Young's modulus = 1e6
+    set Poisson's ratio = 0.3
+  end
+end
+
+subsection Boundaries
+  set Bottom = roller
+end
+"""
+
+# Weak, fast and with the longest step: what a bad run needs.
+DUST = ["Materials/clay/Young's modulus=1", "Time step/CFL number=1",
+        "Time step/Box safety factor=1", "Gravity/Magnitude=0", "End time=1"]
+
+
+class Case(unittest.TestCase):
+    def setUp(self):
+        self.folder = FOLDER / self.id().split(".")[-1]
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.results = self.folder / "results"
+        self.results.mkdir(parents=True)
+        self.earlier = {"statistics.csv": "of an earlier run\n",
+                        "parameters.prm": "# of an earlier run\n"}
+        for name, content in self.earlier.items():
+            (self.results / name).write_text(content)
+
+    def run_talus(self, *arguments):
+        return subprocess.run([TALUS, *map(str, arguments)], cwd=self.folder,
+                              capture_output=True, text=True, timeout=120)
+
+    def run_file(self, content=GOOD, settings=(), output="results"):
+        file = self.folder / "case.prm"
+        file.write_text(content)
+        options = [o for s in settings for o in ("--set", s)]
+        return self.run_talus(*options, "--output", output, file)
+
+    def assert_refused(self, result, *words):
+        """Exit status 1, one line of stderr with all of these words."""
+        print(f"{self.id().split('.')[-1]}: {result.stderr.rstrip()}")
+        self.assertEqual(result.returncode, 1, result)
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertTrue(result.stderr.startswith("talus: "), result.stderr)
+        self.assertTrue(result.stderr.rstrip().endswith("."), result.stderr)
+        self.assertLess(len(result.stderr), 700)
+        for word in words:
+            self.assertIn(word, result.stderr)
+
+    def assert_untouched(self):
+        found = {f.name: f.read_text() for f in self.results.iterdir()}
+        self.assertEqual(found, self.earlier)
+
+    def refuse(self, replace, by, *words):
+        """The good file with one change is refused before anything happens."""
+        self.assertEqual(GOOD.count(replace), 1)
+        self.assert_refused(self.run_file(GOOD.replace(replace, by)), *words)
+        self.assert_untouched()
+
+    def refuse_set(self, settings, *words):
+        self.assert_refused(self.run_file(settings=settings), *words)
+        self.assert_untouched()
+
+    def stops(self, settings, *words):
+        """The run starts and stops, leaving its last state."""
+        self.assert_refused(self.run_file(settings=settings), *words,
+                            "results/last-state.vtu")
+        last = (self.results / "last-state.vtu").read_text()
+        self.assertIn("</VTKFile>", last)
+
+
+class BadInput(Case):
+    def test_good_input_runs(self):
+        result = self.run_file()
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr, "")
+        self.assertIn("time [s]", (self.results / "statistics.csv").read_text())
+
+    # The parameter file
+
+    def test_unknown_parameter(self):
+        self.refuse("set Cell size    = 1", "set Cel size = 1",
+                    "case.prm", "line 6", "'Cel size'", "--document")
+
+    def test_unknown_section(self):
+        self.refuse("subsection Grid", "subsection Gird",
+                    "case.prm", "line 3", "Gird", "--document")
+
+    def test_wrong_type(self):
+        self.refuse("set Cell size    = 1", "set Cell size = one",
+                    "case.prm", "line 6", "'one'", "'Cell size'", "number")
+
+    def test_out_of_range(self):
+        self.refuse("set Poisson's ratio = 0.3", "set Poisson's ratio = 0.5",
+                    "0.5", "Poisson's ratio")
+
+    def test_negative_density(self):
+        self.refuse("set Density         = 1000", "set Density = -1",
+                    "case.prm", "line 23", "'-1'", "'Density'", "number")
+
+    def test_unknown_law(self):
+        self.refuse("linear elastic", "jelly",
+                    "case.prm", "line 22", "'jelly'", "linear elastic", "von Mises", "neo-Hookean")
+
+    def test_unknown_shape(self):
+        self.refuse("set Shape        = box", "set Shape = cube",
+                    "case.prm", "line 12", "'cube'", "polygon", "ball")
+
+    def test_unknown_face_condition(self):
+        self.refuse("set Bottom = roller", "set Bottom = glue",
+                    "case.prm", "line 30", "'glue'", "roller", "seabed")
+
+    def test_unknown_face(self):
+        self.refuse("set Bottom = roller", "set Botom = roller",
+                    "case.prm", "line 30", "'Botom'", "--document")
+
+    def test_subsection_not_closed(self):
+        self.refuse("set Bottom = roller\nend\n", "set Bottom = roller\n",
+                    "case.prm", "'subsection'", "'end'")
+
+    def test_line_that_is_no_parameter(self):
+        self.refuse("set Bottom = roller", "Bottom: roller",
+                    "case.prm", "line 30", "Bottom: roller", "set")
+
+    def test_unknown_material(self):
+        self.refuse("= clay\n  end", "= sand\n  end",
+                    "block", "sand", "clay")
+
+    def test_empty_names(self):
+        self.refuse("set Names = block", "set Names =", "Bodies/Names", "name")
+
+    def test_names_twice(self):
+        self.refuse("set Names = clay", "set Names = clay, clay",
+                    "Materials/Names", "twice")
+
+    def test_dimension(self):
+        self.refuse_set(["Dimension=4"], "--set Dimension=4", "'4'", "3")
+
+    def test_missing_file(self):
+        self.assert_refused(self.run_talus("missing.prm"),
+                            "missing.prm", "cannot be read", "existing file")
+
+    def test_folder_for_file(self):
+        self.assert_refused(self.run_talus("."), "'.'", "cannot be read")
+
+    def test_malformed_set(self):
+        self.refuse_set(["Grid/Cell size"], "Grid/Cell size",
+                        "Section/Subsection/Entry=value")
+
+    def test_unknown_set(self):
+        self.refuse_set(["Grid/Cel size=1"], "--set Grid/Cel size=1",
+                        "'Cel size'", "--document")
+
+    def test_wrong_type_set(self):
+        self.refuse_set(["Grid/Cell size=one"], "--set Grid/Cell size=one",
+                        "'one'", "number")
+
+    # Bodies and mesh
+
+    def polygon(self, vertices):
+        return ["Bodies/block/Shape=polygon",
+                "Bodies/block/Vertices=" + vertices]
+
+    def test_polygon_intersects_itself(self):
+        self.refuse_set(self.polygon("0,0; 2,2; 2,0; 0,2"),
+                        "Bodies/block/Vertices", "polygon", "crossing")
+
+    def test_polygon_without_area(self):
+        self.refuse_set(self.polygon("0,0; 2,2"),
+                        "Bodies/block/Vertices", "polygon")
+
+    def test_polygon_without_vertices(self):
+        self.refuse_set(["Bodies/block/Shape=polygon"],
+                        "Bodies/block/Vertices")
+
+    def test_polygon_vertex_malformed(self):
+        self.refuse_set(self.polygon("0,0; 2; 2,2"),
+                        "Bodies/block/Vertices", "'2'", "x,y")
+
+    def test_polygon_outside_the_mesh(self):
+        self.refuse_set(self.polygon("0,0; 9,0; 2,2"),
+                        "block", "9 m", "4 m", "Grid/Upper corner")
+
+    def test_box_outside_the_mesh(self):
+        self.refuse_set(["Grid/Upper corner=2,4"],
+                        "block", "3 m", "2 m", "Grid/Upper corner")
+
+    def test_box_upside_down(self):
+        self.refuse_set(["Bodies/block/Upper corner=0.5,2"],
+                        "Bodies/block/Upper corner", "0.5 2", "lower corner")
+
+    def test_no_points(self):
+        self.refuse_set(["Bodies/block/Lower corner=1.4,0.4",
+                         "Bodies/block/Upper corner=1.6,0.6"],
+                        "block", "no points", "Points per cell and axis")
+
+    def test_mesh_upside_down(self):
+        self.refuse_set(["Grid/Upper corner=-1,4"],
+                        "Grid/Upper corner", "Grid/Lower corner")
+
+    def test_wall_that_would_move(self):
+        self.refuse_set(["Boundaries/Top=roller", "Grid/Upper corner=4,4.5"],
+                        "Grid/Cell size", "Top", "cell size")
+
+    def test_initial_velocity_is_not_a_number(self):
+        self.refuse_set(["Bodies/block/Initial velocity=sqrt(1.5-x); 0"],
+                        "Bodies/block/Initial velocity", "nan", "(1.75 ",
+                        "finite number")
+
+    def test_initial_velocity_is_no_expression(self):
+        self.refuse_set(["Bodies/block/Initial velocity=2*; 0"],
+                        "Bodies/block/Initial velocity", "2*")
+
+    def test_initial_velocity_components(self):
+        self.refuse_set(["Bodies/block/Initial velocity=1"],
+                        "Bodies/block/Initial velocity", "2 are needed")
+
+    def test_body_force_is_no_expression(self):
+        self.refuse_set(["Body force/Expression=q; 0"],
+                        "Body force/Expression", "q")
+
+    # Output
+
+    def test_output_below_a_file(self):
+        (self.folder / "file").write_text("")
+        self.assert_refused(self.run_file(output="file/results"),
+                            "file/results", "Output/Folder", "--output")
+        self.assert_untouched()
+
+    def test_output_folder_is_a_file(self):
+        (self.folder / "file").write_text("precious")
+        self.assert_refused(self.run_file(output="file"), "'file'", "--output")
+        self.assertEqual((self.folder / "file").read_text(), "precious")
+
+    def test_output_without_name(self):
+        self.assert_refused(self.run_file(settings=["Output/Folder="],
+                                          output=""), "Output/Folder", "empty")
+
+    def test_no_space_for_the_statistics(self):
+        (self.results / "statistics.csv").unlink()
+        (self.results / "statistics.csv").symlink_to("/dev/full")
+        self.assert_refused(self.run_file(), "statistics.csv",
+                            "No space left on device", "--output")
+
+    # The run
+
+    def test_point_leaves_through_a_free_face(self):
+        self.stops(["Bodies/block/Initial velocity=10; 0", "End time=1"],
+                   "Point ", "'Right'", "left the mesh", "(4.", "Grid/Upper")
+
+    def test_not_a_number(self):
+        self.stops(["Body force/Expression=sqrt(0.05-t); 0", "End time=1"],
+                   "Point ", "nan", ") m", "CFL number")
+
+    def test_not_a_number_from_the_start(self):
+        self.stops(["Body force/Expression=sqrt(x-1.5); 0"],
+                   "Point ", "nan", ") m")
+
+    def test_collapsed_point(self):
+        # In the cell of the jump the velocity falls by 1.5 V over h.
+        self.stops(DUST + ["Bodies/block/Upper corner=4,2",
+                           "Bodies/block/Initial velocity="
+                           "if(x<2.5, 1000, -1000); 0"],
+                   "Point ", "deformation gradient is -", ") m", "CFL number")
+
+    def test_budget_of_points(self):
+        self.stops(["Splitting/Maximum number of points=20",
+                    "Splitting/Threshold=1.01", "Splitting/Minimum length=0",
+                    "Bodies/block/Initial velocity=10*(x-2); 0",
+                    "End time=0.1"],
+                   "point ", "Splitting/Maximum number of points", "20",
+                   "stretched")
+
+
+class CommandLine(Case):
+    def assert_succeeds(self, result, *words):
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr, "")
+        for word in words:
+            self.assertIn(word, result.stdout)
+        self.assert_untouched()
+
+    def test_help(self):
+        self.assert_succeeds(self.run_talus("--help"), "Usage", "--set",
+                             "--output", "--validate", "--document",
+                             "--version")
+
+    def test_version(self):
+        self.assert_succeeds(self.run_talus("--version"), "talus 0.", "deal.II")
+
+    def test_document(self):
+        self.assert_succeeds(self.run_talus("--document"), "subsection Grid",
+                             "Cell size", "Undrained shear strength",
+                             "subsection Splitting")
+
+    def test_validate(self):
+        (self.folder / "good.prm").write_text(GOOD)
+        self.assert_succeeds(self.run_talus("--validate", "--output", "results",
+                                            "good.prm"), "good.prm is valid")
+
+    def test_validate_finds_faults(self):
+        (self.folder / "bad.prm").write_text(GOOD.replace("4, 4", "2, 4"))
+        self.assert_refused(self.run_talus("--validate", "bad.prm"), "block")
+
+    def test_no_file(self):
+        self.assert_refused(self.run_talus(), "parameter file", "--help")
+
+    def test_two_files(self):
+        self.assert_refused(self.run_talus("a.prm", "b.prm"), "--help")
+
+    def test_unknown_option(self):
+        self.assert_refused(self.run_talus("--fast"), "--fast", "--help")
+
+    def test_option_without_value(self):
+        self.assert_refused(self.run_talus("--set"), "--set", "--help")
+
+
+class DiskFull(Case):
+    """A file system of 256 kB, which only root may mount."""
+
+    def setUp(self):
+        super().setUp()
+        mount = subprocess.run(["mount", "-t", "tmpfs", "-o", "size=256k",
+                                "tmpfs", self.results],
+                               capture_output=True, text=True)
+        if mount.returncode != 0:
+            self.skipTest("no file system to fill: " + mount.stderr.strip())
+        self.addCleanup(subprocess.run, ["umount", self.results])
+        for name, content in self.earlier.items():
+            (self.results / name).write_text(content)
+
+    def fill(self):
+        with open(self.results / "filling", "wb", buffering=0) as file:
+            try:
+                while file.write(bytes(1024)):
+                    pass
+            except OSError:
+                return
+
+    def test_full_at_the_start(self):
+        self.fill()
+        self.assert_refused(self.run_file(), "results/parameters.prm",
+                            "No space left on device", "--output")
+        (self.results / "filling").unlink()
+        self.assert_untouched()
+
+    def test_full_during_the_run(self):
+        self.assert_refused(self.run_file(settings=["Output/Field interval=1e-4",
+                                                    "End time=1"]),
+                            "results/", "No space left on device", "--output")
+        self.assertEqual(list(self.results.glob("*.part")), [])
+
+
+if __name__ == "__main__":
+    print()
+    names = sys.argv[3:] or ["BadInput", "CommandLine", "DiskFull"]
+    suite = unittest.TestSuite(
+        unittest.defaultTestLoader.loadTestsFromTestCase(globals()[name])
+        for name in names)
+    outcome = unittest.TextTestRunner().run(suite)
+    if not outcome.wasSuccessful():
+        sys.exit(1)
+    sys.exit(77 if len(outcome.skipped) == outcome.testsRun else 0)

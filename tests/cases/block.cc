@@ -1,0 +1,72 @@
+// A stiff block on a plane of 30 degrees, prm/block-on-incline.prm.
+
+#include "case.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+
+using namespace talus;
+using namespace talus::cases;
+
+namespace
+{
+  const double gravity_along  = 9.81 * std::sin(M_PI / 6.); // m/s^2
+  const double gravity_across = 9.81 * std::cos(M_PI / 6.); // m/s^2
+
+  /// Acceleration of the centre of mass after the elastic onset, m/s^2.
+  double
+  acceleration(const Table &table)
+  {
+    return slope(table["time [s]"], table["centre velocity x [m/s]"], 0.3, 1.);
+  }
+} // namespace
+
+
+
+TEST(Block, CoulombFriction)
+{
+  const Table  table = run<2>("block-on-incline.prm", "block-coulomb");
+  const double exact = gravity_along - 0.3 * gravity_across;
+  std::cout << "block, Coulomb: " << acceleration(table) << " m/s^2, exact "
+            << exact << '\n';
+  EXPECT_NEAR(acceleration(table), exact, 0.002 * exact);
+}
+
+
+
+// At rest under its own weight: with gravity switched on at once the block rings
+// and, as any elastic body on Coulomb friction, slips whenever its base is
+// unloaded.
+TEST(Block, SticksBelowTheAngleOfFriction)
+{
+  const std::string weight = "2000*9.81*(1-y)";
+  const Table       table =
+    run<2>("block-on-incline.prm",
+           "block-sticks",
+           {"Boundaries/Seabed/Friction coefficient=0.7",
+            "Bodies/block/Initial stress=0; -" + weight + "*cos(pi/6); -0.3*" +
+              weight + "*cos(pi/6); " + weight + "*sin(pi/6)"});
+  const double creep =
+    (table.at(1., "centre x [m]") - table.at(0.3, "centre x [m]")) / 0.7;
+  std::cout << "block, stuck: creep " << 1000 * creep << " mm/s\n";
+  EXPECT_LT(std::abs(creep), 1e-3);
+  EXPECT_LT(std::abs(table.at(1., "centre x [m]") - 1.), 1e-3);
+}
+
+
+
+// Where the cap governs, its stress times the contact area brakes, whatever the
+// normal force: a = g sin - tau_max/(rho H).
+TEST(Block, CappedInterface)
+{
+  const Table  table = run<2>("block-on-incline.prm",
+                             "block-capped",
+                             {"Boundaries/Seabed/Friction coefficient=10",
+                               "Boundaries/Seabed/Maximum shear stress=3000"});
+  const double exact = gravity_along - 3000. / (2000. * 1.);
+  std::cout << "block, capped: " << acceleration(table) << " m/s^2, exact "
+            << exact << '\n';
+  EXPECT_NEAR(acceleration(table), exact, 0.02 * exact);
+}

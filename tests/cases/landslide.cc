@@ -1,0 +1,140 @@
+// The landslide of the paper on cells of 0.4 m, prm/landslide-quick.prm.
+
+#include "landslide.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+using namespace talus;
+using namespace talus::cases;
+
+namespace
+{
+  const Overrides unsplit   = {"Splitting/Enabled=false"};
+  const Overrides stretched = {"Splitting/Directions=stretched"};
+
+  /// Set a parameter to all digits of @p value.
+  std::string
+  exactly(const std::string &entry, const double value)
+  {
+    std::ostringstream out;
+    out << entry << '=' << std::setprecision(17) << value;
+    return out.str();
+  }
+} // namespace
+
+
+
+TEST(LandslideStretched, WhatMustHoldToRest)
+{
+  const Table table =
+    run<2>("landslide-quick.prm", "landslide-stretched", stretched);
+  report("stretched", table);
+  expect_split_landslide(table, 0.002, 24., 27.5);
+}
+
+
+
+// Without splitting the slide tears: the program must say so.
+TEST(LandslideUnsplit, FracturesAndStillBalances)
+{
+  const Table table =
+    run<2>("landslide-quick.prm", "landslide-unsplit", unsplit);
+  report("unsplit", table);
+  expect_momentum(table);
+  expect_energy(table, 0.005, 0.005);
+  EXPECT_EQ(table["splits"].back(), 0);
+
+  double most = 0;
+  for (unsigned int i = 0; i < table.n_rows(); ++i)
+    {
+      const double n = table["empty interior cells"][i];
+      most           = std::max(most, n);
+      if (table["time [s]"][i] >= 10.)
+        EXPECT_GT(n, 0) << "t = " << table["time [s]"][i];
+    }
+  EXPECT_GE(most, 5);
+  EXPECT_GT(table["connected bodies"].back(), 1); // the toe tore off
+}
+
+
+
+namespace
+{
+  struct State
+  {
+    unsigned long       n_steps = 0;
+    std::vector<double> position;     // m
+    double              distance = 0; // moved at most, m
+  };
+
+
+
+  /// Where the points are at time @p end, s, with splitting.
+  State
+  run_to(const double end, const Overrides &overrides)
+  {
+    Case<2> slide("landslide-quick.prm", stretched + overrides);
+    State   state;
+    while (slide->snapshot().time < end)
+      slide->advance();
+    state.n_steps           = slide->snapshot().step;
+    const Points<2> &points = slide.points();
+    for (unsigned int d = 0; d < 2; ++d)
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          const double x = points.data(points.position, d)[p];
+          state.position.push_back(x);
+          state.distance =
+            std::max(state.distance,
+                     std::abs(x - points.data(points.initial_position, d)[p]));
+        }
+    return state;
+  }
+
+
+
+  void
+  expect_same_path(const State &a, const State &b, const std::string &name)
+  {
+    ASSERT_EQ(a.position.size(), b.position.size());
+    double difference = 0;
+    for (std::size_t i = 0; i < a.position.size(); ++i)
+      {
+        const double d = std::abs(a.position[i] - b.position[i]);
+        difference     = (d <= difference ? difference : d);
+      }
+    std::cout << "similarity, " << name << ": " << a.n_steps << " and "
+              << b.n_steps << " steps, moved by up to " << a.distance
+              << " m, difference " << difference << " m\n";
+    EXPECT_GT(a.distance, 1.);
+    EXPECT_LE(difference, 1e-9 * a.distance);
+  }
+} // namespace
+
+
+
+// Two changes of units that leave the path the same, with splitting.
+TEST(LandslideSimilarity, PathIsTheSame)
+{
+  const double s = 1. / 0.6, end = 2.;
+  const State  reference = run_to(end, {exactly("End time", end)});
+  const State  heavier =
+    run_to(end * std::sqrt(s),
+           {exactly("End time", end * std::sqrt(s)),
+            exactly("Materials/clay/Density", 600. * s),
+            exactly("Materials/clay/Submerged density", 600.)});
+  const State stronger =
+    run_to(end / std::sqrt(s),
+           {exactly("End time", end / std::sqrt(s)),
+            exactly("Gravity/Magnitude", 9.81 * s),
+            exactly("Materials/clay/Undrained shear strength", 2.5e3 * s),
+            exactly("Materials/clay/Young's modulus", 250e3 * s),
+            exactly("Boundaries/Seabed/Maximum shear stress", 1e3 * s)});
+  expect_same_path(reference, heavier, "inertia x s");
+  expect_same_path(reference, stronger, "g, s_u, tau_max, E x s");
+}
