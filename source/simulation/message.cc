@@ -36,8 +36,8 @@ namespace talus
     {
       static const std::pair<std::regex, std::string> words[] = {
         {std::regex("\\[Bool\\]"), "true or false"},
-        {std::regex(
-           "\\[Double( MIN_DOUBLE\\.\\.\\.MAX_DOUBLE \\(inclusive\\))?\\]"),
+        {std::regex("\\[Double( -?M(IN|AX)_DOUBLE\\.\\.\\.MAX_DOUBLE "
+                    "\\(inclusive\\))?\\]"),
          "a number"},
         {std::regex("\\[Double (\\S+)\\.\\.\\.MAX_DOUBLE \\(inclusive\\)\\]"),
          "a number of at least $1"},
@@ -52,7 +52,8 @@ namespace talus
         {std::regex("\\[Selection (.*?) ?\\]"), "one of $1"},
         {std::regex("\\[List of <(.*)> of length (\\S+)\\.\\.\\.(\\S+) "
                     "\\(inclusive\\)\\]"),
-         "$2 to $3 values, each $1,"}};
+         "a list of $2 to $3 values, each $1,"},
+        {std::regex("(\\d+) to \\1 values"), "$1 values"}};
       std::string result = pattern;
       for (const auto &[description, plain] : words)
         result = std::regex_replace(result, description, plain);

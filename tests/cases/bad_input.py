@@ -130,6 +130,10 @@ class BadInput(Case):
         self.refuse("set Cell size    = 1", "set Cell size = one",
                     "case.prm", "line 6", "'one'", "'Cell size'", "number")
 
+    def test_wrong_number_of_coordinates(self):
+        self.refuse("set Lower corner = 0, 0\n", "set Lower corner = 0\n",
+                    "case.prm", "line 4", "'0'", "list of 2 values", "a number")
+
     def test_out_of_range(self):
         self.refuse("set Poisson's ratio = 0.3", "set Poisson's ratio = 0.5",
                     "0.5", "Poisson's ratio")
