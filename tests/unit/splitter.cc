@@ -125,7 +125,6 @@ namespace
         EXPECT_EQ(core.points.size(), n);
       }
     EXPECT_EQ(core.splitter.statistics().n_splits, 5u);
-    EXPECT_EQ(core.splitter.statistics().n_refused, 16u);
     EXPECT_EQ(core.splitter.statistics().largest_generation, 2u);
   }
 
