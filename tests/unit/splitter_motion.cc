@@ -115,7 +115,6 @@ namespace
         ASSERT_FALSE(body.splitter.enforce(body.points, body.grid)) << step;
       }
     EXPECT_EQ(body.points.size(), 50u);
-    EXPECT_EQ(body.splitter.statistics().n_refused, 0u);
   }
 
 
