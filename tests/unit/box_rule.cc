@@ -173,6 +173,29 @@ namespace
 
 
 
+  TEST(BoxRule, HalfLengthsAreClipped)
+  {
+    Core<2>    core(cube<2>());
+    const auto half = [&](const BoxRule rule,
+                          const double  length,
+                          const double  stretch) {
+      BoxShape shape;
+      shape.rule           = rule;
+      const unsigned int p = core.add({1.5, 1.5}, dealii::Point<2>(9., length));
+      core.points.data(core.points.stretch, 1)[p] = stretch;
+      // Cells of 2 m.
+      return half_length_in_cells<2>(core.points, shape, 1, p, 0.5);
+    };
+    EXPECT_EQ(half(BoxRule::right_stretch, 1., 1.5), 0.375);
+    EXPECT_EQ(half(BoxRule::right_stretch, 1., 0.3), 0.1);
+    EXPECT_EQ(half(BoxRule::right_stretch, 1., 2.1), 0.5);
+    EXPECT_EQ(half(BoxRule::fixed, 1., 2.1), 0.25);
+    EXPECT_EQ(half(BoxRule::fixed, 2.1, 0.5), 0.5);
+    EXPECT_EQ(half(BoxRule::fixed, 0.3, 2.), 0.1);
+  }
+
+
+
   TEST(BoxRule, ClippedAxesAreCounted)
   {
     Core<2> core(cube<2>());

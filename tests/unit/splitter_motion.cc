@@ -225,6 +225,12 @@ namespace
       return ledger.relative_error();
     };
     EXPECT_EQ(error([](Points<2> &) {}), 0.);
+    // The kinetic energy does not change with the sign of the velocity.
+    EXPECT_GT(error([](Points<2> &points) {
+                for (unsigned int d = 0; d < 2; ++d)
+                  points.data(points.velocity, d)[0] *= -1.;
+              }),
+              0.1);
     for (const unsigned int column : {Points<2>().mass,
                                       Points<2>().velocity + 1,
                                       Points<2>().position,

@@ -1,3 +1,5 @@
+#include <set>
+
 #include "transfer_setup.h"
 
 namespace
@@ -117,6 +119,45 @@ namespace
   {
     on_both_meshes<2>("", expect_sums_by_definition<2>);
     on_both_meshes<3>("", expect_sums_by_definition<3>);
+  }
+
+
+
+  /// All nodes that a point reaches are active, the masters of hanging nodes
+  /// included; otherwise they would get no velocity.
+  template <int dim>
+  void
+  expect_reached_nodes_active()
+  {
+    for (unsigned int i = 0; i < (dim == 2 ? 100 : 15); ++i)
+      {
+        Core<dim> core(cube<dim>());
+        core.random.seed(i);
+        refine_corner(core);
+        core.randomize(core.add(core.place(), core.vector(0.2, 1.)));
+        core.sort();
+        const auto                   sums = core.scatter();
+        const std::set<unsigned int> active(core.nodes.active_nodes().begin(),
+                                            core.nodes.active_nodes().end());
+        EXPECT_EQ(active.size(), core.nodes.active_nodes().size()) << "twice";
+        for (unsigned int n = 0; n < sums.size(); ++n)
+          if (sums[n][NodalSum<dim>::mass] > 0.)
+            {
+              EXPECT_EQ(active.count(n), 1u) << n;
+            }
+        core.nodes.clear();
+        for (unsigned int n = 0; n < sums.size(); ++n)
+          for (unsigned int c = 0; c < n_lanes; ++c)
+            EXPECT_EQ(core.nodes.sum(n)[c], 0.);
+      }
+  }
+
+
+
+  TEST(Transfer, ReachedNodesAreActive)
+  {
+    expect_reached_nodes_active<2>();
+    expect_reached_nodes_active<3>();
   }
 
 

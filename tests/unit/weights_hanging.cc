@@ -122,13 +122,13 @@ namespace
     {
       Core<2> core(cube<2>());
       refine_corner(core);
-      expect_integrals(core, 1000);
+      expect_integrals(core, 300);
       core.refine([](const Point<2> &x) { return x.norm() < 0.6; });
-      expect_integrals(core, 1000);
+      expect_integrals(core, 300);
     }
     Core<3> core(cube<3>());
     refine_corner(core);
-    expect_integrals(core, 100);
+    expect_integrals(core, 40);
   }
 
 
