@@ -138,17 +138,9 @@ class BadInput(Case):
         self.refuse("set Poisson's ratio = 0.3", "set Poisson's ratio = 0.5",
                     "0.5", "Poisson's ratio")
 
-    def test_negative_density(self):
-        self.refuse("set Density         = 1000", "set Density = -1",
-                    "case.prm", "line 23", "'-1'", "'Density'", "number")
-
     def test_unknown_law(self):
         self.refuse("linear elastic", "jelly",
                     "case.prm", "line 22", "'jelly'", "linear elastic", "von Mises", "neo-Hookean")
-
-    def test_unknown_shape(self):
-        self.refuse("set Shape        = box", "set Shape = cube",
-                    "case.prm", "line 12", "'cube'", "polygon", "ball")
 
     def test_unknown_face_condition(self):
         self.refuse("set Bottom = roller", "set Bottom = glue",
