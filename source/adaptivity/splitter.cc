@@ -76,6 +76,29 @@ namespace talus
 
   template <int dim>
   bool
+  Splitter<dim>::daughters_may_stay(const Points<dim> &points,
+                                    const unsigned int p,
+                                    const unsigned int axes,
+                                    const double       cell_size,
+                                    const Box<dim>    &domain) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (axes & (1u << d))
+        {
+          const double x       = points.data(points.position, d)[p];
+          const double quarter = 0.25 * points.data(points.stretch, d)[p] *
+                                 points.data(points.reference_length, d)[p];
+          if (x - quarter < domain.lower[d] - 0.5 * cell_size ||
+              x + quarter > domain.upper[d] + 0.5 * cell_size)
+            return false;
+        }
+    return true;
+  }
+
+
+
+  template <int dim>
+  bool
   Splitter<dim>::enforce(Points<dim> &points, const Grid<dim> &grid)
   {
     if (!enabled_)
@@ -92,6 +115,9 @@ namespace talus
                 continue;
               if (directions_ == "all")
                 axes = (1u << dim) - 1;
+              if (!daughters_may_stay(
+                    points, p, axes, cell_size, grid.domain()))
+                continue;
               violations_.push_back({p, axes});
               n_daughters += 1u << __builtin_popcount(axes);
             }

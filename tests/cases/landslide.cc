@@ -55,7 +55,9 @@ TEST(LandslideUnsplit, FracturesAndStillBalances)
       const double n = table["empty interior cells"][i];
       most           = std::max(most, n);
       if (table["time [s]"][i] >= 10.)
-        EXPECT_GT(n, 0) << "t = " << table["time [s]"][i];
+        {
+          EXPECT_GT(n, 0) << "t = " << table["time [s]"][i];
+        }
     }
   EXPECT_GE(most, 5);
   EXPECT_GT(table["connected bodies"].back(), 1); // the toe tore off

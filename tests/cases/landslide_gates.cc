@@ -78,8 +78,10 @@ namespace talus::cases
         EXPECT_LE(remainder, share * work) << "t = " << t;
         EXPECT_GE(remainder, -gain * work) << "t = " << t;
         if (t >= 2.)
-          EXPECT_LE(std::abs(remainder), 0.005 * table["gravity work [J]"][i])
-            << "t = " << t;
+          {
+            EXPECT_LE(std::abs(remainder), 0.005 * table["gravity work [J]"][i])
+              << "t = " << t;
+          }
       }
   }
 

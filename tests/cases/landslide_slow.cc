@@ -82,7 +82,9 @@ TEST(LandslideFullUnsplit, Fractures)
       const double n = table["empty interior cells"][i];
       most           = std::max(most, n);
       if (table["time [s]"][i] >= 10.)
-        EXPECT_GT(n, 0) << "t = " << table["time [s]"][i];
+        {
+          EXPECT_GT(n, 0) << "t = " << table["time [s]"][i];
+        }
     }
   EXPECT_GE(most, 20);
 }

@@ -43,7 +43,32 @@ namespace
 
 
 
+  /// The same for a point of 1.08 m height at y.
+  unsigned int
+  count_after_at_height(const double y)
+  {
+    Core<2>            core(cube<2>() + splitting("set Threshold = 1.1"));
+    const Tensor<1, 2> length({0.1, 0.9});
+    const unsigned int p = core.add(Point<2>(1.5, y), length);
+    core.points.data(core.points.stretch, 1)[p] = 1.2;
+    core.sort();
+    core.splitter.enforce(core.points, core.grid);
+    core.sort(); // throws if a daughter is too far outside
+    return core.points.size();
+  }
+
+
+
   // --------------------------------------------------------------- criterion
+
+  TEST(Splitter, WaitsWhereDaughtersWouldLieBeyondAWall)
+  {
+    // They lie 0.27 m farther out; half of a cell of 1 m is allowed.
+    EXPECT_EQ(count_after_at_height(-0.2), 4u);
+    EXPECT_EQ(count_after_at_height(-0.3), 1u);
+  }
+
+
 
   TEST(Splitter, ThresholdIsExact)
   {

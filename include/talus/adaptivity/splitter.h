@@ -54,6 +54,15 @@ namespace talus
     axes_to_split(const Points<dim> &points,
                   unsigned int       p,
                   double             cell_size) const;
+    /// False if a daughter would lie farther outside the mesh than a point may
+    /// at a wall: half a cell. Such a split waits; the box is clipped and
+    /// counted meanwhile.
+    bool
+    daughters_may_stay(const Points<dim> &points,
+                       unsigned int       p,
+                       unsigned int       axes,
+                       double             cell_size,
+                       const Box<dim>    &domain) const;
     void
     split(Points<dim> &points, unsigned int p, unsigned int axes);
 
