@@ -149,30 +149,6 @@ namespace
 
 
 
-  TEST(BoxRule, CollapsedPointIsNamed)
-  {
-    // In the lanes and in the rest behind them.
-    for (const unsigned int bad : {5u, 26u})
-      for (const double value : {-1., 0., std::nan("")})
-        {
-          Core<3> core(cube<3>());
-          for (unsigned int p = 0; p < n_points; ++p)
-            {
-              const unsigned int q =
-                core.add(core.place(), core.vector(0.2, 0.8));
-              core.points.data(core.points.id)[q] = 1000 + p;
-            }
-          core.points.data(core.points.deformation_gradient, 4)[bad] = value;
-          const std::string message = message_of<ExcPoint>([&]() {
-            update_stretch(core.points, BoxRule::right_stretch, 0.1);
-          });
-          EXPECT_TRUE(contains(message, text("Point ", 1000 + bad, " at (")))
-            << message;
-        }
-  }
-
-
-
   TEST(BoxRule, HalfLengthsAreClipped)
   {
     Core<2>    core(cube<2>());
