@@ -82,6 +82,27 @@ namespace talus
 
 
   void
+  LogFile::open(const std::filesystem::path &path)
+  {
+    path_ = path;
+    file_ = std::ofstream(path);
+    errno = 0;
+    AssertThrow(file_, ExcUser(failed_write(path_)));
+  }
+
+
+
+  void
+  LogFile::add_line(const std::string &line)
+  {
+    errno = 0;
+    file_ << line << std::endl;
+    AssertThrow(file_, ExcUser(failed_write(path_)));
+  }
+
+
+
+  void
   CsvFile::open(const std::filesystem::path    &path,
                 const std::vector<std::string> &names)
   {

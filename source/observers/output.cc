@@ -84,6 +84,7 @@ namespace talus
         // an earlier file only on success.
         write_run_record(std::filesystem::path(folder_) / "parameters.prm",
                          this->prm);
+        log_.open(std::filesystem::path(folder_) / "log.txt");
       }
     MPI_Barrier(communicator);
 
@@ -103,17 +104,33 @@ namespace talus
 
   template <int dim>
   void
+  Output<dim>::note(const std::string &sentence, const bool on_terminal)
+  {
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+      return;
+    log_.add_line(sentence);
+    if (on_terminal && stdout_is_terminal())
+      std::cout << sentence << std::endl;
+  }
+
+
+
+  template <int dim>
+  bool
   Output<dim>::observe(const Snapshot<dim> &snapshot, const bool last)
   {
     progress_.count_step(snapshot.points.size());
-    const bool row_due    = row_times_.reached(snapshot.time);
-    const bool fields_due = field_times_.reached(snapshot.time);
-    if (row_due || (last && step_of_last_row_ != snapshot.step))
+    const bool row_due = row_times_.reached(snapshot.time) ||
+                         (last && step_of_last_row_ != snapshot.step);
+    const bool fields_due = field_times_.reached(snapshot.time) ||
+                            (last && step_of_last_fields_ != snapshot.step);
+    if (row_due)
       write_row(snapshot);
-    if (fields_due || (last && step_of_last_fields_ != snapshot.step))
+    if (fields_due)
       write_fields(snapshot);
     if (last)
       progress_.finish(snapshot.time, snapshot.points.size(), timer_);
+    return fields_due;
   }
 
 

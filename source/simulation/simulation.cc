@@ -255,11 +255,54 @@ namespace talus
   Simulation<dim>::run()
   {
     output_.begin(snapshot(), end_time_);
+    note_start();
     while (time_ < end_time_)
       {
         advance();
-        output_.observe(snapshot(), time_ >= end_time_);
+        if (output_.observe(snapshot(), time_ >= end_time_))
+          note_time_step();
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::note_start()
+  {
+    if (!title_.empty())
+      output_.note(title_, true);
+    output_.note(text("The mesh fills (",
+                      grid_.domain().lower,
+                      ") to (",
+                      grid_.domain().upper,
+                      ") m with ",
+                      grid_.triangulation().n_global_active_cells(),
+                      " cells of ",
+                      grid_.finest_size(),
+                      " m; there are ",
+                      points_.size(),
+                      " points. ",
+                      grid_.adjustment()),
+                 true);
+    note_time_step();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::note_time_step()
+  {
+    const BoxShape &shape = transfer_.box_shape();
+    output_.note(text("t = ",
+                      time_,
+                      " s: the time step is ",
+                      time_step_.choose(points_, grid_, materials_, shape),
+                      " s, limited by ",
+                      time_step_.limited_by(points_, grid_, materials_, shape),
+                      "."),
+                 step_ == 0);
   }
 
 

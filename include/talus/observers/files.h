@@ -24,6 +24,25 @@ namespace talus
 
 
 
+  /// A text that grows line by line.
+  class LogFile
+  {
+  public:
+    /// Start a new file. Throws ExcUser if that fails.
+    void
+    open(const std::filesystem::path &path);
+
+    /// Append a line, at once. Throws ExcUser if that fails.
+    void
+    add_line(const std::string &line);
+
+  private:
+    std::filesystem::path path_;
+    std::ofstream         file_;
+  };
+
+
+
   /// A table that grows row by row, comma separated, 16 significant digits.
   class CsvFile
   {

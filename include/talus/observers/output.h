@@ -1,6 +1,7 @@
 #ifndef talus_observers_output_h
 #define talus_observers_output_h
 
+#include <talus/observers/files.h>
 #include <talus/observers/grid_output.h>
 #include <talus/observers/output_times.h>
 #include <talus/observers/points_output.h>
@@ -17,7 +18,7 @@
 
 namespace talus
 {
-  /// All that a run leaves behind, in one folder: parameters.prm,
+  /// All that a run leaves behind, in one folder: parameters.prm, log.txt,
   /// statistics.csv, profile.csv, points.pvd and grid.pvd with their VTU files;
   /// and the progress on the terminal.
   ///
@@ -52,10 +53,14 @@ namespace talus
     void
     begin(const Snapshot<dim> &snapshot, double end_time);
 
-    /// To be called after each step: write what is due. At the @p last step
-    /// everything is due, and the throughput is printed. Throws ExcUser if a
-    /// file cannot be written.
+    /// Add a sentence to log.txt, and show it on the terminal if wanted.
     void
+    note(const std::string &sentence, bool on_terminal);
+
+    /// To be called after each step: write what is due. At the @p last step
+    /// everything is due, and the throughput is printed. Returns whether fields
+    /// were written. Throws ExcUser if a file cannot be written.
+    bool
     observe(const Snapshot<dim> &snapshot, bool last);
 
     /// Write the points as they are, after an error that ends the run, to
@@ -83,6 +88,7 @@ namespace talus
     PointsOutput<dim>    points_output_;
     GridOutput<dim>      grid_output_;
     Progress             progress_;
+    LogFile              log_;
     OutputTimes          row_times_;
     OutputTimes          field_times_;
     unsigned long        step_of_last_row_    = 0;

@@ -66,6 +66,10 @@ namespace talus
     void
     prepare();
     void
+    note_start();
+    void
+    note_time_step();
+    void
     choose_time_step();
     void
     points_to_grid();
