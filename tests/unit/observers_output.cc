@@ -85,9 +85,14 @@ namespace
     s.sort();
     output.set_folder(folder);
     output.begin(s.snapshot(), 1.);
+    output.note("It begins.", false);
     s.step = 1;
+    s.time = 0.1;
+    EXPECT_FALSE(output.observe(s.snapshot(), false));
+    s.step = 2;
     s.time = 1.;
-    output.observe(s.snapshot(), true);
+    EXPECT_TRUE(output.observe(s.snapshot(), true));
+    EXPECT_EQ(lines("log.txt"), std::vector<std::string>{"It begins."});
     EXPECT_EQ(lines("statistics.csv").size(), 3u);
     EXPECT_EQ(lines("profile.csv").size(), 3u);
   }
