@@ -1,5 +1,5 @@
 # Rooms are floors: a room includes itself and the rooms listed here, nothing
-# else (the table of the design). Fails with the guilty line.
+# else (the table of doc/architecture.md). Fails with the guilty line.
 cmake_minimum_required(VERSION 3.20)
 set(base)
 set(points base)

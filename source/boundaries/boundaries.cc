@@ -31,7 +31,8 @@ namespace talus
         "Condition on this face of the mesh: 'free' (a point that crosses it "
         "has left, which is an error), 'roller' (no motion along the normal), "
         "'fixed' (no motion) or 'seabed' (contact with friction, see the "
-        "section Seabed).",
+        "section Seabed). In 3-D there are Back (lower z) and Front (upper z), "
+        "too.",
         this->prm,
         Patterns::Selection("free|roller|fixed|seabed"));
     parse_parameters_call_back.connect([this]() {
@@ -58,21 +59,27 @@ namespace talus
         if ((faces & (1u << face)) && conditions_[face] == condition)
           action(face);
     };
-    // Walls last: what they hold, no friction moves.
-    for_faces_with(FaceCondition::seabed, [&](const unsigned int face) {
-      const auto [normal, tangential] =
-        seabed_.apply(nodes, grid, face, node, dt);
-      contact += normal;
-      friction += tangential;
-    });
-    for_faces_with(FaceCondition::roller, [&](const unsigned int face) {
-      Tensor<1, dim> velocity = nodes.velocity(node);
-      velocity[face / 2]      = 0;
-      wall += nodes.set_velocity(node, velocity);
-    });
-    for_faces_with(FaceCondition::fixed, [&](const unsigned int) {
+    bool is_fixed = false;
+    for_faces_with(FaceCondition::fixed,
+                   [&](const unsigned int) { is_fixed = true; });
+    if (is_fixed)
       wall += nodes.set_velocity(node, Tensor<1, dim>());
-    });
+    else
+      {
+        // Rollers first: what they hold must not use up the friction. The
+        // seabed's impulses have no component along their normals.
+        for_faces_with(FaceCondition::roller, [&](const unsigned int face) {
+          Tensor<1, dim> velocity = nodes.velocity(node);
+          velocity[face / 2]      = 0;
+          wall += nodes.set_velocity(node, velocity);
+        });
+        for_faces_with(FaceCondition::seabed, [&](const unsigned int face) {
+          const auto [normal, tangential] =
+            seabed_.apply(nodes, grid, face, node, dt);
+          contact += normal;
+          friction += tangential;
+        });
+      }
 
     const Tensor<1, dim> v = nodes.mean_velocity(node);
     work.friction -= friction * v;

@@ -105,6 +105,14 @@ namespace talus
             n_cells_per_axis_[d] = static_cast<unsigned int>(whole);
             continue;
           }
+        AssertThrow(exact > 1,
+                    ExcUser(text("The mesh is only ",
+                                 domain_.length(d),
+                                 " m long along axis ",
+                                 d,
+                                 ", less than one cell of Grid/Cell size = ",
+                                 cell_size_,
+                                 " m. Choose smaller cells or a larger box.")));
         const unsigned int face = 2 * d + 1;
         AssertThrow(may_move[face],
                     ExcUser(
@@ -120,7 +128,7 @@ namespace talus
                            "cell size or corner.")));
         n_cells_per_axis_[d] = static_cast<unsigned int>(std::ceil(exact));
         domain_.upper[d] = domain_.lower[d] + n_cells_per_axis_[d] * cell_size_;
-        adjustment_ += text("The face '",
+        adjustment_ += text(" The face '",
                             face_names[face],
                             "' was moved outwards from ",
                             upper_corner_[d],
@@ -128,7 +136,7 @@ namespace talus
                             domain_.upper[d],
                             " m, so that the cells are ",
                             cell_size_,
-                            " m long. ");
+                            " m long.");
       }
   }
 

@@ -85,8 +85,8 @@ namespace talus
   LogFile::open(const std::filesystem::path &path)
   {
     path_ = path;
-    file_ = std::ofstream(path);
     errno = 0;
+    file_ = std::ofstream(path);
     AssertThrow(file_, ExcUser(failed_write(path_)));
   }
 

@@ -54,7 +54,8 @@ namespace talus
       "Initial velocity",
       initial_velocity_,
       "Expressions in x, y, (z,) t for the components of the "
-      "velocity, separated by semicolons [m/s]; empty for rest. See "
+      "velocity, separated by semicolons [m/s]; empty for rest. t is the "
+      "time it belongs to, see "
       "'Initial velocity time'.");
     add_parameter(
       "Initial stress",
@@ -190,6 +191,29 @@ namespace talus
 
   template <int dim>
   void
+  Body<dim>::check_apart(const Shape<dim>  &shape,
+                         const Points<dim> &points) const
+  {
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = points.data(points.position, d)[p];
+        AssertThrow(!shape.contains(x),
+                    ExcUser(text("The body '",
+                                 name_,
+                                 "' contains the point at (",
+                                 x,
+                                 ") m, which belongs to a body listed before "
+                                 "it in Bodies/Names. Bodies must not "
+                                 "overlap: move or reshape one of them.")));
+      }
+  }
+
+
+
+  template <int dim>
+  void
   Body<dim>::create_points(const Grid<dim>   &grid,
                            const unsigned int index,
                            const double       density,
@@ -205,6 +229,8 @@ namespace talus
     const auto     shape = make_shape(grid.domain());
     const Box<dim> box   = shape->bounding_box();
     check_inside(box, grid.domain());
+
+    check_apart(*shape, points);
 
     const unsigned int n_before = points.size();
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
@@ -247,46 +273,73 @@ namespace talus
 
   template <int dim>
   void
-  Body<dim>::set_initial_state(Points<dim>       &points,
-                               const unsigned int index,
-                               const double       t) const
-  {
-    const auto set = [&](const std::string &entry,
+  Body<dim>::set_initial(Points<dim>       &points,
+                         const unsigned int index,
+                         const std::string &entry,
                          const std::string &expressions,
                          const unsigned int column,
-                         const unsigned int n_components) {
-      if (expressions.empty())
-        return;
-      Expression<dim> expression(path(entry), expressions, n_components);
-      for (unsigned int p = 0; p < points.size(); ++p)
-        {
-          if (points.data(points.body)[p] != index)
-            continue;
-          Point<dim> x;
-          for (unsigned int d = 0; d < dim; ++d)
-            x[d] = points.data(points.position, d)[p];
-          for (unsigned int c = 0; c < n_components; ++c)
-            {
-              const double value = expression.value(x, t, c);
-              AssertThrow(std::isfinite(value),
-                          ExcUser(text(path(entry),
-                                       " = '",
-                                       expressions,
-                                       "' is ",
-                                       value,
-                                       " at (",
-                                       x,
-                                       ") m, where a finite number was "
-                                       "expected; correct the expression.")));
-              points.data(column, c)[p] = value;
-            }
-        }
-    };
-    set("Initial velocity", initial_velocity_, points.velocity, dim);
-    set("Initial stress",
-        initial_stress_,
-        points.stress,
-        n_stress_components<dim>);
+                         const unsigned int n_components,
+                         const double       t) const
+  {
+    if (expressions.empty())
+      return;
+    Expression<dim> expression(path(entry), expressions, n_components);
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        if (points.data(points.body)[p] != index)
+          continue;
+        Point<dim> x;
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] = points.data(points.position, d)[p];
+        for (unsigned int c = 0; c < n_components; ++c)
+          {
+            const double value = expression.value(x, t, c);
+            AssertThrow(std::isfinite(value),
+                        ExcUser(text(path(entry),
+                                     " = '",
+                                     expressions,
+                                     "' is ",
+                                     value,
+                                     " at (",
+                                     x,
+                                     ") m, where a finite number was "
+                                     "expected; correct the expression.")));
+            points.data(column, c)[p] = value;
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Body<dim>::set_initial_velocity(Points<dim>       &points,
+                                  const unsigned int index,
+                                  const double       t) const
+  {
+    set_initial(points,
+                index,
+                "Initial velocity",
+                initial_velocity_,
+                points.velocity,
+                dim,
+                t);
+  }
+
+
+
+  template <int dim>
+  void
+  Body<dim>::set_initial_stress(Points<dim>       &points,
+                                const unsigned int index) const
+  {
+    set_initial(points,
+                index,
+                "Initial stress",
+                initial_stress_,
+                points.stress,
+                n_stress_components<dim>,
+                0.);
   }
 
 

@@ -12,6 +12,24 @@ namespace
 {
   using namespace talus;
 
+  /// Sentence about the emergency output after an error; that the disk is full,
+  /// too, must not hide what happened.
+  template <int dim>
+  std::string
+  saved_state(Simulation<dim> &simulation)
+  {
+    try
+      {
+        return " The last state is in '" + simulation.write_last_state() + "'.";
+      }
+    catch (const ExcUser &exception)
+      {
+        return " The last state was not saved: " + message(exception);
+      }
+  }
+
+
+
   template <int dim>
   int
   run(const CommandLine &command_line, const ParameterFile &file)
@@ -32,8 +50,7 @@ namespace
       }
     catch (const ExcPoint &exception)
       {
-        throw ExcPoint(message(exception) + " The last state is in '" +
-                       simulation.write_last_state() + "'.");
+        throw ExcPoint(message(exception) + saved_state(simulation));
       }
     return 0;
   }

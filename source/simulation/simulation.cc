@@ -137,7 +137,8 @@ namespace talus
                             "form ('linear elastic', 'von Mises')."));
         const unsigned int begin = points_.size();
         bodies_[b]->create_points(grid_, b, material.density(), points_);
-        bodies_[b]->set_initial_state(points_, b, 0.);
+        bodies_[b]->set_initial_velocity(points_, b, 0.);
+        bodies_[b]->set_initial_stress(points_, b);
         material.initialize(points_, begin, points_.size());
         least_density = std::min(least_density, material.density());
       }
@@ -151,7 +152,7 @@ namespace talus
         const double dt =
           time_step_.choose(points_, grid_, materials_, transfer_.box_shape());
         for (unsigned int b = 0; b < bodies_.size(); ++b)
-          bodies_[b]->set_initial_state(points_, b, -0.5 * dt);
+          bodies_[b]->set_initial_velocity(points_, b, -0.5 * dt);
       }
   }
 
@@ -282,7 +283,7 @@ namespace talus
                       grid_.finest_size(),
                       " m; there are ",
                       points_.size(),
-                      " points. ",
+                      " points.",
                       grid_.adjustment()),
                  true);
     note_time_step();

@@ -61,6 +61,27 @@ namespace talus
 
 
   template <int dim>
+  std::string
+  TimeStep<dim>::first_without_bound(const Points<dim> &points) const
+  {
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        Point<dim> x;
+        double     sum = wave_speed_[p];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            x[d] = points.data(points.position, d)[p];
+            sum += points.data(points.velocity, d)[p];
+          }
+        if (!std::isfinite(sum))
+          return text("point ", points.data(points.id)[p], " at (", x, ") m");
+      }
+    return "no point, though";
+  }
+
+
+
+  template <int dim>
   double
   TimeStep<dim>::choose(const Points<dim>    &points,
                         const Grid<dim>      &grid,
@@ -86,9 +107,9 @@ namespace talus
     Lanes      largest_lanes{};
     double     largest = 0;
     const auto raise   = [](auto &to, const auto &bounds) {
-      // Written so that a bound that is not a number stays.
-      to = (to > bounds[0] ? to : bounds[0]);
-      to = (to > bounds[1] ? to : bounds[1]);
+      // A bound that is not a number is taken, and then stays.
+      for (const auto &bound : bounds)
+        to = ((to < bound) | (bound != bound)) ? bound : to;
     };
     for_lanes(0, points.size(), [&](const unsigned int p, const auto number) {
       using Number = std::decay_t<decltype(number)>;
@@ -110,8 +131,10 @@ namespace talus
     AssertThrow(std::isfinite(dt) && dt > 0,
                 ExcPoint(text("No time step can be chosen (it would be ",
                               dt,
-                              " s): a velocity or a wave speed is not a finite "
-                              "number. Lower 'Time step/CFL number'.")));
+                              " s): velocity or wave speed are not finite at ",
+                              first_without_bound(points),
+                              ". The simulation became unstable: lower 'Time "
+                              "step/CFL number'.")));
     return maximum_ > 0 ? std::min(dt, maximum_) : dt;
   }
 

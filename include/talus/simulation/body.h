@@ -30,9 +30,15 @@ namespace talus
                   double           density,
                   Points<dim>     &points) const;
 
-    /// Set velocity (at time @p t) and stress of the points of body @p index.
+    /// Set the velocity of the points of body @p index, that of time @p t, s.
     void
-    set_initial_state(Points<dim> &points, unsigned int index, double t) const;
+    set_initial_velocity(Points<dim> &points,
+                         unsigned int index,
+                         double       t) const;
+
+    /// Set the stress of the points of body @p index, that of t = 0.
+    void
+    set_initial_stress(Points<dim> &points, unsigned int index) const;
 
     /// True if the user prescribes an initial stress.
     bool
@@ -66,6 +72,16 @@ namespace talus
     make_polygon(const Box<dim> &domain) const;
     void
     check_inside(const Box<dim> &box, const Box<dim> &domain) const;
+    void
+    check_apart(const Shape<dim> &shape, const Points<dim> &points) const;
+    void
+    set_initial(Points<dim>       &points,
+                unsigned int       index,
+                const std::string &entry,
+                const std::string &expressions,
+                unsigned int       column,
+                unsigned int       n_components,
+                double             t) const;
     void
     add_point(Points<dim>              &points,
               unsigned int              index,

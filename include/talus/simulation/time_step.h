@@ -49,6 +49,10 @@ namespace talus
                    Number             wave_speed,
                    Number             inverse_cell_size) const;
 
+    /// Name and place of the first point whose speed is not finite.
+    std::string
+    first_without_bound(const Points<dim> &points) const;
+
     double cfl_number_        = 0.4;
     double box_safety_factor_ = 0.9;
     double maximum_           = 0.;
