@@ -126,15 +126,18 @@ namespace talus
       return false;
     const std::size_t n_points =
       points.size() - violations_.size() + n_daughters;
+    Point<dim> place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] = points.data(points.position, d)[violations_[0].point];
     AssertThrow(n_points <= maximum_points_,
                 ExcPoint(text(
                   "Splitting ",
                   violations_.size(),
                   " points, the first of them point ",
                   points.data(points.id)[violations_[0].point],
-                  " near x = ",
-                  points.data(points.position)[violations_[0].point],
-                  " m, would make ",
+                  " at (",
+                  place,
+                  ") m, would make ",
                   n_points,
                   " points, more than 'Splitting/Maximum number of points' = ",
                   maximum_points_,

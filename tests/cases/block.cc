@@ -21,6 +21,19 @@ namespace
   {
     return slope(table["time [s]"], table["centre velocity x [m/s]"], 0.3, 1.);
   }
+
+
+
+  /// The centre stays at x = 1 m and creeps by less than 1 mm/s.
+  void
+  expect_stuck(const Table &table)
+  {
+    const double creep =
+      (table.at(1., "centre x [m]") - table.at(0.3, "centre x [m]")) / 0.7;
+    std::cout << "block, stuck: creep " << 1000 * creep << " mm/s\n";
+    EXPECT_LT(std::abs(creep), 1e-3);
+    EXPECT_LT(std::abs(table.at(1., "centre x [m]") - 1.), 1e-3);
+  }
 } // namespace
 
 
@@ -48,11 +61,15 @@ TEST(Block, SticksBelowTheAngleOfFriction)
            {"Boundaries/Seabed/Friction coefficient=0.7",
             "Bodies/block/Initial stress=0; -" + weight + "*cos(pi/6); -0.3*" +
               weight + "*cos(pi/6); " + weight + "*sin(pi/6)"});
-  const double creep =
-    (table.at(1., "centre x [m]") - table.at(0.3, "centre x [m]")) / 0.7;
-  std::cout << "block, stuck: creep " << 1000 * creep << " mm/s\n";
-  EXPECT_LT(std::abs(creep), 1e-3);
-  EXPECT_LT(std::abs(table.at(1., "centre x [m]") - 1.), 1e-3);
+  expect_stuck(table);
+}
+
+
+
+// What a roller holds must not use up the friction of the nodes on both faces.
+TEST(Block, SticksBetweenRollersIn3d)
+{
+  expect_stuck(run<3>("block-between-rollers.prm", "block-between-rollers"));
 }
 
 

@@ -174,7 +174,7 @@ namespace
     EXPECT_EQ(enforce(6), "");
     const std::string message = enforce(5);
     for (const std::string part : {"point 1",
-                                   "x = 1.5 m",
+                                   "(1.5 0.5) m",
                                    "6 points",
                                    "'Splitting/Maximum number of points' = 5",
                                    "'Splitting/Maximum generation'"})
