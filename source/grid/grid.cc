@@ -156,8 +156,8 @@ namespace talus
 
 
   template <int dim>
-  void
-  Grid<dim>::create(const std::array<bool, 2 * dim> &may_move)
+  unsigned int
+  Grid<dim>::create_trees(const std::array<bool, 2 * dim> &may_move)
   {
     fit_domain(may_move);
     double n_cells = 1;
@@ -179,7 +179,36 @@ namespace talus
     triangulation_.clear();
     GridGenerator::subdivided_hyper_rectangle(
       triangulation_, trees, domain_.lower, domain_.upper, /*colorize=*/true);
-    triangulation_.refine_global(level);
+    return level;
+  }
+
+
+
+  template <int dim>
+  void
+  Grid<dim>::create(const std::array<bool, 2 * dim> &may_move)
+  {
+    triangulation_.refine_global(create_trees(may_move));
+  }
+
+
+
+  template <int dim>
+  void
+  Grid<dim>::save(const std::string &path) const
+  {
+    triangulation_.save(path);
+  }
+
+
+
+  template <int dim>
+  void
+  Grid<dim>::load(const std::string               &path,
+                  const std::array<bool, 2 * dim> &may_move)
+  {
+    create_trees(may_move);
+    triangulation_.load(path);
   }
 
 

@@ -6,6 +6,9 @@
 #include <cstring>
 #include <sstream>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace talus
 {
   using namespace dealii;
@@ -29,6 +32,27 @@ namespace talus
                   reason(),
                   "). Free some space or choose another folder with "
                   "Output/Folder or --output.");
+    }
+
+
+
+    /// Another version of talus may have other columns.
+    void
+    check_header(const std::filesystem::path &path, const std::string &header)
+    {
+      std::ifstream file(path);
+      std::string   found;
+      std::getline(file, found);
+      AssertThrow(found == header,
+                  ExcUser(text("The file '",
+                               path.string(),
+                               "', which the run is to go on with, has the "
+                               "columns '",
+                               found,
+                               "' where '",
+                               header,
+                               "' was expected. Resume with the version of "
+                               "talus that wrote it, or start the run anew.")));
     }
   } // namespace
 
@@ -66,7 +90,8 @@ namespace talus
     std::ofstream file(part, std::ios::binary);
     file << content.rdbuf();
     file.close();
-    if (!file)
+    // A rename may reach the disk before the content does.
+    if (!file || !sync_to_disk(part).empty())
       {
         const std::string sentence = failed_write(path);
         std::error_code   ignored;
@@ -81,12 +106,30 @@ namespace talus
 
 
 
+  std::string
+  sync_to_disk(const std::filesystem::path &path)
+  {
+    errno                = 0;
+    const int descriptor = ::open(path.c_str(), O_RDONLY);
+    if (descriptor < 0)
+      return reason();
+    // Some file systems cannot sync everything, and say so with EINVAL.
+    const bool        is_done   = (::fsync(descriptor) == 0 || errno == EINVAL);
+    const std::string complaint = is_done ? "" : reason();
+    ::close(descriptor);
+    return complaint;
+  }
+
+
+
   void
-  LogFile::open(const std::filesystem::path &path)
+  LogFile::open(const std::filesystem::path &path, const Beginning beginning)
   {
     path_ = path;
     errno = 0;
-    file_ = std::ofstream(path);
+    file_ = std::ofstream(path,
+                          beginning == Beginning::anew ? std::ios::trunc
+                                                       : std::ios::app);
     AssertThrow(file_, ExcUser(failed_write(path_)));
   }
 
@@ -104,18 +147,61 @@ namespace talus
 
   void
   CsvFile::open(const std::filesystem::path    &path,
-                const std::vector<std::string> &names)
+                const std::vector<std::string> &names,
+                const Beginning                 beginning)
   {
     path_      = path;
     n_columns_ = names.size();
     file_.close();
     file_.clear();
+    std::string header;
+    for (const std::string &name : names)
+      header += (header.empty() ? "" : ",") + name;
     errno = 0;
+    if (beginning == Beginning::resumed)
+      {
+        check_header(path, header);
+        // Rows written after the checkpoint are written once more.
+        std::error_code error;
+        std::filesystem::resize_file(path, n_bytes_, error);
+        errno = error.value();
+        AssertThrow(!error, ExcUser(failed_write(path)));
+        file_.open(path, std::ios::in | std::ios::out | std::ios::ate);
+        flush();
+        return;
+      }
     file_.open(path);
-    for (unsigned int i = 0; i < names.size(); ++i)
-      file_ << (i == 0 ? "" : ",") << names[i];
-    file_ << '\n';
+    file_ << header << '\n';
     flush();
+  }
+
+
+
+  std::string
+  CsvFile::cannot_resume(const std::filesystem::path &path) const
+  {
+    std::error_code error;
+    const auto      size = std::filesystem::file_size(path, error);
+    if (!error && size >= n_bytes_)
+      return "";
+    return text("The file '",
+                path.string(),
+                "', which the run is to go on with, ",
+                error ? "cannot be read (" + error.message() + ")"
+                      : text("has only ", size, " bytes"),
+                ", but it had ",
+                n_bytes_,
+                " bytes at the checkpoint. Put back the file that belongs to "
+                "the checkpoint, or start the run anew.");
+  }
+
+
+
+  void
+  CsvFile::list_state(const std::string &name, StateList &list)
+  {
+    // The file belongs to the first rank; the others have zero.
+    list.add("length of " + name, "B", n_bytes_, Reduction::sum);
   }
 
 
@@ -145,5 +231,15 @@ namespace talus
     errno = 0;
     file_.flush();
     AssertThrow(file_, ExcUser(failed_write(path_)));
+    n_bytes_ = file_.tellp();
+  }
+
+
+
+  void
+  CsvFile::sync()
+  {
+    flush();
+    AssertThrow(sync_to_disk(path_).empty(), ExcUser(failed_write(path_)));
   }
 } // namespace talus

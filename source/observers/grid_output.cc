@@ -72,9 +72,19 @@ namespace talus
   template <int dim>
   void
   GridOutput<dim>::begin(const std::filesystem::path &folder,
-                         const MPI_Comm               communicator)
+                         const MPI_Comm               communicator,
+                         const Beginning              beginning)
   {
-    series_.begin(folder, "grid", communicator);
+    series_.begin(folder, "grid", communicator, beginning);
+  }
+
+
+
+  template <int dim>
+  void
+  GridOutput<dim>::list_state(StateList &list)
+  {
+    series_.list_state("files of grid.pvd", list);
   }
 
 

@@ -235,10 +235,20 @@ namespace talus
   void
   PointsOutput<dim>::begin(const std::filesystem::path &folder,
                            const MPI_Comm               communicator,
-                           const bool                   boxes_as_cells)
+                           const bool                   boxes_as_cells,
+                           const Beginning              beginning)
   {
-    series_.begin(folder, "points", communicator);
+    series_.begin(folder, "points", communicator, beginning);
     boxes_as_cells_ = boxes_as_cells;
+  }
+
+
+
+  template <int dim>
+  void
+  PointsOutput<dim>::list_state(StateList &list)
+  {
+    series_.list_state("files of points.pvd", list);
   }
 
 

@@ -140,7 +140,8 @@ namespace talus
   template <int dim>
   void
   Profile<dim>::begin(const std::filesystem::path &folder,
-                      const Grid<dim>             &grid)
+                      const Grid<dim>             &grid,
+                      const Beginning              beginning)
   {
     if (Utilities::MPI::this_mpi_process(grid.communicator()) != 0)
       return;
@@ -155,7 +156,7 @@ namespace talus
         names.insert(names.begin() + 2, "z [m]");
         names.push_back("depth-mean velocity z [m/s]");
       }
-    file_.open(folder / "profile.csv", names);
+    file_.open(folder / file_name, names, beginning);
   }
 
 

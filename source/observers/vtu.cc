@@ -161,12 +161,37 @@ namespace talus
   void
   VtuSeries::begin(const std::filesystem::path &folder,
                    const std::string           &name,
-                   const MPI_Comm               communicator)
+                   const MPI_Comm               communicator,
+                   const Beginning              beginning)
   {
     folder_       = folder;
     name_         = name;
     communicator_ = communicator;
-    times_and_names_.clear();
+    if (beginning == Beginning::anew)
+      times_and_names_.clear();
+  }
+
+
+
+  void
+  VtuSeries::list_state(const std::string &name, StateList &list)
+  {
+    const auto get = [this]() {
+      std::ostringstream out;
+      out << std::setprecision(17);
+      for (const auto &[time, file] : times_and_names_)
+        out << time << ' ' << file << '\n';
+      return out.str();
+    };
+    const auto set = [this](const std::string &text) {
+      times_and_names_.clear();
+      std::istringstream in(text);
+      double             time;
+      std::string        file;
+      while (in >> time >> file)
+        times_and_names_.emplace_back(time, file);
+    };
+    list.add_text({name, get, set});
   }
 
 

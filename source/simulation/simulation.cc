@@ -74,6 +74,19 @@ namespace talus
   void
   Simulation<dim>::set_up()
   {
+    set_up_laws();
+    grid_.create(faces_that_may_move());
+    prepare();
+    create_bodies();
+  }
+
+
+
+  /// All that depends on the parameters only.
+  template <int dim>
+  void
+  Simulation<dim>::set_up_laws()
+  {
     grid_.check();
     transfer_.check();
     output_.check();
@@ -87,22 +100,27 @@ namespace talus
     materials_.add_columns(points_);
     loading_.prepare(materials_, bodies_.size());
 
-    std::array<bool, 2 * dim>   may_move;
-    std::array<double, 2 * dim> may_lie_outside;
-    std::vector<bool>           cell_mean;
+    const std::array<bool, 2 *dim> may_move = faces_that_may_move();
+    std::array<double, 2 * dim>    may_lie_outside;
+    std::vector<bool>              cell_mean;
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      {
-        may_move[face] = boundaries_.condition(face) == FaceCondition::free;
-        may_lie_outside[face] = (may_move[face] ? 0. : 0.5);
-      }
+      may_lie_outside[face] = (may_move[face] ? 0. : 0.5);
     for (unsigned int b = 0; b < bodies_.size(); ++b)
       cell_mean.push_back(materials_.of_body(b).uses_cell_mean());
     transfer_.use_cell_mean(cell_mean);
     relocation_.allow_outside(may_lie_outside);
+  }
 
-    grid_.create(may_move);
-    prepare();
-    create_bodies();
+
+
+  template <int dim>
+  std::array<bool, 2 * dim>
+  Simulation<dim>::faces_that_may_move() const
+  {
+    std::array<bool, 2 * dim> result;
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      result[face] = boundaries_.condition(face) == FaceCondition::free;
+    return result;
   }
 
 
@@ -116,6 +134,19 @@ namespace talus
     nodes_.prepare(grid_);
     relocation_.rebuild(points_, grid_);
     nodes_.activate(grid_, relocation_.occupied_cells());
+    least_mass_ = transfer_.least_mass(least_density(), grid_.finest_size());
+  }
+
+
+
+  template <int dim>
+  double
+  Simulation<dim>::least_density() const
+  {
+    double result = materials_.of_body(0).density();
+    for (unsigned int b = 1; b < bodies_.size(); ++b)
+      result = std::min(result, materials_.of_body(b).density());
+    return result;
   }
 
 
@@ -124,7 +155,6 @@ namespace talus
   void
   Simulation<dim>::create_bodies()
   {
-    double least_density = materials_.of_body(0).density();
     for (unsigned int b = 0; b < bodies_.size(); ++b)
       {
         const MaterialModel<dim> &material = materials_.of_body(b);
@@ -140,10 +170,8 @@ namespace talus
         bodies_[b]->set_initial_velocity(points_, b, 0.);
         bodies_[b]->set_initial_stress(points_, b);
         material.initialize(points_, begin, points_.size());
-        least_density = std::min(least_density, material.density());
       }
     splitter_.set_next_id(points_.size());
-    least_mass_ = transfer_.least_mass(least_density, grid_.finest_size());
     relocation_.update(points_, grid_);
     nodes_.activate(grid_, relocation_.occupied_cells());
 
@@ -252,17 +280,19 @@ namespace talus
 
 
   template <int dim>
-  void
+  bool
   Simulation<dim>::run()
   {
-    output_.begin(snapshot(), end_time_);
-    note_start();
+    begin_run();
     while (time_ < end_time_)
       {
         advance();
         if (output_.observe(snapshot(), time_ >= end_time_))
           note_time_step();
+        if (act_on(own_wish()))
+          return false;
       }
+    return true;
   }
 
 

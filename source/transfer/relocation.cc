@@ -249,12 +249,20 @@ namespace talus
                            std::to_string(points.size()) + " before sorting, " +
                            std::to_string(n_merged_) + " after."));
     points.reorder(runs_, segments_);
+    adopt(points);
+    return true;
+  }
 
+
+
+  template <int dim>
+  void
+  Relocation<dim>::adopt(const Points<dim> &points)
+  {
     occupied_cells_.clear();
     for (const Segment &segment : points.segments())
       if (occupied_cells_.empty() || occupied_cells_.back() != segment.cell)
         occupied_cells_.push_back(segment.cell);
-    return true;
   }
 
 

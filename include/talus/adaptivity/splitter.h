@@ -48,6 +48,10 @@ namespace talus
       next_id_ = id;
     }
 
+    /// Add what was split so far, and the next id, to the state of the run.
+    void
+    list_state(StateList &list);
+
   private:
     /// Bit d: the point is to be split along axis d. Zero: not at all.
     unsigned int

@@ -75,6 +75,16 @@ namespace talus
     void
     create(const std::array<bool, 2 * dim> &may_move);
 
+    /// Write the mesh to the file @p path and to others whose names begin like
+    /// that. Collective.
+    void
+    save(const std::string &path) const;
+
+    /// Make the mesh that save() wrote, in place of create(). p4est then shares
+    /// the cells evenly among the ranks. Collective.
+    void
+    load(const std::string &path, const std::array<bool, 2 * dim> &may_move);
+
     /// Rebuild degrees of freedom, constraints and the cell cache; to be called
     /// after each change of the mesh.
     void
@@ -111,6 +121,13 @@ namespace talus
     n_owned_cells() const
     {
       return n_owned_cells_;
+    }
+
+    /// Active cells of all ranks.
+    unsigned long
+    n_global_cells() const
+    {
+      return triangulation_.n_global_active_cells();
     }
 
     unsigned int
@@ -199,6 +216,9 @@ namespace talus
 
     void
     fit_domain(const std::array<bool, 2 * dim> &may_move);
+    /// Make the trees of the forest. Returns how often create() refines them.
+    unsigned int
+    create_trees(const std::array<bool, 2 * dim> &may_move);
     unsigned int
     refinement_that_divides() const;
     void

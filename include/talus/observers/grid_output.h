@@ -15,7 +15,12 @@ namespace talus
   {
   public:
     void
-    begin(const std::filesystem::path &folder, MPI_Comm communicator);
+    begin(const std::filesystem::path &folder,
+          MPI_Comm                     communicator,
+          Beginning                    beginning = Beginning::anew);
+
+    void
+    list_state(StateList &list);
 
     /// Write the files of one output time; collective. Throws ExcUser if that
     /// fails.

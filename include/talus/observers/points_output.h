@@ -32,7 +32,11 @@ namespace talus
     void
     begin(const std::filesystem::path &folder,
           MPI_Comm                     communicator,
-          bool                         boxes_as_cells);
+          bool                         boxes_as_cells,
+          Beginning                    beginning = Beginning::anew);
+
+    void
+    list_state(StateList &list);
 
     /// Write the files of one output time; collective. Throws ExcUser if that
     /// fails.

@@ -1,6 +1,8 @@
 #ifndef talus_observers_vtu_h
 #define talus_observers_vtu_h
 
+#include <talus/observers/files.h>
+
 #include <deal.II/base/data_out_base.h>
 #include <deal.II/base/mpi.h>
 
@@ -87,11 +89,17 @@ namespace talus
   class VtuSeries
   {
   public:
-    /// Start anew.
+    /// Start anew, or go on after the files that were there at the checkpoint.
     void
     begin(const std::filesystem::path &folder,
           const std::string           &name,
-          MPI_Comm                     communicator);
+          MPI_Comm                     communicator,
+          Beginning                    beginning = Beginning::anew);
+
+    /// Add the times and names of the files to the state of the run, as the
+    /// text @p name: per file a line with the time [s], a space and the name.
+    void
+    list_state(const std::string &name, StateList &list);
 
     /// Write the files of the next output time; collective. Throws ExcUser if
     /// that fails.

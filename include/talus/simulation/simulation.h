@@ -6,10 +6,12 @@
 #include <talus/grid/grid.h>
 #include <talus/grid/nodal_fields.h>
 #include <talus/materials/materials.h>
+#include <talus/observers/checkpoint.h>
 #include <talus/observers/output.h>
 #include <talus/observers/snapshot.h>
 #include <talus/points/points.h>
 #include <talus/simulation/body.h>
+#include <talus/simulation/interrupt.h>
 #include <talus/simulation/loading.h>
 #include <talus/simulation/preview.h>
 #include <talus/simulation/time_step.h>
@@ -19,6 +21,8 @@
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/timer.h>
 
+#include <array>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -39,8 +43,22 @@ namespace talus
     void
     set_up();
 
-    /// From the start to the end time, with output.
+    /// In place of set_up(): go on from the newest checkpoint in the output
+    /// folder. Throws ExcUser if there is none that fits. Writes nothing.
     void
+    resume();
+
+    /// Let run() start anew over the checkpoints of an unfinished run.
+    void
+    allow_overwriting()
+    {
+      may_overwrite_ = true;
+    }
+
+    /// From the start, or the checkpoint, to the end time, with output. Returns
+    /// false if the run was stopped before that, by a signal or by its limit of
+    /// wall time; then resume() can go on.
+    bool
     run();
 
     /// One step of the scheme.
@@ -62,9 +80,17 @@ namespace talus
 
   private:
     void
+    set_up_laws();
+    std::array<bool, 2 * dim>
+    faces_that_may_move() const;
+    void
     create_bodies();
+    double
+    least_density() const;
     void
     prepare();
+    void
+    begin_run();
     void
     note_start();
     void
@@ -77,6 +103,20 @@ namespace talus
     grid_to_points();
     void
     relocate();
+
+    // Checkpoints
+    StateList
+    state();
+    Wish
+    own_wish() const;
+    bool
+    act_on(Wish wish);
+    std::filesystem::path
+    write_checkpoint();
+    void
+    note_resume();
+    void
+    say(const std::string &sentence);
 
     // Parameters
     std::string              title_                 = "";
@@ -99,6 +139,7 @@ namespace talus
     TimeStep<dim>                           time_step_;
     dealii::TimerOutput                     timer_;
     Output<dim>                             output_;
+    Checkpoint<dim>                         checkpoint_;
 
     // State besides points
     double            time_         = 0; ///< s
@@ -107,6 +148,9 @@ namespace talus
     double            gravity_work_ = 0; ///< J
     BoundaryWork<dim> boundary_work_;
     double            least_mass_ = 0; ///< kg
+
+    FoundCheckpoint resumed_from_; // no path in a run from the start
+    bool            may_overwrite_ = false;
   };
 } // namespace talus
 

@@ -35,6 +35,10 @@ namespace talus
     void
     rebuild(Points<dim> &points, const Grid<dim> &grid);
 
+    /// Take over the order that the points have, as a checkpoint restores it.
+    void
+    adopt(const Points<dim> &points);
+
     /// Cells that hold points, ascending.
     const std::vector<unsigned int> &
     occupied_cells() const

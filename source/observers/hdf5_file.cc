@@ -1,0 +1,302 @@
+#include <talus/base/agreement.h>
+#include <talus/base/errors.h>
+#include <talus/observers/checksum.h>
+#include <talus/observers/hdf5_file.h>
+#include <talus/observers/hdf5_handle.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Handle = Hdf5Handle;
+
+    /// Properties of a new group or array: no time stamp.
+    Handle
+    creation_properties(const hid_t kind)
+    {
+      const hid_t id = H5Pcreate(kind);
+      H5Pset_obj_track_times(id, false);
+      return {id, H5Pclose};
+    }
+
+
+
+    /// Select the rows [first, first + n_rows) of a data set and do
+    /// @p transfer(memory space, file space, properties), which writes or reads.
+    /// Returns what went wrong.
+    template <typename Transfer>
+    std::string
+    transfer_rows(const hid_t    dataset,
+                  const hsize_t  first,
+                  const hsize_t  n_rows,
+                  const hsize_t  n_columns,
+                  const Transfer transfer)
+    {
+      const hsize_t start[2] = {first, 0}, count[2] = {n_rows, n_columns};
+      const int     rank = (n_columns == 1 ? 1 : 2);
+      const Handle  file_space(H5Dget_space(dataset), H5Sclose);
+      const Handle  memory_space(H5Screate_simple(rank, count, nullptr),
+                                H5Sclose);
+      const Handle  together(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+      H5Pset_dxpl_mpio(together, H5FD_MPIO_COLLECTIVE);
+      const herr_t selected =
+        (n_rows == 0
+           ? H5Sselect_none(memory_space) + H5Sselect_none(file_space)
+           : H5Sselect_hyperslab(
+               file_space, H5S_SELECT_SET, start, nullptr, count, nullptr));
+      // Even if that failed: the others are in this call, too.
+      const herr_t status = transfer(memory_space, file_space, together);
+      return hdf5_complaint(selected >= 0 && status >= 0);
+    }
+  } // namespace
+
+
+
+  Hdf5File::Hdf5File(const std::filesystem::path &path,
+                     const Access                 access,
+                     const MPI_Comm               communicator)
+    : path_(path)
+    , communicator_(communicator)
+  {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+    const Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_fapl_mpio(properties, communicator_, MPI_INFO_NULL);
+    H5Pset_all_coll_metadata_ops(properties, true);
+    H5Pset_coll_metadata_write(properties, true);
+    // From this version on the metadata have checksums.
+    H5Pset_libver_bounds(properties, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+    if (access == Access::create)
+      file_ = H5Fcreate(path_.c_str(),
+                        H5F_ACC_TRUNC,
+                        creation_properties(H5P_FILE_CREATE),
+                        properties);
+    else
+      file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, properties);
+    conclude(hdf5_complaint(file_ >= 0), "it could not be opened");
+  }
+
+
+
+  Hdf5File::~Hdf5File()
+  {
+    if (file_ >= 0)
+      H5Fclose(file_);
+  }
+
+
+
+  bool
+  Hdf5File::conclude(const std::string &complaint, const std::string &action)
+  {
+    const std::string own =
+      complaint.empty() ? "" : action + " (HDF5: " + complaint + ")";
+    error_ = first_sentence(own, communicator_);
+    return error_.empty();
+  }
+
+
+
+  void
+  Hdf5File::close()
+  {
+    if (!error_.empty())
+      return;
+    std::string complaint =
+      hdf5_complaint(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0);
+    const bool is_closed = (H5Fclose(file_) >= 0);
+    file_                = -1;
+    if (complaint.empty())
+      complaint = hdf5_complaint(is_closed);
+    conclude(complaint, "it could not be completed");
+  }
+
+
+
+  void
+  Hdf5File::create_group(const std::string &name)
+  {
+    if (!error_.empty())
+      return;
+    const Handle group(H5Gcreate2(file_,
+                                  name.c_str(),
+                                  H5P_DEFAULT,
+                                  creation_properties(H5P_GROUP_CREATE),
+                                  H5P_DEFAULT),
+                       H5Gclose);
+    conclude(hdf5_complaint(group >= 0),
+             "the group '" + name + "' could not be made");
+  }
+
+
+
+  std::vector<std::string>
+  Hdf5File::names(const std::string &group)
+  {
+    std::vector<std::string> result;
+    if (!error_.empty())
+      return result;
+    const auto add =
+      [](hid_t, const char *name, const H5L_info_t *, void *data) -> herr_t {
+      static_cast<std::vector<std::string> *>(data)->push_back(name);
+      return 0;
+    };
+    const Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
+    const bool   success =
+      opened >= 0 &&
+      H5Literate(opened, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &result) >=
+        0;
+    conclude(hdf5_complaint(success),
+             "the group '" + group + "' could not be read");
+    return result;
+  }
+
+
+
+  std::pair<std::uint64_t, std::uint64_t>
+  Hdf5File::first_and_total(const std::uint64_t n_rows) const
+  {
+    std::uint64_t end = 0;
+    const int     status =
+      MPI_Scan(&n_rows, &end, 1, MPI_UINT64_T, MPI_SUM, communicator_);
+    AssertThrowMPI(status);
+    return {end - n_rows, Utilities::MPI::sum(n_rows, communicator_)};
+  }
+
+
+
+  void
+  Hdf5File::write(const std::string         &name,
+                  const std::vector<double> &rows,
+                  const unsigned int         n_columns)
+  {
+    if (!error_.empty())
+      return;
+    const std::uint64_t n_rows = rows.size() / n_columns;
+    const auto [first, total]  = first_and_total(n_rows);
+    const hsize_t extent[2]    = {total, n_columns};
+    const Handle  space(
+      H5Screate_simple(n_columns == 1 ? 1 : 2, extent, nullptr), H5Sclose);
+    const Handle dataset(H5Dcreate2(file_,
+                                    name.c_str(),
+                                    H5T_IEEE_F64LE,
+                                    space,
+                                    H5P_DEFAULT,
+                                    creation_properties(H5P_DATASET_CREATE),
+                                    H5P_DEFAULT),
+                         H5Dclose);
+    const auto   transfer = [&](const hid_t memory_space,
+                              const hid_t file_space,
+                              const hid_t properties) {
+      return H5Dwrite(dataset,
+                      H5T_NATIVE_DOUBLE,
+                      memory_space,
+                      file_space,
+                      properties,
+                      rows.data());
+    };
+    std::string complaint = hdf5_complaint(dataset >= 0);
+    if (complaint.empty() && total > 0)
+      complaint = transfer_rows(dataset, first, n_rows, n_columns, transfer);
+    conclude(complaint, "the array '" + name + "' could not be written");
+    const std::uint64_t own = checksum(rows, first * n_columns);
+    set_attribute(name, "checksum", Utilities::MPI::sum(own, communicator_));
+  }
+
+
+
+  std::pair<std::uint64_t, unsigned int>
+  Hdf5File::shape(const std::string &name)
+  {
+    if (!error_.empty())
+      return {0, 0};
+    hsize_t      extent[2] = {0, 1};
+    const Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle space(H5Dget_space(dataset), H5Sclose);
+    const int    rank = H5Sget_simple_extent_ndims(space);
+    const bool   success =
+      (rank == 1 || rank == 2) &&
+      H5Sget_simple_extent_dims(space, extent, nullptr) == rank;
+    if (!conclude(hdf5_complaint(success), "it has no array '" + name + "'"))
+      return {0, 0};
+    return {extent[0], static_cast<unsigned int>(extent[1])};
+  }
+
+
+
+  std::vector<double>
+  Hdf5File::read(const std::string  &name,
+                 const std::uint64_t first,
+                 const std::uint64_t n_rows)
+  {
+    const auto [total, n_columns] = shape(name);
+    if (!error_.empty())
+      return {};
+    std::vector<double> rows(n_rows * n_columns);
+    const Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const auto   transfer = [&](const hid_t memory_space,
+                              const hid_t file_space,
+                              const hid_t properties) {
+      return H5Dread(dataset,
+                     H5T_NATIVE_DOUBLE,
+                     memory_space,
+                     file_space,
+                     properties,
+                     rows.data());
+    };
+    std::string complaint = hdf5_complaint(dataset >= 0);
+    if (complaint.empty() && total > 0)
+      complaint = transfer_rows(dataset, first, n_rows, n_columns, transfer);
+    conclude(complaint, "the array '" + name + "' could not be read");
+    return rows;
+  }
+
+
+
+  void
+  Hdf5File::write_text(const std::string &name, const std::string &text)
+  {
+    if (!error_.empty())
+      return;
+    const bool is_first = Utilities::MPI::this_mpi_process(communicator_) == 0;
+    const std::string same = Utilities::MPI::broadcast(communicator_, text);
+    const Handle      type = text_type(same);
+    const Handle      space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Handle      dataset(H5Dcreate2(file_,
+                                    name.c_str(),
+                                    type,
+                                    space,
+                                    H5P_DEFAULT,
+                                    creation_properties(H5P_DATASET_CREATE),
+                                    H5P_DEFAULT),
+                         H5Dclose);
+    if (!is_first)
+      H5Sselect_none(space);
+    const Handle together(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+    H5Pset_dxpl_mpio(together, H5FD_MPIO_COLLECTIVE);
+    const bool success =
+      dataset >= 0 &&
+      H5Dwrite(dataset, type, space, space, together, same.c_str()) >= 0;
+    conclude(hdf5_complaint(success),
+             "the text '" + name + "' could not be written");
+    set_attribute(name, "checksum", checksum(same));
+  }
+
+
+
+  std::string
+  Hdf5File::read_text(const std::string &name)
+  {
+    if (!error_.empty())
+      return "";
+    const Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
+    const Handle type(H5Dget_type(dataset), H5Tclose);
+    std::string  text(H5Tget_size(type), '\0');
+    const bool   success =
+      H5Tget_class(type) == H5T_STRING &&
+      H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0;
+    conclude(hdf5_complaint(success), "it has no text '" + name + "'");
+    return text.substr(0, text.find('\0'));
+  }
+} // namespace talus
