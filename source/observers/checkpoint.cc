@@ -148,7 +148,7 @@ namespace talus
   Checkpoint<dim>::write_mesh(const fs::path &part, const Grid<dim> &grid) const
   {
     // p4est ends the program where the disk is full.
-    const double    needed = 1e6 + 64. * grid.n_global_cells();
+    const double    needed = 1e5 + 64. * grid.n_global_cells();
     std::error_code error;
     const auto      space = fs::space(part, error);
     check_all(!error && space.available < needed

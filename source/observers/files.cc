@@ -33,27 +33,6 @@ namespace talus
                   "). Free some space or choose another folder with "
                   "Output/Folder or --output.");
     }
-
-
-
-    /// Another version of talus may have other columns.
-    void
-    check_header(const std::filesystem::path &path, const std::string &header)
-    {
-      std::ifstream file(path);
-      std::string   found;
-      std::getline(file, found);
-      AssertThrow(found == header,
-                  ExcUser(text("The file '",
-                               path.string(),
-                               "', which the run is to go on with, has the "
-                               "columns '",
-                               found,
-                               "' where '",
-                               header,
-                               "' was expected. Resume with the version of "
-                               "talus that wrote it, or start the run anew.")));
-    }
   } // namespace
 
 
@@ -160,7 +139,6 @@ namespace talus
     errno = 0;
     if (beginning == Beginning::resumed)
       {
-        check_header(path, header);
         // Rows written after the checkpoint are written once more.
         std::error_code error;
         std::filesystem::resize_file(path, n_bytes_, error);
@@ -178,21 +156,37 @@ namespace talus
 
 
   std::string
-  CsvFile::cannot_resume(const std::filesystem::path &path) const
+  CsvFile::cannot_resume(const std::filesystem::path    &path,
+                         const std::vector<std::string> &names) const
   {
+    const std::string what =
+      "The file '" + path.string() + "', which the run is to go on with, ";
     std::error_code error;
     const auto      size = std::filesystem::file_size(path, error);
-    if (!error && size >= n_bytes_)
-      return "";
-    return text("The file '",
-                path.string(),
-                "', which the run is to go on with, ",
-                error ? "cannot be read (" + error.message() + ")"
-                      : text("has only ", size, " bytes"),
-                ", but it had ",
-                n_bytes_,
-                " bytes at the checkpoint. Put back the file that belongs to "
-                "the checkpoint, or start the run anew.");
+    if (error || size < n_bytes_)
+      return text(what,
+                  error ? "cannot be read (" + error.message() + ")"
+                        : text("has only ", size, " bytes"),
+                  ", but it had ",
+                  n_bytes_,
+                  " bytes at the checkpoint. Put back the file that belongs to "
+                  "the checkpoint, or start the run anew.");
+
+    // Another version of talus may have other columns.
+    std::ifstream file(path);
+    std::string   header;
+    std::getline(file, header);
+    std::istringstream columns(header);
+    for (const std::string &name : names)
+      {
+        std::string found;
+        std::getline(columns, found, ',');
+        if (found != name)
+          return what + "has a column '" + found + "' where '" + name +
+                 "' was expected. Resume with the version of talus that wrote "
+                 "it, or start the run anew.";
+      }
+    return "";
   }
 
 

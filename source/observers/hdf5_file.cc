@@ -12,12 +12,16 @@ namespace talus
   {
     using Handle = Hdf5Handle;
 
-    /// Properties of a new group or array: no time stamp.
+    /// Properties of a new file, group or array: no time stamp.
     Handle
     creation_properties(const hid_t kind)
     {
       const hid_t id = H5Pcreate(kind);
       H5Pset_obj_track_times(id, false);
+      // Names stay in the header, which has a checksum. The other storage, for
+      // many names, has one too, but HDF5 1.10 crashes where it is wrong.
+      if (kind == H5P_GROUP_CREATE)
+        H5Pset_link_phase_change(id, 60000, 50000);
       return {id, H5Pclose};
     }
 

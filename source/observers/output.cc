@@ -126,17 +126,20 @@ namespace talus
 
   template <int dim>
   void
-  Output<dim>::check_resumable(const MPI_Comm communicator) const
+  Output<dim>::check_resumable(const Snapshot<dim> &snapshot) const
   {
-    const std::filesystem::path folder = folder_;
-    std::string                 complaint;
+    const MPI_Comm                 communicator = snapshot.grid.communicator();
+    const std::filesystem::path    folder       = folder_;
+    const std::vector<std::string> columns      = statistics_.names(snapshot);
+    std::string                    complaint;
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
       {
         complaint =
-          statistics_.file().cannot_resume(folder / statistics_.file_name);
+          statistics_.file().cannot_resume(folder / statistics_.file_name,
+                                           columns);
         if (complaint.empty())
-          complaint =
-            profile_.file().cannot_resume(folder / profile_.file_name);
+          complaint = profile_.file().cannot_resume(folder / profile_.file_name,
+                                                    profile_.names());
       }
     complaint = first_sentence(complaint, communicator);
     AssertThrow(complaint.empty(), ExcUser(complaint));

@@ -260,13 +260,23 @@ namespace talus
           Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
                               communicator);
       }
-    std::vector<std::string> names;
-    for (const Quantity &quantity : evaluate(snapshot))
-      names.push_back(quantity.name);
+    const std::vector<std::string> columns = names(snapshot);
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      file_.open(folder / file_name, names, beginning);
+      file_.open(folder / file_name, columns, beginning);
     if (beginning == Beginning::anew)
       add_row(snapshot);
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Statistics<dim>::names(const Snapshot<dim> &snapshot) const
+  {
+    std::vector<std::string> result;
+    for (const Quantity &quantity : evaluate(snapshot))
+      result.push_back(quantity.name);
+    return result;
   }
 
 

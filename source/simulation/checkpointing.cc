@@ -53,7 +53,8 @@ namespace talus
     // Here belongs the repartition of the mesh by these weights, which restores
     // the ranks' shares; on one rank there is nothing to do.
     const std::vector<double> cell_weights =
-      load_cell_weights(file, grid_.n_owned_cells());
+      load_cell_weights(file,
+                        grid_.triangulation().n_locally_owned_active_cells());
     check_read(file);
     prepare();
 
@@ -69,7 +70,7 @@ namespace talus
                              "' is at t = ",
                              time_,
                              " s. Give a later 'End time'.")));
-    output_.check_resumable(communicator);
+    output_.check_resumable(snapshot());
   }
 
 

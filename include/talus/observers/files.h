@@ -74,10 +74,11 @@ namespace talus
          const std::vector<std::string> &names,
          Beginning                       beginning = Beginning::anew);
 
-    /// Why the run cannot go on with the file @p path from the checkpoint that
-    /// was loaded; empty if it can.
+    /// Why the run cannot go on with the file @p path, which should have these
+    /// columns, from the checkpoint that was loaded; empty if it can.
     std::string
-    cannot_resume(const std::filesystem::path &path) const;
+    cannot_resume(const std::filesystem::path    &path,
+                  const std::vector<std::string> &names) const;
 
     /// Add the length of the file to the state of the run.
     void

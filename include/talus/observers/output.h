@@ -63,7 +63,7 @@ namespace talus
     /// Throw ExcUser if a file is missing that a resumed run is to go on with;
     /// to be called when the state was loaded. Collective.
     void
-    check_resumable(MPI_Comm communicator) const;
+    check_resumable(const Snapshot<dim> &snapshot) const;
 
     /// Bring all rows written so far to the disk.
     void

@@ -52,6 +52,10 @@ namespace talus
     void
     add_rows(const Snapshot<dim> &snapshot);
 
+    /// Names of the columns.
+    static std::vector<std::string>
+    names();
+
     CsvFile &
     file()
     {

@@ -62,6 +62,10 @@ namespace talus
     std::vector<Quantity>
     evaluate(const Snapshot<dim> &snapshot) const;
 
+    /// Names of the columns; collective.
+    std::vector<std::string>
+    names(const Snapshot<dim> &snapshot) const;
+
     void
     list_state(StateList &list);
 
