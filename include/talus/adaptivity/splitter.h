@@ -41,11 +41,13 @@ namespace talus
       return statistics_;
     }
 
-    /// First id that no point has.
+    /// The first new daughter gets the id @p first, the next one that plus
+    /// @p stride, ...: so that ids differ over ranks.
     void
-    set_next_id(const double id)
+    number_from(const double first, const double stride)
     {
-      next_id_ = id;
+      next_id_   = first;
+      id_stride_ = stride;
     }
 
   private:
@@ -79,7 +81,8 @@ namespace talus
       unsigned int axes;
     };
     std::vector<Violation> violations_;
-    double                 next_id_ = 0;
+    double                 next_id_   = 0;
+    double                 id_stride_ = 1;
     Ledger<dim>            ledger_;
     SplitStatistics        statistics_;
   };

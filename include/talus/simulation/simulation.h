@@ -1,6 +1,7 @@
 #ifndef talus_simulation_simulation_h
 #define talus_simulation_simulation_h
 
+#include <talus/adaptivity/load_balance.h>
 #include <talus/adaptivity/splitter.h>
 #include <talus/boundaries/boundaries.h>
 #include <talus/grid/grid.h>
@@ -64,7 +65,13 @@ namespace talus
     void
     create_bodies();
     void
+    number_points();
+    void
     prepare();
+    void
+    share_out();
+    void
+    adapt_mesh();
     void
     note_start();
     void
@@ -75,6 +82,8 @@ namespace talus
     points_to_grid();
     void
     grid_to_points();
+    void
+    split();
     void
     relocate();
 
@@ -94,6 +103,7 @@ namespace talus
     Materials<dim>                          materials_;
     Boundaries<dim>                         boundaries_;
     Splitter<dim>                           splitter_;
+    LoadBalance<dim>                        load_balance_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     Loading<dim>                            loading_;
     TimeStep<dim>                           time_step_;
