@@ -97,6 +97,28 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Size of the cell that a point, not yet sorted anew, is in now: beside
+    /// cells of another size it may have entered a finer one.
+    template <int dim>
+    double
+    size_of_new_cell(const Points<dim> &points,
+                     const Grid<dim>   &grid,
+                     const unsigned int old_cell,
+                     const unsigned int p)
+    {
+      Point<dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = points.data(points.position, d)[p];
+      const unsigned int c = grid.find_cell(x);
+      return grid.cells()[c == numbers::invalid_unsigned_int ? old_cell : c]
+        .size;
+    }
+  } // namespace
+
+
+
   template <int dim>
   bool
   Splitter<dim>::enforce(Points<dim> &points, const Grid<dim> &grid)
@@ -107,20 +129,25 @@ namespace talus
     std::size_t n_daughters = 0;
     for (const Segment &segment : points.segments())
       {
-        const double cell_size = grid.cells()[segment.cell].size;
+        const Cell<dim> &cell      = grid.cells()[segment.cell];
+        double           cell_size = cell.size;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
-          if (unsigned int axes = axes_to_split(points, p, cell_size))
-            {
-              if (points.data(points.generation)[p] >= maximum_generation_)
-                continue;
-              if (directions_ == "all")
-                axes = (1u << dim) - 1;
-              if (!daughters_may_stay(
-                    points, p, axes, cell_size, grid.domain()))
-                continue;
-              violations_.push_back({p, axes});
-              n_daughters += 1u << __builtin_popcount(axes);
-            }
+          {
+            if (!cell.uniform)
+              cell_size = size_of_new_cell(points, grid, segment.cell, p);
+            if (unsigned int axes = axes_to_split(points, p, cell_size))
+              {
+                if (points.data(points.generation)[p] >= maximum_generation_)
+                  continue;
+                if (directions_ == "all")
+                  axes = (1u << dim) - 1;
+                if (!daughters_may_stay(
+                      points, p, axes, cell_size, grid.domain()))
+                  continue;
+                violations_.push_back({p, axes});
+                n_daughters += 1u << __builtin_popcount(axes);
+              }
+          }
       }
     if (violations_.empty())
       return false;
@@ -187,7 +214,8 @@ namespace talus
     for (unsigned int i = 1; i < n_daughters; ++i)
       {
         points.copy(p, first + i - 1);
-        points.data(points.id)[first + i - 1] = next_id_++;
+        points.data(points.id)[first + i - 1] = next_id_;
+        next_id_ += id_stride_;
       }
     for (unsigned int i = 0; i < n_daughters; ++i)
       {

@@ -1,12 +1,9 @@
 #include <talus/base/errors.h>
 #include <talus/grid/grid.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <deal.II/dofs/dof_tools.h>
-
 #include <deal.II/grid/grid_generator.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus
@@ -189,26 +186,7 @@ namespace talus
   Grid<dim>::create(const std::array<bool, 2 * dim> &may_move)
   {
     triangulation_.refine_global(create_trees(may_move));
-  }
-
-
-
-  template <int dim>
-  void
-  Grid<dim>::save(const std::string &path) const
-  {
-    triangulation_.save(path);
-  }
-
-
-
-  template <int dim>
-  void
-  Grid<dim>::load(const std::string               &path,
-                  const std::array<bool, 2 * dim> &may_move)
-  {
-    create_trees(may_move);
-    triangulation_.load(path);
+    triangulation_.repartition();
   }
 
 
@@ -217,21 +195,54 @@ namespace talus
   void
   Grid<dim>::prepare()
   {
-    dof_handler_.distribute_dofs(fe_);
-    IndexSet relevant;
-    DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant);
-    n_nodes_ = relevant.n_elements();
-    constraints_.clear();
-    constraints_.reinit(relevant);
-    DoFTools::make_hanging_node_constraints(dof_handler_, constraints_);
-    constraints_.close();
-
+    number_nodes();
+    find_ghost_nodes();
     list_cells();
     touching_.clear();
     for (unsigned int c = 0; c < n_owned_cells_; ++c)
       link_cell(c);
-    list_hanging_nodes();
     mark_boundary_nodes();
+  }
+
+
+
+  namespace
+  {
+    /// Depth first, as p4est's curve goes.
+    template <int dim>
+    void
+    append_active(
+      const typename DoFHandler<dim>::cell_iterator               &cell,
+      std::vector<typename DoFHandler<dim>::active_cell_iterator> &cells)
+    {
+      if (cell->is_active())
+        {
+          if (!cell->is_artificial())
+            cells.push_back(cell);
+          return;
+        }
+      for (unsigned int child = 0; child < cell->n_children(); ++child)
+        append_active<dim>(cell->child(child), cells);
+    }
+  } // namespace
+
+
+
+  // deal.II's own order of the cells depends on how the mesh came about.
+  template <int dim>
+  std::vector<typename DoFHandler<dim>::active_cell_iterator>
+  Grid<dim>::cells_in_order() const
+  {
+    std::vector<typename DoFHandler<dim>::active_cell_iterator> cells;
+    for (const auto tree :
+         triangulation_.get_p4est_tree_to_coarse_cell_permutation())
+      append_active<dim>(typename DoFHandler<dim>::cell_iterator(
+                           &triangulation_, 0, tree, &dof_handler_),
+                         cells);
+    std::stable_partition(cells.begin(), cells.end(), [](const auto &cell) {
+      return cell->is_locally_owned();
+    });
+    return cells;
   }
 
 
@@ -240,47 +251,69 @@ namespace talus
   void
   Grid<dim>::list_cells()
   {
-    const IndexSet &relevant = constraints_.get_local_lines();
+    const auto cells = cells_in_order();
     cells_.clear();
     level_of_cell_.clear();
     cell_map_.clear();
-    cell_map_.reserve(triangulation_.n_active_cells());
+    cell_map_.reserve(cells.size());
+    owner_of_ghost_.clear();
+    n_owned_cells_ = 0;
     index_of_active_cell_.assign(triangulation_.n_active_cells(),
                                  numbers::invalid_unsigned_int);
     std::vector<types::global_dof_index> dofs(fe_.n_dofs_per_cell());
-
-    for (const bool owned : {true, false})
+    for (const auto &cell : cells)
       {
-        for (const auto &cell : dof_handler_.active_cell_iterators())
+        const unsigned int level = cell->level();
+        const Lattice      place = lattice_place(cell->center(), level);
+        Cell<dim>          data;
+        data.size = tree_size_ / (1u << level);
+        for (unsigned int d = 0; d < dim; ++d)
+          data.lower[d] = domain_.lower[d] + place[d] * data.size;
+        data.uniform = false;
+        data.patch.fill(numbers::invalid_unsigned_int);
+        data.neighbors.fill(numbers::invalid_unsigned_int);
+        cell->get_dof_indices(dofs);
+        for (unsigned int v = 0; v < dofs.size(); ++v)
           {
-            if (cell->is_artificial() || cell->is_locally_owned() != owned)
-              continue;
-            const unsigned int level = cell->level();
-            const Lattice      place = lattice_place(cell->center(), level);
-            Cell<dim>          data;
-            data.size = tree_size_ / (1u << level);
+            unsigned int at = 0;
             for (unsigned int d = 0; d < dim; ++d)
-              data.lower[d] = domain_.lower[d] + place[d] * data.size;
-            data.uniform = false;
-            data.patch.fill(numbers::invalid_unsigned_int);
-            data.neighbors.fill(numbers::invalid_unsigned_int);
-            cell->get_dof_indices(dofs);
-            for (unsigned int v = 0; v < dofs.size(); ++v)
-              {
-                unsigned int at = 0;
-                for (unsigned int d = 0; d < dim; ++d)
-                  at += (1 + ((v >> d) & 1)) * power(4, d);
-                data.patch[at] = relevant.index_within_set(dofs[v]);
-              }
-            index_of_active_cell_[cell->active_cell_index()] = cells_.size();
-            cell_map_[key<dim>(place, level)]                = cells_.size();
-            cells_.push_back(data);
-            level_of_cell_.push_back(level);
+              at += (1 + ((v >> d) & 1)) * power(4, d);
+            data.patch[at] = local_node(dofs[v]);
           }
-        if (owned)
-          n_owned_cells_ = cells_.size();
+        if (cell->is_locally_owned())
+          ++n_owned_cells_;
+        else
+          owner_of_ghost_.push_back(cell->subdomain_id());
+        index_of_active_cell_[cell->active_cell_index()] = cells_.size();
+        cell_map_[key<dim>(place, level)]                = cells_.size();
+        cells_.push_back(data);
+        level_of_cell_.push_back(level);
       }
+    neighbor_ranks_.assign(owner_of_ghost_.begin(), owner_of_ghost_.end());
+    std::sort(neighbor_ranks_.begin(), neighbor_ranks_.end());
+    neighbor_ranks_.erase(std::unique(neighbor_ranks_.begin(),
+                                      neighbor_ranks_.end()),
+                          neighbor_ranks_.end());
     finest_size_ = tree_size_ / (1u << (triangulation_.n_global_levels() - 1));
+  }
+
+
+
+  template <int dim>
+  unsigned long
+  Grid<dim>::key_of_cell(const unsigned int c) const
+  {
+    return key<dim>(place_of_cell(c), level_of_cell_[c]);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Grid<dim>::cell_of_key(const unsigned long key) const
+  {
+    const auto it = cell_map_.find(key);
+    return it == cell_map_.end() ? numbers::invalid_unsigned_int : it->second;
   }
 
 
@@ -336,8 +369,7 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       if (place[d] < 0)
         return numbers::invalid_unsigned_int;
-    const auto it = cell_map_.find(key<dim>(place, level));
-    return it == cell_map_.end() ? numbers::invalid_unsigned_int : it->second;
+    return cell_of_key(key<dim>(place, level));
   }
 
 

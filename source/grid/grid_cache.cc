@@ -1,6 +1,7 @@
 // The part of Grid that links cells to their neighbours and to the boundary.
 
 #include <talus/grid/grid.h>
+#include <talus/grid/nodal_exchange.h>
 
 #include <algorithm>
 #include <cmath>
@@ -142,72 +143,71 @@ namespace talus
 
 
 
+  /// Which nodes lie on which faces, and what they stand for there: summed over
+  /// the cells of all ranks.
   template <int dim>
   void
-  Grid<dim>::list_hanging_nodes()
+  Grid<dim>::mark_boundary_nodes()
   {
-    const IndexSet &relevant = constraints_.get_local_lines();
-    hanging_nodes_.clear();
-    for (const auto &line : constraints_.get_lines())
+    faces_of_node_.assign(n_nodes(), 0);
+    for (unsigned int c = 0; c < cells_.size(); ++c)
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+        for (const unsigned int node : nodes_on_face(c, face))
+          faces_of_node_[node] |= 1u << face;
+
+    NodalExchange<dim> exchange;
+    exchange.prepare(*this, 2);
+    AlignedVector<double> shares(2 * n_nodes());
+    for (unsigned int face = 0; face < 2 * dim; ++face)
       {
-        HangingNode hanging;
-        hanging.node = relevant.index_within_set(line.index);
-        for (const auto &[master, weight] : line.entries)
-          if (relevant.is_element(master))
-            hanging.masters.emplace_back(relevant.index_within_set(master),
-                                         weight);
-        hanging_nodes_.push_back(hanging);
+        shares.fill(0.);
+        for (unsigned int c = 0; c < n_owned_cells_; ++c)
+          {
+            const double length = 0.5 * cells_[c].size;
+            const double area   = std::pow(length, dim - 1.);
+            for (const unsigned int node : nodes_on_face(c, face))
+              {
+                shares[2 * node] += area;
+                shares[2 * node + 1] += area * length;
+              }
+          }
+        for (const auto &hanging : hanging_nodes_)
+          for (unsigned int i = 0; i < 2; ++i)
+            {
+              for (const auto &[master, weight] : hanging.masters)
+                shares[2 * master + i] += weight * shares[2 * hanging.node + i];
+              shares[2 * hanging.node + i] = 0;
+            }
+        exchange.add_to_owners(shares.data());
+        face_shares_[face].clear();
+        for (unsigned int node = 0; node < n_owned_nodes(); ++node)
+          if (shares[2 * node] > 0)
+            face_shares_[face][node] = {shares[2 * node], shares[2 * node + 1]};
       }
   }
 
 
 
   template <int dim>
-  void
-  Grid<dim>::mark_boundary_nodes()
+  std::vector<unsigned int>
+  Grid<dim>::nodes_on_face(const unsigned int c, const unsigned int face) const
   {
-    faces_of_node_.assign(n_nodes_, 0);
-    for (auto &shares : face_shares_)
-      shares.clear();
-
-    for (unsigned int c = 0; c < cells_.size(); ++c)
+    const Lattice      place  = place_of_cell(c);
+    const Lattice      extent = lattice_extent(cells_[c].size);
+    const unsigned int d = face / 2, side = face % 2;
+    if (place[d] != (side == 0 ? 0 : extent[d] - 1))
+      return {};
+    std::vector<unsigned int> nodes;
+    for (unsigned int v = 0; v < power(2, dim); ++v)
       {
-        const Cell<dim> &cell   = cells_[c];
-        const Lattice    place  = place_of_cell(c);
-        const Lattice    extent = lattice_extent(cell.size);
-        const double     area =
-          std::pow(0.5 * cell.size, static_cast<double>(dim - 1));
-        for (unsigned int face = 0; face < 2 * dim; ++face)
-          {
-            const unsigned int d = face / 2, side = face % 2;
-            if (place[d] != (side == 0 ? 0 : extent[d] - 1))
-              continue;
-            for (unsigned int v = 0; v < power(2, dim); ++v)
-              {
-                auto at = digits<dim>(v, 2);
-                if (at[d] != static_cast<int>(side))
-                  continue;
-                for (auto &a : at)
-                  ++a;
-                const unsigned int node = cell.patch[number<dim>(at, 4)];
-                faces_of_node_[node] |= 1u << face;
-                face_shares_[face][node].area += area;
-                face_shares_[face][node].volume += area * 0.5 * cell.size;
-              }
-          }
+        auto at = digits<dim>(v, 2);
+        if (at[d] != static_cast<int>(side))
+          continue;
+        for (auto &a : at)
+          ++a;
+        nodes.push_back(cells_[c].patch[number<dim>(at, 4)]);
       }
-    for (const auto &hanging : hanging_nodes_)
-      for (auto &shares : face_shares_)
-        if (const auto it = shares.find(hanging.node); it != shares.end())
-          {
-            const FaceShare share = it->second;
-            shares.erase(it);
-            for (const auto &[master, weight] : hanging.masters)
-              {
-                shares[master].area += weight * share.area;
-                shares[master].volume += weight * share.volume;
-              }
-          }
+    return nodes;
   }
 
 
@@ -216,10 +216,10 @@ namespace talus
   Grid<2>::link_cell(unsigned int);
   template void
   Grid<3>::link_cell(unsigned int);
-  template void
-  Grid<2>::list_hanging_nodes();
-  template void
-  Grid<3>::list_hanging_nodes();
+  template std::vector<unsigned int>
+  Grid<2>::nodes_on_face(unsigned int, unsigned int) const;
+  template std::vector<unsigned int>
+  Grid<3>::nodes_on_face(unsigned int, unsigned int) const;
   template void
   Grid<2>::mark_boundary_nodes();
   template void

@@ -10,14 +10,37 @@ namespace talus
   void
   NodalFields<dim>::prepare(const Grid<dim> &grid)
   {
-    const std::size_t n_nodes = grid.n_nodes();
+    n_nodes_       = grid.n_nodes();
+    n_owned_nodes_ = grid.n_owned_nodes();
     sums_.resize(0);
-    sums_.resize(n_lanes * n_nodes, 0.);
+    sums_.resize(n_lanes * std::size_t(n_nodes_), 0.);
     motions_.resize(0);
-    motions_.resize(Motion::width * n_nodes, 0.);
-    is_active_.assign(n_nodes, 0);
+    motions_.resize(Motion::width * std::size_t(n_nodes_), 0.);
+    exchange_of_sums_.prepare(grid, n_lanes);
+    exchange_of_motions_.prepare(grid, Motion::width);
+    is_active_.assign(n_nodes_, 0);
     active_nodes_.clear();
+    active_ghosts_.clear();
     active_boundary_nodes_.clear();
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::add_active(const Grid<dim> &grid, const unsigned int node)
+  {
+    if (is_active_[node])
+      return;
+    is_active_[node] = 1;
+    if (node >= n_owned_nodes_)
+      {
+        active_ghosts_.push_back(node);
+        return;
+      }
+    active_nodes_.push_back(node);
+    if (grid.faces_of_node(node) != 0)
+      active_boundary_nodes_.push_back(node);
   }
 
 
@@ -30,21 +53,16 @@ namespace talus
     std::swap(active_nodes_, formerly_active_nodes_);
     for (const unsigned int node : formerly_active_nodes_)
       is_active_[node] = 0;
+    for (const unsigned int node : active_ghosts_)
+      is_active_[node] = 0;
     active_nodes_.clear();
+    active_ghosts_.clear();
     active_boundary_nodes_.clear();
 
-    const auto add = [&](const unsigned int node) {
-      if (is_active_[node])
-        return;
-      is_active_[node] = 1;
-      active_nodes_.push_back(node);
-      if (grid.faces_of_node(node) != 0)
-        active_boundary_nodes_.push_back(node);
-    };
     const auto add_patch = [&](const unsigned int c) {
       for (const unsigned int node : grid.cells()[c].patch)
         if (node != numbers::invalid_unsigned_int)
-          add(node);
+          add_active(grid, node);
     };
     for (const unsigned int c : cells)
       if (grid.cells()[c].uniform)
@@ -52,11 +70,12 @@ namespace talus
       else
         for (const unsigned int t : grid.touching_cells(c))
           add_patch(t);
-    if (!grid.hanging_nodes().empty())
-      for (const auto &hanging : grid.hanging_nodes())
-        if (is_active_[hanging.node])
-          for (const auto &master : hanging.masters)
-            add(master.first);
+    for (const unsigned int node : grid.interface_nodes())
+      add_active(grid, node);
+    for (const auto &hanging : grid.hanging_nodes())
+      if (is_active_[hanging.node])
+        for (const auto &master : hanging.masters)
+          add_active(grid, master.first);
 
     // Nodes that soil has left are empty when it comes back.
     for (const unsigned int node : formerly_active_nodes_)
@@ -76,13 +95,15 @@ namespace talus
     const Lanes zero{};
     for (const unsigned int node : active_nodes_)
       store(sum(node), zero);
+    for (unsigned int node = n_owned_nodes_; node < n_nodes_; ++node)
+      store(sum(node), zero);
   }
 
 
 
   template <int dim>
   void
-  NodalFields<dim>::condense(const Grid<dim> &grid)
+  NodalFields<dim>::sum_over_ranks(const Grid<dim> &grid)
   {
     for (const auto &hanging : grid.hanging_nodes())
       if (is_active_[hanging.node])
@@ -92,6 +113,7 @@ namespace talus
             store(sum(node), load<Lanes>(sum(node)) + weight * value);
           store(sum(hanging.node), Lanes{});
         }
+    exchange_of_sums_.add_to_owners(sums_.data());
   }
 
 
@@ -120,9 +142,10 @@ namespace talus
 
   template <int dim>
   void
-  NodalFields<dim>::distribute(const Grid<dim> &grid)
+  NodalFields<dim>::share_with_ghosts(const Grid<dim> &grid)
   {
     using Record = typename Motion::Record;
+    exchange_of_motions_.copy_to_ghosts(motions_.data());
     for (const auto &hanging : grid.hanging_nodes())
       if (is_active_[hanging.node])
         {

@@ -68,31 +68,6 @@ namespace talus
         for (unsigned int p = 0; p < points.size(); ++p)
           points.data(column.first, c)[p] = rows[std::size_t(n) * p + c];
     }
-
-
-
-    /// The points of one body in one cell follow each other.
-    template <int dim>
-    std::vector<Segment>
-    find_segments(const Points<dim>         &points,
-                  const std::vector<double> &points_of_cell)
-    {
-      const double        *body = points.data(points.body);
-      std::vector<Segment> segments;
-      unsigned int         begin = 0;
-      for (unsigned int c = 0; c < points_of_cell.size(); ++c)
-        {
-          const unsigned int end = begin + points_of_cell[c];
-          for (unsigned int p = begin; p < end; ++p)
-            if (p == begin || body[p] != body[p - 1])
-              segments.push_back(
-                {c, static_cast<unsigned int>(body[p]), p, p + 1});
-            else
-              segments.back().end = p + 1;
-          begin = end;
-        }
-      return segments;
-    }
   } // namespace
 
 
@@ -172,7 +147,7 @@ namespace talus
 
 
   template <int dim>
-  void
+  std::vector<unsigned int>
   load_points(Hdf5File &file, const unsigned int n_cells, Points<dim> &points)
   {
     const std::vector<double> points_of_cell =
@@ -189,7 +164,11 @@ namespace talus
     const std::uint64_t first = file.first_and_total(points.size()).first;
     for (const Column &column : points.columns())
       load_column(file, column, first, points);
-    points.reorder({{0, points.size()}}, find_segments(points, points_of_cell));
+
+    std::vector<unsigned int> cells;
+    for (unsigned int c = 0; c < n_cells; ++c)
+      cells.insert(cells.end(), points_of_cell[c], c);
+    return cells;
   }
 
 
@@ -253,8 +232,8 @@ namespace talus
   save_points(Hdf5File &, const Points<2> &, const std::vector<double> &);
   template void
   save_points(Hdf5File &, const Points<3> &, const std::vector<double> &);
-  template void
+  template std::vector<unsigned int>
   load_points(Hdf5File &, unsigned int, Points<2> &);
-  template void
+  template std::vector<unsigned int>
   load_points(Hdf5File &, unsigned int, Points<3> &);
 } // namespace talus

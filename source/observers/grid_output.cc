@@ -1,6 +1,7 @@
+#include <talus/grid/nodal_exchange.h>
 #include <talus/observers/grid_output.h>
 
-#include <unordered_set>
+#include <algorithm>
 
 namespace talus
 {
@@ -8,38 +9,51 @@ namespace talus
 
   namespace
   {
+    /// The sums of all nodes this rank knows, those of ghosts from their owners.
+    template <int dim>
+    AlignedVector<double>
+    sums_with_ghosts(const Snapshot<dim> &snapshot)
+    {
+      const std::size_t     n = n_lanes * std::size_t(snapshot.grid.n_nodes());
+      AlignedVector<double> sums(n);
+      std::copy_n(snapshot.nodes.sum(0), n, sums.begin());
+      NodalExchange<dim> exchange;
+      exchange.prepare(snapshot.grid, n_lanes);
+      exchange.copy_to_ghosts(sums.data());
+      return sums;
+    }
+
+
+
     template <int dim>
     std::vector<Field>
-    node_fields(const NodalFields<dim>                 &nodes,
-                const std::unordered_set<unsigned int> &active)
+    node_fields(const NodalFields<dim>      &nodes,
+                const AlignedVector<double> &sums)
     {
-      using Sum      = NodalSum<dim>;
-      const auto add = [&active](const std::string &name,
-                                 const unsigned int n,
-                                 const auto        &source) {
-        return Field{name,
-                     n == 1 ? FieldKind::scalar : FieldKind::vector,
-                     n,
-                     [&active, n, source](const unsigned int node,
-                                          float             *values) {
-                       // What inactive nodes hold is left from earlier steps.
-                       const bool is_active = active.count(node) > 0;
-                       for (unsigned int c = 0; c < n; ++c)
-                         values[c] = is_active ? source(node)[c] : 0.;
-                     }};
-      };
+      using Sum = NodalSum<dim>;
+      const auto add =
+        [](const std::string &name, const unsigned int n, const auto &source) {
+          return Field{name,
+                       n == 1 ? FieldKind::scalar : FieldKind::vector,
+                       n,
+                       [n, source](const unsigned int node, float *values) {
+                         for (unsigned int c = 0; c < n; ++c)
+                           values[c] = source(node)[c];
+                       }};
+        };
+      const double *first = sums.data();
       return {add("mass [kg]",
                   1,
-                  [&nodes](const unsigned int node) {
-                    return nodes.sum(node) + Sum::mass;
+                  [first](const unsigned int node) {
+                    return first + n_lanes * std::size_t(node) + Sum::mass;
                   }),
               add("velocity [m/s]",
                   dim,
                   [&nodes](const unsigned int node) {
                     return nodes.motion(node) + NodalMotion<dim>::velocity;
                   }),
-              add("force [N]", dim, [&nodes](const unsigned int node) {
-                return nodes.sum(node) + Sum::force;
+              add("force [N]", dim, [first](const unsigned int node) {
+                return first + n_lanes * std::size_t(node) + Sum::force;
               })};
     }
 
@@ -93,9 +107,8 @@ namespace talus
   void
   GridOutput<dim>::write(const Snapshot<dim> &snapshot)
   {
-    const auto                            &list = snapshot.nodes.active_nodes();
-    const std::unordered_set<unsigned int> active(list.begin(), list.end());
-    Patches<dim, dim> patches(node_fields(snapshot.nodes, active));
+    const AlignedVector<double> sums = sums_with_ghosts(snapshot);
+    Patches<dim, dim>           patches(node_fields(snapshot.nodes, sums));
 
     unsigned int previous = numbers::invalid_unsigned_int;
     for (const Segment &segment : snapshot.points.segments())

@@ -2,6 +2,7 @@
 #include <talus/simulation/body.h>
 #include <talus/simulation/expression.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
 #include <cmath>
@@ -183,7 +184,6 @@ namespace talus
       }
     points.data(points.reference_volume)[p] = volume;
     points.data(points.mass)[p]             = density * volume;
-    points.data(points.id)[p]               = p;
     points.data(points.body)[p]             = index;
   }
 
@@ -259,7 +259,8 @@ namespace talus
               }
           }
       }
-    AssertThrow(points.size() > n_before,
+    AssertThrow(Utilities::MPI::max(points.size() - n_before,
+                                    grid.communicator()) > 0,
                 ExcUser(text("The body '",
                              name_,
                              "' got no points: no centre of a point lies in "

@@ -29,6 +29,7 @@ namespace talus
     list.add_components(
       "wall impulse", "N s", boundary_work_.wall_impulse, dim, Reduction::sum);
     splitter_.list_state(list);
+    load_balance_.list_state(list);
     output_.list_state(list);
     return list;
   }
@@ -50,18 +51,22 @@ namespace talus
 
     grid_.load((resumed_from_.path / mesh_file_name).string(),
                faces_that_may_move());
-    // Here belongs the repartition of the mesh by these weights, which restores
-    // the ranks' shares; on one rank there is nothing to do.
-    const std::vector<double> cell_weights =
-      load_cell_weights(file,
-                        grid_.triangulation().n_locally_owned_active_cells());
-    check_read(file);
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int n_ranks_then = resumed_from_.head.n_ranks;
+    if (n_ranks == n_ranks_then && n_ranks > 1)
+      restore_partition(file);
     prepare();
 
-    load_points(file, grid_.n_owned_cells(), points_);
-    relocation_.adopt(points_);
+    // Not found by their positions: at a wall or on an edge these leave a choice.
+    relocation_.rebuild(points_,
+                        load_points(file, grid_.n_owned_cells(), points_));
     nodes_.activate(grid_, relocation_.occupied_cells());
     load_state(file, state());
+    splitter_.number_on(Utilities::MPI::this_mpi_process(communicator),
+                        n_ranks,
+                        n_ranks_then);
+    if (n_ranks != n_ranks_then)
+      share_out();
     AssertThrow(end_time_ >= time_,
                 ExcUser(text("The end time is ",
                              end_time_,
@@ -71,6 +76,24 @@ namespace talus
                              time_,
                              " s. Give a later 'End time'.")));
     output_.check_resumable(snapshot());
+  }
+
+
+
+  /// p4est has shared the cells evenly; the sums over ranks are bit by bit the
+  /// same only if every rank has what it had.
+  template <int dim>
+  void
+  Simulation<dim>::restore_partition(Hdf5File &file)
+  {
+    const auto weights = [&]() {
+      const auto result =
+        load_cell_weights(file, grid_.n_locally_owned_cells());
+      check_read(file);
+      return result;
+    };
+    grid_.repartition(weights());
+    load_balance_.set_weights(weights());
   }
 
 
@@ -136,14 +159,14 @@ namespace talus
 
 
 
-  /// What this rank wants to happen after this step.
+  /// What this rank wants to happen after the step that begins.
   template <int dim>
   Wish
   Simulation<dim>::own_wish() const
   {
     if (!remembered_signal().empty() || checkpoint_.limit_is_reached())
       return Wish::stop;
-    return checkpoint_.is_due(step_) ? Wish::checkpoint : Wish::none;
+    return checkpoint_.is_due(step_ + 1) ? Wish::checkpoint : Wish::none;
   }
 
 
@@ -186,10 +209,10 @@ namespace talus
   {
     TimerOutput::Scope scope(timer_, "checkpoint");
     output_.sync();
-    // Those of the last repartition belong here; so far there is none.
-    const std::vector<double> cell_weights(grid_.n_owned_cells(), 1.);
-    const StateList           list       = state();
-    const std::string         parameters = parameters_as_text(this->prm);
+    std::vector<double> cell_weights = load_balance_.weights();
+    cell_weights.resize(grid_.n_owned_cells(), 1.);
+    const StateList   list       = state();
+    const std::string parameters = parameters_as_text(this->prm);
     return checkpoint_.write(
       {points_, cell_weights, list, parameters, step_, time_, end_time_},
       grid_);
@@ -208,14 +231,15 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                                              \
-  template StateList             Simulation<dim>::state();            \
-  template void                  Simulation<dim>::resume();           \
-  template void                  Simulation<dim>::begin_run();        \
-  template Wish                  Simulation<dim>::own_wish() const;   \
-  template bool                  Simulation<dim>::act_on(Wish);       \
-  template std::filesystem::path Simulation<dim>::write_checkpoint(); \
-  template void                  Simulation<dim>::note_resume();      \
+#define INSTANTIATE(dim)                                                         \
+  template StateList             Simulation<dim>::state();                       \
+  template void                  Simulation<dim>::resume();                      \
+  template void                  Simulation<dim>::restore_partition(Hdf5File &); \
+  template void                  Simulation<dim>::begin_run();                   \
+  template Wish                  Simulation<dim>::own_wish() const;              \
+  template bool                  Simulation<dim>::act_on(Wish);                  \
+  template std::filesystem::path Simulation<dim>::write_checkpoint();            \
+  template void                  Simulation<dim>::note_resume();                 \
   template void                  Simulation<dim>::say(const std::string &);
 
   INSTANTIATE(2)

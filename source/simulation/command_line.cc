@@ -4,6 +4,7 @@
 #include <talus/version.h>
 
 #include <deal.II/base/config.h>
+#include <deal.II/base/mpi.h>
 
 #include <boost/program_options.hpp>
 
@@ -63,17 +64,21 @@ namespace talus
               variables);
     po::notify(variables);
 
+    std::ostream  nowhere(nullptr);
+    std::ostream &out =
+      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout
+                                                                    : nowhere;
     if (variables.count("help"))
       {
-        std::cout << "talus: submarine landslides by the material point "
-                     "method\n\nUsage: talus [options] FILE.prm\n\n"
-                  << visible;
+        out << "talus: submarine landslides by the material point "
+               "method\n\nUsage: talus [options] FILE.prm\n\n"
+            << visible;
         return {};
       }
     if (variables.count("version"))
       {
-        std::cout << "talus " << TALUS_VERSION << " (" << TALUS_GIT_REVISION
-                  << "), deal.II " << DEAL_II_PACKAGE_VERSION << std::endl;
+        out << "talus " << TALUS_VERSION << " (" << TALUS_GIT_REVISION
+            << "), deal.II " << DEAL_II_PACKAGE_VERSION << std::endl;
         return {};
       }
     AssertThrow(result.document || !result.parameter_file.empty(),

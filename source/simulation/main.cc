@@ -6,7 +6,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <chrono>
 #include <iostream>
+#include <thread>
 
 namespace
 {
@@ -15,6 +17,38 @@ namespace
   /// Exit status of a run that was stopped and can be resumed: EX_TEMPFAIL of
   /// sysexits.h.
   constexpr int stopped = 75;
+
+
+
+  bool
+  is_first_rank()
+  {
+    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
+  }
+
+
+
+  /// Tell what went wrong and return the exit status. Where all ranks failed,
+  /// as they do for a wrong parameter, they end together after one sentence;
+  /// where only some did, the others wait for them in vain and are stopped.
+  int
+  fail(const std::string &sentence)
+  {
+    MPI_Request all_failed;
+    int         is_complete = 0;
+    MPI_Ibarrier(MPI_COMM_WORLD, &all_failed);
+    for (unsigned int i = 0; i < 200 && !is_complete; ++i)
+      {
+        MPI_Test(&all_failed, &is_complete, MPI_STATUS_IGNORE);
+        if (!is_complete)
+          std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      }
+    if (is_first_rank() || !is_complete)
+      std::cerr << "talus: " << sentence << std::endl;
+    if (!is_complete)
+      MPI_Abort(MPI_COMM_WORLD, 1);
+    return 1;
+  }
 
 
 
@@ -52,7 +86,8 @@ namespace
       simulation.set_up();
     if (command_line.validate)
       {
-        std::cout << command_line.parameter_file << " is valid." << std::endl;
+        if (is_first_rank())
+          std::cout << command_line.parameter_file << " is valid." << std::endl;
         return 0;
       }
     try
@@ -72,16 +107,10 @@ namespace
   {
     if (command_line.document)
       {
-        document(std::cout);
+        if (is_first_rank())
+          document(std::cout);
         return 0;
       }
-    const unsigned int n_ranks =
-      dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    AssertThrow(n_ranks == 1,
-                ExcUser(text("talus was started on ",
-                             n_ranks,
-                             " MPI ranks, but so far it runs on one only. "
-                             "Start it without mpirun.")));
     const ParameterFile file(command_line.parameter_file,
                              command_line.overrides);
     return file.preview().dimension == 2 ? run<2>(command_line, file)
@@ -102,7 +131,6 @@ main(int argc, char **argv)
     }
   catch (const std::exception &exception)
     {
-      std::cerr << "talus: " << talus::message(exception) << std::endl;
-      return 1;
+      return fail(talus::message(exception));
     }
 }

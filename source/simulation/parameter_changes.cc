@@ -55,7 +55,8 @@ namespace talus
            {"Title", "End time", "Splitting/Maximum number of points"})
         if (path == name)
           return true;
-      for (const std::string section : {"Output/", "Checkpoint/"})
+      for (const std::string section :
+           {"Output/", "Checkpoint/", "Load balance/"})
         if (path.rfind(section, 0) == 0)
           return true;
       return false;

@@ -1,6 +1,8 @@
 #include <talus/base/errors.h>
 #include <talus/simulation/simulation.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -15,13 +17,18 @@ namespace talus
     /// Debug only.)
     template <int dim>
     [[maybe_unused]] bool
-    nobody_is_lost(const Points<dim> &points, const NodalFields<dim> &nodes)
+    nobody_is_lost(const Points<dim>      &points,
+                   const NodalFields<dim> &nodes,
+                   const MPI_Comm          communicator)
     {
-      const double *mass      = points.data(points.mass);
-      const double  of_points = std::accumulate(mass, mass + points.size(), 0.);
-      double        of_nodes  = 0;
+      const double *mass = points.data(points.mass);
+      const double  of_points =
+        Utilities::MPI::sum(std::accumulate(mass, mass + points.size(), 0.),
+                            communicator);
+      double of_nodes = 0;
       for (const unsigned int node : nodes.active_nodes())
         of_nodes += nodes.mass(node);
+      of_nodes = Utilities::MPI::sum(of_nodes, communicator);
       return std::abs(of_nodes - of_points) <= 1e-12 * of_points;
     }
   } // namespace
@@ -78,6 +85,7 @@ namespace talus
     grid_.create(faces_that_may_move());
     prepare();
     create_bodies();
+    share_out();
   }
 
 
@@ -100,53 +108,15 @@ namespace talus
     materials_.add_columns(points_);
     loading_.prepare(materials_, bodies_.size());
 
-    const std::array<bool, 2 *dim> may_move = faces_that_may_move();
-    std::array<double, 2 * dim>    may_lie_outside;
-    std::vector<bool>              cell_mean;
+    const auto                  may_move = faces_that_may_move();
+    std::array<double, 2 * dim> may_lie_outside;
+    std::vector<bool>           cell_mean;
     for (unsigned int face = 0; face < 2 * dim; ++face)
       may_lie_outside[face] = (may_move[face] ? 0. : 0.5);
     for (unsigned int b = 0; b < bodies_.size(); ++b)
       cell_mean.push_back(materials_.of_body(b).uses_cell_mean());
     transfer_.use_cell_mean(cell_mean);
     relocation_.allow_outside(may_lie_outside);
-  }
-
-
-
-  template <int dim>
-  std::array<bool, 2 * dim>
-  Simulation<dim>::faces_that_may_move() const
-  {
-    std::array<bool, 2 * dim> result;
-    for (unsigned int face = 0; face < 2 * dim; ++face)
-      result[face] = boundaries_.condition(face) == FaceCondition::free;
-    return result;
-  }
-
-
-
-  /// All that depends on the mesh.
-  template <int dim>
-  void
-  Simulation<dim>::prepare()
-  {
-    grid_.prepare();
-    nodes_.prepare(grid_);
-    relocation_.rebuild(points_, grid_);
-    nodes_.activate(grid_, relocation_.occupied_cells());
-    least_mass_ = transfer_.least_mass(least_density(), grid_.finest_size());
-  }
-
-
-
-  template <int dim>
-  double
-  Simulation<dim>::least_density() const
-  {
-    double result = materials_.of_body(0).density();
-    for (unsigned int b = 1; b < bodies_.size(); ++b)
-      result = std::min(result, materials_.of_body(b).density());
-    return result;
   }
 
 
@@ -171,17 +141,39 @@ namespace talus
         bodies_[b]->set_initial_stress(points_, b);
         material.initialize(points_, begin, points_.size());
       }
-    splitter_.set_next_id(points_.size());
+    number_points();
     relocation_.update(points_, grid_);
     nodes_.activate(grid_, relocation_.occupied_cells());
 
     if (initial_velocity_time_ == "half step")
       {
-        const double dt =
-          time_step_.choose(points_, grid_, materials_, transfer_.box_shape());
+        choose_time_step();
         for (unsigned int b = 0; b < bodies_.size(); ++b)
-          bodies_[b]->set_initial_velocity(points_, b, -0.5 * dt);
+          bodies_[b]->set_initial_velocity(points_, b, -0.5 * dt_);
+        dt_ = 0;
       }
+  }
+
+
+
+  /// Ids are unique over all ranks, now and after splits.
+  template <int dim>
+  void
+  Simulation<dim>::number_points()
+  {
+    const MPI_Comm     communicator = grid_.communicator();
+    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+    const auto         counts =
+      Utilities::MPI::all_gather(communicator, points_.size());
+    double first = 0, n_points = 0;
+    for (unsigned int r = 0; r < counts.size(); ++r)
+      {
+        first += (r < rank ? counts[r] : 0.);
+        n_points += counts[r];
+      }
+    for (unsigned int p = 0; p < points_.size(); ++p)
+      points_.data(points_.id)[p] = first + p;
+    splitter_.number_from(n_points + rank, counts.size());
   }
 
 
@@ -190,12 +182,12 @@ namespace talus
   void
   Simulation<dim>::advance()
   {
+    adapt_mesh();
     choose_time_step();
     points_to_grid();
     grid_to_points();
-    relocate();
-    if (splitter_.enforce(points_, grid_))
-      relocate(); // daughters may live next door
+    split();
+    relocate(); // daughters, too: they may live next door
     time_ += dt_;
     ++step_;
   }
@@ -207,8 +199,15 @@ namespace talus
   Simulation<dim>::choose_time_step()
   {
     TimerOutput::Scope scope(timer_, "time step");
-    dt_ = time_step_.choose(points_, grid_, materials_, transfer_.box_shape());
-    dt_ = std::min(dt_, end_time_ - time_);
+    // One message for both: the largest wish is the one with the least sign.
+    std::array<double, 2> all = {
+      {time_step_.choose(points_, grid_, materials_, transfer_.box_shape()),
+       -static_cast<double>(own_wish())}};
+    Utilities::MPI::min(ArrayView<const double>(all.data(), all.size()),
+                        grid_.communicator(),
+                        ArrayView<double>(all.data(), all.size()));
+    dt_   = std::min(all[0], end_time_ - time_);
+    wish_ = static_cast<Wish>(-all[1]);
   }
 
 
@@ -222,13 +221,13 @@ namespace talus
     nodes_.clear();
     transfer_.average_mean_stress(points_);
     transfer_.scatter(points_, grid_, loading_.loads(), nodes_);
-    nodes_.condense(grid_);
-    Assert(nobody_is_lost(points_, nodes_),
+    nodes_.sum_over_ranks(grid_);
+    Assert(nobody_is_lost(points_, nodes_, grid_.communicator()),
            ExcMessage("The nodes do not carry all mass of the points: a box "
                       "reaches beyond the cells around its own."));
     nodes_.update_momentum(dt_, least_mass_);
     boundary_work_ += boundaries_.apply(nodes_, grid_, dt_, least_mass_);
-    nodes_.distribute(grid_);
+    nodes_.share_with_ghosts(grid_);
   }
 
 
@@ -246,6 +245,16 @@ namespace talus
     TimerOutput::Scope scope(timer_, "stress update");
     materials_.update_stress(points_, dt_);
     update_stretch(points_, transfer_.box_shape().rule, dt_);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::split()
+  {
+    TimerOutput::Scope scope(timer_, "splitting");
+    splitter_.enforce(points_, grid_);
   }
 
 
@@ -289,7 +298,7 @@ namespace talus
         advance();
         if (output_.observe(snapshot(), time_ >= end_time_))
           note_time_step();
-        if (act_on(own_wish()))
+        if (act_on(wish_))
           return false;
       }
     return true;
@@ -312,7 +321,7 @@ namespace talus
                       " cells of ",
                       grid_.finest_size(),
                       " m; there are ",
-                      points_.size(),
+                      Utilities::MPI::sum(points_.size(), grid_.communicator()),
                       " points.",
                       grid_.adjustment()),
                  true);
@@ -329,7 +338,9 @@ namespace talus
     output_.note(text("t = ",
                       time_,
                       " s: the time step is ",
-                      time_step_.choose(points_, grid_, materials_, shape),
+                      Utilities::MPI::min(
+                        time_step_.choose(points_, grid_, materials_, shape),
+                        grid_.communicator()),
                       " s, limited by ",
                       time_step_.limited_by(points_, grid_, materials_, shape),
                       "."),

@@ -1,6 +1,8 @@
 #include <talus/base/errors.h>
 #include <talus/simulation/time_step.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -127,8 +129,9 @@ namespace talus
     for (unsigned int i = 0; i < n_lanes; ++i)
       raise(largest, std::array<double, 2>{{largest_lanes[i], 0.}});
 
+    // Infinite where there are no points.
     const double dt = 1. / largest;
-    AssertThrow(std::isfinite(dt) && dt > 0,
+    AssertThrow((std::isfinite(dt) || points.size() == 0) && dt > 0,
                 ExcPoint(text("No time step can be chosen (it would be ",
                               dt,
                               " s): velocity or wave speed are not finite at ",
@@ -166,6 +169,16 @@ namespace talus
                         " (wave speed ",
                         c,
                         " m/s)");
+        }
+    // The first of the ranks with the shortest step has the word.
+    const auto all =
+      Utilities::MPI::gather(grid.communicator(),
+                             std::pair<double, std::string>(largest, reason));
+    for (const auto &[bound, reason_there] : all)
+      if (bound > largest)
+        {
+          largest = bound;
+          reason  = reason_there;
         }
     if (maximum_ > 0 && 1. / largest > maximum_)
       return "'Time step/Maximum'";

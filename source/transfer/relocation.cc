@@ -78,14 +78,7 @@ namespace talus
   {
     const Point<dim> x    = position_of(points, p);
     const Cell<dim> &cell = grid.cells()[old_cell];
-    if (!grid.domain().contains(x))
-      {
-        // The wall is that of the cell it belongs to now.
-        const unsigned int c = grid.find_cell(x);
-        check_inside(points, grid, p, grid.cells()[c].size);
-        return c;
-      }
-    if (cell.uniform)
+    if (cell.uniform && grid.domain().contains(x))
       {
         // Nearly always the new cell is a neighbour.
         unsigned int neighbor = 0;
@@ -101,7 +94,33 @@ namespace talus
             cell.neighbors[neighbor] != numbers::invalid_unsigned_int)
           return cell.neighbors[neighbor];
       }
-    return grid.find_cell(x);
+    return cell_of(points, grid, p);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Relocation<dim>::cell_of(const Points<dim> &points,
+                           const Grid<dim>   &grid,
+                           const unsigned int p) const
+  {
+    const unsigned int c        = grid.find_cell(position_of(points, p));
+    const bool         is_known = (c != numbers::invalid_unsigned_int);
+    // The wall is that of the cell it belongs to now.
+    check_inside(points,
+                 grid,
+                 p,
+                 is_known ? grid.cells()[c].size : grid.finest_size());
+    AssertThrow(is_known,
+                ExcPoint(text("Point ",
+                              points.data(points.id)[p],
+                              " went to (",
+                              position_of(points, p),
+                              ") m in one step, farther than to a neighbouring "
+                              "cell. The simulation became unstable: lower "
+                              "'Time step/CFL number'.")));
+    return c;
   }
 
 
@@ -131,12 +150,35 @@ namespace talus
           }
       }
     for (unsigned int p = points.n_sorted(); p < points.size(); ++p)
-      {
-        const unsigned int c = grid.find_cell(position_of(points, p));
-        check_inside(points, grid, p, grid.cells()[c].size);
-        movers_.push_back(
-          {c, static_cast<unsigned int>(points.data(points.body)[p]), p});
-      }
+      movers_.push_back({cell_of(points, grid, p),
+                         static_cast<unsigned int>(points.data(points.body)[p]),
+                         p});
+  }
+
+
+
+  /// Let those whose new cell is a ghost travel to its owner.
+  template <int dim>
+  void
+  Relocation<dim>::send_movers(Points<dim> &points, const Grid<dim> &grid)
+  {
+    travellers_.clear();
+    if (grid.neighbor_ranks().empty())
+      return;
+    const auto leaves = [&](const Mover &mover) {
+      return mover.cell >= grid.n_owned_cells();
+    };
+    for (const Mover &mover : movers_)
+      if (leaves(mover))
+        travellers_.push_back({mover.index, mover.cell});
+    movers_.erase(std::remove_if(movers_.begin(), movers_.end(), leaves),
+                  movers_.end());
+    for (const auto &[index, cell] :
+         exchange_.exchange(travellers_, grid, points))
+      movers_.push_back(
+        {cell,
+         static_cast<unsigned int>(points.data(points.body)[index]),
+         index});
   }
 
 
@@ -203,6 +245,8 @@ namespace talus
     leaving_.clear();
     for (const Mover &mover : movers_)
       leaving_.push_back(mover.index);
+    for (const auto &traveller : travellers_)
+      leaving_.push_back(traveller.index);
     std::sort(leaving_.begin(), leaving_.end());
     std::sort(movers_.begin(),
               movers_.end(),
@@ -241,15 +285,10 @@ namespace talus
   Relocation<dim>::update(Points<dim> &points, const Grid<dim> &grid)
   {
     find_movers(points, grid);
-    if (movers_.empty())
+    send_movers(points, grid);
+    if (movers_.empty() && travellers_.empty())
       return false;
-    merge(points);
-    AssertThrow(n_merged_ == points.size(),
-                ExcMessage("The headcount of the points does not hold: " +
-                           std::to_string(points.size()) + " before sorting, " +
-                           std::to_string(n_merged_) + " after."));
-    points.reorder(runs_, segments_);
-    adopt(points);
+    sort_in(points);
     return true;
   }
 
@@ -257,8 +296,19 @@ namespace talus
 
   template <int dim>
   void
-  Relocation<dim>::adopt(const Points<dim> &points)
+  Relocation<dim>::sort_in(Points<dim> &points)
   {
+    merge(points);
+    AssertThrow(n_merged_ + travellers_.size() == points.size(),
+                ExcMessage(text("The headcount of the points does not hold: ",
+                                points.size(),
+                                " before sorting, ",
+                                n_merged_,
+                                " after, and ",
+                                travellers_.size(),
+                                " went to other ranks.")));
+    points.reorder(runs_, segments_);
+
     occupied_cells_.clear();
     for (const Segment &segment : points.segments())
       if (occupied_cells_.empty() || occupied_cells_.back() != segment.cell)
@@ -272,7 +322,26 @@ namespace talus
   Relocation<dim>::rebuild(Points<dim> &points, const Grid<dim> &grid)
   {
     points.forget_order();
-    update(points, grid);
+    find_movers(points, grid);
+    send_movers(points, grid);
+    sort_in(points);
+  }
+
+
+
+  template <int dim>
+  void
+  Relocation<dim>::rebuild(Points<dim>                     &points,
+                           const std::vector<unsigned int> &cells)
+  {
+    AssertDimension(cells.size(), points.size());
+    points.forget_order();
+    movers_.clear();
+    travellers_.clear();
+    for (unsigned int p = 0; p < points.size(); ++p)
+      movers_.push_back(
+        {cells[p], static_cast<unsigned int>(points.data(points.body)[p]), p});
+    sort_in(points);
   }
 
 

@@ -193,7 +193,7 @@ struct Core : FreshParameters
     set(points.stretch, p, one);
     set(points.creation_stretch, p, one);
     set_deformation(p, dealii::unit_symmetric_tensor<dim>());
-    splitter.set_next_id(points.size());
+    splitter.number_from(points.size(), 1);
     return p;
   }
 
@@ -237,7 +237,7 @@ struct Core : FreshParameters
     nodes.activate(grid, relocation.occupied_cells());
     transfer.average_mean_stress(points);
     transfer.scatter(points, grid, loads, nodes);
-    nodes.condense(grid);
+    nodes.sum_over_ranks(grid);
     std::vector<std::array<double, talus::n_lanes>> sums(grid.n_nodes());
     for (unsigned int n = 0; n < grid.n_nodes(); ++n)
       std::copy_n(nodes.sum(n), talus::n_lanes, sums[n].begin());

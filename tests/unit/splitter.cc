@@ -212,7 +212,7 @@ namespace
     points.copy(p, copy);
     points.data(points.id)[copy]         = 2;
     points.data(points.generation)[copy] = 3;
-    core.splitter.set_next_id(100);
+    core.splitter.number_from(100, 1);
     core.sort();
   }
 

@@ -30,7 +30,7 @@ namespace
     for (unsigned int n = 0; n < core.grid.n_nodes(); ++n)
       for (unsigned int i = 0; i < NodalMotion<dim>::width; ++i)
         core.nodes.motion(n)[i] = core.number(-1., 1.);
-    core.nodes.distribute(core.grid);
+    core.nodes.share_with_ghosts(core.grid);
     double of_nodes = 0, of_points = 0, scale = 0;
     for (unsigned int n = 0; n < core.grid.n_nodes(); ++n)
       for (unsigned int d = 0; d < dim; ++d)

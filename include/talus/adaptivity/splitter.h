@@ -41,11 +41,26 @@ namespace talus
       return statistics_;
     }
 
-    /// First id that no point has.
+    /// The first new daughter gets the id @p first, the next one that plus
+    /// @p stride, ...: so that ids differ over ranks.
     void
-    set_next_id(const double id)
+    number_from(const double first, const double stride)
     {
-      next_id_ = id;
+      next_id_   = first;
+      id_stride_ = stride;
+    }
+
+    /// Continue the numbers after list_state() was loaded on @p n_ranks ranks
+    /// from a run on @p n_ranks_then: on another number all ranks have the
+    /// largest of the next ids, and part here.
+    void
+    number_on(const unsigned int rank,
+              const unsigned int n_ranks,
+              const unsigned int n_ranks_then)
+    {
+      if (n_ranks != n_ranks_then)
+        next_id_ += rank;
+      id_stride_ = n_ranks;
     }
 
     /// Add what was split so far, and the next id, to the state of the run.
@@ -83,7 +98,8 @@ namespace talus
       unsigned int axes;
     };
     std::vector<Violation> violations_;
-    double                 next_id_ = 0;
+    double                 next_id_   = 0;
+    double                 id_stride_ = 1;
     Ledger<dim>            ledger_;
     SplitStatistics        statistics_;
   };

@@ -3,6 +3,7 @@
 
 #include <talus/base/box.h>
 
+#include <deal.II/base/index_set.h>
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <deal.II/distributed/tria.h>
@@ -56,9 +57,12 @@ namespace talus
   /// The background grid: a p4est mesh of square (cubic) cells over a box, with
   /// Q1 elements and a flat cache of what the transfer needs.
   ///
-  /// Cells are numbered as deal.II walks over the active cells this rank knows,
-  /// the locally owned ones first. Nodes are numbered as the locally relevant
-  /// degrees of freedom.
+  /// Cells are numbered in the order of p4est's space-filling curve, those this
+  /// rank owns first, then its ghosts: an order that depends on the mesh alone
+  /// and not on how it came about. Nodes are numbered as the owned cells, in
+  /// this order, meet them; then come the ghosts, by owner. Ghosts are the
+  /// nodes of the cells around the owned ones, and the masters of those among
+  /// them that hang.
   template <int dim>
   class Grid : public dealii::ParameterAcceptor
   {
@@ -84,6 +88,19 @@ namespace talus
     /// the cells evenly among the ranks. Collective.
     void
     load(const std::string &path, const std::array<bool, 2 * dim> &may_move);
+
+    /// Cells that this rank owns, also before prepare() counts them.
+    unsigned int
+    n_locally_owned_cells() const
+    {
+      return triangulation_.n_locally_owned_active_cells();
+    }
+
+    /// Share the cells out among the ranks by their weights; those of the cells
+    /// this rank owns are given in the order of the cells. To be called before
+    /// prepare(). Collective.
+    void
+    repartition(const std::vector<double> &weights);
 
     /// Rebuild degrees of freedom, constraints and the cell cache; to be called
     /// after each change of the mesh.
@@ -130,11 +147,63 @@ namespace talus
       return triangulation_.n_global_active_cells();
     }
 
+    /// Nodes this rank knows.
     unsigned int
     n_nodes() const
     {
-      return n_nodes_;
+      return owned_nodes_.n_elements() + ghost_nodes_.n_elements();
     }
+
+    unsigned int
+    n_owned_nodes() const
+    {
+      return owned_nodes_.n_elements();
+    }
+
+    /// Indices over all ranks of the nodes this rank owns, and of its ghosts.
+    const dealii::IndexSet &
+    owned_nodes() const
+    {
+      return owned_nodes_;
+    }
+
+    const dealii::IndexSet &
+    ghost_nodes() const
+    {
+      return ghost_nodes_;
+    }
+
+    /// Nodes of this rank that are ghosts elsewhere, ascending.
+    const std::vector<unsigned int> &
+    interface_nodes() const
+    {
+      return interface_nodes_;
+    }
+
+    /// Rank that owns the cell.
+    unsigned int
+    owner_of_cell(const unsigned int c) const
+    {
+      return c < n_owned_cells_ ? triangulation_.locally_owned_subdomain()
+                                : owner_of_ghost_[c - n_owned_cells_];
+    }
+
+    /// Ranks that own ghost cells of this one, ascending; this rank owns ghost
+    /// cells of theirs.
+    const std::vector<unsigned int> &
+    neighbor_ranks() const
+    {
+      return neighbor_ranks_;
+    }
+
+    /// Name of a cell that all ranks know it by.
+    unsigned long
+    key_of_cell(unsigned int c) const;
+
+    /// The inverse of key_of_cell(); invalid_unsigned_int if this rank does not
+    /// know the cell.
+    unsigned int
+    cell_of_key(unsigned long key) const;
 
     /// The cells that share at least a corner with cell @p c, itself included,
     /// whatever their size; kept only for cells that are not uniform.
@@ -165,7 +234,7 @@ namespace talus
       double volume = 0;
     };
 
-    /// Share of node @p node in face @p face of the mesh.
+    /// Share of node @p node, owned by this rank, in face @p face of the mesh.
     const FaceShare &
     face_share(const unsigned int face, const unsigned int node) const
     {
@@ -200,7 +269,7 @@ namespace talus
     /// Index among cells() of an active deal.II cell.
     unsigned int
     index_of(
-      const typename dealii::DoFHandler<dim>::active_cell_iterator &cell) const
+      const typename dealii::Triangulation<dim>::cell_iterator &cell) const
     {
       return index_of_active_cell_[cell->active_cell_index()];
     }
@@ -221,6 +290,14 @@ namespace talus
     create_trees(const std::array<bool, 2 * dim> &may_move);
     unsigned int
     refinement_that_divides() const;
+    std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator>
+    cells_in_order() const;
+    void
+    number_nodes();
+    void
+    find_ghost_nodes();
+    unsigned int
+    local_node(dealii::types::global_dof_index node) const;
     void
     list_cells();
     void
@@ -231,8 +308,8 @@ namespace talus
     find_touching_cells(unsigned int c);
     void
     mark_boundary_nodes();
-    void
-    list_hanging_nodes();
+    std::vector<unsigned int>
+    nodes_on_face(unsigned int c, unsigned int face) const;
 
     Lattice
     lattice_place(const dealii::Point<dim> &x, unsigned int level) const;
@@ -258,14 +335,17 @@ namespace talus
     dealii::parallel::distributed::Triangulation<dim> triangulation_;
     dealii::FE_Q<dim>                                 fe_;
     dealii::DoFHandler<dim>                           dof_handler_;
-    dealii::AffineConstraints<double>                 constraints_;
 
     // The flat cache
     std::vector<Cell<dim>>                          cells_;
     std::vector<unsigned int>                       level_of_cell_;
     std::vector<unsigned int>                       index_of_active_cell_;
     unsigned int                                    n_owned_cells_ = 0;
-    unsigned int                                    n_nodes_       = 0;
+    std::vector<unsigned int>                       owner_of_ghost_;
+    std::vector<unsigned int>                       neighbor_ranks_;
+    dealii::IndexSet                                owned_nodes_;
+    dealii::IndexSet                                ghost_nodes_;
+    std::vector<unsigned int>                       interface_nodes_;
     std::unordered_map<unsigned long, unsigned int> cell_map_;
     std::unordered_map<unsigned int, std::vector<unsigned int>> touching_;
     std::vector<unsigned char>                                  faces_of_node_;

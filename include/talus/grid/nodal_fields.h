@@ -3,6 +3,7 @@
 
 #include <talus/base/lanes.h>
 #include <talus/grid/grid.h>
+#include <talus/grid/nodal_exchange.h>
 
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/tensor.h>
@@ -63,34 +64,38 @@ namespace talus
     void
     prepare(const Grid<dim> &grid);
 
-    /// Make the nodes of the patches of these cells (ascending) active.
+    /// Make the nodes of the patches of these cells (ascending) active, and
+    /// those this rank shares with others, which may have points near them.
     void
     activate(const Grid<dim> &grid, const std::vector<unsigned int> &cells);
 
-    /// Set all sums of the active nodes to zero.
+    /// Set all sums of the active nodes, and of all ghosts, to zero.
     void
     clear();
 
-    /// Add the sums at hanging nodes to their masters'.
+    /// Add the sums at hanging nodes to their masters', and those of the ghosts
+    /// to their owners': one message to each neighbour. Collective.
     void
-    condense(const Grid<dim> &grid);
+    sum_over_ranks(const Grid<dim> &grid);
 
-    /// v += dt f/m on all active nodes with more mass than @p least_mass; the
-    /// others carry nothing and get no velocity.
+    /// v += dt f/m on all active nodes of this rank with more mass than
+    /// @p least_mass; the others carry nothing and get no velocity.
     void
     update_momentum(double dt, double least_mass);
 
-    /// Give hanging nodes the motion their masters imply.
+    /// Give ghosts the motion of their owners, and hanging nodes the one that
+    /// their masters imply: one message to each neighbour. Collective.
     void
-    distribute(const Grid<dim> &grid);
+    share_with_ghosts(const Grid<dim> &grid);
 
+    /// Active nodes that this rank owns.
     const std::vector<unsigned int> &
     active_nodes() const
     {
       return active_nodes_;
     }
 
-    /// Active nodes on a face of the mesh.
+    /// Those of them on a face of the mesh.
     const std::vector<unsigned int> &
     active_boundary_nodes() const
     {
@@ -140,14 +145,22 @@ namespace talus
     dealii::Tensor<1, dim>
     mean_velocity(const unsigned int node) const;
 
-    /// Kinetic energy of the active nodes, J.
+    /// Kinetic energy of the nodes of this rank, J.
     double
     kinetic_energy() const;
 
   private:
+    void
+    add_active(const Grid<dim> &grid, unsigned int node);
+
+    unsigned int                  n_owned_nodes_ = 0;
+    unsigned int                  n_nodes_       = 0;
     dealii::AlignedVector<double> sums_;
     dealii::AlignedVector<double> motions_;
+    NodalExchange<dim>            exchange_of_sums_;
+    NodalExchange<dim>            exchange_of_motions_;
     std::vector<unsigned int>     active_nodes_;
+    std::vector<unsigned int>     active_ghosts_;
     std::vector<unsigned int>     formerly_active_nodes_;
     std::vector<unsigned int>     active_boundary_nodes_;
     std::vector<unsigned char>    is_active_;

@@ -86,9 +86,9 @@ namespace talus
     bool         at_the_end_      = true;
 
     std::filesystem::path output_folder_;
-    MPI_Comm              communicator_ = MPI_COMM_NULL;
-    Clock::time_point     start_;
-    Clock::time_point     last_time_;
+    MPI_Comm              communicator_ = MPI_COMM_WORLD;
+    Clock::time_point     start_        = Clock::now();
+    Clock::time_point     last_time_    = start_;
     std::filesystem::path last_; // empty if there is none
   };
 } // namespace talus

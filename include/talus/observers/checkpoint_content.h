@@ -51,11 +51,11 @@ namespace talus
   std::vector<double>
   load_cell_weights(Hdf5File &file, unsigned int n_cells);
 
-  /// Load the points of the @p n_cells cells this rank owns now, sorted as they
-  /// were: their order within a cell is part of the state. @p points must be
-  /// empty and have its columns. Throws ExcUser if the file has other columns.
+  /// Load the points of the @p n_cells cells this rank owns now, in the order
+  /// they had, which is part of the state. Returns the cell of each; @p points
+  /// must be empty and have its columns. Throws ExcUser if the file has others.
   template <int dim>
-  void
+  std::vector<unsigned int>
   load_points(Hdf5File &file, unsigned int n_cells, Points<dim> &points);
 
 

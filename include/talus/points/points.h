@@ -93,6 +93,13 @@ namespace talus
     unsigned int
     find(const std::string &name) const;
 
+    /// Number of scalar arrays that hold the columns.
+    unsigned int
+    n_arrays() const
+    {
+      return arrays_.size();
+    }
+
     double *
     data(const unsigned int column, const unsigned int component = 0)
     {
@@ -126,9 +133,18 @@ namespace talus
     copy(unsigned int from, unsigned int to);
 
     /// Reorder: the new order is the concatenation of @p runs, which name each
-    /// point once. @p segments describes the new order.
+    /// point once but those that went to another rank. @p segments describes
+    /// the new order.
     void
     reorder(const std::vector<Run> &runs, const std::vector<Segment> &segments);
+
+    /// Remove all points: they went elsewhere.
+    void
+    clear()
+    {
+      size_ = 0;
+      segments_.clear();
+    }
 
     /// Forget the cells: all points wait to be sorted in.
     void

@@ -22,8 +22,9 @@ namespace talus
 
     /// Fill the body with points: the given number per axis in each cell of the
     /// mesh, those whose centre lies in the shape. Sets everything that does not
-    /// depend on the material but mass, which is @p density times the volume.
-    /// Throws ExcUser if the body does not lie in the mesh or gets no points.
+    /// depend on the material but mass, which is @p density times the volume,
+    /// and the id. Throws ExcUser if the body does not lie in the mesh or gets
+    /// no points. Collective.
     void
     create_points(const Grid<dim> &grid,
                   unsigned int     index,

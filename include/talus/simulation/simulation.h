@@ -1,6 +1,7 @@
 #ifndef talus_simulation_simulation_h
 #define talus_simulation_simulation_h
 
+#include <talus/adaptivity/load_balance.h>
 #include <talus/adaptivity/splitter.h>
 #include <talus/boundaries/boundaries.h>
 #include <talus/grid/grid.h>
@@ -88,9 +89,15 @@ namespace talus
     double
     least_density() const;
     void
+    number_points();
+    void
     prepare();
     void
     begin_run();
+    void
+    share_out();
+    void
+    adapt_mesh();
     void
     note_start();
     void
@@ -102,9 +109,13 @@ namespace talus
     void
     grid_to_points();
     void
+    split();
+    void
     relocate();
 
     // Checkpoints
+    void
+    restore_partition(Hdf5File &file);
     StateList
     state();
     Wish
@@ -134,6 +145,7 @@ namespace talus
     Materials<dim>                          materials_;
     Boundaries<dim>                         boundaries_;
     Splitter<dim>                           splitter_;
+    LoadBalance<dim>                        load_balance_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     Loading<dim>                            loading_;
     TimeStep<dim>                           time_step_;
@@ -149,7 +161,8 @@ namespace talus
     BoundaryWork<dim> boundary_work_;
     double            least_mass_ = 0; ///< kg
 
-    FoundCheckpoint resumed_from_; // no path in a run from the start
+    Wish            wish_ = Wish::none; // of all ranks, for after this step
+    FoundCheckpoint resumed_from_;      // no path in a run from the start
     bool            may_overwrite_ = false;
   };
 } // namespace talus

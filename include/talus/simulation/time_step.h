@@ -24,15 +24,16 @@ namespace talus
   public:
     TimeStep();
 
-    /// The step for this state, s. Throws ExcPoint if it is not a positive
-    /// number.
+    /// The step that this rank's points allow, s; infinite if there are none.
+    /// Throws ExcPoint if it is not a positive number.
     double
     choose(const Points<dim>    &points,
            const Grid<dim>      &grid,
            const Materials<dim> &materials,
            const BoxShape       &shape);
 
-    /// Sentence that names what limits the step in this state.
+    /// Sentence that names what limits the step in this state, right on the
+    /// first rank. Collective.
     std::string
     limited_by(const Points<dim>    &points,
                const Grid<dim>      &grid,

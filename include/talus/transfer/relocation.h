@@ -3,15 +3,16 @@
 
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
+#include <talus/transfer/point_exchange.h>
 
 #include <array>
 #include <vector>
 
 namespace talus
 {
-  /// Keeps the points sorted by cell as they move. The cost is that of looking
-  /// at every point once, plus, when points changed cell, of copying the columns
-  /// in a few long runs.
+  /// Keeps the points sorted by cell as they move, and on the rank that owns
+  /// their cell. The cost is that of looking at every point once, plus, when
+  /// points changed cell, of copying the columns in a few long runs.
   template <int dim>
   class Relocation
   {
@@ -26,8 +27,9 @@ namespace talus
     }
 
     /// Find the cells of all points and sort those that changed cell, and those
-    /// appended since the last call, into the order. Returns whether the order
-    /// changed. Throws ExcPoint, naming the point, if one left the mesh.
+    /// appended since the last call, into the order; those whose new cell
+    /// belongs to another rank travel there. Returns whether the order changed.
+    /// Throws ExcPoint, naming the point, if one left the mesh. Collective.
     bool
     update(Points<dim> &points, const Grid<dim> &grid);
 
@@ -35,9 +37,9 @@ namespace talus
     void
     rebuild(Points<dim> &points, const Grid<dim> &grid);
 
-    /// Take over the order that the points have, as a checkpoint restores it.
+    /// The same if the owned cell of each point is known.
     void
-    adopt(const Points<dim> &points);
+    rebuild(Points<dim> &points, const std::vector<unsigned int> &cells);
 
     /// Cells that hold points, ascending.
     const std::vector<unsigned int> &
@@ -64,8 +66,16 @@ namespace talus
                  const Grid<dim>   &grid,
                  unsigned int       p,
                  double             cell_size) const;
+    unsigned int
+    cell_of(const Points<dim> &points,
+            const Grid<dim>   &grid,
+            unsigned int       p) const;
     void
     find_movers(const Points<dim> &points, const Grid<dim> &grid);
+    void
+    send_movers(Points<dim> &points, const Grid<dim> &grid);
+    void
+    sort_in(Points<dim> &points);
     void
     merge(const Points<dim> &points);
     void
@@ -78,9 +88,12 @@ namespace talus
     std::array<double, 2 * dim> allowed_outside_{};
     std::vector<unsigned int>   occupied_cells_;
 
+    PointExchange<dim> exchange_;
+
     // Kept between calls so that a step does not allocate.
-    std::vector<Mover>        movers_;
-    std::vector<unsigned int> leaving_; ///< indices of movers, ascending
+    std::vector<Mover>                                  movers_;
+    std::vector<typename PointExchange<dim>::Traveller> travellers_;
+    std::vector<unsigned int> leaving_; ///< indices of both, ascending
     std::vector<Run>          runs_;
     std::vector<Segment>      segments_;
     unsigned int              n_merged_ = 0;

@@ -69,7 +69,7 @@ namespace talus
   /// Weights by the definition: for every cell that the box overlaps, the mean
   /// of its shape functions over the overlap, times the overlap's share of the
   /// box. Any cells may touch cell @p c, hanging nodes included (whose share
-  /// NodalFields::condense() passes on); a node may be listed several times.
+  /// NodalFields::sum_over_ranks() passes on); a node may be listed several times.
   ///
   /// @param half half lengths of the box, m, at most half of the cell.
   template <int dim>

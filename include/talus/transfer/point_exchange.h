@@ -1,0 +1,59 @@
+#ifndef talus_transfer_point_exchange_h
+#define talus_transfer_point_exchange_h
+
+#include <talus/grid/grid.h>
+#include <talus/points/points.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <memory>
+#include <vector>
+
+namespace talus
+{
+  /// Takes points whose cell belongs to another rank there: one message to each
+  /// neighbour, empty or not, and no operation of all ranks.
+  template <int dim>
+  class PointExchange
+  {
+  public:
+    struct Traveller
+    {
+      unsigned int index; ///< of the point
+      unsigned int cell;  ///< a ghost
+    };
+
+    struct Arrival
+    {
+      unsigned int index; ///< of the point, appended
+      unsigned int cell;  ///< an owned cell
+    };
+
+    /// Send these points, which stay here as dead copies, and append those that
+    /// come in, in the order of the ranks and of their lists. Collective.
+    const std::vector<Arrival> &
+    exchange(const std::vector<Traveller> &travellers,
+             const Grid<dim>              &grid,
+             Points<dim>                  &points);
+
+  private:
+    void
+    send(const std::vector<Traveller> &travellers,
+         const Grid<dim>              &grid,
+         const Points<dim>            &points);
+    void
+    receive(unsigned int rank, const Grid<dim> &grid, Points<dim> &points);
+
+    // Own tags need an own communicator.
+    std::unique_ptr<dealii::Utilities::MPI::DuplicatedCommunicator>
+      communicator_;
+
+    // Kept between calls so that a step does not allocate.
+    std::vector<Arrival>             arrivals_;
+    std::vector<std::vector<double>> outgoing_; ///< for each neighbour
+    std::vector<double>              incoming_;
+    std::vector<MPI_Request>         requests_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,179 @@
+// The part of Grid that numbers the nodes and knows those of other ranks.
+
+#include <talus/grid/grid.h>
+#include <talus/grid/nodal_exchange.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/mpi.templates.h>
+
+#include <deal.II/dofs/dof_tools.h>
+
+#include <algorithm>
+#include <map>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// A hanging node and its masters, by their indices over all ranks.
+    using Masters = std::vector<std::pair<types::global_dof_index, double>>;
+    using Hanging = std::map<types::global_dof_index, Masters>;
+
+    std::map<unsigned int, std::vector<types::global_dof_index>>
+    sort_by_owner(const IndexSet &owned, const IndexSet &ghosts, MPI_Comm comm)
+    {
+      const std::vector<unsigned int> owners =
+        Utilities::MPI::compute_index_owner(owned, ghosts, comm);
+      std::map<unsigned int, std::vector<types::global_dof_index>> result;
+      for (unsigned int i = 0; i < owners.size(); ++i)
+        result[owners[i]].push_back(ghosts.nth_index_in_set(i));
+      return result;
+    }
+
+
+
+    /// A hanging node at the edge of what a rank knows may hang on a cell that
+    /// it does not know: ask the owner. The owner itself, in 3-D, may have to be
+    /// told by one who knows.
+    void
+    complete_hanging_nodes(
+      const IndexSet &owned,
+      const std::map<unsigned int, std::vector<types::global_dof_index>>
+                    &ghosts,
+      const MPI_Comm comm,
+      Hanging       &hanging)
+    {
+      std::map<unsigned int, Hanging> known;
+      for (const auto &[owner, nodes] : ghosts)
+        for (const auto node : nodes)
+          if (const auto it = hanging.find(node); it != hanging.end())
+            known[owner].insert(*it);
+      for (const auto &message : Utilities::MPI::some_to_some(comm, known))
+        for (const auto &[node, masters] : message.second)
+          if (owned.is_element(node))
+            hanging.emplace(node, masters);
+
+      std::map<unsigned int, Hanging> answers;
+      for (const auto &[rank, nodes] :
+           Utilities::MPI::some_to_some(comm, ghosts))
+        for (const auto node : nodes)
+          if (const auto it = hanging.find(node); it != hanging.end())
+            answers[rank].insert(*it);
+      for (const auto &message : Utilities::MPI::some_to_some(comm, answers))
+        hanging.insert(message.second.begin(), message.second.end());
+    }
+  } // namespace
+
+
+
+  /// Number the nodes as the cells in their order meet them.
+  template <int dim>
+  void
+  Grid<dim>::number_nodes()
+  {
+    dof_handler_.distribute_dofs(fe_);
+    const IndexSet &owned = dof_handler_.locally_owned_dofs();
+    std::vector<types::global_dof_index> numbers(owned.n_elements(),
+                                                 numbers::invalid_dof_index),
+      dofs(fe_.n_dofs_per_cell());
+    types::global_dof_index next =
+      owned.n_elements() == 0 ? 0 : owned.nth_index_in_set(0);
+    for (const auto &cell : cells_in_order())
+      if (cell->is_locally_owned())
+        {
+          cell->get_dof_indices(dofs);
+          for (const auto dof : dofs)
+            if (owned.is_element(dof))
+              if (auto &number = numbers[owned.index_within_set(dof)];
+                  number == numbers::invalid_dof_index)
+                number = next++;
+        }
+    dof_handler_.renumber_dofs(numbers);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Grid<dim>::local_node(const types::global_dof_index node) const
+  {
+    return owned_nodes_.is_element(node)
+             ? owned_nodes_.index_within_set(node)
+             : owned_nodes_.n_elements() + ghost_nodes_.index_within_set(node);
+  }
+
+
+
+  /// Set the lists of owned, ghost and hanging nodes.
+  template <int dim>
+  void
+  Grid<dim>::find_ghost_nodes()
+  {
+    const MPI_Comm comm = communicator();
+    owned_nodes_        = dof_handler_.locally_owned_dofs();
+    IndexSet relevant;
+    DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant);
+    AffineConstraints<double> constraints(relevant);
+    DoFTools::make_hanging_node_constraints(dof_handler_, constraints);
+    constraints.close();
+    Hanging hanging;
+    for (const auto &line : constraints.get_lines())
+      hanging[line.index] = line.entries;
+
+    ghost_nodes_ = relevant;
+    ghost_nodes_.subtract_set(owned_nodes_);
+    if (Utilities::MPI::n_mpi_processes(comm) > 1 &&
+        Utilities::MPI::max(static_cast<unsigned int>(hanging.size()), comm) >
+          0)
+      {
+        complete_hanging_nodes(owned_nodes_,
+                               sort_by_owner(owned_nodes_, ghost_nodes_, comm),
+                               comm,
+                               hanging);
+        for (const auto &[node, masters] : hanging)
+          for (const auto &master : masters)
+            if (!owned_nodes_.is_element(master.first))
+              ghost_nodes_.add_index(master.first);
+      }
+    ghost_nodes_.compress();
+
+    hanging_nodes_.clear();
+    for (const auto &[node, masters] : hanging)
+      {
+        HangingNode entry{local_node(node), {}};
+        for (const auto &[master, weight] : masters)
+          {
+            Assert(hanging.count(master) == 0, ExcInternalError());
+            entry.masters.emplace_back(local_node(master), weight);
+          }
+        hanging_nodes_.push_back(entry);
+      }
+
+    const Utilities::MPI::Partitioner partitioner(owned_nodes_,
+                                                  ghost_nodes_,
+                                                  comm);
+    interface_nodes_.clear();
+    for (const auto &[begin, end] : partitioner.import_indices())
+      for (unsigned int node = begin; node < end; ++node)
+        interface_nodes_.push_back(node);
+    std::sort(interface_nodes_.begin(), interface_nodes_.end());
+    interface_nodes_.erase(std::unique(interface_nodes_.begin(),
+                                       interface_nodes_.end()),
+                           interface_nodes_.end());
+  }
+
+
+
+  template void
+  Grid<2>::number_nodes();
+  template void
+                        Grid<3>::number_nodes();
+  template unsigned int Grid<2>::local_node(types::global_dof_index) const;
+  template unsigned int Grid<3>::local_node(types::global_dof_index) const;
+  template void
+  Grid<2>::find_ghost_nodes();
+  template void
+  Grid<3>::find_ghost_nodes();
+} // namespace talus

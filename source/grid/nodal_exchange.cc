@@ -1,0 +1,96 @@
+#include <talus/base/errors.h>
+#include <talus/grid/nodal_exchange.h>
+
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Each index becomes @p width consecutive ones: so deal.II's partitioner,
+    /// which knows single numbers only, carries records.
+    IndexSet
+    widened(const IndexSet &indices, const unsigned int width)
+    {
+      IndexSet result(indices.size() * width);
+      for (auto range = indices.begin_intervals();
+           range != indices.end_intervals();
+           ++range)
+        result.add_range(*range->begin() * width, (range->last() + 1) * width);
+      result.compress();
+      return result;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  NodalExchange<dim>::prepare(const Grid<dim> &grid, const unsigned int width)
+  {
+    const IndexSet &owned = grid.owned_nodes();
+    const double largest  = std::numeric_limits<types::global_dof_index>::max();
+    AssertThrow(1. * owned.size() * width < largest,
+                ExcUser(text("The mesh has ",
+                             owned.size(),
+                             " nodes; messages between ranks can name at most ",
+                             static_cast<unsigned long>(largest / width),
+                             ". Choose a larger 'Grid/Cell size' or a smaller "
+                             "box.")));
+    // A new one: deal.II 9.4's reinit() forgets ghosts that had become none.
+    partitioner_ =
+      std::make_unique<Utilities::MPI::Partitioner>(widened(owned, width),
+                                                    widened(grid.ghost_nodes(),
+                                                            width),
+                                                    grid.communicator());
+    buffer_.resize_fast(partitioner_->n_import_indices());
+  }
+
+
+
+  template <int dim>
+  void
+  NodalExchange<dim>::add_to_owners(double *records)
+  {
+    const unsigned int      n_owned = partitioner_->locally_owned_size();
+    const ArrayView<double> owned(records, n_owned);
+    const ArrayView<double> ghosts(records + n_owned,
+                                   partitioner_->n_ghost_indices());
+    const ArrayView<double> buffer(buffer_.data(), buffer_.size());
+    requests_.clear();
+    partitioner_->import_from_ghosted_array_start(
+      VectorOperation::add, 0, ghosts, buffer, requests_);
+    partitioner_->import_from_ghosted_array_finish(
+      VectorOperation::add,
+      ArrayView<const double>(buffer.data(), buffer.size()),
+      owned,
+      ghosts,
+      requests_);
+  }
+
+
+
+  template <int dim>
+  void
+  NodalExchange<dim>::copy_to_ghosts(double *records)
+  {
+    const unsigned int      n_owned = partitioner_->locally_owned_size();
+    const ArrayView<double> ghosts(records + n_owned,
+                                   partitioner_->n_ghost_indices());
+    requests_.clear();
+    partitioner_->export_to_ghosted_array_start(
+      1,
+      ArrayView<const double>(records, n_owned),
+      ArrayView<double>(buffer_.data(), buffer_.size()),
+      ghosts,
+      requests_);
+    partitioner_->export_to_ghosted_array_finish(ghosts, requests_);
+  }
+
+
+
+  template class NodalExchange<2>;
+  template class NodalExchange<3>;
+} // namespace talus
