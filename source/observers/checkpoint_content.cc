@@ -176,11 +176,20 @@ namespace talus
   void
   save_state(Hdf5File &file, const StateList &list)
   {
-    file.create_group("state");
+    std::vector<double> own;
     for (const StateList::Number &number : list.numbers())
+      own.push_back(number.get());
+    const auto of_ranks = Utilities::MPI::all_gather(file.communicator(), own);
+
+    file.create_group("state");
+    for (unsigned int i = 0; i < own.size(); ++i)
       {
-        const std::string name = "state/" + checked(number.name);
-        file.write(name, {number.get()}, 1);
+        const StateList::Number &number = list.numbers()[i];
+        const std::string        name   = "state/" + checked(number.name);
+        std::vector<double>      shares;
+        for (const std::vector<double> &numbers : of_ranks)
+          shares.push_back(numbers[i]);
+        file.write_known(name, shares);
         file.set_attribute(name, "unit", number.unit);
         file.set_attribute(name, "over ranks", name_of(number.reduction));
       }

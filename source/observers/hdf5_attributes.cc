@@ -50,7 +50,7 @@ namespace talus
                                              H5P_DEFAULT,
                                              H5P_DEFAULT),
                            H5Aclose);
-    conclude(hdf5_complaint(attribute >= 0 &&
+    remember(hdf5_complaint(attribute >= 0 &&
                             H5Awrite(attribute, type, value) >= 0),
              "the attribute '" + name + "' could not be written");
   }

@@ -91,13 +91,29 @@ namespace talus
 
 
 
+  void
+  Hdf5File::remember(const std::string &complaint, const std::string &action)
+  {
+    if (!complaint.empty() && own_complaint_.empty())
+      own_complaint_ = action + " (HDF5: " + complaint + ")";
+  }
+
+
+
   bool
   Hdf5File::conclude(const std::string &complaint, const std::string &action)
   {
-    const std::string own =
-      complaint.empty() ? "" : action + " (HDF5: " + complaint + ")";
-    error_ = first_sentence(own, communicator_);
+    remember(complaint, action);
+    error_ = first_sentence(own_complaint_, communicator_);
     return error_.empty();
+  }
+
+
+
+  bool
+  Hdf5File::is_first_rank() const
+  {
+    return Utilities::MPI::this_mpi_process(communicator_) == 0;
   }
 
 
@@ -259,32 +275,54 @@ namespace talus
 
 
   void
+  Hdf5File::write_known(const std::string         &name,
+                        const std::vector<double> &values)
+  {
+    if (!error_.empty())
+      return;
+    const hsize_t extent = values.size();
+    const Handle  space(H5Screate_simple(1, &extent, nullptr), H5Sclose);
+    write_by_first_rank(
+      name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, space, values.data());
+    set_attribute(name, "checksum", checksum(values, 0));
+  }
+
+
+
+  void
   Hdf5File::write_text(const std::string &name, const std::string &text)
   {
     if (!error_.empty())
       return;
-    const bool is_first = Utilities::MPI::this_mpi_process(communicator_) == 0;
     const std::string same = Utilities::MPI::broadcast(communicator_, text);
     const Handle      type = text_type(same);
     const Handle      space(H5Screate(H5S_SCALAR), H5Sclose);
-    const Handle      dataset(H5Dcreate2(file_,
+    write_by_first_rank(name, type, type, space, same.c_str());
+    set_attribute(name, "checksum", checksum(same));
+  }
+
+
+
+  void
+  Hdf5File::write_by_first_rank(const std::string &name,
+                                const hid_t        file_type,
+                                const hid_t        type,
+                                const hid_t        space,
+                                const void        *values)
+  {
+    const Handle dataset(H5Dcreate2(file_,
                                     name.c_str(),
-                                    type,
+                                    file_type,
                                     space,
                                     H5P_DEFAULT,
                                     creation_properties(H5P_DATASET_CREATE),
                                     H5P_DEFAULT),
                          H5Dclose);
-    if (!is_first)
-      H5Sselect_none(space);
-    const Handle together(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
-    H5Pset_dxpl_mpio(together, H5FD_MPIO_COLLECTIVE);
-    const bool success =
+    const bool   success =
       dataset >= 0 &&
-      H5Dwrite(dataset, type, space, space, together, same.c_str()) >= 0;
-    conclude(hdf5_complaint(success),
-             "the text '" + name + "' could not be written");
-    set_attribute(name, "checksum", checksum(same));
+      (!is_first_rank() ||
+       H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+    remember(hdf5_complaint(success), "'" + name + "' could not be written");
   }
 
 

@@ -116,6 +116,10 @@ namespace talus
     void
     verify(const std::string &name);
 
+    /// Write a short array without columns that all ranks know: no message.
+    void
+    write_known(const std::string &name, const std::vector<double> &values);
+
     /// The text of the first rank as an array of characters.
     void
     write_text(const std::string &name, const std::string &text);
@@ -124,10 +128,23 @@ namespace talus
     read_text(const std::string &name);
 
   private:
-    /// Agree with the other ranks on whether one has a complaint about
-    /// @p action; true if none has.
+    /// Keep a complaint about @p action, if there is one, until the next
+    /// agreement: enough where nobody waits for this rank.
+    void
+    remember(const std::string &complaint, const std::string &action);
+    /// The same, and agree with the other ranks on whether one has a complaint;
+    /// true if none has.
     bool
     conclude(const std::string &complaint, const std::string &action);
+    bool
+    is_first_rank() const;
+    /// Make an array that only the first rank fills.
+    void
+    write_by_first_rank(const std::string &name,
+                        hid_t              file_type,
+                        hid_t              type,
+                        hid_t              space,
+                        const void        *values);
     void
     write_attribute(const std::string &object,
                     const std::string &name,
@@ -147,6 +164,7 @@ namespace talus
     MPI_Comm              communicator_;
     hid_t                 file_ = -1;
     std::string           error_;
+    std::string           own_complaint_;
   };
 } // namespace talus
 
