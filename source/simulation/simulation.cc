@@ -107,8 +107,7 @@ namespace talus
     transfer_.use_cell_mean(cell_mean);
     relocation_.allow_outside(may_lie_outside);
 
-    grid_.create(may_move);
-    prepare();
+    create_mesh(may_move);
     create_bodies();
     share_out();
   }
@@ -179,8 +178,8 @@ namespace talus
   void
   Simulation<dim>::advance()
   {
-    adapt_mesh();
     choose_time_step();
+    adapt_mesh();
     points_to_grid();
     grid_to_points();
     split();
@@ -196,10 +195,17 @@ namespace talus
   Simulation<dim>::choose_time_step()
   {
     TimerOutput::Scope scope(timer_, "time step");
-    dt_ = Utilities::MPI::min(
-      time_step_.choose(points_, grid_, materials_, transfer_.box_shape()),
-      grid_.communicator());
-    dt_ = std::min(dt_, end_time_ - time_);
+    // The only operation of all ranks in a step.
+    const std::array<double, 2> local = {
+      {time_step_.choose(points_, grid_, materials_, transfer_.box_shape()),
+       mesh_tracking_.is_urgent(grid_, relocation_.occupied_cells()) ? 0.
+                                                                     : 1.}};
+    std::array<double, 2> all;
+    Utilities::MPI::min(ArrayView<const double>(local.data(), 2),
+                        grid_.communicator(),
+                        ArrayView<double>(all.data(), 2));
+    dt_             = std::min(all[0], end_time_ - time_);
+    mesh_is_urgent_ = (all[1] == 0.);
   }
 
 
@@ -309,7 +315,7 @@ namespace talus
                       ") m with ",
                       grid_.triangulation().n_global_active_cells(),
                       " cells of ",
-                      grid_.finest_size(),
+                      grid_.cell_size(),
                       " m; there are ",
                       Utilities::MPI::sum(points_.size(), grid_.communicator()),
                       " points.",

@@ -8,6 +8,25 @@ namespace talus
 {
   using namespace dealii;
 
+  template <int dim>
+  void
+  Simulation<dim>::create_mesh(const std::array<bool, 2 * dim> &may_move)
+  {
+    grid_.create(may_move, mesh_tracking_.is_enabled());
+    if (mesh_tracking_.is_enabled())
+      {
+        std::vector<Box<dim>> boxes;
+        for (const auto &body : bodies_)
+          boxes.push_back(body->bounding_box(grid_.domain()));
+        mesh_tracking_.adapt(grid_, boxes);
+      }
+    else
+      grid_.refine();
+    prepare();
+  }
+
+
+
   /// All that depends on the mesh. Points stay on their rank.
   template <int dim>
   void
@@ -41,6 +60,13 @@ namespace talus
   Simulation<dim>::adapt_mesh()
   {
     TimerOutput::Scope scope(timer_, "mesh");
+    if (mesh_is_urgent_ ||
+        (mesh_tracking_.is_enabled() && mesh_tracking_.is_due(step_)))
+      if (mesh_tracking_.adapt(grid_, relocation_.occupied_cells()))
+        {
+          prepare();
+          share_out();
+        }
     if (load_balance_.is_due(points_, step_, grid_.communicator()))
       share_out();
   }
@@ -48,6 +74,8 @@ namespace talus
 
 
 #define INSTANTIATE(dim)                      \
+  template void Simulation<dim>::create_mesh( \
+    const std::array<bool, 2 * dim> &);       \
   template void Simulation<dim>::prepare();   \
   template void Simulation<dim>::share_out(); \
   template void Simulation<dim>::adapt_mesh();

@@ -2,6 +2,7 @@
 #define talus_simulation_simulation_h
 
 #include <talus/adaptivity/load_balance.h>
+#include <talus/adaptivity/mesh_tracking.h>
 #include <talus/adaptivity/splitter.h>
 #include <talus/boundaries/boundaries.h>
 #include <talus/grid/grid.h>
@@ -69,6 +70,8 @@ namespace talus
     void
     prepare();
     void
+    create_mesh(const std::array<bool, 2 * dim> &may_move);
+    void
     share_out();
     void
     adapt_mesh();
@@ -104,6 +107,7 @@ namespace talus
     Boundaries<dim>                         boundaries_;
     Splitter<dim>                           splitter_;
     LoadBalance<dim>                        load_balance_;
+    MeshTracking<dim>                       mesh_tracking_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     Loading<dim>                            loading_;
     TimeStep<dim>                           time_step_;
@@ -116,7 +120,8 @@ namespace talus
     unsigned long     step_         = 0;
     double            gravity_work_ = 0; ///< J
     BoundaryWork<dim> boundary_work_;
-    double            least_mass_ = 0; ///< kg
+    double            least_mass_     = 0; ///< kg
+    bool              mesh_is_urgent_ = false;
   };
 } // namespace talus
 
