@@ -330,17 +330,35 @@ namespace talus
   void
   Simulation<dim>::note_time_step()
   {
-    const BoxShape &shape = transfer_.box_shape();
-    output_.note(text("t = ",
-                      time_,
-                      " s: the time step is ",
-                      Utilities::MPI::min(
-                        time_step_.choose(points_, grid_, materials_, shape),
-                        grid_.communicator()),
-                      " s, limited by ",
-                      time_step_.limited_by(points_, grid_, materials_, shape),
-                      "."),
-                 step_ == 0);
+    const MPI_Comm     communicator = grid_.communicator();
+    const BoxShape    &shape        = transfer_.box_shape();
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const double       dt =
+      Utilities::MPI::min(time_step_.choose(points_, grid_, materials_, shape),
+                          communicator);
+    std::string sentence =
+      text("t = ",
+           time_,
+           " s: the time step is ",
+           dt,
+           " s, limited by ",
+           time_step_.limited_by(points_, grid_, materials_, shape),
+           ".");
+    if (n_mesh_changes_ > 0)
+      sentence += text(" The mesh changed ",
+                       n_mesh_changes_,
+                       " times and has ",
+                       grid_.triangulation().n_global_active_cells(),
+                       " cells.");
+    if (n_ranks > 1)
+      sentence += text(" The largest share of points of the ",
+                       n_ranks,
+                       " ranks is ",
+                       LoadBalance<dim>::imbalance(points_, communicator),
+                       " times the mean; cells were shared out ",
+                       n_repartitions_,
+                       " times.");
+    output_.note(sentence, step_ == 0);
   }
 
 

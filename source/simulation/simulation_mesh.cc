@@ -47,6 +47,7 @@ namespace talus
   {
     if (Utilities::MPI::n_mpi_processes(grid_.communicator()) == 1)
       return;
+    ++n_repartitions_;
     const auto cells = load_balance_.repartition(grid_, points_);
     nodes_.prepare(grid_);
     relocation_.rebuild(points_, cells);
@@ -64,6 +65,7 @@ namespace talus
         (mesh_tracking_.is_enabled() && mesh_tracking_.is_due(step_)))
       if (mesh_tracking_.adapt(grid_, relocation_.occupied_cells()))
         {
+          ++n_mesh_changes_;
           prepare();
           share_out();
         }

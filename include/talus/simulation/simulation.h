@@ -122,6 +122,8 @@ namespace talus
     BoundaryWork<dim> boundary_work_;
     double            least_mass_     = 0; ///< kg
     bool              mesh_is_urgent_ = false;
+    unsigned long     n_mesh_changes_ = 0;
+    unsigned long     n_repartitions_ = 0;
   };
 } // namespace talus
 
