@@ -23,12 +23,7 @@ namespace talus
     std::string
     failed_write(const std::filesystem::path &path)
     {
-      return text("The file '",
-                  path.string(),
-                  "' could not be written (",
-                  reason(),
-                  "). Free some space or choose another folder with "
-                  "Output/Folder or --output.");
+      return talus::failed_write(path, reason());
     }
   } // namespace
 
@@ -77,6 +72,19 @@ namespace talus
     std::filesystem::rename(part, path, error);
     errno = error.value();
     AssertThrow(!error, ExcUser(failed_write(path)));
+  }
+
+
+
+  std::string
+  failed_write(const std::filesystem::path &path, const std::string &reason)
+  {
+    return text("The file '",
+                path.string(),
+                "' could not be written (",
+                reason,
+                "). Free some space or choose another folder with "
+                "Output/Folder or --output.");
   }
 
 
