@@ -99,18 +99,14 @@ namespace talus
 
   namespace
   {
-    /// Size of the cell that a point, not yet sorted anew, is in now: beside
-    /// cells of another size it may have entered a finer one.
+    /// Size of the cell at @p x, in or beside an old cell that is not uniform;
+    /// of the old one where this rank does not know the new.
     template <int dim>
     double
-    size_of_new_cell(const Points<dim> &points,
-                     const Grid<dim>   &grid,
-                     const unsigned int old_cell,
-                     const unsigned int p)
+    size_at(const Point<dim>  &x,
+            const Grid<dim>   &grid,
+            const unsigned int old_cell)
     {
-      Point<dim> x;
-      for (unsigned int d = 0; d < dim; ++d)
-        x[d] = points.data(points.position, d)[p];
       const unsigned int c = grid.find_cell(x);
       return grid.cells()[c == numbers::invalid_unsigned_int ? old_cell : c]
         .size;
@@ -119,40 +115,55 @@ namespace talus
 
 
 
+  // Cells of another size are near. A point that enters a smaller cell is held
+  // against that one at once; and where a daughter would come to lie in a
+  // smaller cell, she must be no longer than that along the other axes either,
+  // or her box would be clipped and leave gaps.
   template <int dim>
-  bool
-  Splitter<dim>::enforce(Points<dim> &points, const Grid<dim> &grid)
+  unsigned int
+  Splitter<dim>::axes_near_other_sizes(const Points<dim> &points,
+                                       const Grid<dim>   &grid,
+                                       const unsigned int p,
+                                       const unsigned int cell,
+                                       double            &cell_size) const
   {
-    if (!enabled_)
-      return false;
-    violations_.clear();
-    std::size_t n_daughters = 0;
-    for (const Segment &segment : points.segments())
+    Point<dim> x, length;
+    for (unsigned int d = 0; d < dim; ++d)
       {
-        const Cell<dim> &cell      = grid.cells()[segment.cell];
-        double           cell_size = cell.size;
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
+        x[d]      = points.data(points.position, d)[p];
+        length[d] = points.data(points.stretch, d)[p] *
+                    points.data(points.reference_length, d)[p];
+      }
+    cell_size         = size_at(x, grid, cell);
+    unsigned int axes = axes_to_split(points, p, cell_size);
+    for (bool grew = (axes != 0); grew;)
+      {
+        grew = false;
+        for (unsigned int corner = 0; corner < (1u << dim); ++corner)
           {
-            if (!cell.uniform)
-              cell_size = size_of_new_cell(points, grid, segment.cell, p);
-            if (unsigned int axes = axes_to_split(points, p, cell_size))
-              {
-                if (points.data(points.generation)[p] >= maximum_generation_)
-                  continue;
-                if (directions_ == "all")
-                  axes = (1u << dim) - 1;
-                if (!daughters_may_stay(
-                      points, p, axes, cell_size, grid.domain()))
-                  continue;
-                violations_.push_back({p, axes});
-                n_daughters += 1u << __builtin_popcount(axes);
-              }
+            Point<dim> daughter = x;
+            for (unsigned int d = 0; d < dim; ++d)
+              if (axes & (1u << d))
+                daughter[d] += ((corner >> d) & 1 ? 0.25 : -0.25) * length[d];
+            const double size = size_at(daughter, grid, cell);
+            for (unsigned int d = 0; d < dim; ++d)
+              if (!(axes & (1u << d)) && length[d] > (1. + 1e-9) * size)
+                {
+                  axes |= 1u << d;
+                  grew = true;
+                }
           }
       }
-    if (violations_.empty())
-      return false;
-    const std::size_t n_points =
-      points.size() - violations_.size() + n_daughters;
+    return axes;
+  }
+
+
+
+  template <int dim>
+  void
+  Splitter<dim>::check_budget(const Points<dim> &points,
+                              const std::size_t  n_points) const
+  {
     Point<dim> place;
     for (unsigned int d = 0; d < dim; ++d)
       place[d] = points.data(points.position, d)[violations_[0].point];
@@ -170,6 +181,42 @@ namespace talus
                   maximum_points_,
                   ". Raise it, lower 'Splitting/Maximum generation', or use "
                   "'Splitting/Directions = stretched'.")));
+  }
+
+
+
+  template <int dim>
+  bool
+  Splitter<dim>::enforce(Points<dim> &points, const Grid<dim> &grid)
+  {
+    if (!enabled_)
+      return false;
+    violations_.clear();
+    std::size_t n_daughters = 0;
+    for (const Segment &segment : points.segments())
+      {
+        const Cell<dim> &cell      = grid.cells()[segment.cell];
+        double           cell_size = cell.size;
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          {
+            unsigned int axes = cell.uniform
+                                  ? axes_to_split(points, p, cell_size)
+                                  : axes_near_other_sizes(
+                                      points, grid, p, segment.cell, cell_size);
+            if (axes == 0 ||
+                points.data(points.generation)[p] >= maximum_generation_)
+              continue;
+            if (directions_ == "all")
+              axes = (1u << dim) - 1;
+            if (!daughters_may_stay(points, p, axes, cell_size, grid.domain()))
+              continue;
+            violations_.push_back({p, axes});
+            n_daughters += 1u << __builtin_popcount(axes);
+          }
+      }
+    if (violations_.empty())
+      return false;
+    check_budget(points, points.size() - violations_.size() + n_daughters);
     for (const Violation &violation : violations_)
       split(points, violation.point, violation.axes);
     statistics_.n_splits += violations_.size();

@@ -1,8 +1,6 @@
 #include <talus/base/errors.h>
 #include <talus/grid/grid.h>
 
-#include <deal.II/grid/grid_generator.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -12,24 +10,6 @@ namespace talus
 
   const std::array<std::string, 6> face_names = {
     {"Left", "Right", "Bottom", "Top", "Back", "Front"}};
-
-  namespace
-  {
-    /// One number for a place in the lattice of a level: 6 bits for the level,
-    /// the rest shared by the axes.
-    template <int dim>
-    unsigned long
-    key(const std::array<long, dim> &place, const unsigned int level)
-    {
-      constexpr unsigned int bits   = 58 / dim;
-      unsigned long          result = level;
-      for (unsigned int d = 0; d < dim; ++d)
-        result = (result << bits) | static_cast<unsigned long>(place[d]);
-      return result;
-    }
-  } // namespace
-
-
 
   template <int dim>
   Grid<dim>::Grid(MPI_Comm communicator)
@@ -63,9 +43,26 @@ namespace talus
                   coarsest_level_,
                   "The mesh is a forest of trees with 2^L cells per axis; L is "
                   "the largest number up to this one that divides the cells of "
-                  "every axis.",
+                  "every axis. With 'Mesh tracking' it is how much coarser far "
+                  "cells may be, and faces that are free, at the upper end of "
+                  "an axis, move outwards where that takes it.",
                   this->prm,
                   Patterns::Integer(0, 10));
+    add_parameter(
+      "Initial refinement",
+      initial_refinement_,
+      "Halve all cells this many times: h is 'Cell size' divided by "
+      "2^n.",
+      this->prm,
+      Patterns::Integer(0, 10));
+    add_parameter(
+      "Refinement boxes",
+      refinement_boxes_,
+      "Boxes with smaller cells, separated by bars (|), each as "
+      "lower corner; upper corner; number of times the cells are "
+      "halved there: -40,0; 280,0.4; 1 makes a layer of 0.4 m at the "
+      "seabed finer. Corners in m; neighbouring cells differ by at "
+      "most a factor of two.");
   }
 
 
@@ -89,110 +86,6 @@ namespace talus
 
   template <int dim>
   void
-  Grid<dim>::fit_domain(const std::array<bool, 2 * dim> &may_move)
-  {
-    adjustment_.clear();
-    domain_ = {lower_corner_, upper_corner_};
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double exact = domain_.length(d) / cell_size_;
-        const double whole = std::round(exact);
-        if (whole >= 1 && std::abs(exact - whole) <= 1e-9 * whole)
-          {
-            n_cells_per_axis_[d] = static_cast<unsigned int>(whole);
-            continue;
-          }
-        AssertThrow(exact > 1,
-                    ExcUser(text("The mesh is only ",
-                                 domain_.length(d),
-                                 " m long along axis ",
-                                 d,
-                                 ", less than one cell of Grid/Cell size = ",
-                                 cell_size_,
-                                 " m. Choose smaller cells or a larger box.")));
-        const unsigned int face = 2 * d + 1;
-        AssertThrow(may_move[face],
-                    ExcUser(
-                      text("The mesh is ",
-                           domain_.length(d),
-                           " m long along axis ",
-                           d,
-                           ", which is no multiple of Grid/Cell size = ",
-                           cell_size_,
-                           " m, and its face '",
-                           face_names[face],
-                           "' is not free, so it must not move. Choose another "
-                           "cell size or corner.")));
-        n_cells_per_axis_[d] = static_cast<unsigned int>(std::ceil(exact));
-        domain_.upper[d] = domain_.lower[d] + n_cells_per_axis_[d] * cell_size_;
-        adjustment_ += text(" The face '",
-                            face_names[face],
-                            "' was moved outwards from ",
-                            upper_corner_[d],
-                            " m to ",
-                            domain_.upper[d],
-                            " m, so that the cells are ",
-                            cell_size_,
-                            " m long.");
-      }
-  }
-
-
-
-  template <int dim>
-  unsigned int
-  Grid<dim>::refinement_that_divides() const
-  {
-    unsigned int level = coarsest_level_;
-    for (unsigned int d = 0; d < dim; ++d)
-      while (n_cells_per_axis_[d] % (1u << level) != 0)
-        --level;
-    return level;
-  }
-
-
-
-  template <int dim>
-  unsigned int
-  Grid<dim>::create_trees(const std::array<bool, 2 * dim> &may_move)
-  {
-    fit_domain(may_move);
-    double n_cells = 1;
-    for (const unsigned int n : n_cells_per_axis_)
-      n_cells *= n;
-    AssertThrow(n_cells < 2e9,
-                ExcUser(text("The mesh would have ",
-                             n_cells,
-                             " cells. Choose a larger Grid/Cell size than ",
-                             cell_size_,
-                             " m or a smaller box.")));
-
-    const unsigned int        level = refinement_that_divides();
-    std::vector<unsigned int> trees(dim);
-    for (unsigned int d = 0; d < dim; ++d)
-      trees[d] = n_cells_per_axis_[d] >> level;
-    tree_size_ = cell_size_ * (1u << level);
-
-    triangulation_.clear();
-    GridGenerator::subdivided_hyper_rectangle(
-      triangulation_, trees, domain_.lower, domain_.upper, /*colorize=*/true);
-    return level;
-  }
-
-
-
-  template <int dim>
-  void
-  Grid<dim>::create(const std::array<bool, 2 * dim> &may_move)
-  {
-    triangulation_.refine_global(create_trees(may_move));
-    triangulation_.repartition();
-  }
-
-
-
-  template <int dim>
-  void
   Grid<dim>::prepare()
   {
     number_nodes();
@@ -202,6 +95,7 @@ namespace talus
     for (unsigned int c = 0; c < n_owned_cells_; ++c)
       link_cell(c);
     mark_boundary_nodes();
+    find_larger_cells();
   }
 
 
@@ -285,7 +179,7 @@ namespace talus
         else
           owner_of_ghost_.push_back(cell->subdomain_id());
         index_of_active_cell_[cell->active_cell_index()] = cells_.size();
-        cell_map_[key<dim>(place, level)]                = cells_.size();
+        cell_map_[key_of_place(place, level)]            = cells_.size();
         cells_.push_back(data);
         level_of_cell_.push_back(level);
       }
@@ -299,11 +193,39 @@ namespace talus
 
 
 
+  // 6 bits for the level, the rest shared by the axes.
+  template <int dim>
+  unsigned long
+  Grid<dim>::key_of_place(const Lattice &place, const unsigned int level)
+  {
+    constexpr unsigned int bits   = 58 / dim;
+    unsigned long          result = level;
+    for (unsigned int d = 0; d < dim; ++d)
+      result = (result << bits) | static_cast<unsigned long>(place[d]);
+    return result;
+  }
+
+
+
+  template <int dim>
+  unsigned long
+  Grid<dim>::key_of_parent(const unsigned long key)
+  {
+    constexpr unsigned int  bits = 58 / dim;
+    constexpr unsigned long mask = (1ul << bits) - 1;
+    Lattice                 place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] = ((key >> (bits * (dim - 1 - d))) & mask) >> 1;
+    return key_of_place(place, (key >> (bits * dim)) - 1);
+  }
+
+
+
   template <int dim>
   unsigned long
   Grid<dim>::key_of_cell(const unsigned int c) const
   {
-    return key<dim>(place_of_cell(c), level_of_cell_[c]);
+    return key_of_place(place_of_cell(c), level_of_cell_[c]);
   }
 
 
@@ -320,9 +242,10 @@ namespace talus
 
   template <int dim>
   typename Grid<dim>::Lattice
-  Grid<dim>::lattice_extent(const double size) const
+  Grid<dim>::extent_of_lattice(const unsigned int level) const
   {
-    Lattice extent;
+    const double size = tree_size_ / (1u << level);
+    Lattice      extent;
     for (unsigned int d = 0; d < dim; ++d)
       extent[d] = std::lround(domain_.length(d) / size);
     return extent;
@@ -335,7 +258,7 @@ namespace talus
   Grid<dim>::lattice_place(const Point<dim> &x, const unsigned int level) const
   {
     const double  size   = tree_size_ / (1u << level);
-    const Lattice extent = lattice_extent(size);
+    const Lattice extent = extent_of_lattice(level);
     Lattice       place;
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -369,7 +292,7 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       if (place[d] < 0)
         return numbers::invalid_unsigned_int;
-    return cell_of_key(key<dim>(place, level));
+    return cell_of_key(key_of_place(place, level));
   }
 
 

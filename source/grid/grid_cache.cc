@@ -45,7 +45,7 @@ namespace talus
   {
     Cell<dim>         &cell   = cells_[c];
     const Lattice      place  = place_of_cell(c);
-    const Lattice      extent = lattice_extent(cell.size);
+    const Lattice      extent = extent_of_lattice(level_of_cell_[c]);
     const unsigned int level  = level_of_cell_[c];
 
     cell.uniform = true;
@@ -79,7 +79,7 @@ namespace talus
   {
     Cell<dim>    &cell   = cells_[c];
     const Lattice place  = place_of_cell(c);
-    const Lattice extent = lattice_extent(cell.size);
+    const Lattice extent = extent_of_lattice(level_of_cell_[c]);
 
     for (unsigned int k = 0; k < cell.patch.size(); ++k)
       {
@@ -188,12 +188,49 @@ namespace talus
 
 
 
+  /// A node is marked if it is a corner of a cell larger than h, on whatever
+  /// rank, or hangs on one.
+  template <int dim>
+  void
+  Grid<dim>::find_larger_cells()
+  {
+    is_near_larger_cell_.assign(n_owned_cells_, false);
+    AlignedVector<double> mark(n_nodes(), 0.);
+    for (unsigned int c = 0; c < n_owned_cells_; ++c)
+      if (level_of_cell_[c] < base_level_)
+        for (const unsigned int node : cells_[c].patch)
+          if (node != numbers::invalid_unsigned_int)
+            mark[node] = 1.;
+    NodalExchange<dim> exchange;
+    exchange.prepare(*this, 1);
+    exchange.add_to_owners(mark.data());
+    exchange.copy_to_ghosts(mark.data());
+    for (const auto &hanging : hanging_nodes_)
+      for (const auto &master : hanging.masters)
+        mark[hanging.node] += mark[master.first];
+
+    const auto touches_mark = [&](const unsigned int c) {
+      for (const unsigned int node : cells_[c].patch)
+        if (node != numbers::invalid_unsigned_int && mark[node] > 0)
+          return true;
+      return false;
+    };
+    for (unsigned int c = 0; c < n_owned_cells_; ++c)
+      if (cells_[c].uniform)
+        is_near_larger_cell_[c] = touches_mark(c);
+      else
+        for (const unsigned int t : touching_cells(c))
+          is_near_larger_cell_[c] = is_near_larger_cell_[c] || touches_mark(t);
+  }
+
+
+
   template <int dim>
   std::vector<unsigned int>
   Grid<dim>::nodes_on_face(const unsigned int c, const unsigned int face) const
   {
     const Lattice      place  = place_of_cell(c);
-    const Lattice      extent = lattice_extent(cells_[c].size);
+    const Lattice      extent = extent_of_lattice(level_of_cell_[c]);
     const unsigned int d = face / 2, side = face % 2;
     if (place[d] != (side == 0 ? 0 : extent[d] - 1))
       return {};
@@ -216,6 +253,10 @@ namespace talus
   Grid<2>::link_cell(unsigned int);
   template void
   Grid<3>::link_cell(unsigned int);
+  template void
+  Grid<2>::find_larger_cells();
+  template void
+  Grid<3>::find_larger_cells();
   template std::vector<unsigned int>
   Grid<2>::nodes_on_face(unsigned int, unsigned int) const;
   template std::vector<unsigned int>

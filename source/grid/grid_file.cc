@@ -19,10 +19,8 @@ namespace talus
 
   template <int dim>
   void
-  Grid<dim>::load(const std::string               &path,
-                  const std::array<bool, 2 * dim> &may_move)
+  Grid<dim>::load(const std::string &path)
   {
-    create_trees(may_move);
     triangulation_.load(path);
   }
 
@@ -52,10 +50,9 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                                            \
-  template void Grid<dim>::save(const std::string &) const;         \
-  template void Grid<dim>::load(const std::string &,                \
-                                const std::array<bool, 2 * dim> &); \
+#define INSTANTIATE(dim)                                    \
+  template void Grid<dim>::save(const std::string &) const; \
+  template void Grid<dim>::load(const std::string &);       \
   template void Grid<dim>::repartition(const std::vector<double> &);
 
   INSTANTIATE(2)

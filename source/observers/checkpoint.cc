@@ -2,6 +2,7 @@
 #include <talus/base/errors.h>
 #include <talus/observers/checkpoint.h>
 #include <talus/observers/checkpoint_folder.h>
+#include <talus/observers/disk_space.h>
 #include <talus/version.h>
 
 namespace talus
@@ -159,6 +160,27 @@ namespace talus
 
 
 
+  /// Of state.h5, at most; collective.
+  template <int dim>
+  std::uint64_t
+  Checkpoint<dim>::size_in_file(const Content &content) const
+  {
+    std::uint64_t texts = content.parameters.size();
+    for (const StateList::Text &text : content.state.texts())
+      texts += text.get().size();
+    const std::uint64_t own_values =
+      std::uint64_t(content.points.n_arrays()) * content.points.size() +
+      2 * content.cell_weights.size() + content.state.numbers().size();
+    // The library's own structures are about 1 kB for each array.
+    const std::uint64_t n_arrays = content.points.columns().size() +
+                                   content.state.numbers().size() +
+                                   content.state.texts().size();
+    return 8 * Utilities::MPI::sum(own_values, communicator_) +
+           Utilities::MPI::max(texts, communicator_) + 2048 * (n_arrays + 50);
+  }
+
+
+
   template <int dim>
   void
   Checkpoint<dim>::write_state(const fs::path &part,
@@ -173,18 +195,21 @@ namespace talus
     head.version   = TALUS_VERSION;
     head.revision  = TALUS_GIT_REVISION;
 
-    Hdf5File file(part / state_file_name,
-                  Hdf5File::Access::create,
-                  communicator_);
+    const fs::path path     = part / state_file_name;
+    const bool     is_first = is_first_rank(communicator_);
+    Hdf5File       file(path, Hdf5File::Access::create, communicator_);
+    // HDF5 does not survive a full disk: on several ranks it waits for ever.
+    const std::uint64_t n_bytes = size_in_file(content);
+    check_all(is_first ? reserve_disk_space(path, n_bytes) : "");
     save_head(file, head);
     save_points(file, content.points, content.cell_weights);
     save_state(file, content.state);
     file.write_text("parameters", content.parameters);
     // The mesh is complete: all ranks have left save().
-    file.write_text("mesh",
-                    is_first_rank(communicator_) ? mesh_checksums(part) : "");
+    file.write_text("mesh", is_first ? mesh_checksums(part) : "");
     file.close();
     check_all(file.error());
+    check_all(is_first ? release_disk_space(path) : "");
   }
 
 

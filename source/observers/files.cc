@@ -26,12 +26,7 @@ namespace talus
     std::string
     failed_write(const std::filesystem::path &path)
     {
-      return text("The file '",
-                  path.string(),
-                  "' could not be written (",
-                  reason(),
-                  "). Free some space or choose another folder with "
-                  "Output/Folder or --output.");
+      return talus::failed_write(path, reason());
     }
   } // namespace
 
@@ -97,6 +92,19 @@ namespace talus
     const std::string complaint = is_done ? "" : reason();
     ::close(descriptor);
     return complaint;
+  }
+
+
+
+  std::string
+  failed_write(const std::filesystem::path &path, const std::string &reason)
+  {
+    return text("The file '",
+                path.string(),
+                "' could not be written (",
+                reason,
+                "). Free some space or choose another folder with "
+                "Output/Folder or --output.");
   }
 
 

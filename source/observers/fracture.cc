@@ -1,4 +1,4 @@
-#include <talus/observers/finest_lattice.h>
+#include <talus/observers/cell_lattice.h>
 #include <talus/observers/fracture.h>
 
 #include <deal.II/base/mpi.h>
@@ -54,8 +54,8 @@ namespace talus
     std::vector<Occupied>
     find_occupied(const Points<dim> &points, const Grid<dim> &grid)
     {
-      const FinestLattice<dim> lattice(grid);
-      std::vector<Occupied>    cells;
+      const CellLattice<dim> lattice(grid);
+      std::vector<Occupied>  cells;
       for (unsigned int p = 0; p < points.size(); ++p)
         {
           // Points are nearly always sorted by cell, so the next one is mostly
@@ -86,7 +86,7 @@ namespace talus
     std::vector<std::uint64_t>
     steps_to_earlier_neighbors()
     {
-      using Lattice = FinestLattice<dim>;
+      using Lattice = CellLattice<dim>;
       typename Lattice::Place center, neighbor;
       center.fill(1);
       std::vector<std::uint64_t> steps;
@@ -138,7 +138,7 @@ namespace talus
   FractureCounts
   count_fractures(const Points<dim> &points, const Grid<dim> &grid)
   {
-    using Lattice                     = FinestLattice<dim>;
+    using Lattice                     = CellLattice<dim>;
     const std::vector<Occupied> cells = find_occupied(points, grid);
     FractureCounts              counts;
     counts.occupied_cells   = cells.size();

@@ -62,22 +62,20 @@ namespace talus
     /// Corners of a cell in deal.II's order, and the nodes there.
     template <int dim>
     void
-    add_cell(Patches<dim, dim> &patches, const Cell<dim> &cell)
+    add_cell(OutputCells<dim, dim> &cells, const Cell<dim> &cell)
     {
-      std::array<Point<dim>, (1 << dim)>   corners;
-      std::array<unsigned int, (1 << dim)> nodes;
-      for (unsigned int v = 0; v < corners.size(); ++v)
+      for (unsigned int v = 0; v < cells.n_vertices; ++v)
         {
-          unsigned int at = 0;
-          corners[v]      = cell.lower;
+          unsigned int at     = 0;
+          Point<dim>   corner = cell.lower;
           for (unsigned int d = 0; d < dim; ++d)
             {
-              corners[v][d] += ((v >> d) & 1) * cell.size;
+              corner[d] += ((v >> d) & 1) * cell.size;
               at += (1 + ((v >> d) & 1)) * power(4, d);
             }
-          nodes[v] = cell.patch[at];
+          cells.vertices.push_back(corner);
+          cells.items.push_back(cell.patch[at]);
         }
-      patches.add(corners, nodes);
     }
   } // namespace
 
@@ -87,9 +85,10 @@ namespace talus
   void
   GridOutput<dim>::begin(const std::filesystem::path &folder,
                          const MPI_Comm               communicator,
+                         const FieldFormat            format,
                          const Beginning              beginning)
   {
-    series_.begin(folder, "grid", communicator, beginning);
+    series_.begin(folder, "grid", communicator, format, beginning);
   }
 
 
@@ -98,7 +97,7 @@ namespace talus
   void
   GridOutput<dim>::list_state(StateList &list)
   {
-    series_.list_state("files of grid.pvd", list);
+    series_.list_state("files of grid", list);
   }
 
 
@@ -108,16 +107,17 @@ namespace talus
   GridOutput<dim>::write(const Snapshot<dim> &snapshot)
   {
     const AlignedVector<double> sums = sums_with_ghosts(snapshot);
-    Patches<dim, dim>           patches(node_fields(snapshot.nodes, sums));
+    OutputCells<dim, dim>       cells(node_fields(snapshot.nodes, sums),
+                                ItemsAt::vertices);
 
     unsigned int previous = numbers::invalid_unsigned_int;
     for (const Segment &segment : snapshot.points.segments())
       if (segment.cell != previous)
         {
-          add_cell(patches, snapshot.grid.cells()[segment.cell]);
+          add_cell(cells, snapshot.grid.cells()[segment.cell]);
           previous = segment.cell;
         }
-    series_.write(patches, snapshot.time, snapshot.step);
+    series_.write(cells, snapshot.time, snapshot.step);
   }
 
 

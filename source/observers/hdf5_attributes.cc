@@ -50,8 +50,7 @@ namespace talus
                                              H5P_DEFAULT,
                                              H5P_DEFAULT),
                            H5Aclose);
-    remember(hdf5_complaint(attribute >= 0 &&
-                            H5Awrite(attribute, type, value) >= 0),
+    remember(attribute >= 0 && H5Awrite(attribute, type, value) >= 0,
              "the attribute '" + name + "' could not be written");
   }
 
@@ -66,8 +65,7 @@ namespace talus
     if (!error_.empty())
       return;
     const Handle attribute = open_attribute(file_, object, name);
-    conclude(hdf5_complaint(attribute >= 0 &&
-                            H5Aread(attribute, type, value) >= 0),
+    conclude(attribute >= 0 && H5Aread(attribute, type, value) >= 0,
              is_missing(object, name));
   }
 
@@ -111,8 +109,8 @@ namespace talus
     const Handle attribute = open_attribute(file_, object, name);
     const Handle type(H5Aget_type(attribute), H5Tclose);
     std::string  value(H5Tget_size(type), '\0');
-    conclude(hdf5_complaint(H5Tget_class(type) == H5T_STRING &&
-                            H5Aread(attribute, type, value.data()) >= 0),
+    conclude(H5Tget_class(type) == H5T_STRING &&
+               H5Aread(attribute, type, value.data()) >= 0,
              is_missing(object, name));
     return value.substr(0, value.find('\0'));
   }
@@ -148,7 +146,7 @@ namespace talus
     const Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
     const Handle type(H5Dget_type(dataset), H5Tclose);
     const auto   kind = H5Tget_class(type);
-    conclude(hdf5_complaint(kind == H5T_STRING || kind == H5T_FLOAT),
+    conclude(kind == H5T_STRING || kind == H5T_FLOAT,
              "'" + name + "' is neither an array nor a text");
     return kind == H5T_STRING;
   }

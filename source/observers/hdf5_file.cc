@@ -12,6 +12,17 @@ namespace talus
   {
     using Handle = Hdf5Handle;
 
+    /// Nor may the library print anything when it ends: what it could not read
+    /// of a damaged file it cannot close either.
+    Hdf5Errors
+    silent_errors()
+    {
+      H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+      return Hdf5Errors();
+    }
+
+
+
     /// Properties of a new file, group or array: no time stamp.
     Handle
     creation_properties(const hid_t kind)
@@ -29,9 +40,9 @@ namespace talus
 
     /// Select the rows [first, first + n_rows) of a data set and do
     /// @p transfer(memory space, file space, properties), which writes or reads.
-    /// Returns what went wrong.
+    /// Returns whether that worked.
     template <typename Transfer>
-    std::string
+    bool
     transfer_rows(const hid_t    dataset,
                   const hsize_t  first,
                   const hsize_t  n_rows,
@@ -52,7 +63,7 @@ namespace talus
                file_space, H5S_SELECT_SET, start, nullptr, count, nullptr));
       // Even if that failed: the others are in this call, too.
       const herr_t status = transfer(memory_space, file_space, together);
-      return hdf5_complaint(selected >= 0 && status >= 0);
+      return selected >= 0 && status >= 0;
     }
   } // namespace
 
@@ -63,8 +74,8 @@ namespace talus
                      const MPI_Comm               communicator)
     : path_(path)
     , communicator_(communicator)
+    , errors_(silent_errors())
   {
-    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
     const Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fapl_mpio(properties, communicator_, MPI_INFO_NULL);
     H5Pset_all_coll_metadata_ops(properties, true);
@@ -78,7 +89,7 @@ namespace talus
                         properties);
     else
       file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, properties);
-    conclude(hdf5_complaint(file_ >= 0), "it could not be opened");
+    conclude(file_ >= 0, "it could not be opened");
   }
 
 
@@ -92,18 +103,18 @@ namespace talus
 
 
   void
-  Hdf5File::remember(const std::string &complaint, const std::string &action)
+  Hdf5File::remember(const bool success, const std::string &failure)
   {
-    if (!complaint.empty() && own_complaint_.empty())
-      own_complaint_ = action + " (HDF5: " + complaint + ")";
+    if (!success && own_complaint_.empty())
+      own_complaint_ = failure + " (HDF5: " + errors_.reason() + ")";
   }
 
 
 
   bool
-  Hdf5File::conclude(const std::string &complaint, const std::string &action)
+  Hdf5File::conclude(const bool success, const std::string &failure)
   {
-    remember(complaint, action);
+    remember(success, failure);
     error_ = first_sentence(own_complaint_, communicator_);
     return error_.empty();
   }
@@ -123,13 +134,10 @@ namespace talus
   {
     if (!error_.empty())
       return;
-    std::string complaint =
-      hdf5_complaint(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0);
-    const bool is_closed = (H5Fclose(file_) >= 0);
-    file_                = -1;
-    if (complaint.empty())
-      complaint = hdf5_complaint(is_closed);
-    conclude(complaint, "it could not be completed");
+    bool success = (H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0);
+    success      = (H5Fclose(file_) >= 0) && success;
+    file_        = -1;
+    conclude(success, "it could not be completed");
   }
 
 
@@ -145,8 +153,7 @@ namespace talus
                                   creation_properties(H5P_GROUP_CREATE),
                                   H5P_DEFAULT),
                        H5Gclose);
-    conclude(hdf5_complaint(group >= 0),
-             "the group '" + name + "' could not be made");
+    conclude(group >= 0, "the group '" + name + "' could not be made");
   }
 
 
@@ -167,8 +174,7 @@ namespace talus
       opened >= 0 &&
       H5Literate(opened, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &result) >=
         0;
-    conclude(hdf5_complaint(success),
-             "the group '" + group + "' could not be read");
+    conclude(success, "the group '" + group + "' could not be read");
     return result;
   }
 
@@ -216,10 +222,11 @@ namespace talus
                       properties,
                       rows.data());
     };
-    std::string complaint = hdf5_complaint(dataset >= 0);
-    if (complaint.empty() && total > 0)
-      complaint = transfer_rows(dataset, first, n_rows, n_columns, transfer);
-    conclude(complaint, "the array '" + name + "' could not be written");
+    const bool success =
+      dataset >= 0 &&
+      (total == 0 ||
+       transfer_rows(dataset, first, n_rows, n_columns, transfer));
+    conclude(success, "the array '" + name + "' could not be written");
     const std::uint64_t own = checksum(rows, first * n_columns);
     set_attribute(name, "checksum", Utilities::MPI::sum(own, communicator_));
   }
@@ -238,7 +245,7 @@ namespace talus
     const bool   success =
       (rank == 1 || rank == 2) &&
       H5Sget_simple_extent_dims(space, extent, nullptr) == rank;
-    if (!conclude(hdf5_complaint(success), "it has no array '" + name + "'"))
+    if (!conclude(success, "it has no array '" + name + "'"))
       return {0, 0};
     return {extent[0], static_cast<unsigned int>(extent[1])};
   }
@@ -265,10 +272,11 @@ namespace talus
                      properties,
                      rows.data());
     };
-    std::string complaint = hdf5_complaint(dataset >= 0);
-    if (complaint.empty() && total > 0)
-      complaint = transfer_rows(dataset, first, n_rows, n_columns, transfer);
-    conclude(complaint, "the array '" + name + "' could not be read");
+    const bool success =
+      dataset >= 0 &&
+      (total == 0 ||
+       transfer_rows(dataset, first, n_rows, n_columns, transfer));
+    conclude(success, "the array '" + name + "' could not be read");
     return rows;
   }
 
@@ -322,7 +330,7 @@ namespace talus
       dataset >= 0 &&
       (!is_first_rank() ||
        H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
-    remember(hdf5_complaint(success), "'" + name + "' could not be written");
+    remember(success, "'" + name + "' could not be written");
   }
 
 
@@ -338,7 +346,7 @@ namespace talus
     const bool   success =
       H5Tget_class(type) == H5T_STRING &&
       H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0;
-    conclude(hdf5_complaint(success), "it has no text '" + name + "'");
+    conclude(success, "it has no text '" + name + "'");
     return text.substr(0, text.find('\0'));
   }
 } // namespace talus

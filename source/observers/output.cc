@@ -33,18 +33,25 @@ namespace talus
                   Patterns::Double(1e-12));
     add_parameter("Write points",
                   write_points_,
-                  "Write the points with all their columns to points.pvd, for "
-                  "ParaView.");
+                  "Write the points with all their columns for ParaView.");
     add_parameter("Write grid",
                   write_grid_,
                   "Write the cells of the background grid that hold points, "
-                  "with nodal mass, velocity and force, to grid.pvd, for "
-                  "ParaView.");
+                  "with nodal mass, velocity and force, for ParaView.");
     add_parameter("Boxes as cells",
                   boxes_as_cells_,
                   "Write each point as its box, a quad or hex, so that "
-                  "ParaView shows a continuum, instead of as a dot. The files "
-                  "become about four (3-D: eight) times as large.");
+                  "ParaView shows a continuum, instead of as a dot. VTU "
+                  "files become up to four (3-D: eight) times as large, HDF5 "
+                  "files hardly.");
+    add_parameter("Format",
+                  format_,
+                  "Files of points and grid: vtu, one file per rank and output "
+                  "time, to be opened by points.pvd and grid.pvd; or hdf5, one "
+                  "file per output time whatever the number of ranks, to be "
+                  "opened by points.xdmf and grid.xdmf.",
+                  this->prm,
+                  Patterns::Selection("vtu|hdf5"));
   }
 
 
@@ -97,8 +104,11 @@ namespace talus
 
     field_times_.begin(field_interval_, snapshot.time);
     profile_.begin(folder_, snapshot.grid, beginning);
-    points_output_.begin(folder_, communicator, boxes_as_cells_, beginning);
-    grid_output_.begin(folder_, communicator, beginning);
+    const FieldFormat format =
+      (format_ == "hdf5" ? FieldFormat::hdf5 : FieldFormat::vtu);
+    points_output_.begin(
+      folder_, communicator, boxes_as_cells_, format, beginning);
+    grid_output_.begin(folder_, communicator, format, beginning);
     if (beginning == Beginning::resumed)
       return;
     step_of_last_row_ = snapshot.step;

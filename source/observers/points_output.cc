@@ -1,8 +1,10 @@
 #include <talus/observers/files.h>
 #include <talus/observers/points_output.h>
+#include <talus/observers/vtu.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace talus
 {
@@ -150,47 +152,57 @@ namespace talus
 
 
 
-    template <int dim>
-    Patches<0, dim>
-    points_as_vertices(const Snapshot<dim> &snapshot)
+    /// No vertices yet, the points as items of the cells.
+    template <int cell_dim, int dim>
+    OutputCells<cell_dim, dim>
+    one_cell_per_point(const Snapshot<dim> &snapshot, const ItemsAt items_at)
     {
-      const Points<dim> &points = snapshot.points;
-      Patches<0, dim>    patches(point_fields(snapshot));
-      patches.reserve(points.size());
-      for (unsigned int p = 0; p < points.size(); ++p)
-        {
-          Point<dim> x;
-          for (unsigned int d = 0; d < dim; ++d)
-            x[d] = points.data(points.position, d)[p];
-          patches.add({{x}}, {{p}});
-        }
-      return patches;
+      OutputCells<cell_dim, dim> cells(point_fields(snapshot), items_at);
+      cells.items.resize(snapshot.points.size());
+      std::iota(cells.items.begin(), cells.items.end(), 0);
+      cells.vertices.reserve(cells.items.size() * cells.n_vertices);
+      return cells;
     }
 
 
 
     template <int dim>
-    Patches<dim, dim>
+    OutputCells<0, dim>
+    points_as_vertices(const Snapshot<dim> &snapshot)
+    {
+      const Points<dim> &points = snapshot.points;
+      auto cells = one_cell_per_point<0>(snapshot, ItemsAt::vertices);
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = points.data(points.position, d)[p];
+          cells.vertices.push_back(x);
+        }
+      return cells;
+    }
+
+
+
+    template <int dim>
+    OutputCells<dim, dim>
     points_as_boxes(const Snapshot<dim> &snapshot)
     {
       const Points<dim> &points = snapshot.points;
-      Patches<dim, dim>  patches(point_fields(snapshot));
-      patches.reserve(points.size());
-      std::array<Point<dim>, (1 << dim)>   corners;
-      std::array<unsigned int, (1 << dim)> items;
+      auto cells = one_cell_per_point<dim>(snapshot, ItemsAt::cells);
       for (unsigned int p = 0; p < points.size(); ++p)
-        {
-          items.fill(p);
-          for (unsigned int v = 0; v < corners.size(); ++v)
+        for (unsigned int v = 0; v < cells.n_vertices; ++v)
+          {
+            Point<dim> corner;
             for (unsigned int d = 0; d < dim; ++d)
               {
                 const double half = 0.5 * box_length(snapshot, d, p);
-                corners[v][d]     = points.data(points.position, d)[p] +
-                                ((v >> d) & 1 ? half : -half);
+                corner[d]         = points.data(points.position, d)[p] +
+                            ((v >> d) & 1 ? half : -half);
               }
-          patches.add(corners, items);
-        }
-      return patches;
+            cells.vertices.push_back(corner);
+          }
+      return cells;
     }
   } // namespace
 
@@ -236,9 +248,10 @@ namespace talus
   PointsOutput<dim>::begin(const std::filesystem::path &folder,
                            const MPI_Comm               communicator,
                            const bool                   boxes_as_cells,
+                           const FieldFormat            format,
                            const Beginning              beginning)
   {
-    series_.begin(folder, "points", communicator, beginning);
+    series_.begin(folder, "points", communicator, format, beginning);
     boxes_as_cells_ = boxes_as_cells;
   }
 
@@ -248,7 +261,7 @@ namespace talus
   void
   PointsOutput<dim>::list_state(StateList &list)
   {
-    series_.list_state("files of points.pvd", list);
+    series_.list_state("files of points", list);
   }
 
 
@@ -258,15 +271,9 @@ namespace talus
   PointsOutput<dim>::write(const Snapshot<dim> &snapshot)
   {
     if (boxes_as_cells_)
-      {
-        auto patches = points_as_boxes(snapshot);
-        series_.write(patches, snapshot.time, snapshot.step);
-      }
+      series_.write(points_as_boxes(snapshot), snapshot.time, snapshot.step);
     else
-      {
-        auto patches = points_as_vertices(snapshot);
-        series_.write(patches, snapshot.time, snapshot.step);
-      }
+      series_.write(points_as_vertices(snapshot), snapshot.time, snapshot.step);
   }
 
 
@@ -275,7 +282,7 @@ namespace talus
   void
   write_points(const Snapshot<dim> &snapshot, const std::filesystem::path &path)
   {
-    auto patches = points_as_vertices(snapshot);
+    Patches<0, dim> patches(points_as_vertices(snapshot));
     write_file(path, [&](std::ostream &out) {
       patches.write(out, snapshot.time, snapshot.step);
     });

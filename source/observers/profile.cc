@@ -1,4 +1,4 @@
-#include <talus/observers/finest_lattice.h>
+#include <talus/observers/cell_lattice.h>
 #include <talus/observers/profile.h>
 
 #include <deal.II/base/mpi.h>
@@ -64,9 +64,9 @@ namespace talus
 
     template <int dim>
     Sums
-    contribution(const Snapshot<dim>      &snapshot,
-                 const FinestLattice<dim> &lattice,
-                 const unsigned int        p)
+    contribution(const Snapshot<dim>    &snapshot,
+                 const CellLattice<dim> &lattice,
+                 const unsigned int      p)
     {
       const Points<dim> &points      = snapshot.points;
       const double       y           = points.data(points.position, 1)[p];
@@ -88,9 +88,9 @@ namespace talus
     std::vector<Sums>
     sum_columns(const Snapshot<dim> &snapshot)
     {
-      const Grid<dim>         &grid = snapshot.grid;
-      const FinestLattice<dim> lattice(grid);
-      std::vector<Sums>        columns;
+      const Grid<dim>       &grid = snapshot.grid;
+      const CellLattice<dim> lattice(grid);
+      std::vector<Sums>      columns;
       for (unsigned int p = 0; p < snapshot.points.size(); ++p)
         {
           const Sums more = contribution(snapshot, lattice, p);
@@ -118,7 +118,7 @@ namespace talus
   std::vector<ProfileColumn>
   find_profile(const Snapshot<dim> &snapshot)
   {
-    using Lattice = FinestLattice<dim>;
+    using Lattice = CellLattice<dim>;
     const Lattice              lattice(snapshot.grid);
     std::vector<ProfileColumn> profile;
     for (const Sums &sums : sum_columns(snapshot))

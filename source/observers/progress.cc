@@ -1,4 +1,5 @@
 #include <talus/base/errors.h>
+#include <talus/observers/phase_times.h>
 #include <talus/observers/progress.h>
 
 #include <cmath>
@@ -115,8 +116,10 @@ namespace talus
       Utilities::MPI::sum(now_.point_steps, communicator_);
     const unsigned long all_points =
       Utilities::MPI::sum(static_cast<unsigned long>(n_points), communicator_);
-    if (is_terminal_)
-      timer.print_summary();
+    const auto times = phase_times(timer, communicator_);
+    if (is_terminal_ && is_first_rank())
+      for (const std::string &line : times)
+        out_ << line << std::endl;
     if (is_first_rank())
       out_ << text(std::setprecision(6),
                    static_cast<unsigned long>(now_.steps),

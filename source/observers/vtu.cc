@@ -3,59 +3,51 @@
 
 #include <deal.II/grid/reference_cell.h>
 
-#include <iomanip>
-
 namespace talus
 {
   using namespace dealii;
 
   template <int patch_dim, int dim>
-  Patches<patch_dim, dim>::Patches(const std::vector<Field> &fields)
-    : fields_(fields)
+  Patches<patch_dim, dim>::Patches(const OutputCells<patch_dim, dim> &cells)
+    : fields_(cells.fields)
   {
     std::size_t n_components = 0;
     for (const Field &field : fields_)
       n_components += field.n_components;
     values_.resize(n_components);
+    patches_.reserve(cells.size());
+    for (unsigned int c = 0; c < cells.size(); ++c)
+      add(cells, c);
   }
 
 
 
   template <int patch_dim, int dim>
   void
-  Patches<patch_dim, dim>::reserve(const unsigned int n)
+  Patches<patch_dim, dim>::add(const OutputCells<patch_dim, dim> &cells,
+                               const unsigned int                 c)
   {
-    patches_.reserve(patches_.size() + n);
-  }
-
-
-
-  template <int patch_dim, int dim>
-  void
-  Patches<patch_dim, dim>::add(
-    const std::array<Point<dim>, (1 << patch_dim)>   &vertices,
-    const std::array<unsigned int, (1 << patch_dim)> &items)
-  {
-    Patch patch;
-    patch.patch_index = patches_.size();
+    constexpr unsigned int n = OutputCells<patch_dim, dim>::n_vertices;
+    Patch                  patch;
+    patch.patch_index = c;
     if constexpr (patch_dim > 0)
       patch.reference_cell = ReferenceCells::get_hypercube<patch_dim>();
-    patch.data.reinit(values_.size(), items.size());
-    for (unsigned int v = 0; v < items.size(); ++v)
+    patch.data.reinit(values_.size(), n);
+    for (unsigned int v = 0; v < n; ++v)
       {
-        patch.vertices[v] = vertices[v];
+        patch.vertices[v] = cells.vertices[c * n + v];
         // The vertices of a point's box share its values.
-        if (v == 0 || items[v] != items[v - 1])
+        if (v == 0 || cells.items_at == ItemsAt::vertices)
           {
             float *to = values_.data();
             for (const Field &field : fields_)
               {
-                field.evaluate(items[v], to);
+                field.evaluate(cells.item(c, v), to);
                 to += field.n_components;
               }
           }
-        for (unsigned int c = 0; c < values_.size(); ++c)
-          patch.data(c, v) = values_[c];
+        for (unsigned int i = 0; i < values_.size(); ++i)
+          patch.data(i, v) = values_[i];
       }
     patches_.push_back(std::move(patch));
   }
@@ -136,111 +128,51 @@ namespace talus
 
 
 
-  namespace
+  template <int cell_dim, int dim>
+  std::string
+  write_vtu(const std::filesystem::path      &folder,
+            const std::string                &base,
+            const MPI_Comm                    communicator,
+            const OutputCells<cell_dim, dim> &cells,
+            const double                      time,
+            const unsigned long               step)
   {
-    // deal.II's function of this kind writes the date into the file and keeps
-    // only 12 digits of the times.
-    void
-    write_pvd(
-      std::ostream                                      &out,
-      const std::vector<std::pair<double, std::string>> &times_and_names)
-    {
-      out << "<?xml version=\"1.0\"?>\n"
-             "<VTKFile type=\"Collection\" version=\"0.1\">\n"
-             "  <Collection>\n"
-          << std::setprecision(16);
-      for (const auto &[time, name] : times_and_names)
-        out << "    <DataSet timestep=\"" << time
-            << "\" group=\"\" part=\"0\" file=\"" << name << "\"/>\n";
-      out << "  </Collection>\n</VTKFile>\n";
-    }
-  } // namespace
-
-
-
-  void
-  VtuSeries::begin(const std::filesystem::path &folder,
-                   const std::string           &name,
-                   const MPI_Comm               communicator,
-                   const Beginning              beginning)
-  {
-    folder_       = folder;
-    name_         = name;
-    communicator_ = communicator;
-    if (beginning == Beginning::anew)
-      times_and_names_.clear();
-  }
-
-
-
-  void
-  VtuSeries::list_state(const std::string &name, StateList &list)
-  {
-    const auto get = [this]() {
-      std::ostringstream out;
-      out << std::setprecision(17);
-      for (const auto &[time, file] : times_and_names_)
-        out << time << ' ' << file << '\n';
-      return out.str();
-    };
-    const auto set = [this](const std::string &text) {
-      times_and_names_.clear();
-      std::istringstream in(text);
-      double             time;
-      std::string        file;
-      while (in >> time >> file)
-        times_and_names_.emplace_back(time, file);
-    };
-    list.add_text({name, get, set});
-  }
-
-
-
-  template <int patch_dim, int dim>
-  void
-  VtuSeries::write(Patches<patch_dim, dim> &patches,
-                   const double             time,
-                   const unsigned long      step)
-  {
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator_);
-    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator_);
-    const std::string  base =
-      name_ + "-" + Utilities::int_to_string(times_and_names_.size(), 4);
-    const auto piece = [&](const unsigned int r) {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
+    const auto         piece   = [&](const unsigned int r) {
       return base + (n_ranks > 1 ? "." + std::to_string(r) : "") + ".vtu";
     };
 
-    write_file(folder_ / piece(rank),
+    Patches<cell_dim, dim> patches(cells);
+    write_file(folder / piece(rank),
                [&](std::ostream &out) { patches.write(out, time, step); });
-    times_and_names_.emplace_back(time,
-                                  n_ranks > 1 ? base + ".pvtu" : piece(0));
-    if (rank != 0)
-      return;
+    if (n_ranks == 1)
+      return piece(0);
 
-    if (n_ranks > 1)
-      {
-        std::vector<std::string> pieces;
-        for (unsigned int r = 0; r < n_ranks; ++r)
-          pieces.push_back(piece(r));
-        write_file(folder_ / (base + ".pvtu"), [&](std::ostream &out) {
-          // deal.II leaves no choice but to write the date, as a comment.
-          std::stringstream record;
-          patches.write_pvtu_record(record, pieces);
-          for (std::string line; std::getline(record, line);)
-            if (line.find("#This file was generated") == std::string::npos)
-              out << line << '\n';
-        });
-      }
-    write_file(folder_ / (name_ + ".pvd"),
-               [&](std::ostream &out) { write_pvd(out, times_and_names_); });
+    std::vector<std::string> pieces;
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      pieces.push_back(piece(r));
+    if (rank == 0)
+      write_file(folder / (base + ".pvtu"), [&](std::ostream &out) {
+        // deal.II leaves no choice but to write the date, as a comment.
+        std::stringstream record;
+        patches.write_pvtu_record(record, pieces);
+        for (std::string line; std::getline(record, line);)
+          if (line.find("#This file was generated") == std::string::npos)
+            out << line << '\n';
+      });
+    return base + ".pvtu";
   }
 
 
 
-#define INSTANTIATE(patch_dim, dim)                         \
-  template class Patches<patch_dim, dim>;                   \
-  template void VtuSeries::write(Patches<patch_dim, dim> &, \
-                                 double,                    \
+#define INSTANTIATE(cell_dim, dim)                                   \
+  template class Patches<cell_dim, dim>;                             \
+  template std::string write_vtu(const std::filesystem::path &,      \
+                                 const std::string &,                \
+                                 MPI_Comm,                           \
+                                 const OutputCells<cell_dim, dim> &, \
+                                 double,                             \
                                  unsigned long);
 
   INSTANTIATE(0, 2)

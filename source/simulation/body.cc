@@ -132,6 +132,17 @@ namespace talus
 
 
   template <int dim>
+  Box<dim>
+  Body<dim>::bounding_box(const Box<dim> &domain) const
+  {
+    const Box<dim> box = make_shape(domain)->bounding_box();
+    check_inside(box, domain);
+    return box;
+  }
+
+
+
+  template <int dim>
   void
   Body<dim>::check_inside(const Box<dim> &box, const Box<dim> &domain) const
   {
@@ -227,9 +238,7 @@ namespace talus
                              dim,
                              " axes.")));
     const auto     shape = make_shape(grid.domain());
-    const Box<dim> box   = shape->bounding_box();
-    check_inside(box, grid.domain());
-
+    const Box<dim> box   = bounding_box(grid.domain());
     check_apart(*shape, points);
 
     const unsigned int n_before = points.size();

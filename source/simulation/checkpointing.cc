@@ -28,6 +28,9 @@ namespace talus
                         Reduction::sum);
     list.add_components(
       "wall impulse", "N s", boundary_work_.wall_impulse, dim, Reduction::sum);
+    list.add("mesh is urgent", "-", mesh_is_urgent_, Reduction::equal);
+    list.add("mesh changes", "-", n_mesh_changes_, Reduction::equal);
+    list.add("repartitions", "-", n_repartitions_, Reduction::equal);
     splitter_.list_state(list);
     load_balance_.list_state(list);
     output_.list_state(list);
@@ -49,8 +52,8 @@ namespace talus
     check_parameter_changes(file.read_text("parameters"),
                             parameters_as_text(this->prm));
 
-    grid_.load((resumed_from_.path / mesh_file_name).string(),
-               faces_that_may_move());
+    grid_.create(faces_that_may_move(), mesh_tracking_.is_enabled());
+    grid_.load((resumed_from_.path / mesh_file_name).string());
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int n_ranks_then = resumed_from_.head.n_ranks;
     if (n_ranks == n_ranks_then && n_ranks > 1)

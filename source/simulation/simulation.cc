@@ -82,8 +82,7 @@ namespace talus
   Simulation<dim>::set_up()
   {
     set_up_laws();
-    grid_.create(faces_that_may_move());
-    prepare();
+    create_mesh();
     create_bodies();
     share_out();
   }
@@ -182,8 +181,8 @@ namespace talus
   void
   Simulation<dim>::advance()
   {
-    adapt_mesh();
     choose_time_step();
+    adapt_mesh();
     points_to_grid();
     grid_to_points();
     split();
@@ -199,15 +198,19 @@ namespace talus
   Simulation<dim>::choose_time_step()
   {
     TimerOutput::Scope scope(timer_, "time step");
-    // One message for both: the largest wish is the one with the least sign.
-    std::array<double, 2> all = {
+    // The only operation of all ranks in a step. The largest wish is the one
+    // that becomes the least.
+    const std::array<double, 3> local = {
       {time_step_.choose(points_, grid_, materials_, transfer_.box_shape()),
+       mesh_tracking_.is_urgent(grid_, relocation_.occupied_cells()) ? 0. : 1.,
        -static_cast<double>(own_wish())}};
-    Utilities::MPI::min(ArrayView<const double>(all.data(), all.size()),
+    std::array<double, 3> all;
+    Utilities::MPI::min(ArrayView<const double>(local.data(), 3),
                         grid_.communicator(),
-                        ArrayView<double>(all.data(), all.size()));
-    dt_   = std::min(all[0], end_time_ - time_);
-    wish_ = static_cast<Wish>(-all[1]);
+                        ArrayView<double>(all.data(), 3));
+    dt_             = std::min(all[0], end_time_ - time_);
+    mesh_is_urgent_ = (all[1] == 0.);
+    wish_           = static_cast<Wish>(-all[2]);
   }
 
 
@@ -319,7 +322,7 @@ namespace talus
                       ") m with ",
                       grid_.triangulation().n_global_active_cells(),
                       " cells of ",
-                      grid_.finest_size(),
+                      grid_.cell_size(),
                       " m; there are ",
                       Utilities::MPI::sum(points_.size(), grid_.communicator()),
                       " points.",
@@ -334,17 +337,35 @@ namespace talus
   void
   Simulation<dim>::note_time_step()
   {
-    const BoxShape &shape = transfer_.box_shape();
-    output_.note(text("t = ",
-                      time_,
-                      " s: the time step is ",
-                      Utilities::MPI::min(
-                        time_step_.choose(points_, grid_, materials_, shape),
-                        grid_.communicator()),
-                      " s, limited by ",
-                      time_step_.limited_by(points_, grid_, materials_, shape),
-                      "."),
-                 step_ == 0);
+    const MPI_Comm     communicator = grid_.communicator();
+    const BoxShape    &shape        = transfer_.box_shape();
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const double       dt =
+      Utilities::MPI::min(time_step_.choose(points_, grid_, materials_, shape),
+                          communicator);
+    std::string sentence =
+      text("t = ",
+           time_,
+           " s: the time step is ",
+           dt,
+           " s, limited by ",
+           time_step_.limited_by(points_, grid_, materials_, shape),
+           ".");
+    if (n_mesh_changes_ > 0)
+      sentence += text(" The mesh changed ",
+                       n_mesh_changes_,
+                       " times and has ",
+                       grid_.triangulation().n_global_active_cells(),
+                       " cells.");
+    if (n_ranks > 1)
+      sentence += text(" The largest share of points of the ",
+                       n_ranks,
+                       " ranks is ",
+                       LoadBalance<dim>::imbalance(points_, communicator),
+                       " times the mean; cells were shared out ",
+                       n_repartitions_,
+                       " times.");
+    output_.note(sentence, step_ == 0);
   }
 
 

@@ -8,6 +8,25 @@ namespace talus
 {
   using namespace dealii;
 
+  template <int dim>
+  void
+  Simulation<dim>::create_mesh()
+  {
+    grid_.create(faces_that_may_move(), mesh_tracking_.is_enabled());
+    if (mesh_tracking_.is_enabled())
+      {
+        std::vector<Box<dim>> boxes;
+        for (const auto &body : bodies_)
+          boxes.push_back(body->bounding_box(grid_.domain()));
+        mesh_tracking_.adapt(grid_, boxes);
+      }
+    else
+      grid_.refine();
+    prepare();
+  }
+
+
+
   /// All that depends on the mesh. Points stay on their rank.
   template <int dim>
   void
@@ -53,6 +72,7 @@ namespace talus
   {
     if (Utilities::MPI::n_mpi_processes(grid_.communicator()) == 1)
       return;
+    ++n_repartitions_;
     const auto cells = load_balance_.repartition(grid_, points_);
     nodes_.prepare(grid_);
     relocation_.rebuild(points_, cells);
@@ -66,6 +86,14 @@ namespace talus
   Simulation<dim>::adapt_mesh()
   {
     TimerOutput::Scope scope(timer_, "mesh");
+    if (mesh_is_urgent_ ||
+        (mesh_tracking_.is_enabled() && mesh_tracking_.is_due(step_)))
+      if (mesh_tracking_.adapt(grid_, relocation_.occupied_cells()))
+        {
+          ++n_mesh_changes_;
+          prepare();
+          share_out();
+        }
     if (load_balance_.is_due(points_, step_, grid_.communicator()))
       share_out();
   }
@@ -73,6 +101,7 @@ namespace talus
 
 
 #define INSTANTIATE(dim)                                                    \
+  template void                      Simulation<dim>::create_mesh();        \
   template void                      Simulation<dim>::prepare();            \
   template std::array<bool, 2 * dim> Simulation<dim>::faces_that_may_move() \
     const;                                                                  \

@@ -380,11 +380,17 @@ class DiskFull(Case):
         (self.results / "filling").unlink()
         self.assert_untouched()
 
-    def test_full_during_the_run(self):
+    def fill_during_the_run(self, *settings):
         self.assert_refused(self.run_file(settings=["Output/Field interval=1e-4",
-                                                    "End time=1"]),
+                                                    "End time=1", *settings]),
                             "results/", "No space left on device", "--output")
         self.assertEqual(list(self.results.glob("*.part")), [])
+
+    def test_full_during_the_run(self):
+        self.fill_during_the_run()
+
+    def test_full_during_the_run_hdf5(self):
+        self.fill_during_the_run("Output/Format=hdf5")
 
 
 if __name__ == "__main__":

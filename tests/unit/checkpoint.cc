@@ -185,7 +185,8 @@ namespace
   TEST_F(CheckpointTest, GivesBackTheMesh)
   {
     const fs::path path = write(1);
-    scene.grid.load((path / "mesh").string(), {});
+    scene.grid.create({});
+    scene.grid.load((path / "mesh").string());
     scene.grid.prepare();
     EXPECT_EQ(scene.grid.n_owned_cells(), 32u);
     EXPECT_EQ(scene.grid.finest_size(), 1.);

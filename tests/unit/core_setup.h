@@ -51,6 +51,7 @@ struct Core : FreshParameters
     dealii::ParameterAcceptor::parse_all_parameters();
     grid.check();
     grid.create(may_move);
+    grid.refine();
     grid.prepare();
     nodes.prepare(grid);
     loads.acceleration_of_body.resize(3);

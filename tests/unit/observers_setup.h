@@ -28,6 +28,7 @@ struct Scene
       "\n set Upper corner = " + upper + "\n set Cell size = 1\nend\n");
     dealii::ParameterAcceptor::parse_all_parameters();
     grid.create({});
+    grid.refine();
     grid.prepare();
     nodes.prepare(grid);
   }

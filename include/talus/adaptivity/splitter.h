@@ -28,10 +28,11 @@ namespace talus
   public:
     Splitter();
 
-    /// Split every point that violates the criterion, once. The first daughter
-    /// takes the parent's place, the others are appended and wait for
-    /// Relocation::update(). Returns whether any point was split. Throws
-    /// ExcPoint if there would be too many points.
+    /// Split every point that violates the criterion, once. Points may have left
+    /// the cell they are sorted into, and daughters their parent's: both wait
+    /// for Relocation::update(). The first daughter takes the parent's place,
+    /// the others are appended. Returns whether any point was split. Throws
+    /// ExcPoint if this rank would have too many points.
     bool
     enforce(Points<dim> &points, const Grid<dim> &grid);
 
@@ -82,6 +83,16 @@ namespace talus
                        unsigned int       axes,
                        double             cell_size,
                        const Box<dim>    &domain) const;
+    /// The same where the point's old cell is not uniform; sets the size of the
+    /// cell it is in now.
+    unsigned int
+    axes_near_other_sizes(const Points<dim> &points,
+                          const Grid<dim>   &grid,
+                          unsigned int       p,
+                          unsigned int       cell,
+                          double            &cell_size) const;
+    void
+    check_budget(const Points<dim> &points, std::size_t n_points) const;
     void
     split(Points<dim> &points, unsigned int p, unsigned int axes);
 

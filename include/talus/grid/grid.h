@@ -15,6 +15,7 @@
 #include <deal.II/lac/affine_constraints.h>
 
 #include <array>
+#include <functional>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -73,21 +74,44 @@ namespace talus
     void
     check() const;
 
-    /// Make the mesh from the parameters.
+    /// Place of a cell in the lattice of its level: how many cells of its size
+    /// lie before it along each axis.
+    using Lattice = std::array<long, dim>;
+
+    /// Whether something in the cell at this place and level asks for smaller
+    /// cells.
+    using WantsFiner =
+      std::function<bool(const Lattice &place, unsigned int level)>;
+
+    /// Lay out the domain and its coarsest cells from the parameters.
     /// @p may_move tells for each face (see face_names) whether it may be moved
-    /// outwards when the extent is not a multiple of the cell size.
+    /// outwards when the extent is not a multiple of the cell size, or, if
+    /// cells are to @p grow far from soil, of the largest cells. Throws ExcUser
+    /// if that cannot be done.
     void
-    create(const std::array<bool, 2 * dim> &may_move);
+    create(const std::array<bool, 2 * dim> &may_move, bool grow = false);
+
+    /// Divide all cells down to h, and further in the refinement boxes.
+    void
+    refine();
+
+    /// Divide and join cells until those are divided that contain something
+    /// that asks for it, those in the refinement boxes, and those that must be
+    /// because neighbours differ by a factor of two at most. Cells stay on
+    /// their rank unless they are to be @p spread evenly. Returns whether the
+    /// mesh changed. Collective; prepare() must follow.
+    bool
+    refine(const WantsFiner &wants_finer, bool spread);
 
     /// Write the mesh to the file @p path and to others whose names begin like
     /// that. Collective.
     void
     save(const std::string &path) const;
 
-    /// Make the mesh that save() wrote, in place of create(). p4est then shares
-    /// the cells evenly among the ranks. Collective.
+    /// Make the mesh that save() wrote, after create() and in place of refine().
+    /// p4est then shares the cells evenly among the ranks. Collective.
     void
-    load(const std::string &path, const std::array<bool, 2 * dim> &may_move);
+    load(const std::string &path);
 
     /// Cells that this rank owns, also before prepare() counts them.
     unsigned int
@@ -112,6 +136,20 @@ namespace talus
     domain() const
     {
       return domain_;
+    }
+
+    /// Edge h of the cells where nothing asks for smaller ones, m.
+    double
+    cell_size() const
+    {
+      return tree_size_ / (1u << base_level_);
+    }
+
+    /// The level of the cells of size h.
+    unsigned int
+    base_level() const
+    {
+      return base_level_;
     }
 
     /// Edge of the smallest cells, m.
@@ -194,6 +232,39 @@ namespace talus
     neighbor_ranks() const
     {
       return neighbor_ranks_;
+    }
+
+    unsigned int
+    level_of_cell(const unsigned int c) const
+    {
+      return level_of_cell_[c];
+    }
+
+    Lattice
+    place_of_cell(unsigned int c) const;
+
+    /// Place of the cell of this level that contains @p x, moved onto the mesh.
+    Lattice
+    lattice_place(const dealii::Point<dim> &x, unsigned int level) const;
+
+    /// Number of cells of this level along each axis of the mesh.
+    Lattice
+    extent_of_lattice(unsigned int level) const;
+
+    /// One number for a place in the lattice of a level, whether or not there is
+    /// a cell, and that for what contains it on the level above.
+    static unsigned long
+    key_of_place(const Lattice &place, unsigned int level);
+
+    static unsigned long
+    key_of_parent(unsigned long key);
+
+    /// Whether the points of an owned cell may touch a node of a cell larger
+    /// than h.
+    bool
+    is_near_larger_cell(const unsigned int c) const
+    {
+      return is_near_larger_cell_[c];
     }
 
     /// Name of a cell that all ranks know it by.
@@ -281,15 +352,22 @@ namespace talus
     }
 
   private:
-    using Lattice = std::array<long, dim>;
+    struct RefinementBox
+    {
+      Box<dim>     box;
+      unsigned int n_levels;
+    };
 
     void
-    fit_domain(const std::array<bool, 2 * dim> &may_move);
-    /// Make the trees of the forest. Returns how often create() refines them.
+    parse_refinement_boxes();
+    bool
+    box_wants_finer(const Lattice &place, unsigned int level) const;
+    void
+    fit_axis(unsigned int d, bool may_move, unsigned int factor);
     unsigned int
-    create_trees(const std::array<bool, 2 * dim> &may_move);
-    unsigned int
-    refinement_that_divides() const;
+    level_of_trees(const std::array<bool, 2 * dim> &may_move, bool grow) const;
+    bool
+    flag_cells(const WantsFiner &wants_finer);
     std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator>
     cells_in_order() const;
     void
@@ -311,27 +389,27 @@ namespace talus
     std::vector<unsigned int>
     nodes_on_face(unsigned int c, unsigned int face) const;
 
-    Lattice
-    lattice_place(const dealii::Point<dim> &x, unsigned int level) const;
-    Lattice
-    place_of_cell(unsigned int c) const;
-    /// Number of cells of this size along each axis of the mesh.
-    Lattice
-    lattice_extent(double size) const;
+    void
+    find_larger_cells();
+
     unsigned int
     cell_at(const Lattice &place, unsigned int level) const;
 
     // Parameters
     dealii::Point<dim> lower_corner_;
     dealii::Point<dim> upper_corner_;
-    double             cell_size_      = 0.2;
-    unsigned int       coarsest_level_ = 3;
+    double             cell_size_          = 0.2;
+    unsigned int       coarsest_level_     = 3;
+    unsigned int       initial_refinement_ = 0;
+    std::string        refinement_boxes_;
 
     Box<dim>                                          domain_;
     std::string                                       adjustment_;
     std::array<unsigned int, dim>                     n_cells_per_axis_;
     double                                            tree_size_   = 0;
+    unsigned int                                      base_level_  = 0;
     double                                            finest_size_ = 0;
+    std::vector<RefinementBox>                        boxes_;
     dealii::parallel::distributed::Triangulation<dim> triangulation_;
     dealii::FE_Q<dim>                                 fe_;
     dealii::DoFHandler<dim>                           dof_handler_;
@@ -349,6 +427,7 @@ namespace talus
     std::unordered_map<unsigned long, unsigned int> cell_map_;
     std::unordered_map<unsigned int, std::vector<unsigned int>> touching_;
     std::vector<unsigned char>                                  faces_of_node_;
+    std::vector<bool> is_near_larger_cell_;
     std::array<std::unordered_map<unsigned int, FaceShare>, 2 * dim>
                              face_shares_;
     std::vector<HangingNode> hanging_nodes_;

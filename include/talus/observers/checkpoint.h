@@ -71,6 +71,8 @@ namespace talus
   private:
     using Clock = std::chrono::steady_clock;
 
+    std::uint64_t
+    size_in_file(const Content &content) const;
     void
     write_state(const std::filesystem::path &part,
                 const Content               &content) const;

@@ -42,6 +42,12 @@ namespace talus
 
 
 
+  /// The sentence that says that the file @p path could not be written.
+  std::string
+  failed_write(const std::filesystem::path &path, const std::string &reason);
+
+
+
   /// A text that grows line by line.
   class LogFile
   {

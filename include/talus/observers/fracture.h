@@ -7,7 +7,7 @@
 namespace talus
 {
   /// Signs of numerical fracture: where the points no longer form a continuum.
-  /// Counted on cells of the finest size (see FinestLattice); a cell is
+  /// Counted on cells of size h (`Grid/Cell size`) (see CellLattice); a cell is
   /// occupied when the centre of a point is in it.
   struct FractureCounts
   {

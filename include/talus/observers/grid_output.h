@@ -1,15 +1,16 @@
 #ifndef talus_observers_grid_output_h
 #define talus_observers_grid_output_h
 
+#include <talus/observers/series.h>
 #include <talus/observers/snapshot.h>
-#include <talus/observers/vtu.h>
 
 namespace talus
 {
-  /// grid.pvd and its VTU files: the cells of the background grid that hold
-  /// points, with the mass, velocity and force of the step before at their
-  /// nodes. All three are zero at nodes the step did not touch, and at the
-  /// start; mass and force of a hanging node went to its masters.
+  /// grid.pvd and its VTU files, or grid.xdmf and its HDF5 files: the cells of
+  /// the background grid that hold points, with the mass, velocity and force of
+  /// the step before at their nodes. All three are zero at nodes the step did
+  /// not touch, and at the start; mass and force of a hanging node went to its
+  /// masters.
   template <int dim>
   class GridOutput
   {
@@ -17,6 +18,7 @@ namespace talus
     void
     begin(const std::filesystem::path &folder,
           MPI_Comm                     communicator,
+          FieldFormat                  format    = FieldFormat::vtu,
           Beginning                    beginning = Beginning::anew);
 
     void
@@ -28,7 +30,7 @@ namespace talus
     write(const Snapshot<dim> &snapshot);
 
   private:
-    VtuSeries series_;
+    FieldSeries series_;
   };
 } // namespace talus
 

@@ -1,6 +1,8 @@
 #ifndef talus_observers_hdf5_file_h
 #define talus_observers_hdf5_file_h
 
+#include <talus/observers/hdf5_errors.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <hdf5.h>
@@ -128,14 +130,13 @@ namespace talus
     read_text(const std::string &name);
 
   private:
-    /// Keep a complaint about @p action, if there is one, until the next
-    /// agreement: enough where nobody waits for this rank.
+    /// Keep in mind what failed, unless it did not, until the next agreement:
+    /// enough where no rank waits for this one.
     void
-    remember(const std::string &complaint, const std::string &action);
-    /// The same, and agree with the other ranks on whether one has a complaint;
-    /// true if none has.
+    remember(bool success, const std::string &failure);
+    /// The same, and agree with the other ranks on whether all is well.
     bool
-    conclude(const std::string &complaint, const std::string &action);
+    conclude(bool success, const std::string &failure);
     bool
     is_first_rank() const;
     /// Make an array that only the first rank fills.
@@ -162,6 +163,7 @@ namespace talus
 
     std::filesystem::path path_;
     MPI_Comm              communicator_;
+    const Hdf5Errors      errors_;
     hid_t                 file_ = -1;
     std::string           error_;
     std::string           own_complaint_;

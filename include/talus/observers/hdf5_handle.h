@@ -5,25 +5,56 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace talus
 {
-  /// An open object of the HDF5 library, closed at the end of its scope.
+  /// An object of the HDF5 library, closed when it goes out of scope. Most
+  /// functions of the library return a negative number if they fail.
   class Hdf5Handle
   {
   public:
-    Hdf5Handle(const hid_t id, herr_t (*close)(hid_t))
+    using Close = herr_t (*)(hid_t);
+
+    Hdf5Handle() = default;
+
+    Hdf5Handle(const hid_t id, const Close close)
       : id_(id)
       , close_(close)
     {}
 
-    ~Hdf5Handle()
+    Hdf5Handle(Hdf5Handle &&other) noexcept
+      : id_(std::exchange(other.id_, H5I_INVALID_HID))
+      , close_(other.close_)
+    {}
+
+    Hdf5Handle &
+    operator=(Hdf5Handle &&other) noexcept
     {
-      if (id_ >= 0)
-        close_(id_);
+      std::swap(id_, other.id_);
+      std::swap(close_, other.close_);
+      return *this;
     }
 
-    Hdf5Handle(const Hdf5Handle &) = delete;
+    ~Hdf5Handle()
+    {
+      close();
+    }
+
+    /// Whether there is an object.
+    bool
+    well() const
+    {
+      return id_ >= 0;
+    }
+
+    /// Close it now; false if there is none, or if that fails.
+    bool
+    close()
+    {
+      const hid_t id = std::exchange(id_, H5I_INVALID_HID);
+      return id >= 0 && close_(id) >= 0;
+    }
 
     operator hid_t() const
     {
@@ -31,13 +62,13 @@ namespace talus
     }
 
   private:
-    hid_t id_;
-    herr_t (*close_)(hid_t);
+    hid_t id_    = H5I_INVALID_HID;
+    Close close_ = nullptr;
   };
 
 
 
-  /// The type of a text of this length, which is fixed in the file.
+  /// The type of a text of the length of this one.
   inline Hdf5Handle
   text_type(const std::string &text)
   {
@@ -46,27 +77,6 @@ namespace talus
     H5Tset_strpad(id, H5T_STR_NULLPAD);
     H5Tset_cset(id, H5T_CSET_UTF8);
     return {id, H5Tclose};
-  }
-
-
-
-  /// Nothing after a success; after a failure the library's own words from deep
-  /// inside, which the next call of the library forgets.
-  inline std::string
-  hdf5_complaint(const bool success)
-  {
-    if (success)
-      return "";
-    std::string description;
-    const auto  keep_first =
-      [](unsigned int, const H5E_error2_t *entry, void *data) -> herr_t {
-      auto &kept = *static_cast<std::string *>(data);
-      if (kept.empty() && entry->desc != nullptr)
-        kept = entry->desc;
-      return 0;
-    };
-    H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &description);
-    return description.empty() ? "no reason given" : description;
   }
 } // namespace talus
 

@@ -19,8 +19,8 @@
 namespace talus
 {
   /// All that a run leaves behind, in one folder: parameters.prm, log.txt,
-  /// statistics.csv, profile.csv, points.pvd and grid.pvd with their VTU files;
-  /// and the progress on the terminal.
+  /// statistics.csv, profile.csv, points.pvd and grid.pvd with their VTU files
+  /// (or .xdmf and HDF5 files); and the progress on the terminal.
   ///
   /// Rows and fields are written at the start, at the first step that reaches
   /// each multiple of their interval (see OutputTimes) and at the last step.
@@ -97,6 +97,7 @@ namespace talus
     bool        write_points_        = true;
     bool        write_grid_          = true;
     bool        boxes_as_cells_      = false;
+    std::string format_              = "vtu";
 
     dealii::TimerOutput &timer_;
     Statistics<dim>      statistics_;

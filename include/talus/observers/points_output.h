@@ -1,8 +1,8 @@
 #ifndef talus_observers_points_output_h
 #define talus_observers_points_output_h
 
+#include <talus/observers/series.h>
 #include <talus/observers/snapshot.h>
-#include <talus/observers/vtu.h>
 
 #include <vector>
 
@@ -22,9 +22,11 @@ namespace talus
 
 
 
-  /// points.pvd and its VTU files: each point as a vertex, or its box as a quad
-  /// (hex) with the point's values at all corners, so that ParaView shows a
-  /// continuum. The boxes are unclipped: full current lengths.
+  /// points.pvd and its VTU files, or points.xdmf and its HDF5 files: each
+  /// point as a vertex, or its box as a quad (hex), so that ParaView shows a
+  /// continuum. The boxes are unclipped: full current lengths. The values of a
+  /// point are at its vertex; at all corners of its box in VTU, and once, at
+  /// the cell, in HDF5.
   template <int dim>
   class PointsOutput
   {
@@ -33,6 +35,7 @@ namespace talus
     begin(const std::filesystem::path &folder,
           MPI_Comm                     communicator,
           bool                         boxes_as_cells,
+          FieldFormat                  format    = FieldFormat::vtu,
           Beginning                    beginning = Beginning::anew);
 
     void
@@ -44,14 +47,14 @@ namespace talus
     write(const Snapshot<dim> &snapshot);
 
   private:
-    VtuSeries series_;
-    bool      boxes_as_cells_ = false;
+    FieldSeries series_;
+    bool        boxes_as_cells_ = false;
   };
 
 
 
-  /// Write the points of this rank, as vertices, to the file @p path. They need
-  /// not be sorted, nor their values be numbers.
+  /// Write the points of this rank, as vertices, to the VTU file @p path. They
+  /// need not be sorted, nor their values be numbers.
   template <int dim>
   void
   write_points(const Snapshot<dim>         &snapshot,

@@ -8,7 +8,7 @@
 
 namespace talus
 {
-  /// The soil in one column of cells of the finest size.
+  /// The soil in one column of cells of size h (`Grid/Cell size`).
   struct ProfileColumn
   {
     double x;       ///< of the column's centre, m
@@ -34,8 +34,8 @@ namespace talus
 
 
 
-  /// profile.csv: for each output time, one row per column of the mesh (of the
-  /// finest cell size) with points.
+  /// profile.csv: for each output time, one row per column of the mesh (of
+  /// size h) with points.
   template <int dim>
   class Profile
   {

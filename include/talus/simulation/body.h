@@ -31,6 +31,10 @@ namespace talus
                   double           density,
                   Points<dim>     &points) const;
 
+    /// Smallest box around the body in a mesh that fills @p domain.
+    Box<dim>
+    bounding_box(const Box<dim> &domain) const;
+
     /// Set the velocity of the points of body @p index, that of time @p t, s.
     void
     set_initial_velocity(Points<dim> &points,

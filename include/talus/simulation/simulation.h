@@ -2,6 +2,7 @@
 #define talus_simulation_simulation_h
 
 #include <talus/adaptivity/load_balance.h>
+#include <talus/adaptivity/mesh_tracking.h>
 #include <talus/adaptivity/splitter.h>
 #include <talus/boundaries/boundaries.h>
 #include <talus/grid/grid.h>
@@ -95,6 +96,8 @@ namespace talus
     void
     begin_run();
     void
+    create_mesh();
+    void
     share_out();
     void
     adapt_mesh();
@@ -146,6 +149,7 @@ namespace talus
     Boundaries<dim>                         boundaries_;
     Splitter<dim>                           splitter_;
     LoadBalance<dim>                        load_balance_;
+    MeshTracking<dim>                       mesh_tracking_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     Loading<dim>                            loading_;
     TimeStep<dim>                           time_step_;
@@ -159,7 +163,10 @@ namespace talus
     unsigned long     step_         = 0;
     double            gravity_work_ = 0; ///< J
     BoundaryWork<dim> boundary_work_;
-    double            least_mass_ = 0; ///< kg
+    double            least_mass_     = 0; ///< kg
+    bool              mesh_is_urgent_ = false;
+    unsigned long     n_mesh_changes_ = 0;
+    unsigned long     n_repartitions_ = 0;
 
     Wish            wish_ = Wish::none; // of all ranks, for after this step
     FoundCheckpoint resumed_from_;      // no path in a run from the start

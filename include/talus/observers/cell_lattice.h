@@ -1,5 +1,5 @@
-#ifndef talus_observers_finest_lattice_h
-#define talus_observers_finest_lattice_h
+#ifndef talus_observers_cell_lattice_h
+#define talus_observers_cell_lattice_h
 
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
@@ -9,20 +9,20 @@
 
 namespace talus
 {
-  /// The lattice of cells of the finest size over the box of the mesh, whatever
+  /// The lattice of cells of size h (`Grid/Cell size`) over the box of the mesh, whatever
   /// the mesh's own cells are. y points up: a column is all cells with the same
   /// x (2-D) or x and z (3-D).
   ///
   /// A cell is one number, its key. Keys sort by x, then z, then y, so the
   /// cells of a column follow each other from the bottom to the top.
   template <int dim>
-  class FinestLattice
+  class CellLattice
   {
   public:
     using Place = std::array<int, dim>;
     using Key   = std::uint64_t;
 
-    explicit FinestLattice(const Grid<dim> &grid);
+    explicit CellLattice(const Grid<dim> &grid);
 
     /// Cell of the centre of point @p p. A centre outside the mesh counts to
     /// the nearest boundary cell, as it does for the transfer.

@@ -1,13 +1,13 @@
-#include <talus/observers/finest_lattice.h>
+#include <talus/observers/cell_lattice.h>
 
 #include <cmath>
 
 namespace talus
 {
   template <int dim>
-  FinestLattice<dim>::FinestLattice(const Grid<dim> &grid)
+  CellLattice<dim>::CellLattice(const Grid<dim> &grid)
     : lower_(grid.domain().lower)
-    , size_(grid.finest_size())
+    , size_(grid.cell_size())
   {
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -19,6 +19,6 @@ namespace talus
 
 
 
-  template class FinestLattice<2>;
-  template class FinestLattice<3>;
+  template class CellLattice<2>;
+  template class CellLattice<3>;
 } // namespace talus

@@ -1,0 +1,162 @@
+#include <talus/adaptivity/mesh_tracking.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  MeshTracking<dim>::MeshTracking()
+    : ParameterAcceptor("/Mesh tracking")
+  {
+    add_parameter(
+      "Enabled",
+      enabled_,
+      "Whether the mesh follows the soil: cells of 'Grid/Cell size' "
+      "where there are points and around them, up to 2^(Grid/"
+      "Coarsest level) times larger ones far away. The results are "
+      "those of a mesh of small cells everywhere.");
+    add_parameter("Margin",
+                  margin_,
+                  "Width of the layer of small cells around the soil, in cells "
+                  "[-]. The mesh changes when a point comes near its edge.",
+                  this->prm,
+                  Patterns::Integer(4));
+    add_parameter(
+      "Interval",
+      interval_,
+      "Number of steps after which cells that the soil has left are "
+      "joined [-]; 0 for only when the mesh changes anyway.",
+      this->prm,
+      Patterns::Integer(0));
+  }
+
+
+
+  template <int dim>
+  bool
+  MeshTracking<dim>::is_urgent(
+    const Grid<dim>                 &grid,
+    const std::vector<unsigned int> &occupied_cells) const
+  {
+    if (!enabled_)
+      return false;
+    for (const unsigned int c : occupied_cells)
+      if (grid.is_near_larger_cell(c))
+        return true;
+    return false;
+  }
+
+
+
+  /// Ask for small cells from place @p first to @p last of the lattice of cells
+  /// of size h, and a margin around.
+  template <int dim>
+  void
+  MeshTracking<dim>::want(const Grid<dim> &grid,
+                          const Lattice   &first,
+                          const Lattice   &last)
+  {
+    const unsigned int shift  = grid.base_level() - block_level_;
+    const auto         extent = grid.extent_of_lattice(grid.base_level());
+    Lattice            lower, upper;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        lower[d] = std::max(first[d] - long(margin_), 0L) >> shift;
+        upper[d] = std::min(last[d] + long(margin_), extent[d] - 1) >> shift;
+      }
+    Lattice at = lower;
+    while (at[dim - 1] <= upper[dim - 1])
+      {
+        wanted_.insert(Grid<dim>::key_of_place(at, block_level_));
+        ++at[0];
+        for (unsigned int d = 0; d + 1 < dim && at[d] > upper[d]; ++d)
+          {
+            at[d] = lower[d];
+            ++at[d + 1];
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  MeshTracking<dim>::refine(Grid<dim> &grid, const bool spread)
+  {
+    // Tell all ranks, and climb from the blocks to what contains them.
+    const std::vector<unsigned long> own(wanted_.begin(), wanted_.end());
+    for (const auto &blocks :
+         Utilities::MPI::all_gather(grid.communicator(), own))
+      wanted_.insert(blocks.begin(), blocks.end());
+    std::vector<unsigned long> blocks(wanted_.begin(), wanted_.end());
+    for (unsigned int level = block_level_; level > 0; --level)
+      {
+        for (auto &block : blocks)
+          block = Grid<dim>::key_of_parent(block);
+        std::sort(blocks.begin(), blocks.end());
+        blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+        wanted_.insert(blocks.begin(), blocks.end());
+      }
+
+    return grid.refine(
+      [&](Lattice place, unsigned int level) {
+        if (level >= grid.base_level())
+          return false;
+        if (level > block_level_)
+          {
+            for (auto &p : place)
+              p >>= (level - block_level_);
+            level = block_level_;
+          }
+        return wanted_.count(Grid<dim>::key_of_place(place, level)) > 0;
+      },
+      spread);
+  }
+
+
+
+  template <int dim>
+  void
+  MeshTracking<dim>::adapt(Grid<dim> &grid, const std::vector<Box<dim>> &boxes)
+  {
+    wanted_.clear();
+    block_level_ = std::max(int(grid.base_level()) - 2, 0);
+    for (const Box<dim> &box : boxes)
+      want(grid,
+           grid.lattice_place(box.lower, grid.base_level()),
+           grid.lattice_place(box.upper, grid.base_level()));
+    refine(grid, /*spread=*/true);
+  }
+
+
+
+  template <int dim>
+  bool
+  MeshTracking<dim>::adapt(Grid<dim>                       &grid,
+                           const std::vector<unsigned int> &occupied_cells)
+  {
+    wanted_.clear();
+    block_level_ = std::max(int(grid.base_level()) - 2, 0);
+    for (const unsigned int c : occupied_cells)
+      {
+        // In a refinement box cells are smaller; larger ones hold no soil.
+        Lattice            place = grid.place_of_cell(c);
+        const unsigned int level = grid.level_of_cell(c);
+        for (auto &p : place)
+          p = level >= grid.base_level() ? p >> (level - grid.base_level())
+                                         : p << (grid.base_level() - level);
+        want(grid, place, place);
+      }
+    return refine(grid, /*spread=*/false);
+  }
+
+
+
+  template class MeshTracking<2>;
+  template class MeshTracking<3>;
+} // namespace talus

@@ -1,0 +1,37 @@
+#include <talus/observers/phase_times.h>
+
+#include <iomanip>
+#include <sstream>
+
+namespace talus
+{
+  using namespace dealii;
+
+  std::vector<std::string>
+  phase_times(const TimerOutput &timer, const MPI_Comm communicator)
+  {
+    // Sections are the same on all ranks, and in the order of their names.
+    const auto sections = timer.get_summary_data(TimerOutput::total_wall_time);
+    double     total    = 0;
+    for (const auto &section : sections)
+      total += section.second;
+    total = Utilities::MPI::sum(total, communicator) /
+            Utilities::MPI::n_mpi_processes(communicator);
+
+    std::vector<std::string> lines = {
+      "Wall time by phase, s: least, mean and largest over the ranks, share"};
+    for (const auto &[name, seconds] : sections)
+      {
+        const auto over_ranks =
+          Utilities::MPI::min_max_avg(seconds, communicator);
+        std::ostringstream line;
+        line << "  " << std::left << std::setw(16) << name << std::right
+             << std::fixed << std::setprecision(3) << std::setw(12)
+             << over_ranks.min << std::setw(12) << over_ranks.avg
+             << std::setw(12) << over_ranks.max << std::setprecision(1)
+             << std::setw(8) << 100. * over_ranks.avg / total << " %";
+        lines.push_back(line.str());
+      }
+    return lines;
+  }
+} // namespace talus

@@ -1,0 +1,366 @@
+#include <talus/base/errors.h>
+#include <talus/observers/output.h>
+
+#include <boost/property_tree/xml_parser.hpp>
+
+#include <set>
+
+#include "observers_hdf5.h"
+#include "observers_setup.h"
+
+namespace
+{
+  using namespace talus;
+  namespace fs = std::filesystem;
+  using boost::property_tree::ptree;
+
+  class Hdf5Test : public ObserversTest
+  {
+  protected:
+    /// Two points with different values in all columns.
+    template <int dim>
+    void
+    add_points(Scene<dim> &s)
+    {
+      s.points.add_column("yield stress", "Pa", 1, Inheritance::copied);
+      s.points.add_column("two things", "m", 5, Inheritance::copied);
+      for (unsigned int p = 0; p < 2; ++p)
+        {
+          dealii::Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = 0.5 + p + 0.1 * d;
+          s.add(x);
+        }
+      for (const Column &column : s.points.columns())
+        if (column.first != s.points.position && column.first != s.points.id)
+          for (unsigned int c = 0; c < column.n_components; ++c)
+            for (unsigned int p = 0; p < 2; ++p)
+              s.points.data(column.first, c)[p] =
+                0.7 + column.first + 0.1 * c + 0.3 * p;
+    }
+
+    template <int dim>
+    fs::path
+    write(const Scene<dim> &s, const bool boxes_as_cells)
+    {
+      PointsOutput<dim> output;
+      output.begin(folder, MPI_COMM_WORLD, boxes_as_cells, FieldFormat::hdf5);
+      output.write(s.snapshot());
+      return folder / "points-0000.h5";
+    }
+
+    /// The columns of the points are in the file, by name.
+    template <int dim>
+    void
+    expect_columns(const Points<dim> &points, const fs::path &file)
+    {
+      for (const Column &column : points.columns())
+        {
+          const unsigned int n         = column.n_components;
+          const bool         is_vector = (n == dim && n != dim * dim);
+          if (column.first == points.stress || n == dim * dim)
+            continue;
+          for (unsigned int c = 0; c < n; ++c)
+            {
+              const bool        is_list = (n > 1 && !is_vector);
+              const std::string name =
+                "fields/" + column.name +
+                (is_list ? " " + std::to_string(c) : std::string());
+              const auto read = read_dataset<float>(file, name);
+              EXPECT_EQ(read.extent,
+                        is_vector ? std::vector<hsize_t>({2, 3})
+                                  : std::vector<hsize_t>({2}))
+                << name;
+              const auto *data = points.data(column.first, c);
+              for (unsigned int p = 0; p < 2; ++p)
+                EXPECT_EQ(read.values.at(is_vector ? 3 * p + c : p),
+                          float(data[p]))
+                  << name;
+            }
+        }
+    }
+
+    /// Component ij of the tensors, row by row.
+    template <int dim>
+    void
+    expect_tensors(const Points<dim> &points, const fs::path &file)
+    {
+      const auto stress = read_dataset<float>(file, "fields/stress");
+      const auto F = read_dataset<float>(file, "fields/deformation gradient");
+      EXPECT_EQ(stress.extent, std::vector<hsize_t>({2, 9}));
+      EXPECT_EQ(F.extent, std::vector<hsize_t>({2, 9}));
+      // xx, yy, zz, xy, xz, yz
+      const unsigned int component[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+      for (unsigned int p = 0; p < 2; ++p)
+        for (unsigned int i = 0; i < 3; ++i)
+          for (unsigned int j = 0; j < 3; ++j)
+            {
+              const unsigned int c        = component[i][j];
+              const bool         in_space = (i < dim && j < dim);
+              EXPECT_EQ(stress.values[9 * p + 3 * i + j],
+                        c < n_stress_components<dim>
+                          ? float(points.data(points.stress, c)[p])
+                          : 0.f);
+              EXPECT_EQ(F.values[9 * p + 3 * i + j],
+                        in_space
+                          ? float(points.data(points.deformation_gradient,
+                                              dim * i + j)[p])
+                          : float(i == j));
+            }
+    }
+
+    ptree
+    read_index(const std::string &name)
+    {
+      ptree tree;
+      boost::property_tree::read_xml((folder / name).string(), tree);
+      return tree.get_child("Xdmf.Domain.Grid");
+    }
+
+    /// Every reference leads to a dataset of that size.
+    void
+    expect_item(const ptree &parent)
+    {
+      const ptree      &item = parent.get_child("DataItem");
+      const std::string text = item.data();
+      const auto        at   = text.find(":/");
+      ASSERT_NE(at, std::string::npos);
+      const fs::path     file = folder / text.substr(0, at);
+      std::istringstream extent(item.get<std::string>("<xmlattr>.Dimensions"));
+      std::vector<hsize_t> expected;
+      for (hsize_t n; extent >> n;)
+        expected.push_back(n);
+      const auto type = item.get<std::string>("<xmlattr>.NumberType");
+      EXPECT_EQ(
+        type == "Float"
+          ? read_dataset<float>(file, text.substr(at + 1)).extent
+          : read_dataset<std::int64_t>(file, text.substr(at + 1)).extent,
+        expected)
+        << text;
+    }
+  };
+
+
+
+  TEST_F(Hdf5Test, Vertices)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    const fs::path file = write(s, /*boxes_as_cells=*/false);
+    expect_columns(s.points, file);
+    expect_tensors(s.points, file);
+    const auto x = read_dataset<float>(file, "mesh/vertices");
+    EXPECT_EQ(x.extent, std::vector<hsize_t>({2, 3}));
+    EXPECT_EQ(x.values, std::vector<float>({0.5, 0.6, 0, 1.5, 1.6, 0}));
+    const auto cells = read_dataset<std::int64_t>(file, "mesh/cells");
+    EXPECT_EQ(cells.values, std::vector<std::int64_t>({0, 1}));
+    EXPECT_EQ(read_attribute(file, "fields/velocity", "unit"), "m/s");
+    EXPECT_EQ(read_attribute(file, "fields/velocity", "name"),
+              "velocity [m/s]");
+    EXPECT_EQ(read_attribute(file, "fields/velocity", "at"), "vertices");
+    EXPECT_EQ(read_attribute(file, "fields/reference volume", "unit"), "m^2");
+    EXPECT_EQ(read_attribute(file, "fields/id", "unit"), "-");
+  }
+
+
+
+  TEST_F(Hdf5Test, Vertices3d)
+  {
+    Scene<3> s("0, 0, 0", "4, 4, 4");
+    add_points(s);
+    const fs::path file = write(s, /*boxes_as_cells=*/false);
+    expect_columns(s.points, file);
+    expect_tensors(s.points, file);
+    EXPECT_EQ(read_dataset<float>(file, "mesh/vertices").values,
+              std::vector<float>({0.5, 0.6, 0.7, 1.5, 1.6, 1.7}));
+  }
+
+
+
+  // Corners in the order of VTK, in which the sides of a hex are counted
+  // counterclockwise, first the lower one.
+  template <int dim>
+  void
+  expect_boxes(const Scene<dim> &s, const fs::path &file)
+  {
+    constexpr unsigned int n          = 1 << dim;
+    const int              sign[8][3] = {{-1, -1, -1},
+                                         {1, -1, -1},
+                                         {1, 1, -1},
+                                         {-1, 1, -1},
+                                         {-1, -1, 1},
+                                         {1, -1, 1},
+                                         {1, 1, 1},
+                                         {-1, 1, 1}};
+    const auto             x = read_dataset<float>(file, "mesh/vertices");
+    const auto cells         = read_dataset<std::int64_t>(file, "mesh/cells");
+    EXPECT_EQ(x.extent, std::vector<hsize_t>({2 * n, 3}));
+    ASSERT_EQ(cells.extent, std::vector<hsize_t>({2, n}));
+    for (unsigned int p = 0; p < 2; ++p)
+      for (unsigned int v = 0; v < n; ++v)
+        for (unsigned int d = 0; d < dim; ++d)
+          EXPECT_EQ(x.values.at(3 * cells.values[p * n + v] + d),
+                    float(s.points.data(s.points.position, d)[p] +
+                          0.5 * sign[v][d] * box_length(s.snapshot(), d, p)));
+  }
+
+
+
+  TEST_F(Hdf5Test, Boxes)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    const fs::path file = write(s, /*boxes_as_cells=*/true);
+    expect_boxes(s, file);
+    expect_columns(s.points, file);
+    expect_tensors(s.points, file);
+    EXPECT_EQ(read_attribute(file, "fields/velocity", "at"), "cells");
+  }
+
+
+
+  TEST_F(Hdf5Test, Boxes3d)
+  {
+    Scene<3> s("0, 0, 0", "4, 4, 4");
+    add_points(s);
+    const fs::path file = write(s, /*boxes_as_cells=*/true);
+    expect_boxes(s, file);
+    expect_columns(s.points, file);
+    expect_tensors(s.points, file);
+  }
+
+
+
+  TEST_F(Hdf5Test, Index)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    PointsOutput<2> output;
+    output.begin(folder, MPI_COMM_WORLD, true, FieldFormat::hdf5);
+    output.write(s.snapshot());
+    s.add({2.5, 2.5});
+    s.time = 1. / 3.;
+    output.write(s.snapshot());
+    EXPECT_EQ(files_in(folder),
+              std::vector<std::string>(
+                {"points-0000.h5", "points-0001.h5", "points.xdmf"}));
+
+    std::set<std::string> expected;
+    for (const Field &field : point_fields(s.snapshot()))
+      expected.insert(field.name);
+    std::vector<double>      times;
+    std::vector<std::size_t> n_cells;
+    for (const auto &[tag, grid] : read_index("points.xdmf"))
+      if (tag == "Grid")
+        {
+          times.push_back(grid.get<double>("Time.<xmlattr>.Value"));
+          const ptree &topology = grid.get_child("Topology");
+          n_cells.push_back(
+            topology.get<std::size_t>("<xmlattr>.NumberOfElements"));
+          EXPECT_EQ(topology.get<std::string>("<xmlattr>.TopologyType"),
+                    "Quadrilateral");
+          expect_item(topology);
+          expect_item(grid.get_child("Geometry"));
+          std::set<std::string> names;
+          for (const auto &[attribute, field] : grid)
+            if (attribute == "Attribute")
+              {
+                names.insert(field.get<std::string>("<xmlattr>.Name"));
+                EXPECT_EQ(field.get<std::string>("<xmlattr>.Center"), "Cell");
+                expect_item(field);
+              }
+          EXPECT_EQ(names, expected);
+        }
+    EXPECT_EQ(times, std::vector<double>({0., 0.3333333333333333}));
+    EXPECT_EQ(n_cells, std::vector<std::size_t>({2, 3}));
+  }
+
+
+
+  // A slash would make a group, and XML has its own use for some characters.
+  TEST_F(Hdf5Test, UnusualNames)
+  {
+    const std::string name = "a/b <c> & \"d\" [m/s]";
+    OutputCells<0, 2> cells({{name,
+                              FieldKind::scalar,
+                              1,
+                              [](unsigned int, float *value) { *value = 7; }}},
+                            ItemsAt::vertices);
+    cells.vertices = {{1, 2}};
+    cells.items    = {0};
+    FieldSeries series;
+    series.begin(folder, "x", MPI_COMM_WORLD, FieldFormat::hdf5);
+    series.write(cells, 0., 0);
+    EXPECT_EQ(read_dataset<float>(folder / "x-0000.h5",
+                                  "fields/a_b <c> & \"d\"")
+                .values,
+              std::vector<float>({7}));
+    const ptree field = read_index("x.xdmf").get_child("Grid.Attribute");
+    EXPECT_EQ(field.get<std::string>("<xmlattr>.Name"), name);
+    expect_item(field);
+  }
+
+
+
+  TEST_F(Hdf5Test, GridAtItsNodes)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    s.sort();
+    const unsigned int cell = s.grid.find_cell({1.5, 1.5});
+    const unsigned int node = s.grid.cells()[cell].patch[4 * 2 + 1];
+    s.nodes.activate(s.grid, {cell});
+    s.nodes.clear();
+    s.nodes.sum(node)[NodalSum<2>::mass] = 2;
+    GridOutput<2> output;
+    output.begin(folder, MPI_COMM_WORLD, FieldFormat::hdf5);
+    output.write(s.snapshot());
+
+    const fs::path file = folder / "grid-0000.h5";
+    const auto     mass = read_dataset<float>(file, "fields/mass");
+    const auto     x    = read_dataset<float>(file, "mesh/vertices");
+    ASSERT_EQ(mass.extent, std::vector<hsize_t>({8}));
+    // The upper left corner of the second cell.
+    EXPECT_EQ(mass.values, std::vector<float>({0, 0, 0, 0, 0, 0, 2, 0}));
+    EXPECT_EQ(x.values[3 * 6], 1.);
+    EXPECT_EQ(x.values[3 * 6 + 1], 2.);
+    EXPECT_EQ(read_attribute(file, "fields/mass", "at"), "vertices");
+    EXPECT_EQ(read_index("grid.xdmf")
+                .get<std::string>("Grid.Attribute.<xmlattr>.Center"),
+              "Node");
+  }
+
+
+
+  TEST_F(Hdf5Test, MissingAndDamagedFiles)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    PointsOutput<2> output;
+    output.begin(folder, MPI_COMM_WORLD, false, FieldFormat::hdf5);
+    output.write(s.snapshot());
+    // An index made from files alone is the same; one that is gone is left out.
+    const auto before = lines("points.xdmf");
+    XdmfIndex  index;
+    index.write(folder / "points.xdmf",
+                {{0., "points-0000.h5"}, {1., "points-0001.h5"}});
+    EXPECT_EQ(lines("points.xdmf"), before);
+
+    std::ofstream(folder / "points-0001.h5") << "no HDF5";
+    EXPECT_THROW(index.write(folder / "points.xdmf", {{1., "points-0001.h5"}}),
+                 ExcUser);
+    EXPECT_EQ(lines("points.xdmf"), before);
+  }
+
+
+
+  TEST_F(Hdf5Test, FolderIsGone)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    PointsOutput<2> output;
+    output.begin(folder / "gone", MPI_COMM_WORLD, false, FieldFormat::hdf5);
+    EXPECT_THROW(output.write(s.snapshot()), ExcUser);
+    EXPECT_TRUE(files_in(folder).empty());
+  }
+} // namespace

@@ -1,0 +1,288 @@
+// The suite works on any number of ranks; ctest runs it on 1 and on 3.
+#include <talus/base/errors.h>
+#include <talus/observers/hdf5_writer.h>
+#include <talus/observers/points_output.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <random>
+#include <thread>
+
+#include <sys/mount.h>
+#include <sys/stat.h>
+
+#include "observers_hdf5.h"
+#include "observers_setup.h"
+
+namespace
+{
+  using namespace talus;
+  namespace fs  = std::filesystem;
+  namespace MPI = dealii::Utilities::MPI;
+
+  /// The message of an exception, whose lines deal.II breaks.
+  std::string
+  words(const std::exception &exception)
+  {
+    std::istringstream in(exception.what());
+    std::string        result;
+    for (std::string word; in >> word;)
+      result += word + " ";
+    return result;
+  }
+
+
+
+  /// A folder for all ranks; the second rank, if any, has no data.
+  class Hdf5WriterTest : public testing::Test
+  {
+  protected:
+    Hdf5WriterTest()
+      : rank(MPI::this_mpi_process(MPI_COMM_WORLD))
+      , n_ranks(MPI::n_mpi_processes(MPI_COMM_WORLD))
+    {
+      dealii::ParameterAcceptor::clear();
+      const auto *test = testing::UnitTest::GetInstance()->current_test_info();
+      folder           = fs::temp_directory_path() /
+               ("talus-" + std::string(test->name()) + "-" +
+                std::to_string(MPI::broadcast(MPI_COMM_WORLD, getpid())));
+      if (rank == 0)
+        fs::create_directories(folder);
+      MPI_Barrier(MPI_COMM_WORLD);
+    }
+
+    ~Hdf5WriterTest() override
+    {
+      MPI_Barrier(MPI_COMM_WORLD);
+      if (rank == 0)
+        fs::remove_all(folder);
+    }
+
+    /// Number of rows of rank @p r where the first has @p n.
+    static std::size_t
+    n_rows(const unsigned int r, const std::size_t n)
+    {
+      return r == 1 ? 0 : n + r;
+    }
+
+    /// 0, 1, 2, ... over all ranks.
+    template <typename Number>
+    std::vector<Number>
+    counted(const std::size_t n, const unsigned int n_columns) const
+    {
+      std::size_t first = 0;
+      for (unsigned int r = 0; r < rank; ++r)
+        first += n_rows(r, n) * n_columns;
+      std::vector<Number> values(n_rows(rank, n) * n_columns);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = first + i;
+      return values;
+    }
+
+    template <typename Number>
+    void
+    write_and_read(const std::size_t n, const unsigned int n_columns) const
+    {
+      Hdf5Writer writer(folder / "x.h5", MPI_COMM_WORLD);
+      writer.add_group("g");
+      writer.add_table("g/a table",
+                       counted<Number>(n, n_columns),
+                       n_columns,
+                       {{"unit", "m/s"}, {"nothing", ""}});
+      writer.finish();
+
+      const auto  read = read_dataset<Number>(folder / "x.h5", "g/a table");
+      std::size_t rows = 0;
+      for (unsigned int r = 0; r < n_ranks; ++r)
+        rows += n_rows(r, n);
+      ASSERT_EQ(read.extent,
+                n_columns == 1 ? std::vector<hsize_t>({rows})
+                               : std::vector<hsize_t>({rows, n_columns}));
+      for (std::size_t i = 0; i < read.values.size(); ++i)
+        ASSERT_EQ(read.values[i], Number(i)) << n << " x " << n_columns;
+      EXPECT_EQ(read_attribute(folder / "x.h5", "g/a table", "unit"), "m/s");
+      MPI_Barrier(MPI_COMM_WORLD);
+      EXPECT_EQ(files_in(folder), std::vector<std::string>({"x.h5"}));
+      MPI_Barrier(MPI_COMM_WORLD);
+    }
+
+    /// Numbers that cannot be compressed.
+    void
+    write_much(const fs::path &path) const
+    {
+      std::mt19937       random(rank);
+      std::vector<float> values(n_rows(rank, 30000));
+      for (float &value : values)
+        value = std::generate_canonical<float, 24>(random);
+      Hdf5Writer writer(path, MPI_COMM_WORLD);
+      writer.add_group("g");
+      for (const std::string name : {"g/a", "g/b", "g/c"})
+        writer.add_table(name, values, 1, {{"unit", "m"}});
+      writer.finish();
+    }
+
+    unsigned int rank, n_ranks;
+    fs::path     folder;
+  };
+
+
+
+  // Sizes around that of a chunk, 65536 values.
+  TEST_F(Hdf5WriterTest, WritesWhatIsReadBack)
+  {
+    for (const unsigned int n_columns : {1, 3, 9})
+      for (const std::size_t n : {1, 2, 7281, 7282, 21845, 65536, 70000})
+        {
+          write_and_read<float>(n, n_columns);
+          write_and_read<std::int64_t>(n, n_columns);
+        }
+  }
+
+
+
+  TEST_F(Hdf5WriterTest, NothingOnAnyRank)
+  {
+    Hdf5Writer writer(folder / "x.h5", MPI_COMM_WORLD);
+    writer.add_table("list", std::vector<float>(), 1, {});
+    writer.add_table("table", std::vector<float>(), 9, {});
+    writer.finish();
+    EXPECT_EQ(read_dataset<float>(folder / "x.h5", "list").extent,
+              std::vector<hsize_t>({0}));
+    EXPECT_EQ(read_dataset<float>(folder / "x.h5", "table").extent,
+              std::vector<hsize_t>({0, 9}));
+  }
+
+
+
+  // Dates in HDF5 count seconds.
+  TEST_F(Hdf5WriterTest, SameBytesLater)
+  {
+    const auto write = [this](const std::string &name) {
+      Hdf5Writer writer(folder / name, MPI_COMM_WORLD);
+      writer.add_number("time [s]", 0.25);
+      writer.add_group("g");
+      writer.add_table("g/t", counted<float>(70000, 3), 3, {{"unit", "m"}});
+      writer.finish();
+      std::ifstream     file(folder / name, std::ios::binary);
+      std::stringstream content;
+      content << file.rdbuf();
+      return content.str();
+    };
+    const std::string first = write("a.h5");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+    EXPECT_TRUE(first == write("b.h5"));
+  }
+
+
+
+  TEST_F(Hdf5WriterTest, FolderIsMissing)
+  {
+    try
+      {
+        Hdf5Writer writer(folder / "none" / "x.h5", MPI_COMM_WORLD);
+        ADD_FAILURE() << "no exception";
+      }
+    catch (const ExcUser &exception)
+      {
+        EXPECT_NE(words(exception).find("none/x.h5' could not be written (No "
+                                        "such file or directory)"),
+                  std::string::npos)
+          << words(exception);
+      }
+    EXPECT_TRUE(files_in(folder).empty());
+  }
+
+
+
+  TEST_F(Hdf5WriterTest, TableTwice)
+  {
+    Hdf5Writer writer(folder / "x.h5", MPI_COMM_WORLD);
+    writer.add_table("t", counted<float>(10, 1), 1, {});
+    EXPECT_THROW(writer.add_table("t", counted<float>(10, 1), 1, {}), ExcUser);
+  }
+
+
+
+  // Small disks, which only root may mount; one has no space left at all.
+  TEST_F(Hdf5WriterTest, DiskIsFull)
+  {
+    const fs::path disk = folder / "disk";
+    for (const std::string size : {"8k", "64k", "128k", "256k"})
+      {
+        int failed = 0;
+        if (rank == 0)
+          {
+            fs::create_directory(disk);
+            failed = mount(
+              "tmpfs", disk.c_str(), "tmpfs", 0, ("size=" + size).c_str());
+            std::ofstream(disk / "x.h5") << "older";
+          }
+        if (MPI::broadcast(MPI_COMM_WORLD, failed) != 0)
+          GTEST_SKIP() << "no file system to fill";
+        try
+          {
+            write_much(disk / "x.h5");
+            ADD_FAILURE() << size << ": no exception";
+          }
+        catch (const ExcUser &exception)
+          {
+            EXPECT_NE(words(exception).find(
+                        "x.h5' could not be written (No space left on device)"),
+                      std::string::npos);
+          }
+        MPI_Barrier(MPI_COMM_WORLD);
+        EXPECT_EQ(files_in(disk), std::vector<std::string>({"x.h5"}));
+        std::string content;
+        std::ifstream(disk / "x.h5") >> content;
+        EXPECT_EQ(content, "older");
+        MPI_Barrier(MPI_COMM_WORLD);
+        if (rank == 0)
+          umount(disk.c_str());
+      }
+    write_much(folder / "x.h5");
+  }
+
+
+
+  // What was reserved and not used is given back.
+  TEST_F(Hdf5WriterTest, NoLargerThanNeeded)
+  {
+    Hdf5Writer writer(folder / "x.h5", MPI_COMM_WORLD);
+    writer.add_table("zeros", std::vector<float>(1000000), 1, {});
+    writer.finish();
+    struct stat status;
+    ASSERT_EQ(stat((folder / "x.h5").c_str(), &status), 0);
+    EXPECT_LT(status.st_size, 100000);
+    EXPECT_LT(status.st_blocks * 512, 120000);
+  }
+
+
+
+  TEST_F(Hdf5WriterTest, PointsOfAllRanks)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    for (unsigned int i = 0; i < n_rows(rank, 2); ++i)
+      s.add({0.5 + i, 0.5 + rank});
+    PointsOutput<2> output;
+    output.begin(folder, MPI_COMM_WORLD, true, FieldFormat::hdf5);
+    output.write(s.snapshot());
+
+    const fs::path file  = folder / "points-0000.h5";
+    const auto     cells = read_dataset<std::int64_t>(file, "mesh/cells");
+    const auto     x     = read_dataset<float>(file, "mesh/vertices");
+    const auto     at    = read_dataset<float>(file, "fields/position");
+    ASSERT_EQ(cells.values.size(), 4 * at.extent[0]);
+    std::size_t c = 0;
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      for (unsigned int i = 0; i < n_rows(r, 2); ++i, ++c)
+        {
+          EXPECT_EQ(at.values[3 * c], 0.5f + i);
+          EXPECT_EQ(at.values[3 * c + 1], 0.5f + r);
+          const auto *lower = &x.values[3 * cells.values[4 * c]];
+          const auto *upper = &x.values[3 * cells.values[4 * c + 2]];
+          EXPECT_EQ(lower[0], 0.25f + i);
+          EXPECT_EQ(upper[1], 0.75f + r);
+        }
+    EXPECT_EQ(at.extent[0], c);
+  }
+} // namespace
