@@ -39,7 +39,7 @@ namespace talus
 
 
     /// Select the rows [first, first + n_rows) of a data set and do
-    /// @p transfer(memory space, file space, properties), which writes or reads.
+    /// @p transfer(memory space, file space, properties), which writes/reads.
     /// Returns whether that worked.
     template <typename Transfer>
     bool

@@ -49,8 +49,9 @@ namespace talus
     Hdf5File file(resumed_from_.path / state_file_name,
                   Hdf5File::Access::read,
                   communicator);
-    check_parameter_changes(file.read_text("parameters"),
-                            parameters_as_text(this->prm));
+    const std::string parameters = file.read_text("parameters");
+    check_read(file);
+    check_parameter_changes(parameters, parameters_as_text(this->prm));
 
     grid_.create(faces_that_may_move(), mesh_tracking_.is_enabled());
     grid_.load((resumed_from_.path / mesh_file_name).string());
@@ -60,7 +61,7 @@ namespace talus
       restore_partition(file);
     prepare();
 
-    // Not found by their positions: at a wall or on an edge these leave a choice.
+    // Not found by their positions: on an edge of a cell these leave a choice.
     relocation_.rebuild(points_,
                         load_points(file, grid_.n_owned_cells(), points_));
     nodes_.activate(grid_, relocation_.occupied_cells());
@@ -234,16 +235,17 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                                                         \
-  template StateList             Simulation<dim>::state();                       \
-  template void                  Simulation<dim>::resume();                      \
-  template void                  Simulation<dim>::restore_partition(Hdf5File &); \
-  template void                  Simulation<dim>::begin_run();                   \
-  template Wish                  Simulation<dim>::own_wish() const;              \
-  template bool                  Simulation<dim>::act_on(Wish);                  \
-  template std::filesystem::path Simulation<dim>::write_checkpoint();            \
-  template void                  Simulation<dim>::note_resume();                 \
-  template void                  Simulation<dim>::say(const std::string &);
+#define INSTANTIATE(dim)                                        \
+  template StateList Simulation<dim>::state();                  \
+  template void      Simulation<dim>::resume();                 \
+  template void Simulation<dim>::restore_partition(Hdf5File &); \
+  template void Simulation<dim>::begin_run();                   \
+  template Wish Simulation<dim>::own_wish() const;              \
+  template bool Simulation<dim>::act_on(Wish);                  \
+  template std::filesystem::path                                \
+                Simulation<dim>::write_checkpoint();            \
+  template void Simulation<dim>::note_resume();                 \
+  template void Simulation<dim>::say(const std::string &);
 
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -137,16 +137,17 @@ class StopAndResume(Case):
 
     def test_limit_of_wall_time(self):
         self.make_reference()
-        limit = ["Checkpoint/Wall time limit=0.003"]
-        options, stops = [], 0
+        limit, options, stops = 0.002, [], 0
         while True:
-            result = self.run_talus("run", limit, options)
+            result = self.run_talus(
+                "run", [f"Checkpoint/Wall time limit={limit}"], options)
             if result.returncode == 0:
                 break
+            limit *= 1.5
             self.assert_stopped(result.returncode,
                                 (result.stdout, result.stderr), "wall time")
             options, stops = ["--resume"], stops + 1
-            self.assertLess(stops, 100)
+            self.assertLess(stops, 20)
         self.assertGreater(stops, 0)
         self.assert_as_undisturbed("run")
 

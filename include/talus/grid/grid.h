@@ -108,7 +108,7 @@ namespace talus
     void
     save(const std::string &path) const;
 
-    /// Make the mesh that save() wrote, after create() and in place of refine().
+    /// Make the mesh that save() wrote, after create() in place of refine().
     /// p4est then shares the cells evenly among the ranks. Collective.
     void
     load(const std::string &path);

@@ -17,9 +17,9 @@ namespace talus
 {
   /// Writes checkpoints, from which a run can go on as if nothing had happened:
   /// a folder `checkpoints/STEP` in the output folder, with the points and all
-  /// other state in `state.h5` and the mesh in files of p4est beside it. Writing
-  /// one changes nothing in the run. A checkpoint has its name only when it is
-  /// complete and on the disk; the newest two are kept.
+  /// other state in `state.h5` and the mesh in files of p4est beside it.
+  /// Writing one changes nothing in the run. A checkpoint has its name only
+  /// when it is complete and on the disk; the newest two are kept.
   template <int dim>
   class Checkpoint : public dealii::ParameterAcceptor
   {

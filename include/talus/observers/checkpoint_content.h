@@ -10,7 +10,7 @@
 
 namespace talus
 {
-  // What is in the file `state.h5` of a checkpoint; doc/output.md has the table.
+  // What is in the file `state.h5` of a checkpoint; see doc/output.md.
 
   /// To be raised when a talus of today could not read the file of tomorrow, or
   /// the other way round.

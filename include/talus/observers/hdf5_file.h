@@ -94,13 +94,13 @@ namespace talus
     std::uint64_t
     integer_attribute(const std::string &object, const std::string &name);
 
-    /// Where the rows of this rank, @p n_rows, begin among those of all, and how
-    /// many there are on all ranks.
+    /// Where the rows of this rank, @p n_rows, begin among those of all, and
+    /// how many there are on all ranks.
     std::pair<std::uint64_t, std::uint64_t>
     first_and_total(std::uint64_t n_rows) const;
 
     /// Write an array whose rows are those of the first rank, then those of the
-    /// second, ...; a rank may have none. @p rows holds this rank's, row by row.
+    /// second, ...; a rank may have none. @p rows are this rank's, row by row.
     void
     write(const std::string         &name,
           const std::vector<double> &rows,
