@@ -112,8 +112,13 @@ namespace talus
           prepare();
           share_out();
         }
-    if (load_balance_.is_due(points_, step_, grid_.communicator()))
-      share_out();
+    if (load_balance_.is_due(step_, grid_.communicator()))
+      {
+        splitter_.check_total(
+          Utilities::MPI::sum(1. * points_.size(), grid_.communicator()));
+        if (load_balance_.is_needed(points_, grid_.communicator()))
+          share_out();
+      }
   }
 
 
