@@ -58,6 +58,19 @@ namespace talus
 
 
 
+  // The unit differs between the entries.
+  template <int dim>
+  void
+  Ledger<dim>::list_state(StateList &list)
+  {
+    list.add_components(
+      "split ledger difference", "", difference_, n_entries, Reduction::sum);
+    list.add_components(
+      "split ledger scale", "", scale_, n_entries, Reduction::sum);
+  }
+
+
+
   template class Ledger<2>;
   template class Ledger<3>;
 } // namespace talus

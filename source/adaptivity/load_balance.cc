@@ -77,6 +77,16 @@ namespace talus
         first[c + 1] = std::max(first[c + 1], first[c]);
       return first;
     }
+
+
+
+    /// Weight of a cell with so many points. One without costs next to nothing,
+    /// but not nothing.
+    unsigned int
+    weight(const unsigned int n_points)
+    {
+      return 1 + 100 * n_points;
+    }
   } // namespace
 
 
@@ -91,11 +101,10 @@ namespace talus
     const auto         first         = first_points(points, grid);
     const unsigned int n_arrays      = points.n_arrays();
 
-    // A cell without points costs next to nothing, but not nothing.
     const auto weights = triangulation.signals.weight.connect(
       [&](const CellIterator &cell, const CellStatus) -> unsigned int {
         const unsigned int c = grid.index_of(cell);
-        return 1 + 100 * (first[c + 1] - first[c]);
+        return weight(first[c + 1] - first[c]);
       });
     const unsigned int handle = triangulation.register_data_attach(
       [&](const CellIterator &cell, const CellStatus) {
@@ -130,7 +139,19 @@ namespace talus
                       n * sizeof(double));
       });
     reached_imbalance_ = imbalance(points, grid.communicator());
+    weights_.assign(grid.n_owned_cells(), weight(0));
+    for (const unsigned int c : cells)
+      weights_[c] += weight(1) - weight(0);
     return cells;
+  }
+
+
+
+  template <int dim>
+  void
+  LoadBalance<dim>::list_state(StateList &list)
+  {
+    list.add("reached imbalance", "-", reached_imbalance_, Reduction::equal);
   }
 
 

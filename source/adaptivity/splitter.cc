@@ -298,6 +298,22 @@ namespace talus
 
 
 
+  template <int dim>
+  void
+  Splitter<dim>::list_state(StateList &list)
+  {
+    list.add("next id", "-", next_id_, Reduction::maximum);
+    list.add("splits", "-", statistics_.n_splits, Reduction::sum);
+    list.add("largest generation",
+             "-",
+             statistics_.largest_generation,
+             Reduction::maximum);
+    list.add("split ledger", "-", statistics_.ledger, Reduction::maximum);
+    ledger_.list_state(list);
+  }
+
+
+
   template class Splitter<2>;
   template class Splitter<3>;
 } // namespace talus

@@ -82,6 +82,24 @@ namespace talus
 
 
 
+  template <int dim>
+  void
+  EnergyBudget<dim>::list_state(StateList &list)
+  {
+    const auto add = [&list](const std::string &name, double &value) {
+      list.add(name + " at the start", "J", value, Reduction::equal);
+    };
+    add("kinetic energy", start_.kinetic);
+    add("grid kinetic energy", start_.grid_kinetic);
+    add("elastic energy", start_.elastic);
+    add("plastic work", start_.plastic);
+    add("friction work", start_.friction);
+    add("contact work", start_.contact);
+    add("gravity work", start_.gravity);
+  }
+
+
+
   template class EnergyBudget<2>;
   template class EnergyBudget<3>;
 } // namespace talus

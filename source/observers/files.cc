@@ -6,6 +6,9 @@
 #include <cstring>
 #include <sstream>
 
+#include <fcntl.h>
+#include <unistd.h>
+
 namespace talus
 {
   using namespace dealii;
@@ -61,7 +64,8 @@ namespace talus
     std::ofstream file(part, std::ios::binary);
     file << content.rdbuf();
     file.close();
-    if (!file)
+    // A rename may reach the disk before the content does.
+    if (!file || !sync_to_disk(part).empty())
       {
         const std::string sentence = failed_write(path);
         std::error_code   ignored;
@@ -72,6 +76,22 @@ namespace talus
     std::filesystem::rename(part, path, error);
     errno = error.value();
     AssertThrow(!error, ExcUser(failed_write(path)));
+  }
+
+
+
+  std::string
+  sync_to_disk(const std::filesystem::path &path)
+  {
+    errno                = 0;
+    const int descriptor = ::open(path.c_str(), O_RDONLY);
+    if (descriptor < 0)
+      return reason();
+    // Some file systems cannot sync everything, and say so with EINVAL.
+    const bool        is_done   = (::fsync(descriptor) == 0 || errno == EINVAL);
+    const std::string complaint = is_done ? "" : reason();
+    ::close(descriptor);
+    return complaint;
   }
 
 
@@ -90,11 +110,13 @@ namespace talus
 
 
   void
-  LogFile::open(const std::filesystem::path &path)
+  LogFile::open(const std::filesystem::path &path, const Beginning beginning)
   {
     path_ = path;
     errno = 0;
-    file_ = std::ofstream(path);
+    file_ = std::ofstream(path,
+                          beginning == Beginning::anew ? std::ios::trunc
+                                                       : std::ios::app);
     AssertThrow(file_, ExcUser(failed_write(path_)));
   }
 
@@ -112,18 +134,76 @@ namespace talus
 
   void
   CsvFile::open(const std::filesystem::path    &path,
-                const std::vector<std::string> &names)
+                const std::vector<std::string> &names,
+                const Beginning                 beginning)
   {
     path_      = path;
     n_columns_ = names.size();
     file_.close();
     file_.clear();
+    std::string header;
+    for (const std::string &name : names)
+      header += (header.empty() ? "" : ",") + name;
     errno = 0;
+    if (beginning == Beginning::resumed)
+      {
+        // Rows written after the checkpoint are written once more.
+        std::error_code error;
+        std::filesystem::resize_file(path, n_bytes_, error);
+        errno = error.value();
+        AssertThrow(!error, ExcUser(failed_write(path)));
+        file_.open(path, std::ios::in | std::ios::out | std::ios::ate);
+        flush();
+        return;
+      }
     file_.open(path);
-    for (unsigned int i = 0; i < names.size(); ++i)
-      file_ << (i == 0 ? "" : ",") << names[i];
-    file_ << '\n';
+    file_ << header << '\n';
     flush();
+  }
+
+
+
+  std::string
+  CsvFile::cannot_resume(const std::filesystem::path    &path,
+                         const std::vector<std::string> &names) const
+  {
+    const std::string what =
+      "The file '" + path.string() + "', which the run is to go on with, ";
+    std::error_code error;
+    const auto      size = std::filesystem::file_size(path, error);
+    if (error || size < n_bytes_)
+      return text(what,
+                  error ? "cannot be read (" + error.message() + ")"
+                        : text("has only ", size, " bytes"),
+                  ", but it had ",
+                  n_bytes_,
+                  " bytes at the checkpoint. Put back the file that belongs to "
+                  "the checkpoint, or start the run anew.");
+
+    // Another version of talus may have other columns.
+    std::ifstream file(path);
+    std::string   header;
+    std::getline(file, header);
+    std::istringstream columns(header);
+    for (const std::string &name : names)
+      {
+        std::string found;
+        std::getline(columns, found, ',');
+        if (found != name)
+          return what + "has a column '" + found + "' where '" + name +
+                 "' was expected. Resume with the version of talus that wrote "
+                 "it, or start the run anew.";
+      }
+    return "";
+  }
+
+
+
+  void
+  CsvFile::list_state(const std::string &name, StateList &list)
+  {
+    // The file belongs to the first rank; the others have zero.
+    list.add("length of " + name, "B", n_bytes_, Reduction::sum);
   }
 
 
@@ -153,5 +233,15 @@ namespace talus
     errno = 0;
     file_.flush();
     AssertThrow(file_, ExcUser(failed_write(path_)));
+    n_bytes_ = file_.tellp();
+  }
+
+
+
+  void
+  CsvFile::sync()
+  {
+    flush();
+    AssertThrow(sync_to_disk(path_).empty(), ExcUser(failed_write(path_)));
   }
 } // namespace talus

@@ -85,9 +85,19 @@ namespace talus
   void
   GridOutput<dim>::begin(const std::filesystem::path &folder,
                          const MPI_Comm               communicator,
-                         const FieldFormat            format)
+                         const FieldFormat            format,
+                         const Beginning              beginning)
   {
-    series_.begin(folder, "grid", communicator, format);
+    series_.begin(folder, "grid", communicator, format, beginning);
+  }
+
+
+
+  template <int dim>
+  void
+  GridOutput<dim>::list_state(StateList &list)
+  {
+    series_.list_state("files of grid", list);
   }
 
 

@@ -1,3 +1,4 @@
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/observers/files.h>
 #include <talus/observers/output.h>
@@ -82,7 +83,9 @@ namespace talus
 
   template <int dim>
   void
-  Output<dim>::begin(const Snapshot<dim> &snapshot, const double end_time)
+  Output<dim>::begin(const Snapshot<dim> &snapshot,
+                     const double         end_time,
+                     const Beginning      beginning)
   {
     const MPI_Comm communicator = snapshot.grid.communicator();
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
@@ -92,22 +95,77 @@ namespace talus
         // an earlier file only on success.
         write_run_record(std::filesystem::path(folder_) / "parameters.prm",
                          this->prm);
-        log_.open(std::filesystem::path(folder_) / "log.txt");
+        log_.open(std::filesystem::path(folder_) / "log.txt", beginning);
       }
     MPI_Barrier(communicator);
 
     progress_.begin(snapshot.time, end_time, communicator);
     row_times_.begin(statistics_interval_, snapshot.time);
-    statistics_.begin(folder_, snapshot);
-    step_of_last_row_ = snapshot.step;
+    statistics_.begin(folder_, snapshot, beginning);
 
     field_times_.begin(field_interval_, snapshot.time);
-    profile_.begin(folder_, snapshot.grid);
+    profile_.begin(folder_, snapshot.grid, beginning);
     const FieldFormat format =
       (format_ == "hdf5" ? FieldFormat::hdf5 : FieldFormat::vtu);
-    points_output_.begin(folder_, communicator, boxes_as_cells_, format);
-    grid_output_.begin(folder_, communicator, format);
+    points_output_.begin(
+      folder_, communicator, boxes_as_cells_, format, beginning);
+    grid_output_.begin(folder_, communicator, format, beginning);
+    if (beginning == Beginning::resumed)
+      return;
+    step_of_last_row_ = snapshot.step;
     write_fields(snapshot);
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::list_state(StateList &list)
+  {
+    list.add("step of the last row", "-", step_of_last_row_, Reduction::equal);
+    list.add("step of the last fields",
+             "-",
+             step_of_last_fields_,
+             Reduction::equal);
+    statistics_.list_state(list);
+    profile_.file().list_state(profile_.file_name, list);
+    points_output_.list_state(list);
+    grid_output_.list_state(list);
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::check_resumable(const Snapshot<dim> &snapshot) const
+  {
+    const MPI_Comm                 communicator = snapshot.grid.communicator();
+    const std::filesystem::path    folder       = folder_;
+    const std::vector<std::string> columns      = statistics_.names(snapshot);
+    std::string                    complaint;
+    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+      {
+        complaint =
+          statistics_.file().cannot_resume(folder / statistics_.file_name,
+                                           columns);
+        if (complaint.empty())
+          complaint = profile_.file().cannot_resume(folder / profile_.file_name,
+                                                    profile_.names());
+      }
+    complaint = first_sentence(complaint, communicator);
+    AssertThrow(complaint.empty(), ExcUser(complaint));
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::sync()
+  {
+    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
+      return;
+    statistics_.file().sync();
+    profile_.file().sync();
   }
 
 

@@ -248,10 +248,20 @@ namespace talus
   PointsOutput<dim>::begin(const std::filesystem::path &folder,
                            const MPI_Comm               communicator,
                            const bool                   boxes_as_cells,
-                           const FieldFormat            format)
+                           const FieldFormat            format,
+                           const Beginning              beginning)
   {
-    series_.begin(folder, "points", communicator, format);
+    series_.begin(folder, "points", communicator, format, beginning);
     boxes_as_cells_ = boxes_as_cells;
+  }
+
+
+
+  template <int dim>
+  void
+  PointsOutput<dim>::list_state(StateList &list)
+  {
+    series_.list_state("files of points", list);
   }
 
 

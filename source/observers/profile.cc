@@ -138,24 +138,33 @@ namespace talus
 
 
   template <int dim>
-  void
-  Profile<dim>::begin(const std::filesystem::path &folder,
-                      const Grid<dim>             &grid)
+  std::vector<std::string>
+  Profile<dim>::names()
   {
-    if (Utilities::MPI::this_mpi_process(grid.communicator()) != 0)
-      return;
-    std::vector<std::string> names = {"time [s]",
-                                      "x [m]",
-                                      "lowest [m]",
-                                      "highest [m]",
-                                      "thickness [m]",
-                                      "depth-mean velocity [m/s]"};
+    std::vector<std::string> result = {"time [s]",
+                                       "x [m]",
+                                       "lowest [m]",
+                                       "highest [m]",
+                                       "thickness [m]",
+                                       "depth-mean velocity [m/s]"};
     if (dim == 3)
       {
-        names.insert(names.begin() + 2, "z [m]");
-        names.push_back("depth-mean velocity z [m/s]");
+        result.insert(result.begin() + 2, "z [m]");
+        result.push_back("depth-mean velocity z [m/s]");
       }
-    file_.open(folder / "profile.csv", names);
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  Profile<dim>::begin(const std::filesystem::path &folder,
+                      const Grid<dim>             &grid,
+                      const Beginning              beginning)
+  {
+    if (Utilities::MPI::this_mpi_process(grid.communicator()) == 0)
+      file_.open(folder / file_name, names(), beginning);
   }
 
 

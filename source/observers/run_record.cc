@@ -69,16 +69,26 @@ namespace talus
 
 
 
+  std::string
+  parameters_as_text(const ParameterHandler &parameters)
+  {
+    std::ostringstream out;
+    parameters.print_parameters(out,
+                                ParameterHandler::ShortPRM |
+                                  ParameterHandler::KeepDeclarationOrder);
+    return out.str();
+  }
+
+
+
   void
   write_run_record(const std::filesystem::path &path,
                    const ParameterHandler      &parameters)
   {
     write_file(path, [&](std::ostream &out) {
       out << "# The parameters of this run as they were understood by\n"
-          << versions("#   ") << '\n';
-      parameters.print_parameters(out,
-                                  ParameterHandler::ShortPRM |
-                                    ParameterHandler::KeepDeclarationOrder);
+          << versions("#   ") << '\n'
+          << parameters_as_text(parameters);
     });
   }
 } // namespace talus

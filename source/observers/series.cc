@@ -6,6 +6,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <iomanip>
+#include <sstream>
 
 namespace talus
 {
@@ -37,14 +38,39 @@ namespace talus
   FieldSeries::begin(const std::filesystem::path &folder,
                      const std::string           &name,
                      const MPI_Comm               communicator,
-                     const FieldFormat            format)
+                     const FieldFormat            format,
+                     const Beginning              beginning)
   {
     folder_       = folder;
     name_         = name;
     communicator_ = communicator;
     format_       = format;
     xdmf_         = XdmfIndex();
-    times_and_names_.clear();
+    if (beginning == Beginning::anew)
+      times_and_names_.clear();
+  }
+
+
+
+  void
+  FieldSeries::list_state(const std::string &name, StateList &list)
+  {
+    const auto get = [this]() {
+      std::ostringstream out;
+      out << std::setprecision(17);
+      for (const auto &[time, file] : times_and_names_)
+        out << time << ' ' << file << '\n';
+      return out.str();
+    };
+    const auto set = [this](const std::string &text) {
+      times_and_names_.clear();
+      std::istringstream in(text);
+      double             time;
+      std::string        file;
+      while (in >> time >> file)
+        times_and_names_.emplace_back(time, file);
+    };
+    list.add_text({name, get, set});
   }
 
 

@@ -248,21 +248,50 @@ namespace talus
   template <int dim>
   void
   Statistics<dim>::begin(const std::filesystem::path &folder,
-                         const Snapshot<dim>         &snapshot)
+                         const Snapshot<dim>         &snapshot,
+                         const Beginning              beginning)
   {
     const MPI_Comm communicator = snapshot.grid.communicator();
-    budget_.begin(snapshot);
-    previous_time_ = snapshot.time;
-    previous_impulse_ =
-      Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
-                          communicator);
-
-    std::vector<std::string> names;
-    for (const Quantity &quantity : evaluate(snapshot))
-      names.push_back(quantity.name);
+    if (beginning == Beginning::anew)
+      {
+        budget_.begin(snapshot);
+        previous_time_ = snapshot.time;
+        previous_impulse_ =
+          Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
+                              communicator);
+      }
+    const std::vector<std::string> columns = names(snapshot);
     if (Utilities::MPI::this_mpi_process(communicator) == 0)
-      file_.open(folder / "statistics.csv", names);
-    add_row(snapshot);
+      file_.open(folder / file_name, columns, beginning);
+    if (beginning == Beginning::anew)
+      add_row(snapshot);
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Statistics<dim>::names(const Snapshot<dim> &snapshot) const
+  {
+    std::vector<std::string> result;
+    for (const Quantity &quantity : evaluate(snapshot))
+      result.push_back(quantity.name);
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  Statistics<dim>::list_state(StateList &list)
+  {
+    list.add("time of the last row", "s", previous_time_, Reduction::equal);
+    list.add("seabed impulse at the last row",
+             "N s",
+             previous_impulse_,
+             Reduction::equal);
+    file_.list_state(file_name, list);
+    budget_.list_state(list);
   }
 
 

@@ -27,6 +27,12 @@ namespace talus
          "--set \"Section/Subsection/Entry=value\"; may be repeated")
         ("output", po::value(&result.output_folder),
          "folder for the results, over Output/Folder")
+        ("resume", po::bool_switch(&result.resume),
+         "go on from the newest checkpoint in the output folder; give the same "
+         "file and options as before")
+        ("overwrite", po::bool_switch(&result.overwrite),
+         "start anew even if the output folder holds the checkpoint of an "
+         "unfinished run")
         ("validate", po::bool_switch(&result.validate),
          "read and check everything, make mesh and points, but do not run")
         ("document", po::bool_switch(&result.document),
@@ -78,6 +84,9 @@ namespace talus
     AssertThrow(result.document || !result.parameter_file.empty(),
                 ExcUser("No parameter file was given. Usage: talus [options] "
                         "FILE.prm; see talus --help."));
+    AssertThrow(!(result.resume && result.overwrite),
+                ExcUser("--resume and --overwrite were given, but a run can "
+                        "only go on or start anew. Give one of the two."));
     return result;
   }
 

@@ -14,6 +14,12 @@ namespace
 {
   using namespace talus;
 
+  /// Exit status of a run that was stopped and can be resumed: EX_TEMPFAIL of
+  /// sysexits.h.
+  constexpr int stopped = 75;
+
+
+
   bool
   is_first_rank()
   {
@@ -72,7 +78,12 @@ namespace
     file.parse();
     if (!command_line.output_folder.empty())
       simulation.output().set_folder(command_line.output_folder);
-    simulation.set_up();
+    if (command_line.overwrite)
+      simulation.allow_overwriting();
+    if (command_line.resume)
+      simulation.resume();
+    else
+      simulation.set_up();
     if (command_line.validate)
       {
         if (is_first_rank())
@@ -81,13 +92,12 @@ namespace
       }
     try
       {
-        simulation.run();
+        return simulation.run() ? 0 : stopped;
       }
     catch (const ExcPoint &exception)
       {
         throw ExcPoint(message(exception) + saved_state(simulation));
       }
-    return 0;
   }
 
 

@@ -81,6 +81,19 @@ namespace talus
   void
   Simulation<dim>::set_up()
   {
+    set_up_laws();
+    create_mesh();
+    create_bodies();
+    share_out();
+  }
+
+
+
+  /// All that depends on the parameters only.
+  template <int dim>
+  void
+  Simulation<dim>::set_up_laws()
+  {
     grid_.check();
     transfer_.check();
     output_.check();
@@ -94,22 +107,15 @@ namespace talus
     materials_.add_columns(points_);
     loading_.prepare(materials_, bodies_.size());
 
-    std::array<bool, 2 * dim>   may_move;
+    const auto                  may_move = faces_that_may_move();
     std::array<double, 2 * dim> may_lie_outside;
     std::vector<bool>           cell_mean;
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      {
-        may_move[face] = boundaries_.condition(face) == FaceCondition::free;
-        may_lie_outside[face] = (may_move[face] ? 0. : 0.5);
-      }
+      may_lie_outside[face] = (may_move[face] ? 0. : 0.5);
     for (unsigned int b = 0; b < bodies_.size(); ++b)
       cell_mean.push_back(materials_.of_body(b).uses_cell_mean());
     transfer_.use_cell_mean(cell_mean);
     relocation_.allow_outside(may_lie_outside);
-
-    create_mesh(may_move);
-    create_bodies();
-    share_out();
   }
 
 
@@ -118,7 +124,6 @@ namespace talus
   void
   Simulation<dim>::create_bodies()
   {
-    double least_density = materials_.of_body(0).density();
     for (unsigned int b = 0; b < bodies_.size(); ++b)
       {
         const MaterialModel<dim> &material = materials_.of_body(b);
@@ -134,10 +139,8 @@ namespace talus
         bodies_[b]->set_initial_velocity(points_, b, 0.);
         bodies_[b]->set_initial_stress(points_, b);
         material.initialize(points_, begin, points_.size());
-        least_density = std::min(least_density, material.density());
       }
     number_points();
-    least_mass_ = transfer_.least_mass(least_density, grid_.finest_size());
     relocation_.update(points_, grid_);
     nodes_.activate(grid_, relocation_.occupied_cells());
 
@@ -195,17 +198,19 @@ namespace talus
   Simulation<dim>::choose_time_step()
   {
     TimerOutput::Scope scope(timer_, "time step");
-    // The only operation of all ranks in a step.
-    const std::array<double, 2> local = {
+    // The only operation of all ranks in a step. The largest wish is the one
+    // that becomes the least.
+    const std::array<double, 3> local = {
       {time_step_.choose(points_, grid_, materials_, transfer_.box_shape()),
-       mesh_tracking_.is_urgent(grid_, relocation_.occupied_cells()) ? 0.
-                                                                     : 1.}};
-    std::array<double, 2> all;
-    Utilities::MPI::min(ArrayView<const double>(local.data(), 2),
+       mesh_tracking_.is_urgent(grid_, relocation_.occupied_cells()) ? 0. : 1.,
+       -static_cast<double>(own_wish())}};
+    std::array<double, 3> all;
+    Utilities::MPI::min(ArrayView<const double>(local.data(), 3),
                         grid_.communicator(),
-                        ArrayView<double>(all.data(), 2));
+                        ArrayView<double>(all.data(), 3));
     dt_             = std::min(all[0], end_time_ - time_);
     mesh_is_urgent_ = (all[1] == 0.);
+    wish_           = static_cast<Wish>(-all[2]);
   }
 
 
@@ -290,17 +295,19 @@ namespace talus
 
 
   template <int dim>
-  void
+  bool
   Simulation<dim>::run()
   {
-    output_.begin(snapshot(), end_time_);
-    note_start();
+    begin_run();
     while (time_ < end_time_)
       {
         advance();
         if (output_.observe(snapshot(), time_ >= end_time_))
           note_time_step();
+        if (act_on(wish_))
+          return false;
       }
+    return true;
   }
 
 

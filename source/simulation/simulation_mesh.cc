@@ -11,9 +11,9 @@ namespace talus
 
   template <int dim>
   void
-  Simulation<dim>::create_mesh(const std::array<bool, 2 * dim> &may_move)
+  Simulation<dim>::create_mesh()
   {
-    grid_.create(may_move, mesh_tracking_.is_enabled());
+    grid_.create(faces_that_may_move(), mesh_tracking_.is_enabled());
     if (mesh_tracking_.is_enabled())
       {
         std::vector<Box<dim>> boxes;
@@ -76,6 +76,31 @@ namespace talus
     Assert(points_are_covered(points_, grid_, transfer_.box_shape()),
            ExcMessage(
              "After a change of the mesh a point is not in its cell."));
+    least_mass_ = transfer_.least_mass(least_density(), grid_.finest_size());
+  }
+
+
+
+  template <int dim>
+  std::array<bool, 2 * dim>
+  Simulation<dim>::faces_that_may_move() const
+  {
+    std::array<bool, 2 * dim> result;
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      result[face] = boundaries_.condition(face) == FaceCondition::free;
+    return result;
+  }
+
+
+
+  template <int dim>
+  double
+  Simulation<dim>::least_density() const
+  {
+    double result = materials_.of_body(0).density();
+    for (unsigned int b = 1; b < bodies_.size(); ++b)
+      result = std::min(result, materials_.of_body(b).density());
+    return result;
   }
 
 
@@ -123,12 +148,14 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                      \
-  template void Simulation<dim>::create_mesh( \
-    const std::array<bool, 2 * dim> &);       \
-  template void Simulation<dim>::prepare();   \
-  template void Simulation<dim>::share_out(); \
-  template void Simulation<dim>::adapt_mesh();
+#define INSTANTIATE(dim)                                                    \
+  template void                      Simulation<dim>::create_mesh();        \
+  template void                      Simulation<dim>::prepare();            \
+  template std::array<bool, 2 * dim> Simulation<dim>::faces_that_may_move() \
+    const;                                                                  \
+  template double Simulation<dim>::least_density() const;                   \
+  template void   Simulation<dim>::share_out();                             \
+  template void   Simulation<dim>::adapt_mesh();
 
   INSTANTIATE(2)
   INSTANTIATE(3)

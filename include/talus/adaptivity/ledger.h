@@ -1,6 +1,7 @@
 #ifndef talus_adaptivity_ledger_h
 #define talus_adaptivity_ledger_h
 
+#include <talus/base/state.h>
 #include <talus/points/points.h>
 
 #include <array>
@@ -21,6 +22,10 @@ namespace talus
     /// values [-].
     double
     relative_error() const;
+
+    /// Add the sums to the state of the run.
+    void
+    list_state(StateList &list);
 
   private:
     static constexpr unsigned int n_entries = 3 + 2 * dim;

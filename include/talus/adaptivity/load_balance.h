@@ -1,6 +1,7 @@
 #ifndef talus_adaptivity_load_balance_h
 #define talus_adaptivity_load_balance_h
 
+#include <talus/base/state.h>
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
 
@@ -38,12 +39,32 @@ namespace talus
     std::vector<unsigned int>
     repartition(Grid<dim> &grid, Points<dim> &points);
 
+    /// Weights of this rank's cells at the last repartition: what restores it.
+    /// Empty if there was none, as on one rank.
+    const std::vector<double> &
+    weights() const
+    {
+      return weights_;
+    }
+
+    /// To be told after a mesh was loaded and shared out by these.
+    void
+    set_weights(const std::vector<double> &weights)
+    {
+      weights_ = weights;
+    }
+
+    /// Add what decides about the next repartition to the state of the run.
+    void
+    list_state(StateList &list);
+
   private:
     double       allowed_imbalance_ = 1.2;
     unsigned int interval_          = 50;
 
     /// Right after the last repartition: cells are not divided.
-    double reached_imbalance_ = 1.;
+    double              reached_imbalance_ = 1.;
+    std::vector<double> weights_;
   };
 } // namespace talus
 

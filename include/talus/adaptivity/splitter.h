@@ -55,6 +55,23 @@ namespace talus
       id_stride_ = stride;
     }
 
+    /// Continue the numbers after list_state() was loaded on @p n_ranks ranks
+    /// from a run on @p n_ranks_then: on another number all ranks have the
+    /// largest of the next ids, and part here.
+    void
+    number_on(const unsigned int rank,
+              const unsigned int n_ranks,
+              const unsigned int n_ranks_then)
+    {
+      if (n_ranks != n_ranks_then)
+        next_id_ += rank;
+      id_stride_ = n_ranks;
+    }
+
+    /// Add what was split so far, and the next id, to the state of the run.
+    void
+    list_state(StateList &list);
+
   private:
     /// Bit d: the point is to be split along axis d. Zero: not at all.
     unsigned int

@@ -103,6 +103,29 @@ namespace talus
     bool
     refine(const WantsFiner &wants_finer, bool spread);
 
+    /// Write the mesh to the file @p path and to others whose names begin like
+    /// that. Collective.
+    void
+    save(const std::string &path) const;
+
+    /// Make the mesh that save() wrote, after create() and in place of refine().
+    /// p4est then shares the cells evenly among the ranks. Collective.
+    void
+    load(const std::string &path);
+
+    /// Cells that this rank owns, also before prepare() counts them.
+    unsigned int
+    n_locally_owned_cells() const
+    {
+      return triangulation_.n_locally_owned_active_cells();
+    }
+
+    /// Share the cells out among the ranks by their weights; those of the cells
+    /// this rank owns are given in the order of the cells. To be called before
+    /// prepare(). Collective.
+    void
+    repartition(const std::vector<double> &weights);
+
     /// Rebuild degrees of freedom, constraints and the cell cache; to be called
     /// after each change of the mesh.
     void
@@ -153,6 +176,13 @@ namespace talus
     n_owned_cells() const
     {
       return n_owned_cells_;
+    }
+
+    /// Active cells of all ranks.
+    unsigned long
+    n_global_cells() const
+    {
+      return triangulation_.n_global_active_cells();
     }
 
     /// Nodes this rank knows.

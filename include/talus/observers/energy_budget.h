@@ -1,6 +1,7 @@
 #ifndef talus_observers_energy_budget_h
 #define talus_observers_energy_budget_h
 
+#include <talus/base/state.h>
 #include <talus/observers/snapshot.h>
 
 namespace talus
@@ -39,6 +40,10 @@ namespace talus
     /// The terms now; collective over the ranks of the grid.
     EnergyTerms
     evaluate(const Snapshot<dim> &snapshot) const;
+
+    /// Add the terms at the start to the state of the run.
+    void
+    list_state(StateList &list);
 
   private:
     EnergyTerms start_;

@@ -1,6 +1,8 @@
 #ifndef talus_observers_files_h
 #define talus_observers_files_h
 
+#include <talus/base/state.h>
+
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -9,6 +11,15 @@
 
 namespace talus
 {
+  /// Whether a run begins at its start or goes on from a checkpoint.
+  enum class Beginning
+  {
+    anew,
+    resumed
+  };
+
+
+
   /// Make the folder (and those above it) unless it is there. Throws ExcUser
   /// if that fails.
   void
@@ -24,6 +35,13 @@ namespace talus
 
 
 
+  /// Bring the content of a file, or the names in a folder, to the disk.
+  /// Returns why that failed, empty if it did not.
+  std::string
+  sync_to_disk(const std::filesystem::path &path);
+
+
+
   /// The sentence that says that the file @p path could not be written.
   std::string
   failed_write(const std::filesystem::path &path, const std::string &reason);
@@ -34,9 +52,11 @@ namespace talus
   class LogFile
   {
   public:
-    /// Start a new file. Throws ExcUser if that fails.
+    /// Start a new file, or append to it in a resumed run. Throws ExcUser if
+    /// that fails.
     void
-    open(const std::filesystem::path &path);
+    open(const std::filesystem::path &path,
+         Beginning                    beginning = Beginning::anew);
 
     /// Append a line, at once. Throws ExcUser if that fails.
     void
@@ -53,10 +73,22 @@ namespace talus
   class CsvFile
   {
   public:
-    /// Start a new file with one header line. Throws ExcUser if that fails.
+    /// Start a new file with one header line; in a resumed run go on behind
+    /// what the file held at the checkpoint. Throws ExcUser if that fails.
     void
     open(const std::filesystem::path    &path,
-         const std::vector<std::string> &names);
+         const std::vector<std::string> &names,
+         Beginning                       beginning = Beginning::anew);
+
+    /// Why the run cannot go on with the file @p path, which should have these
+    /// columns, from the checkpoint that was loaded; empty if it can.
+    std::string
+    cannot_resume(const std::filesystem::path    &path,
+                  const std::vector<std::string> &names) const;
+
+    /// Add the length of the file to the state of the run.
+    void
+    list_state(const std::string &name, StateList &list);
 
     /// Append a row; it is in the file only after flush().
     void
@@ -67,10 +99,15 @@ namespace talus
     void
     flush();
 
+    /// Bring all rows to the disk. Throws ExcUser if that fails.
+    void
+    sync();
+
   private:
     std::filesystem::path path_;
     std::ofstream         file_;
     unsigned int          n_columns_ = 0;
+    unsigned long         n_bytes_   = 0; // flushed, or at the checkpoint
   };
 } // namespace talus
 

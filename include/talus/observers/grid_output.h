@@ -18,7 +18,11 @@ namespace talus
     void
     begin(const std::filesystem::path &folder,
           MPI_Comm                     communicator,
-          FieldFormat                  format = FieldFormat::vtu);
+          FieldFormat                  format    = FieldFormat::vtu,
+          Beginning                    beginning = Beginning::anew);
+
+    void
+    list_state(StateList &list);
 
     /// Write the files of one output time; collective. Throws ExcUser if that
     /// fails.

@@ -3,6 +3,8 @@
 
 #include <hdf5.h>
 
+#include <algorithm>
+#include <string>
 #include <utility>
 
 namespace talus
@@ -63,6 +65,19 @@ namespace talus
     hid_t id_    = H5I_INVALID_HID;
     Close close_ = nullptr;
   };
+
+
+
+  /// The type of a text of the length of this one.
+  inline Hdf5Handle
+  text_type(const std::string &text)
+  {
+    const hid_t id = H5Tcopy(H5T_C_S1);
+    H5Tset_size(id, std::max<std::size_t>(text.size(), 1));
+    H5Tset_strpad(id, H5T_STR_NULLPAD);
+    H5Tset_cset(id, H5T_CSET_UTF8);
+    return {id, H5Tclose};
+  }
 } // namespace talus
 
 #endif

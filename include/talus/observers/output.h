@@ -48,10 +48,26 @@ namespace talus
     check() const;
 
     /// Make the folder, write the parameters and all that is due at the start
-    /// of a run to @p end_time, s. Throws ExcUser if the folder cannot be
-    /// written; then no file of an earlier run was touched.
+    /// of a run to @p end_time, s; in a resumed run go on with all files.
+    /// Throws ExcUser if the folder cannot be written; then no file of an
+    /// earlier run was touched.
     void
-    begin(const Snapshot<dim> &snapshot, double end_time);
+    begin(const Snapshot<dim> &snapshot,
+          double               end_time,
+          Beginning            beginning = Beginning::anew);
+
+    /// Add what was written so far to the state of the run.
+    void
+    list_state(StateList &list);
+
+    /// Throw ExcUser if a file is missing that a resumed run is to go on with;
+    /// to be called when the state was loaded. Collective.
+    void
+    check_resumable(const Snapshot<dim> &snapshot) const;
+
+    /// Bring all rows written so far to the disk.
+    void
+    sync();
 
     /// Add a sentence to log.txt, and show it on the terminal if wanted.
     void

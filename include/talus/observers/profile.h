@@ -40,14 +40,35 @@ namespace talus
   class Profile
   {
   public:
-    /// Start the file. Throws ExcUser if it cannot be written.
+    /// Start the file, or go on with it. Throws ExcUser if it cannot be
+    /// written.
     void
-    begin(const std::filesystem::path &folder, const Grid<dim> &grid);
+    begin(const std::filesystem::path &folder,
+          const Grid<dim>             &grid,
+          Beginning                    beginning = Beginning::anew);
 
     /// Append the rows of one output time; collective, the file belongs to the
     /// first rank.
     void
     add_rows(const Snapshot<dim> &snapshot);
+
+    /// Names of the columns.
+    static std::vector<std::string>
+    names();
+
+    CsvFile &
+    file()
+    {
+      return file_;
+    }
+
+    const CsvFile &
+    file() const
+    {
+      return file_;
+    }
+
+    static constexpr const char *file_name = "profile.csv";
 
   private:
     CsvFile file_;

@@ -15,6 +15,12 @@ namespace talus
 
 
 
+  /// The parameters as understood, defaults included, without documentation.
+  std::string
+  parameters_as_text(const dealii::ParameterHandler &parameters);
+
+
+
   /// Write the parameters as understood, defaults included, to the file
   /// @p path, which talus can read again; its head says which talus and which
   /// libraries understood them. Throws ExcUser if the file cannot be written.

@@ -1,6 +1,7 @@
 #ifndef talus_observers_series_h
 #define talus_observers_series_h
 
+#include <talus/observers/files.h>
 #include <talus/observers/output_cells.h>
 #include <talus/observers/xdmf.h>
 
@@ -29,12 +30,18 @@ namespace talus
   class FieldSeries
   {
   public:
-    /// Start anew.
+    /// Start anew, or go on after the files that were there at the checkpoint.
     void
     begin(const std::filesystem::path &folder,
           const std::string           &name,
           MPI_Comm                     communicator,
-          FieldFormat                  format);
+          FieldFormat                  format,
+          Beginning                    beginning = Beginning::anew);
+
+    /// Add the times and names of the files to the state of the run, as the
+    /// text @p name: per file a line with the time [s], a space and the name.
+    void
+    list_state(const std::string &name, StateList &list);
 
     /// Write the files of the next output time; collective. Throws ExcUser if
     /// that fails.

@@ -46,10 +46,13 @@ namespace talus
       double      value;
     };
 
-    /// Start the file and the energy budget, and write the first row. Throws
-    /// ExcUser if the file cannot be written.
+    /// Start the file and the energy budget, and write the first row; in a
+    /// resumed run only go on with the file. Throws ExcUser if the file cannot
+    /// be written.
     void
-    begin(const std::filesystem::path &folder, const Snapshot<dim> &snapshot);
+    begin(const std::filesystem::path &folder,
+          const Snapshot<dim>         &snapshot,
+          Beginning                    beginning = Beginning::anew);
 
     /// Append a row; collective, the file belongs to the first rank.
     void
@@ -58,6 +61,27 @@ namespace talus
     /// What a row holds, in the order of the columns; right on the first rank.
     std::vector<Quantity>
     evaluate(const Snapshot<dim> &snapshot) const;
+
+    /// Names of the columns; collective.
+    std::vector<std::string>
+    names(const Snapshot<dim> &snapshot) const;
+
+    void
+    list_state(StateList &list);
+
+    CsvFile &
+    file()
+    {
+      return file_;
+    }
+
+    const CsvFile &
+    file() const
+    {
+      return file_;
+    }
+
+    static constexpr const char *file_name = "statistics.csv";
 
   private:
     EnergyBudget<dim> budget_;

@@ -14,8 +14,10 @@ namespace talus
     std::string              parameter_file;
     std::vector<std::string> overrides;
     std::string              output_folder;
-    bool                     validate = false;
-    bool                     document = false;
+    bool                     validate  = false;
+    bool                     document  = false;
+    bool                     resume    = false;
+    bool                     overwrite = false;
   };
 
   /// Parse the command line. Prints and returns nothing where only help or the

@@ -8,10 +8,12 @@
 #include <talus/grid/grid.h>
 #include <talus/grid/nodal_fields.h>
 #include <talus/materials/materials.h>
+#include <talus/observers/checkpoint.h>
 #include <talus/observers/output.h>
 #include <talus/observers/snapshot.h>
 #include <talus/points/points.h>
 #include <talus/simulation/body.h>
+#include <talus/simulation/interrupt.h>
 #include <talus/simulation/loading.h>
 #include <talus/simulation/preview.h>
 #include <talus/simulation/time_step.h>
@@ -21,6 +23,8 @@
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/timer.h>
 
+#include <array>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,8 +45,22 @@ namespace talus
     void
     set_up();
 
-    /// From the start to the end time, with output.
+    /// In place of set_up(): go on from the newest checkpoint in the output
+    /// folder. Throws ExcUser if there is none that fits. Writes nothing.
     void
+    resume();
+
+    /// Let run() start anew over the checkpoints of an unfinished run.
+    void
+    allow_overwriting()
+    {
+      may_overwrite_ = true;
+    }
+
+    /// From the start, or the checkpoint, to the end time, with output. Returns
+    /// false if the run was stopped before that, by a signal or by its limit of
+    /// wall time; then resume() can go on.
+    bool
     run();
 
     /// One step of the scheme.
@@ -64,13 +82,21 @@ namespace talus
 
   private:
     void
+    set_up_laws();
+    std::array<bool, 2 * dim>
+    faces_that_may_move() const;
+    void
     create_bodies();
+    double
+    least_density() const;
     void
     number_points();
     void
     prepare();
     void
-    create_mesh(const std::array<bool, 2 * dim> &may_move);
+    begin_run();
+    void
+    create_mesh();
     void
     share_out();
     void
@@ -89,6 +115,22 @@ namespace talus
     split();
     void
     relocate();
+
+    // Checkpoints
+    void
+    restore_partition(Hdf5File &file);
+    StateList
+    state();
+    Wish
+    own_wish() const;
+    bool
+    act_on(Wish wish);
+    std::filesystem::path
+    write_checkpoint();
+    void
+    note_resume();
+    void
+    say(const std::string &sentence);
 
     // Parameters
     std::string              title_                 = "";
@@ -113,6 +155,7 @@ namespace talus
     TimeStep<dim>                           time_step_;
     dealii::TimerOutput                     timer_;
     Output<dim>                             output_;
+    Checkpoint<dim>                         checkpoint_;
 
     // State besides points
     double            time_         = 0; ///< s
@@ -124,6 +167,10 @@ namespace talus
     bool              mesh_is_urgent_ = false;
     unsigned long     n_mesh_changes_ = 0;
     unsigned long     n_repartitions_ = 0;
+
+    Wish            wish_ = Wish::none; // of all ranks, for after this step
+    FoundCheckpoint resumed_from_;      // no path in a run from the start
+    bool            may_overwrite_ = false;
   };
 } // namespace talus
 

@@ -1,0 +1,128 @@
+#ifndef talus_base_state_h
+#define talus_base_state_h
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// What the shares of the ranks are to each other; decides what becomes of
+  /// them on another number of ranks.
+  enum class Reduction
+  {
+    sum,     ///< each rank has a part; the first one gets all of it
+    maximum, ///< every rank gets the largest
+    equal    ///< the same on every rank
+  };
+
+
+
+  /// The state of a run besides its points and its mesh: numbers and texts by
+  /// name, with how to read and to set them. Every class that has such state
+  /// adds it in its `list_state(StateList &)`; checkpoints go over the list and
+  /// need not know what it means. What is added must outlive the list.
+  class StateList
+  {
+  public:
+    struct Number
+    {
+      std::string                 name; ///< without slashes
+      std::string                 unit;
+      Reduction                   reduction;
+      std::function<double()>     get;
+      std::function<void(double)> set;
+    };
+
+    /// The same on all ranks, or known to the first one only: that is the one
+    /// whose text is saved, and all get it back.
+    struct Text
+    {
+      std::string                              name;
+      std::function<std::string()>             get;
+      std::function<void(const std::string &)> set;
+    };
+
+    /// Add a number. Integers up to 2^53 survive the way through a double.
+    template <typename Value>
+    void
+    add(const std::string &name,
+        const std::string &unit,
+        Value             &value,
+        const Reduction    reduction)
+    {
+      numbers_.push_back(
+        {name,
+         unit,
+         reduction,
+         [&value]() { return static_cast<double>(value); },
+         [&value](const double saved) { value = static_cast<Value>(saved); }});
+    }
+
+    /// Add an array or a vector, component by component.
+    template <typename Array>
+    void
+    add_components(const std::string &name,
+                   const std::string &unit,
+                   Array             &values,
+                   const unsigned int n_components,
+                   const Reduction    reduction)
+    {
+      for (unsigned int i = 0; i < n_components; ++i)
+        add(name + " " + std::to_string(i), unit, values[i], reduction);
+    }
+
+    void
+    add_text(const Text &text)
+    {
+      texts_.push_back(text);
+    }
+
+    const std::vector<Number> &
+    numbers() const
+    {
+      return numbers_;
+    }
+
+    const std::vector<Text> &
+    texts() const
+    {
+      return texts_;
+    }
+
+  private:
+    std::vector<Number> numbers_;
+    std::vector<Text>   texts_;
+  };
+
+
+
+  /// What rank @p rank gets of the shares that were saved. On as many ranks as
+  /// there were, each one its own.
+  inline double
+  restored_share(const std::vector<double> &shares,
+                 const Reduction            reduction,
+                 const unsigned int         rank,
+                 const unsigned int         n_ranks)
+  {
+    if (shares.size() == n_ranks)
+      return shares[rank];
+    double total = 0, largest = shares[0];
+    for (const double share : shares)
+      {
+        total += share;
+        largest = (share > largest ? share : largest);
+      }
+    switch (reduction)
+      {
+        case Reduction::sum:
+          return rank == 0 ? total : 0.;
+        case Reduction::maximum:
+          return largest;
+        default:
+          return shares[0];
+      }
+  }
+} // namespace talus
+
+#endif

@@ -1,0 +1,200 @@
+"""Runs that are killed or stopped, and resumed.
+
+Usage: kill_and_resume.py TALUS PRM_FOLDER FOLDER TestClass [LAUNCHER ...],
+with a launcher such as `mpirun -np 2` before each talus.
+"""
+
+import os
+import random
+import signal
+import time
+
+from resume_case import (Case, EVERY, LAUNCHER, NO_CHECKPOINTS, SETTINGS,
+                         descendants, main)
+
+
+class KillAndResume(Case):
+    N_KILLS = 20
+
+    def kill_somewhere(self, name, rng, options):
+        """Start, and kill -9 at a random moment. False if it ended before."""
+        before = self.newest(name)
+        process = self.start_talus(name, EVERY, options)
+        if rng.random() < 0.7:
+            # Where it computes and writes checkpoints ...
+            while process.poll() is None and self.newest(name) == before:
+                time.sleep(0.002)
+            time.sleep(rng.uniform(0, 0.12))
+        else:
+            # ... or anywhere, also while it starts.
+            time.sleep(rng.uniform(0, 0.8))
+        was_running = process.poll() is None
+        for pid in [*descendants(process.pid), process.pid]:
+            try:
+                os.kill(pid, signal.SIGKILL)
+            except ProcessLookupError:
+                pass
+        output = process.communicate()
+        if not was_running:
+            self.assertEqual(process.returncode, 0, output)
+        return was_running
+
+    def finish(self, name):
+        options = ["--resume"] if self.checkpoints(name) else ["--overwrite"]
+        self.assert_ends(self.run_talus(name, EVERY, options))
+        self.assert_as_undisturbed(name)
+        self.assertEqual(len(self.checkpoints(name)), 2)
+        self.assertEqual(list((self.folder / name).rglob("*.part")), [])
+
+    def test_killed_twenty_times(self):
+        self.make_reference()
+        rng = random.Random(20)
+        kills, runs, steps = 0, 0, []
+        while kills < self.N_KILLS:
+            name = f"run-{runs}"
+            is_resumed = bool(self.checkpoints(name))
+            options = ["--resume"] if is_resumed else []
+            if self.kill_somewhere(name, rng, options):
+                kills += 1
+                steps += self.newest(name)
+            else:
+                self.finish(name)
+                runs += 1
+        if (self.folder / f"run-{runs}").exists():
+            self.finish(f"run-{runs}")
+        print(f"{kills} kills in {runs + 1} runs, with these steps saved:",
+              *[int(step) for step in steps])
+        self.assertGreater(len(set(steps)), self.N_KILLS / 3)
+
+
+class AnotherNumberOfRanks(Case):
+    """From the launcher's number of ranks to one, and the other way round."""
+
+    def assert_close(self, name):
+        def columns(folder):
+            text = (self.folder / folder / "statistics.csv").read_text()
+            names, *rows = [line.split(",") for line in text.splitlines()]
+            return {n: [float(row[i]) for row in rows]
+                    for i, n in enumerate(names)}
+
+        found, expected = columns(name), columns("reference")
+        self.assertEqual(list(expected), list(found))
+        for column in expected:
+            if column == "split ledger [-]":  # round-off itself
+                continue
+            scale = max(map(abs, expected[column]))
+            self.assertEqual(len(expected[column]), len(found[column]))
+            for a, b in zip(expected[column], found[column]):
+                self.assertLessEqual(abs(a - b), 1e-9 * scale, column)
+
+    def test_there_and_back(self):
+        self.make_reference()
+        for name, first, second in (("to-one", LAUNCHER, []),
+                                    ("from-one", [], LAUNCHER)):
+            self.launcher = first
+            self.assert_ends(self.run_talus(
+                name, ["Checkpoint/Step interval=800",
+                       "Checkpoint/At the end=false"]))
+            self.assertEqual(self.newest(name), ["0000000800"])
+            self.launcher = second
+            self.assert_ends(self.run_talus(name, [], ["--resume"]))
+            self.assert_close(name)
+
+
+class StopAndResume(Case):
+    def assert_stopped(self, status, output, *words):
+        """Its own exit status, one last sentence that says how to go on."""
+        self.assertEqual(status, 75, output)
+        if not LAUNCHER:  # mpirun has to say something about the status
+            self.assertEqual(output[1], "")
+        last = output[0].splitlines()[-1]
+        for word in ("Stopped at t = ", "/checkpoints/", "--resume", *words):
+            self.assertIn(word, last)
+
+    def stop_by(self, number, options):
+        process = self.start_talus("run", EVERY, options)
+        before = self.newest("run")
+        while process.poll() is None and self.newest("run") == before:
+            time.sleep(0.01)
+        process.send_signal(number)
+        output = process.communicate(timeout=60)
+        self.assert_stopped(process.returncode, output, number.name)
+
+    def test_signals(self):
+        self.make_reference()
+        # mpirun hands on this one as it is.
+        numbers = ([signal.SIGUSR1] if LAUNCHER else
+                   [signal.SIGUSR1, signal.SIGTERM, signal.SIGINT])
+        options = []
+        for number in numbers:
+            self.stop_by(number, options)
+            options = ["--resume"]
+        self.assert_ends(self.run_talus("run", EVERY, options))
+        self.assert_as_undisturbed("run")
+        log = (self.folder / "run" / "log.txt").read_text()
+        self.assertEqual(log.count("Stopped at t = "), len(numbers))
+        self.assertEqual(log.count("Resumed at t = "), len(numbers))
+
+    def test_limit_of_wall_time(self):
+        self.make_reference()
+        limit = ["Checkpoint/Wall time limit=0.003"]
+        options, stops = [], 0
+        while True:
+            result = self.run_talus("run", limit, options)
+            if result.returncode == 0:
+                break
+            self.assert_stopped(result.returncode,
+                                (result.stdout, result.stderr), "wall time")
+            options, stops = ["--resume"], stops + 1
+            self.assertLess(stops, 100)
+        self.assertGreater(stops, 0)
+        self.assert_as_undisturbed("run")
+
+    def test_wall_time_interval(self):
+        self.make_reference()
+        self.assert_ends(self.run_talus(
+            "run", ["Checkpoint/Wall time interval=0.001",
+                    "Checkpoint/At the end=false"]))
+        self.assert_as_undisturbed("run")
+        self.assertGreater(len(self.checkpoints("run")), 0)
+
+    def test_later_end(self):
+        self.assert_ends(self.run_talus("run", ["End time=1"]))
+        result = self.run_talus("run", ["End time=1"], ["--resume"])
+        self.assert_ends(result)
+        self.assertIn("has reached its end time, t = 1 s", result.stdout)
+        self.make_reference()
+        self.assert_ends(self.run_talus("run", [], ["--resume"]))
+
+        def rows(name):
+            text = (self.folder / name / "statistics.csv").read_text()
+            return [line.split(",") for line in text.splitlines()[1:]]
+
+        times = [float(row[0]) for row in rows("run")]
+        self.assertEqual(sorted(set(times)), times)
+        self.assertIn(1., times)
+        self.assertEqual(times[-1], 2.)
+        # Up to the shortened last step nothing differs.
+        same = [row for row in rows("run") if float(row[0]) < 1.]
+        self.assertEqual(same, rows("reference")[:len(same)])
+
+
+class MeshThatChanges(KillAndResume):
+    """The same with a mesh that follows the soil, and HDF5 output."""
+
+    N_KILLS = 8
+    settings = SETTINGS + ["Mesh tracking/Enabled=true",
+                           "Mesh tracking/Margin=4",
+                           "Mesh tracking/Interval=50",
+                           "Output/Format=hdf5"]
+
+
+class ThreeDimensions(KillAndResume):
+    N_KILLS = 8
+    file = "landslide-3d.prm"
+    settings = ["Grid/Cell size=0.8", "End time=0.5",
+                "Output/Field interval=0.05", "Output/Statistics interval=0.02"]
+
+
+if __name__ == "__main__":
+    main(globals())

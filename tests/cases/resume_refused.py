@@ -1,0 +1,158 @@
+"""What talus says when a run cannot be resumed.
+
+Usage: resume_refused.py TALUS PRM_FOLDER FOLDER TestClass [LAUNCHER ...],
+with a launcher such as `mpirun -np 2` before each talus.
+"""
+
+import shutil
+import subprocess
+
+from resume_case import Case, EVERY, FOLDER, PRM, TALUS, main
+
+
+class ResumeRefused(Case):
+    """Exit status 1, one helpful line, nothing touched."""
+
+    prepared = None
+
+    def setUp(self):
+        super().setUp()
+        if ResumeRefused.prepared is None:
+            ResumeRefused.prepared = FOLDER / "prepared"
+            shutil.rmtree(self.prepared, ignore_errors=True)
+            self.assert_ends(self.run_talus(self.prepared,
+                                            ["End time=0.2"] + EVERY))
+        shutil.copytree(self.prepared, self.folder / "run")
+        self.before = self.content("run", [])
+
+    def refuse(self, settings, *words, options=("--resume",)):
+        result = self.run_talus("run", settings, options)
+        print(f"{self.id().split('.')[-1]}: {result.stderr.rstrip()}")
+        self.assertEqual(result.returncode, 1, result)
+        self.assertEqual(result.stdout, "")
+        self.assertEqual(result.stderr.count("\n"), 1, result.stderr)
+        self.assertTrue(result.stderr.startswith("talus: "), result.stderr)
+        self.assertTrue(result.stderr.rstrip().endswith("."), result.stderr)
+        for word in words:
+            self.assertIn(word, result.stderr)
+        self.assertEqual(self.content("run", []), self.before)
+
+    def damage(self, checkpoint, file="state.h5"):
+        path = self.checkpoints("run")[checkpoint] / file
+        data = bytearray(path.read_bytes())
+        # Far from the end, where the arrays of the points are.
+        data[len(data) // 3] ^= 16
+        path.write_bytes(data)
+        self.before = self.content("run", [])
+
+    def test_no_checkpoint(self):
+        shutil.rmtree(self.folder / "run" / "checkpoints")
+        self.before = self.content("run", [])
+        self.refuse([], "no checkpoint in", "/run'", "--output",
+                    "without --resume")
+
+    def test_no_folder(self):
+        result = self.run_talus("nowhere", [], ["--resume"])
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("no checkpoint in", result.stderr)
+        self.assertFalse((self.folder / "nowhere").exists())
+
+    def test_both_damaged(self):
+        self.damage(-1)
+        self.damage(-2, "mesh")
+        self.refuse([], "is damaged: the checksum of 'points/",
+                    "mesh files do not match", "--overwrite")
+
+    def test_empty_and_missing_files(self):
+        newest, previous = self.checkpoints("run")[::-1]
+        (newest / "state.h5").write_bytes(b"")
+        (previous / "mesh").unlink()
+        self.before = self.content("run", [])
+        self.refuse([], "could not be opened", "mesh files do not match")
+
+    def test_damaged_and_previous(self):
+        self.damage(-1)
+        newest, previous = self.checkpoints("run")[::-1]
+        result = self.run_talus("run", ["End time=0.3"], ["--resume"])
+        self.assert_ends(result)
+        sentence = (f"The checkpoint '{newest}' is damaged: the checksum of "
+                    "'points/")
+        log = (self.folder / "run" / "log.txt").read_text()
+        for text in (result.stdout, log):
+            self.assertIn(sentence, text)
+            self.assertIn("The run goes on from the one before.", text)
+        self.assertIn(f", from '{previous}'", log)
+        # It made way for one that is whole.
+        self.assertNotIn(newest, self.checkpoints("run"))
+        self.assert_ends(self.run_talus("run", ["End time=0.4"], ["--resume"]))
+
+    def test_critical_parameters(self):
+        for setting, *words in (
+                ("Grid/Cell size=0.4", "'0.4'", "'0.8'"),
+                ("Grid/Upper corner=288, 8", "'288, 8'", "'280, 8'"),
+                ("Time step/CFL number=0.1", "'0.1'", "'0.2'"),
+                ("Gravity/Slope angle=6", "'6'", "'5'"),
+                ("Materials/clay/Poisson's ratio=0.48", "'0.49'"),
+                ("Materials/clay/Undrained shear strength=2e3", "'2e3'"),
+                ("Boundaries/Seabed/Maximum shear stress=9e2", "'9e2'"),
+                ("Splitting/Threshold=1.5", "'1.5'", "'1.4'")):
+            self.refuse([setting], "The parameter '" + setting.split("=")[0],
+                        *words)
+
+    def test_harmless_parameters(self):
+        self.assert_ends(self.run_talus(
+            "run", ["Title=Another", "End time=3", "Checkpoint/Step interval=7",
+                    "Output/Statistics interval=0.5", "Grid/Cell size=8e-1",
+                    "Output/Boxes as cells=false",
+                    "Splitting/Maximum number of points=20000000"],
+            ["--resume", "--validate"]))
+        self.assertEqual(self.content("run", []), self.before)
+
+    def test_other_dimension(self):
+        result = subprocess.run(
+            [*self.launcher, TALUS, PRM / "landslide-3d.prm", "--resume",
+             "--output", self.folder / "run"], capture_output=True, text=True)
+        self.assertEqual(result.returncode, 1, result)
+        self.assertIn("Dimension = 2", result.stderr)
+        self.assertIn("Dimension = 3", result.stderr)
+        self.assertEqual(self.content("run", []), self.before)
+
+    def test_end_is_over(self):
+        self.refuse(["End time=0.1"], "end time is 0.1 s", "t = 0.2 s",
+                    "'End time'")
+
+    def test_statistics_missing(self):
+        (self.folder / "run" / "statistics.csv").unlink()
+        self.before = self.content("run", [])
+        self.refuse([], "statistics.csv", "cannot be read", "bytes")
+
+    def test_profile_too_short(self):
+        (self.folder / "run" / "profile.csv").write_text("time\n")
+        self.before = self.content("run", [])
+        self.refuse([], "profile.csv", "only 5 bytes")
+
+    def test_statistics_with_other_columns(self):
+        path = self.folder / "run" / "statistics.csv"
+        path.write_text(path.read_text().replace("time [s]", "time [h]", 1))
+        self.before = self.content("run", [])
+        self.refuse([], "statistics.csv", "'time [h]'", "'time [s]'")
+
+    def test_forgotten_resume(self):
+        # A finished run may be overwritten, an unfinished one is guarded.
+        self.assert_ends(self.run_talus("run", ["End time=0.2"]))
+        self.assertEqual(len(self.checkpoints("run")), 1)
+        self.assert_ends(self.run_talus(
+            "run", EVERY + ["Checkpoint/At the end=false"]))
+        self.before = self.content("run", [])
+        self.refuse([], "holds the checkpoint", "of a run to 2 s", "--resume",
+                    "--overwrite", options=())
+        self.assert_ends(self.run_talus("run", ["End time=0.1"],
+                                        ["--overwrite"]))
+
+    def test_resume_and_overwrite(self):
+        self.refuse([], "--resume", "--overwrite",
+                    options=("--resume", "--overwrite"))
+
+
+if __name__ == "__main__":
+    main(globals())
