@@ -43,13 +43,20 @@ namespace talus
 
   template <int dim>
   bool
-  LoadBalance<dim>::is_due(const Points<dim>  &points,
-                           const unsigned long step,
+  LoadBalance<dim>::is_due(const unsigned long step,
                            const MPI_Comm      communicator) const
   {
-    if (Utilities::MPI::n_mpi_processes(communicator) == 1 ||
-        step % interval_ != 0)
-      return false;
+    return Utilities::MPI::n_mpi_processes(communicator) > 1 &&
+           step % interval_ == 0;
+  }
+
+
+
+  template <int dim>
+  bool
+  LoadBalance<dim>::is_needed(const Points<dim> &points,
+                              const MPI_Comm     communicator) const
+  {
     return imbalance(points, communicator) >
            std::max(allowed_imbalance_, 1.05 * reached_imbalance_);
   }

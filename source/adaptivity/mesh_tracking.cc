@@ -142,15 +142,24 @@ namespace talus
   {
     wanted_.clear();
     block_level_ = std::max(int(grid.base_level()) - 2, 0);
+    // Many cells share a block: ask once for each block.
+    std::unordered_set<unsigned long> blocks;
     for (const unsigned int c : occupied_cells)
       {
         // In a refinement box cells are smaller; larger ones hold no soil.
-        Lattice            place = grid.place_of_cell(c);
         const unsigned int level = grid.level_of_cell(c);
-        for (auto &p : place)
-          p = level >= grid.base_level() ? p >> (level - grid.base_level())
-                                         : p << (grid.base_level() - level);
-        want(grid, place, place);
+        Lattice            block = grid.place_of_cell(c), first, last;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            block[d]                 = level >= block_level_
+                                         ? block[d] >> (level - block_level_)
+                                         : block[d] << (block_level_ - level);
+            const unsigned int shift = grid.base_level() - block_level_;
+            first[d]                 = block[d] << shift;
+            last[d]                  = first[d] + (1l << shift) - 1;
+          }
+        if (blocks.insert(Grid<dim>::key_of_place(block, block_level_)).second)
+          want(grid, first, last);
       }
     return refine(grid, /*spread=*/false);
   }

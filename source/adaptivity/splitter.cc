@@ -186,6 +186,23 @@ namespace talus
 
 
   template <int dim>
+  void
+  Splitter<dim>::check_total(const double n_points) const
+  {
+    AssertThrow(n_points <= maximum_points_,
+                ExcPoint(text("Splitting has made ",
+                              n_points,
+                              " points on all ranks, more than 'Splitting/"
+                              "Maximum number of points' = ",
+                              maximum_points_,
+                              ". Raise it, lower 'Splitting/Maximum "
+                              "generation', or use 'Splitting/Directions = "
+                              "stretched'.")));
+  }
+
+
+
+  template <int dim>
   bool
   Splitter<dim>::enforce(Points<dim> &points, const Grid<dim> &grid)
   {

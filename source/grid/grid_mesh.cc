@@ -217,15 +217,15 @@ namespace talus
 
 
 
-  /// Returns whether any rank flagged a cell for refinement.
+  /// Returns what any rank flagged cells for: 1 to be divided, 2 joined, 3 both.
   template <int dim>
-  bool
+  unsigned int
   Grid<dim>::flag_cells(const WantsFiner &wants_finer)
   {
     const auto wants = [&](const Lattice &place, const unsigned int level) {
       return box_wants_finer(place, level) || wants_finer(place, level);
     };
-    bool refines = false;
+    unsigned int flags = 0;
     for (const auto &cell : triangulation_.active_cell_iterators())
       if (cell->is_locally_owned())
         {
@@ -234,17 +234,21 @@ namespace talus
           if (wants(place, level))
             {
               cell->set_refine_flag();
-              refines = true;
+              flags |= 1;
             }
           else if (level > 0)
             {
               for (auto &p : place)
                 p /= 2;
               if (!wants(place, level - 1))
-                cell->set_coarsen_flag();
+                {
+                  cell->set_coarsen_flag();
+                  flags |= 2;
+                }
             }
         }
-    return Utilities::MPI::logical_or(refines, communicator());
+    return (Utilities::MPI::max(flags & 1, communicator()) |
+            Utilities::MPI::max(flags & 2, communicator()));
   }
 
 
@@ -257,9 +261,12 @@ namespace talus
     while (true)
       {
         const auto n_before = triangulation_.n_global_active_cells();
-        const bool refines  = flag_cells(wants_finer);
+        const auto flags    = flag_cells(wants_finer);
+        if (flags == 0)
+          return changed;
         triangulation_.execute_coarsening_and_refinement();
-        if (!refines && n_before == triangulation_.n_global_active_cells())
+        // Cells that cannot be joined beside smaller ones stay flagged for ever.
+        if (!(flags & 1) && n_before == triangulation_.n_global_active_cells())
           return changed;
         changed = true;
         if (spread)

@@ -2,6 +2,7 @@
 #include <talus/base/errors.h>
 #include <talus/observers/files.h>
 #include <talus/observers/output.h>
+#include <talus/observers/phase_times.h>
 #include <talus/observers/run_record.h>
 
 namespace talus
@@ -196,7 +197,12 @@ namespace talus
     if (fields_due)
       write_fields(snapshot);
     if (last)
-      progress_.finish(snapshot.time, snapshot.points.size(), timer_);
+      {
+        for (const std::string &line :
+             phase_times(timer_, snapshot.grid.communicator()))
+          note(line, true);
+        progress_.finish(snapshot.time, snapshot.points.size());
+      }
     return fields_due;
   }
 

@@ -1,5 +1,7 @@
 #include <talus/observers/phase_times.h>
 
+#include <deal.II/base/utilities.h>
+
 #include <iomanip>
 #include <sstream>
 
@@ -32,6 +34,16 @@ namespace talus
              << std::setw(8) << 100. * over_ranks.avg / total << " %";
         lines.push_back(line.str());
       }
+
+    Utilities::System::MemoryStats memory;
+    Utilities::System::get_memory_stats(memory);
+    const auto peak =
+      Utilities::MPI::min_max_avg(memory.VmHWM / 1024., communicator);
+    std::ostringstream line;
+    line << std::fixed << std::setprecision(0)
+         << "Peak memory of a rank, MB: least " << peak.min << ", mean "
+         << peak.avg << ", largest " << peak.max;
+    lines.push_back(line.str());
     return lines;
   }
 } // namespace talus

@@ -1,5 +1,4 @@
 #include <talus/base/errors.h>
-#include <talus/observers/phase_times.h>
 #include <talus/observers/progress.h>
 
 #include <cmath>
@@ -107,19 +106,13 @@ namespace talus
 
 
   void
-  Progress::finish(const double       time,
-                   const unsigned int n_points,
-                   const TimerOutput &timer)
+  Progress::finish(const double time, const unsigned int n_points)
   {
     const double elapsed = seconds(Clock::now() - start_.wall_time);
     const double point_steps =
       Utilities::MPI::sum(now_.point_steps, communicator_);
     const unsigned long all_points =
       Utilities::MPI::sum(static_cast<unsigned long>(n_points), communicator_);
-    const auto times = phase_times(timer, communicator_);
-    if (is_terminal_ && is_first_rank())
-      for (const std::string &line : times)
-        out_ << line << std::endl;
     if (is_first_rank())
       out_ << text(std::setprecision(6),
                    static_cast<unsigned long>(now_.steps),

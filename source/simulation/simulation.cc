@@ -219,11 +219,14 @@ namespace talus
   void
   Simulation<dim>::points_to_grid()
   {
-    TimerOutput::Scope scope(timer_, "points to grid");
-    loading_.update(points_, time_);
-    nodes_.clear();
-    transfer_.average_mean_stress(points_);
-    transfer_.scatter(points_, grid_, loading_.loads(), nodes_);
+    {
+      TimerOutput::Scope scope(timer_, "points to grid");
+      loading_.update(points_, time_);
+      nodes_.clear();
+      transfer_.average_mean_stress(points_);
+      transfer_.scatter(points_, grid_, loading_.loads(), nodes_);
+    }
+    TimerOutput::Scope scope(timer_, "nodes, messages");
     nodes_.sum_over_ranks(grid_);
     Assert(nobody_is_lost(points_, nodes_, grid_.communicator()),
            ExcMessage("The nodes do not carry all mass of the points: a box "

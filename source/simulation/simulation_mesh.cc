@@ -1,6 +1,7 @@
 // The part of Simulation that changes the mesh and its partition.
 
 #include <talus/simulation/simulation.h>
+#include <talus/transfer/weights.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -27,6 +28,42 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Coverage and reach, after a change of the mesh: every point lies in its
+    /// cell, or beyond a wall at most half a cell outside, and its weights sum
+    /// to one (which weights_of_point() asserts). (Used in Debug only.)
+    template <int dim>
+    [[maybe_unused]] bool
+    points_are_covered(const Points<dim> &points,
+                       const Grid<dim>   &grid,
+                       const BoxShape    &shape)
+    {
+      std::vector<NodeWeight<dim>> weights;
+      for (const Segment &segment : points.segments())
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          {
+            const Cell<dim> &cell = grid.cells()[segment.cell];
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const double xi =
+                  (points.data(points.position, d)[p] - cell.lower[d]) /
+                  cell.size;
+                const bool first = cell.lower[d] <= grid.domain().lower[d];
+                const bool last =
+                  cell.lower[d] + 1.5 * cell.size > grid.domain().upper[d];
+                if (!(xi >= (first ? -0.5 : -1e-12) &&
+                      xi <= (last ? 1.5 : 1. + 1e-12)))
+                  return false;
+              }
+            weights_of_point(points, grid, shape, segment.cell, p, weights);
+          }
+      return shape.most_half <= 0.5;
+    }
+  } // namespace
+
+
+
   /// All that depends on the mesh. Points stay on their rank.
   template <int dim>
   void
@@ -36,6 +73,9 @@ namespace talus
     nodes_.prepare(grid_);
     relocation_.rebuild(points_, grid_);
     nodes_.activate(grid_, relocation_.occupied_cells());
+    Assert(points_are_covered(points_, grid_, transfer_.box_shape()),
+           ExcMessage(
+             "After a change of the mesh a point is not in its cell."));
     least_mass_ = transfer_.least_mass(least_density(), grid_.finest_size());
   }
 
@@ -77,6 +117,9 @@ namespace talus
     nodes_.prepare(grid_);
     relocation_.rebuild(points_, cells);
     nodes_.activate(grid_, relocation_.occupied_cells());
+    Assert(points_are_covered(points_, grid_, transfer_.box_shape()),
+           ExcMessage(
+             "After a change of the mesh a point is not in its cell."));
   }
 
 
@@ -94,8 +137,13 @@ namespace talus
           prepare();
           share_out();
         }
-    if (load_balance_.is_due(points_, step_, grid_.communicator()))
-      share_out();
+    if (load_balance_.is_due(step_, grid_.communicator()))
+      {
+        splitter_.check_total(
+          Utilities::MPI::sum(1. * points_.size(), grid_.communicator()));
+        if (load_balance_.is_needed(points_, grid_.communicator()))
+          share_out();
+      }
   }
 
 

@@ -18,6 +18,17 @@ namespace talus
 
   template <int dim>
   void
+  PointExchange<dim>::connect(const MPI_Comm communicator)
+  {
+    if (communicator_ == nullptr)
+      communicator_ =
+        std::make_unique<Utilities::MPI::DuplicatedCommunicator>(communicator);
+  }
+
+
+
+  template <int dim>
+  void
   PointExchange<dim>::send(const std::vector<Traveller> &travellers,
                            const Grid<dim>              &grid,
                            const Points<dim>            &points)
@@ -101,9 +112,6 @@ namespace talus
                                const Grid<dim>              &grid,
                                Points<dim>                  &points)
   {
-    if (communicator_ == nullptr)
-      communicator_ = std::make_unique<Utilities::MPI::DuplicatedCommunicator>(
-        grid.communicator());
     arrivals_.clear();
     send(travellers, grid, points);
     for (const unsigned int rank : grid.neighbor_ranks())

@@ -163,6 +163,7 @@ namespace talus
   Relocation<dim>::send_movers(Points<dim> &points, const Grid<dim> &grid)
   {
     travellers_.clear();
+    exchange_.connect(grid.communicator());
     if (grid.neighbor_ranks().empty())
       return;
     const auto leaves = [&](const Mover &mover) {

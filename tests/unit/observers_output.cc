@@ -188,11 +188,8 @@ namespace
   {
     for (const bool is_terminal : {true, false})
       {
-        std::ostringstream  out;
-        dealii::TimerOutput timer(out,
-                                  dealii::TimerOutput::never,
-                                  dealii::TimerOutput::wall_times);
-        Progress            progress(out, is_terminal);
+        std::ostringstream out;
+        Progress           progress(out, is_terminal);
         progress.begin(0., 2., MPI_COMM_WORLD);
         progress.count_step(100);
         progress.count_step(120);
@@ -201,7 +198,7 @@ namespace
         for (const char *part : {"0.500 s", "25 %", "120 points"})
           EXPECT_EQ(out.str().find(part) != std::string::npos, is_terminal);
         out.str("");
-        progress.finish(0.5, 120, timer);
+        progress.finish(0.5, 120);
         EXPECT_NE(out.str().find("2 steps to t = 0.5 s, 120 points"),
                   std::string::npos);
         EXPECT_NE(out.str().find("220 point-steps"), std::string::npos);

@@ -24,12 +24,14 @@ namespace talus
     static double
     imbalance(const Points<dim> &points, MPI_Comm communicator);
 
-    /// Whether, after @p step steps, the imbalance is to be looked at and is too
-    /// large, and larger than the last repartition could make it. Collective.
+    /// Whether the points of the ranks are to be counted after @p step steps.
     bool
-    is_due(const Points<dim> &points,
-           unsigned long      step,
-           MPI_Comm           communicator) const;
+    is_due(unsigned long step, MPI_Comm communicator) const;
+
+    /// Whether the imbalance is too large, and larger than the last repartition
+    /// could make it. Collective.
+    bool
+    is_needed(const Points<dim> &points, MPI_Comm communicator) const;
 
     /// Give cells, and the points in them, to other ranks, and prepare the grid
     /// anew. Returns the new cell of each point. The points must be sorted, and

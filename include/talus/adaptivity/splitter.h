@@ -36,6 +36,10 @@ namespace talus
     bool
     enforce(Points<dim> &points, const Grid<dim> &grid);
 
+    /// Throw ExcPoint if there are more points than allowed, over all ranks.
+    void
+    check_total(double n_points) const;
+
     const SplitStatistics &
     statistics() const
     {

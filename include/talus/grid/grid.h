@@ -366,7 +366,7 @@ namespace talus
     fit_axis(unsigned int d, bool may_move, unsigned int factor);
     unsigned int
     level_of_trees(const std::array<bool, 2 * dim> &may_move, bool grow) const;
-    bool
+    unsigned int
     flag_cells(const WantsFiner &wants_finer);
     std::vector<typename dealii::DoFHandler<dim>::active_cell_iterator>
     cells_in_order() const;

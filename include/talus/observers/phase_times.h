@@ -10,8 +10,8 @@
 namespace talus
 {
   /// The wall time of each section of the timer, one line each: least, mean and
-  /// largest over the ranks, and the mean's share of all. Collective; the lines
-  /// are right on all ranks.
+  /// largest over the ranks, and the mean's share of all; and the peak memory.
+  /// Collective; the lines are right on all ranks.
   std::vector<std::string>
   phase_times(const dealii::TimerOutput &timer, MPI_Comm communicator);
 } // namespace talus

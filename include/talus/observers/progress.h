@@ -2,7 +2,6 @@
 #define talus_observers_progress_h
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/timer.h>
 
 #include <chrono>
 #include <iostream>
@@ -42,11 +41,9 @@ namespace talus
     void
     print_line(double time, unsigned int n_points);
 
-    /// The table of timers, on a terminal, and the throughput. Collective.
+    /// The throughput. Collective.
     void
-    finish(double                     time,
-           unsigned int               n_points,
-           const dealii::TimerOutput &timer);
+    finish(double time, unsigned int n_points);
 
   private:
     using Clock = std::chrono::steady_clock;

@@ -29,6 +29,11 @@ namespace talus
       unsigned int cell;  ///< an owned cell
     };
 
+    /// To be called before the first exchange. Collective over all ranks, also
+    /// those that have no neighbours.
+    void
+    connect(MPI_Comm communicator);
+
     /// Send these points, which stay here as dead copies, and append those that
     /// come in, in the order of the ranks and of their lists. Collective.
     const std::vector<Arrival> &
