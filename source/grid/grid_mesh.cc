@@ -76,7 +76,7 @@ namespace talus
                              const unsigned int level) const
   {
     const double size = tree_size_ / (1u << level);
-    for (const RefinementBox &box : boxes_)
+    for (const RefinementBox<dim> &box : boxes_)
       {
         bool overlaps = (level < base_level_ + box.n_levels);
         for (unsigned int d = 0; d < dim; ++d)

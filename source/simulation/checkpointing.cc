@@ -46,7 +46,7 @@ namespace talus
     set_up_laws();
     const MPI_Comm communicator = grid_.communicator();
     resumed_from_ = find_checkpoint(output_.folder(), dim, communicator);
-    Hdf5File file(resumed_from_.path / state_file_name,
+    Hdf5File          file(resumed_from_.path / state_file_name,
                   Hdf5File::Access::read,
                   communicator);
     const std::string parameters = file.read_text("parameters");
@@ -64,7 +64,7 @@ namespace talus
     // Not found by their positions: on an edge of a cell these leave a choice.
     relocation_.rebuild(points_,
                         load_points(file, grid_.n_owned_cells(), points_));
-    nodes_.activate(grid_, relocation_.occupied_cells());
+    settle();
     load_state(file, state());
     splitter_.number_on(Utilities::MPI::this_mpi_process(communicator),
                         n_ranks,
@@ -235,17 +235,16 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                                        \
-  template StateList Simulation<dim>::state();                  \
-  template void      Simulation<dim>::resume();                 \
-  template void Simulation<dim>::restore_partition(Hdf5File &); \
-  template void Simulation<dim>::begin_run();                   \
-  template Wish Simulation<dim>::own_wish() const;              \
-  template bool Simulation<dim>::act_on(Wish);                  \
-  template std::filesystem::path                                \
-                Simulation<dim>::write_checkpoint();            \
-  template void Simulation<dim>::note_resume();                 \
-  template void Simulation<dim>::say(const std::string &);
+#define INSTANTIATE(dim)                                                         \
+  template StateList             Simulation<dim>::state();                       \
+  template void                  Simulation<dim>::resume();                      \
+  template void                  Simulation<dim>::restore_partition(Hdf5File &); \
+  template void                  Simulation<dim>::begin_run();                   \
+  template Wish                  Simulation<dim>::own_wish() const;              \
+  template bool                  Simulation<dim>::act_on(Wish);                  \
+  template std::filesystem::path Simulation<dim>::write_checkpoint();            \
+  template void                  Simulation<dim>::note_resume();                 \
+  template void                  Simulation<dim>::say(const std::string &);
 
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -72,11 +72,21 @@ namespace talus
     grid_.prepare();
     nodes_.prepare(grid_);
     relocation_.rebuild(points_, grid_);
+    settle();
+    least_mass_ = transfer_.least_mass(least_density(), grid_.finest_size());
+  }
+
+
+
+  /// The points are in their new cells.
+  template <int dim>
+  void
+  Simulation<dim>::settle()
+  {
     nodes_.activate(grid_, relocation_.occupied_cells());
     Assert(points_are_covered(points_, grid_, transfer_.box_shape()),
            ExcMessage(
              "After a change of the mesh a point is not in its cell."));
-    least_mass_ = transfer_.least_mass(least_density(), grid_.finest_size());
   }
 
 
@@ -116,10 +126,7 @@ namespace talus
     const auto cells = load_balance_.repartition(grid_, points_);
     nodes_.prepare(grid_);
     relocation_.rebuild(points_, cells);
-    nodes_.activate(grid_, relocation_.occupied_cells());
-    Assert(points_are_covered(points_, grid_, transfer_.box_shape()),
-           ExcMessage(
-             "After a change of the mesh a point is not in its cell."));
+    settle();
   }
 
 
@@ -151,6 +158,7 @@ namespace talus
 #define INSTANTIATE(dim)                                                    \
   template void                      Simulation<dim>::create_mesh();        \
   template void                      Simulation<dim>::prepare();            \
+  template void                      Simulation<dim>::settle();             \
   template std::array<bool, 2 * dim> Simulation<dim>::faces_that_may_move() \
     const;                                                                  \
   template double Simulation<dim>::least_density() const;                   \

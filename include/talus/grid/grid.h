@@ -2,6 +2,7 @@
 #define talus_grid_grid_h
 
 #include <talus/base/box.h>
+#include <talus/grid/cell.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/parameter_acceptor.h>
@@ -22,38 +23,8 @@
 
 namespace talus
 {
-  constexpr unsigned int
-  power(const unsigned int base, const unsigned int exponent)
-  {
-    return exponent == 0 ? 1 : base * power(base, exponent - 1);
-  }
-
   /// Names of the faces of the mesh in deal.II's order of boundary ids.
   extern const std::array<std::string, 6> face_names;
-
-  /// What the transfer needs to know about a cell of the background grid.
-  template <int dim>
-  struct Cell
-  {
-    dealii::Point<dim> lower; ///< corner, m
-    double             size;  ///< length of the edges, m
-
-    /// True if all neighbours, across corners too, have the same size. Then
-    /// the patch below is complete.
-    bool uniform;
-
-    /// Nodes of the patch from one cell below to one cell above, 4 per axis,
-    /// x fastest. Beyond the boundary of the mesh the outer row repeats the
-    /// boundary row: the boundary cell is continued outwards with shape
-    /// functions that are constant along the normal. The inner 2^dim entries
-    /// are the cell's own nodes, valid also where the cell is not uniform.
-    std::array<unsigned int, power(4, dim)> patch;
-
-    /// Neighbours of the same size, 3 per axis, x fastest, the cell itself in
-    /// the middle; invalid_unsigned_int beyond the boundary of the mesh or
-    /// where there is no active cell of the same size.
-    std::array<unsigned int, power(3, dim)> neighbors;
-  };
 
   /// The background grid: a p4est mesh of square (cubic) cells over a box, with
   /// Q1 elements and a flat cache of what the transfer needs.
@@ -296,15 +267,6 @@ namespace talus
       return faces_of_node_[node];
     }
 
-    /// What a node on a face of the mesh stands for, hanging nodes condensed.
-    struct FaceShare
-    {
-      /// Integral of its shape function over the face, m^(dim-1).
-      double area = 0;
-      /// Integral of its shape function over the cells at the face, m^dim.
-      double volume = 0;
-    };
-
     /// Share of node @p node, owned by this rank, in face @p face of the mesh.
     const FaceShare &
     face_share(const unsigned int face, const unsigned int node) const
@@ -352,12 +314,6 @@ namespace talus
     }
 
   private:
-    struct RefinementBox
-    {
-      Box<dim>     box;
-      unsigned int n_levels;
-    };
-
     void
     parse_refinement_boxes();
     bool
@@ -409,7 +365,7 @@ namespace talus
     double                                            tree_size_   = 0;
     unsigned int                                      base_level_  = 0;
     double                                            finest_size_ = 0;
-    std::vector<RefinementBox>                        boxes_;
+    std::vector<RefinementBox<dim>>                   boxes_;
     dealii::parallel::distributed::Triangulation<dim> triangulation_;
     dealii::FE_Q<dim>                                 fe_;
     dealii::DoFHandler<dim>                           dof_handler_;

@@ -98,6 +98,8 @@ namespace talus
     void
     create_mesh();
     void
+    settle();
+    void
     share_out();
     void
     adapt_mesh();

@@ -1,0 +1,64 @@
+#ifndef talus_grid_cell_h
+#define talus_grid_cell_h
+
+#include <talus/base/box.h>
+
+#include <deal.II/base/point.h>
+
+#include <array>
+
+namespace talus
+{
+  constexpr unsigned int
+  power(const unsigned int base, const unsigned int exponent)
+  {
+    return exponent == 0 ? 1 : base * power(base, exponent - 1);
+  }
+
+  /// What the transfer needs to know about a cell of the background grid.
+  template <int dim>
+  struct Cell
+  {
+    dealii::Point<dim> lower; ///< corner, m
+    double             size;  ///< length of the edges, m
+
+    /// True if all neighbours, across corners too, have the same size. Then
+    /// the patch below is complete.
+    bool uniform;
+
+    /// Nodes of the patch from one cell below to one cell above, 4 per axis,
+    /// x fastest. Beyond the boundary of the mesh the outer row repeats the
+    /// boundary row: the boundary cell is continued outwards with shape
+    /// functions that are constant along the normal. The inner 2^dim entries
+    /// are the cell's own nodes, valid also where the cell is not uniform.
+    std::array<unsigned int, power(4, dim)> patch;
+
+    /// Neighbours of the same size, 3 per axis, x fastest, the cell itself in
+    /// the middle; invalid_unsigned_int beyond the boundary of the mesh or
+    /// where there is no active cell of the same size.
+    std::array<unsigned int, power(3, dim)> neighbors;
+  };
+
+
+
+  /// A box in which cells are halved some times.
+  template <int dim>
+  struct RefinementBox
+  {
+    Box<dim>     box;
+    unsigned int n_levels;
+  };
+
+
+
+  /// What a node on a face of the mesh stands for, hanging nodes condensed.
+  struct FaceShare
+  {
+    /// Integral of its shape function over the face, m^(dim-1).
+    double area = 0;
+    /// Integral of its shape function over the cells at the face, m^dim.
+    double volume = 0;
+  };
+} // namespace talus
+
+#endif
