@@ -92,7 +92,9 @@ namespace
     s.step = 2;
     s.time = 1.;
     EXPECT_TRUE(output.observe(s.snapshot(), true));
-    EXPECT_EQ(lines("log.txt"), std::vector<std::string>{"It begins."});
+    // Before the table of wall times.
+    EXPECT_EQ(lines("log.txt").at(0), "It begins.");
+    EXPECT_EQ(lines("log.txt").at(1).find("Wall time by phase"), 0u);
     EXPECT_EQ(lines("statistics.csv").size(), 3u);
     EXPECT_EQ(lines("profile.csv").size(), 3u);
   }
