@@ -163,7 +163,9 @@ namespace talus
   Relocation<dim>::send_movers(Points<dim> &points, const Grid<dim> &grid)
   {
     travellers_.clear();
-    if (grid.neighbor_ranks().empty())
+    // A rank without cells has no neighbours, but takes part in the first
+    // exchange, where all ranks make a communicator.
+    if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
       return;
     const auto leaves = [&](const Mover &mover) {
       return mover.cell >= grid.n_owned_cells();
