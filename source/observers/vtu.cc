@@ -3,6 +3,8 @@
 
 #include <deal.II/grid/reference_cell.h>
 
+#include <algorithm>
+
 namespace talus
 {
   using namespace dealii;
@@ -143,15 +145,27 @@ namespace talus
       return base + (n_ranks > 1 ? "." + std::to_string(r) : "") + ".vtu";
     };
 
+    // ParaView complains about the files that deal.II writes without cells:
+    // only ranks with cells write one, the first if nobody has any.
+    const auto n_cells = Utilities::MPI::all_gather(communicator, cells.size());
+    const bool nobody  = std::all_of(n_cells.begin(),
+                                    n_cells.end(),
+                                    [](const auto n) { return n == 0; });
+    const auto writes  = [&](const unsigned int r) {
+      return n_cells[r] > 0 || (nobody && r == 0);
+    };
+
     Patches<cell_dim, dim> patches(cells);
-    write_file(folder / piece(rank),
-               [&](std::ostream &out) { patches.write(out, time, step); });
+    if (writes(rank))
+      write_file(folder / piece(rank),
+                 [&](std::ostream &out) { patches.write(out, time, step); });
     if (n_ranks == 1)
       return piece(0);
 
     std::vector<std::string> pieces;
     for (unsigned int r = 0; r < n_ranks; ++r)
-      pieces.push_back(piece(r));
+      if (writes(r))
+        pieces.push_back(piece(r));
     if (rank == 0)
       write_file(folder / (base + ".pvtu"), [&](std::ostream &out) {
         // deal.II leaves no choice but to write the date, as a comment.

@@ -42,8 +42,9 @@ struct Core : FreshParameters
 
   /// @param text parameters, as in a file
   explicit Core(const std::string              &text,
-                const std::array<bool, 2 *dim> &may_move = {})
-    : grid(MPI_COMM_WORLD)
+                const std::array<bool, 2 *dim> &may_move     = {},
+                const MPI_Comm                  communicator = MPI_COMM_WORLD)
+    : grid(communicator)
     , random(4711)
   {
     dealii::ParameterAcceptor::declare_all_parameters();
@@ -67,7 +68,7 @@ struct Core : FreshParameters
   refine(const Condition &condition)
   {
     for (const auto &cell : grid.triangulation().active_cell_iterators())
-      if (condition(cell->center()))
+      if (cell->is_locally_owned() && condition(cell->center()))
         cell->set_refine_flag();
     grid.triangulation().execute_coarsening_and_refinement();
     grid.prepare();

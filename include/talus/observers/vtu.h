@@ -55,9 +55,9 @@ namespace talus
 
 
   /// Write the cells as VTU into the folder, single precision, without date:
-  /// one file base.vtu or, with several ranks, one base.R.vtu per rank R and
-  /// base.pvtu. Collective. Returns the name of the file that ParaView is to
-  /// open. Throws ExcUser if that fails.
+  /// one file base.vtu or, with several ranks, one base.R.vtu per rank R that
+  /// has cells and base.pvtu. Collective. Returns the name of the file that
+  /// ParaView is to open. Throws ExcUser if that fails.
   template <int cell_dim, int dim>
   std::string
   write_vtu(const std::filesystem::path      &folder,

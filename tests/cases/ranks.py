@@ -1,0 +1,214 @@
+"""Whole runs on several ranks and on meshes that follow the soil: each must give
+what one rank, or a uniform mesh, gives.
+
+Usage: ranks.py TALUS FOLDER MPIEXEC PRM_FOLDER [TestClass].
+"""
+
+import csv
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+import xml.etree.ElementTree
+
+TALUS = pathlib.Path(sys.argv[1]).resolve()
+FOLDER = pathlib.Path(sys.argv[2]).resolve()
+MPIEXEC = sys.argv[3]
+PRM = pathlib.Path(sys.argv[4]).resolve()
+
+TERSE = ["Output/Write points=false", "Output/Write grid=false"]
+TRACKING = ["Mesh tracking/Enabled=true", "Mesh tracking/Margin=6",
+            "Mesh tracking/Interval=100", "Grid/Coarsest level=4"]
+BALANCE = ["Load balance/Allowed imbalance=1.05"]
+SLIDE = ["Grid/Cell size=0.8", "End time=4"]
+
+
+def read_table(file):
+    with open(file) as lines:
+        names, *rows = csv.reader(lines)
+    return {name: [float(row[i]) for row in rows]
+            for i, name in enumerate(names)}
+
+
+def largest(values):
+    return max(abs(value) for value in values)
+
+
+class Runs(unittest.TestCase):
+    def setUp(self):
+        self.folder = FOLDER / self.id().split(".", 1)[-1]
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+
+    def start(self, name, n_ranks, settings, file="landslide.prm"):
+        options = [o for s in settings for o in ("--set", s)]
+        launcher = [MPIEXEC, "-n", str(n_ranks)] if n_ranks > 1 else []
+        return subprocess.run(
+            [*launcher, TALUS, *options, "--output", name, PRM / file],
+            cwd=self.folder, capture_output=True, text=True, timeout=120)
+
+    def run_on(self, n_ranks, settings, file="landslide.prm", name=None):
+        """Run to the end; return the statistics, column by column."""
+        name = name or f"ranks-{n_ranks}"
+        result = self.start(name, n_ranks, settings, file)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual(result.stderr, "")
+        return read_table(self.folder / name / "statistics.csv")
+
+    def assert_same(self, found, expected, tolerance=1e-9):
+        """All columns, each relative to its largest value; what measures
+        round-off, relative to what it is the round-off of."""
+        self.assertEqual(list(found), list(expected))
+        self.assertGreater(len(expected["step"]), 1)
+        for name, values in expected.items():
+            self.assertEqual(len(found[name]), len(values))
+            scale = largest(values)
+            if name == "split ledger [-]":
+                self.assertLess(largest(found[name]), 1e-12)
+                continue
+            if name == "energy remainder [J]":
+                scale = largest(expected["gravity work [J]"])
+            error = largest(a - b for a, b in zip(found[name], values))
+            self.assertLessEqual(error, tolerance * scale, name)
+
+    def changes(self, name):
+        """How often the mesh changed and cells were shared out, by the log."""
+        log = (self.folder / name / "log.txt").read_text()
+        return [int((re.findall(pattern, log) or ["0"])[-1])
+                for pattern in (r"mesh changed (\d+) times",
+                                r"shared out (\d+) times")]
+
+    def assert_files(self, name, most_pieces):
+        """points.pvd and grid.pvd name files that are there and name others
+        that are there, one for each rank that has points: ParaView complains
+        about files without."""
+        folder = self.folder / name
+        for index in ("points.pvd", "grid.pvd"):
+            times = self.references(folder / index, "DataSet", "file")
+            self.assertGreaterEqual(len(times), 2)
+            for at_time in times:
+                self.assertEqual(at_time.suffix, ".pvtu")
+                pieces = self.references(at_time, "Piece", "Source")
+                self.assertIn(len(pieces), range(1, most_pieces + 1))
+                for piece in pieces:
+                    tree = xml.etree.ElementTree.parse(piece)
+                    n_cells = tree.find(".//Piece").get("NumberOfCells")
+                    self.assertGreater(int(n_cells), 0, piece)
+
+    def references(self, file, tag, attribute):
+        tree = xml.etree.ElementTree.parse(file)
+        files = [file.parent / element.get(attribute)
+                 for element in tree.iter(tag)]
+        for other in files:
+            self.assertTrue(other.is_file(), f"{file} names {other}")
+        return files
+
+
+class Ranks(Runs):
+    def test_slide(self):
+        settings = SLIDE + TRACKING + BALANCE + TERSE
+        alone = self.run_on(1, settings)
+        self.assertGreater(alone["splits"][-1], 100)
+        self.assertGreater(alone["friction work [J]"][-1], 0)
+        for n_ranks in (2, 4):
+            self.assert_same(self.run_on(n_ranks, settings), alone)
+            n_meshes, n_shares = self.changes(f"ranks-{n_ranks}")
+            self.assertGreaterEqual(n_meshes, 3)
+            # More often than the mesh changed: for the balance alone, too.
+            self.assertGreater(n_shares, max(3, n_meshes))
+
+    def test_three_dimensions(self):
+        settings = ["Grid/Cell size=1.6", "Grid/Upper corner=280,8,6.4",
+                    "Grid/Refinement boxes=20,0,-1; 45,1.5,3; 1",
+                    "End time=0.8", "Mesh tracking/Enabled=true",
+                    "Mesh tracking/Margin=6"] + BALANCE + TERSE
+        alone = self.run_on(1, settings, "landslide-3d.prm")
+        self.assert_same(self.run_on(3, settings, "landslide-3d.prm"), alone)
+
+    def test_a_point_that_leaves(self):
+        """One rank of four sees it: one sentence, and the state of that rank;
+        besides, the launcher tells that it stopped the others."""
+        result = self.start("leaves", 4,
+                            SLIDE + ["Grid/Upper corner=60,8", "End time=30"])
+        self.assertNotEqual(result.returncode, 0)
+        sentences = [line for line in result.stderr.splitlines()
+                     if "talus:" in line]
+        self.assertEqual(len(sentences), 1, result.stderr)
+        self.assertTrue(sentences[0].startswith("talus: Point "), sentences)
+        for words in ("left the mesh through the face 'Right'",
+                      "Grid/Upper corner"):
+            self.assertIn(words, sentences[0])
+        state = re.search(r"last state is in '(.*)'\.$", sentences[0]).group(1)
+        self.assertIn("</VTKFile>", (self.folder / state).read_text())
+
+
+class Tracking(Runs):
+    def test_against_uniform_mesh(self):
+        uniform = self.run_on(1, SLIDE + TERSE, name="uniform")
+        for n_ranks in (1, 2):
+            tracked = self.run_on(n_ranks, SLIDE + TRACKING + BALANCE + TERSE)
+            self.assertGreaterEqual(self.changes(f"ranks-{n_ranks}")[0], 3)
+            self.assert_same(tracked, uniform)
+
+
+class Graded(Runs):
+    """Smaller cells at the seabed, soil across hanging nodes."""
+
+    settings = ["Grid/Cell size=1.6", "End time=1.2",
+                "Grid/Refinement boxes=-10,0; 30,1.6; 2 | 25,0; 60,2.4; 1"]
+
+    def assert_sound(self, found):
+        self.assertLess(largest(found["energy remainder [J]"]),
+                        0.005 * found["gravity work [J]"][-1])
+        self.assertEqual(set(found["connected bodies"]), {1})
+        self.assertEqual(set(found["empty interior cells"]), {0})
+        self.assertEqual(set(found["empty columns"]), {0})
+        self.assertGreater(found["splits"][-1], 0)
+
+    def test_graded(self):
+        settings = self.settings + BALANCE + TERSE
+        alone = self.run_on(1, settings)
+        self.assert_sound(alone)
+        self.assert_same(self.run_on(4, settings), alone)
+
+    def test_graded_and_tracked(self):
+        settings = self.settings + TRACKING + BALANCE + TERSE
+        alone = self.run_on(1, settings)
+        self.assert_sound(alone)
+        self.assert_same(self.run_on(4, settings), alone)
+        self.assertGreaterEqual(self.changes("ranks-4")[1], 3)
+
+
+class FewCells(Runs):
+    """A block of one or two cells on the seabed."""
+
+    settings = ["Grid/Lower corner=0,0", "Grid/Cell size=1",
+                "Bodies/slide/Shape=box", "Bodies/slide/Lower corner=1,0",
+                "End time=0.02"]
+
+    def compare(self, n_ranks, most_pieces, settings):
+        alone = self.run_on(1, settings)
+        self.assert_same(self.run_on(n_ranks, settings), alone)
+        self.assert_files(f"ranks-{n_ranks}", most_pieces)
+
+    def test_fewer_points_than_ranks(self):
+        self.compare(6, 2, self.settings + [
+            "Grid/Upper corner=4,2", "Bodies/slide/Upper corner=3,1"])
+
+    def test_fewer_cells_than_ranks(self):
+        self.compare(6, 1, self.settings + [
+            "Grid/Upper corner=2,1", "Bodies/slide/Upper corner=2,1"])
+
+    def test_all_soil_on_one_rank(self):
+        self.compare(4, 1, self.settings + [
+            "Grid/Upper corner=4,2", "Bodies/slide/Upper corner=2,1"])
+
+
+if __name__ == "__main__":
+    names = sys.argv[5:] or ["Ranks", "Tracking", "Graded", "FewCells"]
+    suite = unittest.TestSuite(
+        unittest.defaultTestLoader.loadTestsFromTestCase(globals()[name])
+        for name in names)
+    sys.exit(not unittest.TextTestRunner(verbosity=2).run(suite).wasSuccessful())
