@@ -8,6 +8,7 @@
 
 #include <deal.II/grid/grid_generator.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus
@@ -59,6 +60,18 @@ namespace talus
         const Box<dim> box{parse_corner<dim>(parts[0], refinement_boxes_),
                            parse_corner<dim>(parts[1], refinement_boxes_)};
         for (unsigned int d = 0; d < dim; ++d)
+          AssertThrow(box.lower[d] < domain_.upper[d] &&
+                        box.upper[d] > domain_.lower[d],
+                      ExcUser(text("'Grid/Refinement boxes = ",
+                                   refinement_boxes_,
+                                   "' contains '",
+                                   entry,
+                                   "', which lies outside the mesh from (",
+                                   domain_.lower,
+                                   ") to (",
+                                   domain_.upper,
+                                   ") m. Move or remove it.")));
+        for (unsigned int d = 0; d < dim; ++d)
           AssertThrow(box.lower[d] < box.upper[d],
                       ExcUser("'Grid/Refinement boxes = " + refinement_boxes_ +
                               "' contains '" + entry +
@@ -106,6 +119,14 @@ namespace talus
     const double whole = std::round(exact);
     const bool   fits  = whole >= 1 && std::abs(exact - whole) <= 1e-9 * whole;
     const unsigned int face = 2 * d + 1;
+    AssertThrow(exact < 2e9,
+                ExcUser(text("The mesh would have ",
+                             exact,
+                             " cells along axis ",
+                             d,
+                             ". Choose a larger Grid/Cell size than ",
+                             h,
+                             " m.")));
     AssertThrow(fits || exact > 1,
                 ExcUser(text("The mesh is only ",
                              exact * h,
@@ -147,6 +168,36 @@ namespace talus
 
 
 
+  /// Places in the lattice of the smallest cells must fit into their keys.
+  template <int dim>
+  void
+  Grid<dim>::check_lattice(const unsigned int level) const
+  {
+    unsigned int n_halvings = initial_refinement_;
+    for (const RefinementBox<dim> &box : boxes_)
+      n_halvings = std::max(n_halvings, initial_refinement_ + box.n_levels);
+    const double most = std::pow(2., 58 / dim);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        // Far cells may add one of the largest.
+        const double n = (1. * n_cells_per_axis_[d] + (1u << level)) *
+                         std::pow(2., n_halvings);
+        AssertThrow(n < most,
+                    ExcUser(text("With its smallest cells everywhere the mesh "
+                                 "would have ",
+                                 n,
+                                 " cells along axis ",
+                                 d,
+                                 ", more than ",
+                                 most,
+                                 ". Choose a larger Grid/Cell size than ",
+                                 cell_size_,
+                                 " m, a smaller box or less refinement.")));
+      }
+  }
+
+
+
   /// The largest level up to the one asked for that divides the cells of all
   /// axes that must not grow.
   template <int dim>
@@ -168,11 +219,13 @@ namespace talus
   void
   Grid<dim>::create(const std::array<bool, 2 * dim> &may_move, const bool grow)
   {
-    parse_refinement_boxes();
     domain_ = {lower_corner_, upper_corner_};
     for (unsigned int d = 0; d < dim; ++d)
       fit_axis(d, may_move[2 * d + 1], 1);
+    domain_before_growth_ = domain_;
+    parse_refinement_boxes();
     const unsigned int level = level_of_trees(may_move, grow);
+    check_lattice(level);
     adjustment_.clear();
     for (unsigned int d = 0; d < dim; ++d)
       fit_axis(d,

@@ -124,7 +124,10 @@ namespace talus
       fs::rename(part_of(checkpoint), checkpoint, error);
     if (error)
       return error.message();
-    return sync_to_disk(checkpoint.parent_path());
+    const std::string complaint = sync_to_disk(checkpoint.parent_path());
+    return complaint.empty()
+             ? sync_to_disk(checkpoint.parent_path().parent_path())
+             : complaint;
   }
 
 

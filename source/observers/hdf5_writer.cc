@@ -278,6 +278,8 @@ namespace talus
                  n_bytes_ + with_overhead(0),
                ExcMessage("More was written than reserved."));
         complaint = release_disk_space(part_.path);
+        if (complaint.empty())
+          complaint = sync_to_disk(part_.path);
       }
     conclude(complaint);
     std::error_code error;

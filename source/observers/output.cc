@@ -166,6 +166,8 @@ namespace talus
       return;
     statistics_.file().sync();
     profile_.file().sync();
+    // The names of the field files, which a checkpoint lists.
+    sync_to_disk(folder_);
   }
 
 

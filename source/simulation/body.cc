@@ -237,8 +237,8 @@ namespace talus
                              " numbers; give one, or one for each of the ",
                              dim,
                              " axes.")));
-    const auto     shape = make_shape(grid.domain());
-    const Box<dim> box   = bounding_box(grid.domain());
+    const auto     shape = make_shape(grid.domain_before_growth());
+    const Box<dim> box   = bounding_box(grid.domain_before_growth());
     check_apart(*shape, points);
 
     const unsigned int n_before = points.size();

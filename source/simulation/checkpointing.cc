@@ -28,7 +28,6 @@ namespace talus
                         Reduction::sum);
     list.add_components(
       "wall impulse", "N s", boundary_work_.wall_impulse, dim, Reduction::sum);
-    list.add("mesh is urgent", "-", mesh_is_urgent_, Reduction::equal);
     list.add("mesh changes", "-", n_mesh_changes_, Reduction::equal);
     list.add("repartitions", "-", n_repartitions_, Reduction::equal);
     splitter_.list_state(list);
@@ -128,6 +127,9 @@ namespace talus
       note_resume();
     else
       note_start();
+    // The checkpoint of a run that was finished must not look finished now.
+    if (is_resumed && resumed_from_.head.time >= resumed_from_.head.end_time)
+      write_checkpoint();
   }
 
 
@@ -195,8 +197,10 @@ namespace talus
            time_,
            " s, step ",
            step_,
-           signal.empty() ? ", after the limit of wall time"
-                          : ", after the signal " + signal,
+           !signal.empty() ? ", after the signal " + signal
+           : checkpoint_.limit_is_reached()
+             ? ", after the limit of wall time"
+             : ", after a signal to another rank",
            "; the state is in '",
            path.string(),
            "'. Go on with the same command and --resume.");

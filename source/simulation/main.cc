@@ -60,7 +60,13 @@ namespace
   {
     try
       {
-        return " The last state is in '" + simulation.write_last_state() + "'.";
+        const unsigned int rank =
+          dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
+        const bool is_alone =
+          dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
+        return (is_alone ? " The last state is in '"
+                         : text(" The points of rank ", rank, " are in '")) +
+               simulation.write_last_state() + "'.";
       }
     catch (const ExcUser &exception)
       {

@@ -43,9 +43,12 @@ namespace talus
          "a number of at least $1"},
         {std::regex("\\[Double (\\S+)\\.\\.\\.(\\S+) \\(inclusive\\)\\]"),
          "a number from $1 to $2"},
-        {std::regex("\\[Integer( range \\S+\\.\\.\\.2147483647 "
+        {std::regex("\\[Integer( range -2147483648\\.\\.\\.2147483647 "
                     "\\(inclusive\\))?\\]"),
          "a whole number"},
+        {std::regex("\\[Integer range (\\S+)\\.\\.\\.2147483647 "
+                    "\\(inclusive\\)\\]"),
+         "a whole number of at least $1"},
         {std::regex(
            "\\[Integer range (\\S+)\\.\\.\\.(\\S+) \\(inclusive\\)\\]"),
          "a whole number from $1 to $2"},

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <iomanip>
 #include <map>
+#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -51,6 +52,9 @@ namespace talus
     bool
     is_harmless(const std::string &path)
     {
+      // A series of files has one index, which knows one format.
+      if (path == "Output/Format")
+        return false;
       for (const std::string name :
            {"Title", "End time", "Splitting/Maximum number of points"})
         if (path == name)
@@ -64,12 +68,14 @@ namespace talus
 
 
 
-    /// 1e-3 is 0.001, and blanks around commas do not count.
+    /// 1e-3 is 0.001, and blanks around separators do not count.
     std::string
     normal_form(const std::string &value)
     {
-      std::string result;
-      for (const std::string &item : split_string_list(value, ','))
+      static const std::regex separator(" *[;|] *");
+      std::string             result;
+      for (const std::string &item :
+           split_string_list(std::regex_replace(value, separator, ","), ','))
         {
           char        *end       = nullptr;
           const double number    = std::strtod(item.c_str(), &end);

@@ -316,6 +316,12 @@ namespace talus
   void
   Simulation<dim>::note_start()
   {
+    const auto extent  = grid_.extent_of_lattice(grid_.base_level());
+    double     n_cells = 1;
+    for (const long n : extent)
+      n_cells *= n;
+    const bool is_uniform =
+      (n_cells == grid_.triangulation().n_global_active_cells());
     if (!title_.empty())
       output_.note(title_, true);
     output_.note(text("The mesh fills (",
@@ -324,8 +330,9 @@ namespace talus
                       grid_.domain().upper,
                       ") m with ",
                       grid_.triangulation().n_global_active_cells(),
-                      " cells of ",
-                      grid_.cell_size(),
+                      " cells",
+                      is_uniform ? " of " : ", the smallest of ",
+                      grid_.finest_size(),
                       " m; there are ",
                       Utilities::MPI::sum(points_.size(), grid_.communicator()),
                       " points.",

@@ -18,7 +18,7 @@ namespace talus
       {
         std::vector<Box<dim>> boxes;
         for (const auto &body : bodies_)
-          boxes.push_back(body->bounding_box(grid_.domain()));
+          boxes.push_back(body->bounding_box(grid_.domain_before_growth()));
         mesh_tracking_.adapt(grid_, boxes);
       }
     else

@@ -344,10 +344,11 @@ namespace
       return Point<2>(0.25 * x[0], x[1]);
     });
     core.sort();
-    EXPECT_EQ(balance.is_due(core.points, 100, world), !alone);
-    EXPECT_FALSE(balance.is_due(core.points, 101, world)) << "every 50 steps";
+    EXPECT_EQ(balance.is_due(100, world), !alone);
+    EXPECT_FALSE(balance.is_due(101, world)) << "every 50 steps";
+    EXPECT_EQ(balance.is_needed(core.points, world), !alone);
     share_out(core, balance);
-    EXPECT_FALSE(balance.is_due(core.points, 100, world));
+    EXPECT_FALSE(balance.is_needed(core.points, world));
   }
 
 
@@ -364,6 +365,6 @@ namespace
     EXPECT_EQ(balance.imbalance(core.points, MPI_COMM_WORLD),
               MPI::n_mpi_processes(MPI_COMM_WORLD));
     share_out(core, balance);
-    EXPECT_FALSE(balance.is_due(core.points, 100, MPI_COMM_WORLD));
+    EXPECT_FALSE(balance.is_needed(core.points, MPI_COMM_WORLD));
   }
 } // namespace

@@ -6,6 +6,8 @@
 #include <deal.II/base/point.h>
 
 #include <array>
+#include <utility>
+#include <vector>
 
 namespace talus
 {
@@ -58,6 +60,15 @@ namespace talus
     double area = 0;
     /// Integral of its shape function over the cells at the face, m^dim.
     double volume = 0;
+  };
+
+
+
+  /// A hanging node: its value is a mean of those of its masters.
+  struct HangingNode
+  {
+    unsigned int                                 node;
+    std::vector<std::pair<unsigned int, double>> masters;
   };
 } // namespace talus
 

@@ -109,6 +109,13 @@ namespace talus
       return domain_;
     }
 
+    /// The box without what far cells were added for in create().
+    const Box<dim> &
+    domain_before_growth() const
+    {
+      return domain_before_growth_;
+    }
+
     /// Edge h of the cells where nothing asks for smaller ones, m.
     double
     cell_size() const
@@ -274,13 +281,6 @@ namespace talus
       return face_shares_[face].at(node);
     }
 
-    /// A hanging node: its value is a mean of those of its masters.
-    struct HangingNode
-    {
-      unsigned int                                 node;
-      std::vector<std::pair<unsigned int, double>> masters;
-    };
-
     const std::vector<HangingNode> &
     hanging_nodes() const
     {
@@ -316,6 +316,8 @@ namespace talus
   private:
     void
     parse_refinement_boxes();
+    void
+    check_lattice(unsigned int level) const;
     bool
     box_wants_finer(const Lattice &place, unsigned int level) const;
     void
@@ -360,6 +362,7 @@ namespace talus
     std::string        refinement_boxes_;
 
     Box<dim>                                          domain_;
+    Box<dim>                                          domain_before_growth_;
     std::string                                       adjustment_;
     std::array<unsigned int, dim>                     n_cells_per_axis_;
     double                                            tree_size_   = 0;
