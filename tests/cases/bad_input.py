@@ -255,37 +255,20 @@ class BadInput(Case):
         self.refuse_set(["Body force/Expression=q; 0"],
                         "Body force/Expression", "q")
 
-    def refuse_box(self, boxes, *words):
-        self.refuse_set(["Grid/Refinement boxes=" + boxes],
-                        "Grid/Refinement boxes = " + boxes, *words)
-
-    def test_refinement_box_without_number(self):
-        self.refuse_box("0,0; 1,1", "n from 1 to 10")
-
-    def test_refinement_box_with_a_part_too_many(self):
-        self.refuse_box("0,0; 1,1; 1; 1", "lower corner; upper corner; n")
-
-    def test_refinement_box_halved_too_often(self):
-        self.refuse_box("0,0; 1,1; 1 | 0,0; 1,1; 11", "'0,0; 1,1; 11'",
-                        "n from 1 to 10")
-
-    def test_refinement_box_with_a_fraction(self):
-        self.refuse_box("0,0; 1,1; 1.5", "n from 1 to 10")
-
-    def test_refinement_box_in_another_dimension(self):
-        self.refuse_box("0,0,0; 1,1,1; 1", "'0,0,0'", "2 numbers")
-
-    def test_refinement_box_is_no_number(self):
-        self.refuse_box("0,0; 1,one; 1", "'one'", "number")
-
-    def test_refinement_box_is_not_finite(self):
-        self.refuse_box("nan,0; 1,1; 1", "'nan'", "number")
-
-    def test_refinement_box_upside_down(self):
-        self.refuse_box("0,1; 1,0; 1", "'0,1; 1,0; 1'", "above")
-
-    def test_refinement_box_is_empty(self):
-        self.refuse_box("|", "''", "lower corner; upper corner; n")
+    def test_refinement_boxes(self):
+        for boxes, *words in (
+                ("0,0; 1,1", "'0,0; 1,1'", "n from 1 to 10"),
+                ("0,0; 1,1; 1; 1", "lower corner; upper corner; n"),
+                ("0,0; 1,1; 1 | 0,0; 1,1; 11", "'0,0; 1,1; 11'"),
+                ("0,0; 1,1; 1.5", "'0,0; 1,1; 1.5'"),
+                ("0,0,0; 1,1,1; 1", "'0,0,0'", "2 numbers"),
+                ("0,0; 1,one; 1", "'one'", "number"),
+                ("nan,0; 1,1; 1", "'nan'", "number"),
+                ("0,1; 1,0; 1", "'0,1; 1,0; 1'", "above"),
+                ("|", "''", "lower corner; upper corner; n")):
+            with self.subTest(boxes):
+                self.refuse_set(["Grid/Refinement boxes=" + boxes],
+                                "Grid/Refinement boxes = " + boxes, *words)
 
     # Output
 

@@ -1,5 +1,5 @@
-"""Whole runs on several ranks and on meshes that follow the soil: each must give
-what one rank, or a uniform mesh, gives.
+"""Whole runs on several ranks and on meshes that follow the soil: each must
+give what one rank, or a uniform mesh, gives.
 
 Usage: ranks.py TALUS FOLDER MPIEXEC PRM_FOLDER [TestClass].
 """
@@ -211,4 +211,5 @@ if __name__ == "__main__":
     suite = unittest.TestSuite(
         unittest.defaultTestLoader.loadTestsFromTestCase(globals()[name])
         for name in names)
-    sys.exit(not unittest.TextTestRunner(verbosity=2).run(suite).wasSuccessful())
+    outcome = unittest.TextTestRunner(verbosity=2).run(suite)
+    sys.exit(0 if outcome.wasSuccessful() else 1)

@@ -65,7 +65,9 @@ namespace
     Tracked<dim> core(long_mesh<dim>());
     core.begin({box<dim>({0., 0., 0.}, {6., 6., 6.})});
     // Never farther than into the margin: soil is in cells of size h.
-    for (const double x : {3.5, 8., 12., 16.5, 20., 17., 14.})
+    for (const double x :
+         dim == 2 ? std::vector<double>{3.5, 8., 12., 16.5, 20., 17., 14.}
+                  : std::vector<double>{4.5, 9., 14.})
       {
         SCOPED_TRACE(text(dim, "-D, soil at ", x));
         put_cluster(core, x);
@@ -127,8 +129,8 @@ namespace
 
 
 
-  /// Numbers over all ranks of the nodes that the largest boxes in a cell touch,
-  /// hanging nodes replaced by their masters.
+  /// Numbers over all ranks of the nodes that the largest boxes in a cell
+  /// touch, hanging nodes replaced by their masters.
   template <int dim>
   std::set<unsigned long>
   nodes_in_reach(

@@ -99,7 +99,7 @@ namespace
   std::string
   long_mesh(const std::string &entries = "")
   {
-    return (dim == 2 ? mesh("0, 0", "64, 32") : mesh("0, 0, 0", "64, 32, 16")) +
+    return (dim == 2 ? mesh("0, 0", "64, 32") : mesh("0, 0, 0", "64, 16, 16")) +
            in_section("Grid", "set Coarsest level = 4\n" + entries);
   }
 

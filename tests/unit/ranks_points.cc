@@ -29,8 +29,8 @@ namespace
 
 
   /// One step of a random walk, the same on any number of ranks; where it leads
-  /// too far out, the point stays. With what comes on top in add_companions() it
-  /// is less than the smallest cell: beyond that a rank knows no cells.
+  /// too far out, the point stays. With what add_companions() adds it is less
+  /// than the smallest cell: farther away a rank may know no cells.
   template <int dim>
   void
   walk(Core<dim> &core, const unsigned int step)

@@ -10,8 +10,8 @@
 #include "core_setup.h"
 
 // What many ranks must do is what one does: each process does the same work
-// alone, on MPI_COMM_SELF, and then with the others, and compares by the numbers
-// of nodes, the keys of cells and the ids of points, which are the same.
+// alone, on MPI_COMM_SELF, and then with the others, and compares by the
+// numbers of nodes, the keys of cells and the ids of points.
 
 namespace
 {
