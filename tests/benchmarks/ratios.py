@@ -31,8 +31,8 @@ LARGE = [
     "Mesh tracking/Enabled=true",
 ]
 CASES = {
-    "ranks": [(1, ["End time=4"]), (2, ["End time=4"])],
-    "large-domain": [(1, ["End time=4"]), (1, ["End time=4"] + LARGE)],
+    "ranks": [(1, ["End time=2.5"]), (2, ["End time=2.5"])],
+    "large-domain": [(1, ["End time=2.5"]), (1, ["End time=2.5"] + LARGE)],
 }
 
 

@@ -179,13 +179,13 @@ namespace
           {
             EXPECT_EQ(size, h) << at;
           }
-        // In whole blocks of 4 cells; then come rings of 2 h, 4 h and 8 h, each
-        // up to the next line of its parents.
-        if (least >= margin + 3)
+        // Around blocks of 4 cells and in blocks of 4 cells; then come rings of
+        // 2 h, 4 h and 8 h, each up to the next line of its parents.
+        if (least >= margin + 6)
           {
             EXPECT_GT(size, h) << at;
           }
-        if (least >= margin + 3 + 4 + 8 + 16)
+        if (least >= margin + 6 + 4 + 8 + 16)
           {
             EXPECT_EQ(size, 16 * h) << at;
           }
