@@ -60,6 +60,12 @@ namespace talus
         const Box<dim> box{parse_corner<dim>(parts[0], refinement_boxes_),
                            parse_corner<dim>(parts[1], refinement_boxes_)};
         for (unsigned int d = 0; d < dim; ++d)
+          AssertThrow(box.lower[d] < box.upper[d],
+                      ExcUser("'Grid/Refinement boxes = " + refinement_boxes_ +
+                              "' contains '" + entry +
+                              "', whose upper corner must lie above the lower "
+                              "one in every coordinate."));
+        for (unsigned int d = 0; d < dim; ++d)
           AssertThrow(box.lower[d] < domain_.upper[d] &&
                         box.upper[d] > domain_.lower[d],
                       ExcUser(text("'Grid/Refinement boxes = ",
@@ -71,12 +77,6 @@ namespace talus
                                    ") to (",
                                    domain_.upper,
                                    ") m. Move or remove it.")));
-        for (unsigned int d = 0; d < dim; ++d)
-          AssertThrow(box.lower[d] < box.upper[d],
-                      ExcUser("'Grid/Refinement boxes = " + refinement_boxes_ +
-                              "' contains '" + entry +
-                              "', whose upper corner must lie above the lower "
-                              "one in every coordinate."));
         boxes_.push_back({box, static_cast<unsigned int>(std::stoi(parts[2]))});
       }
   }
