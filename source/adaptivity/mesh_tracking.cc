@@ -53,15 +53,69 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Small cells are asked for in blocks of 4 per axis, where trees allow it.
+    template <int dim>
+    unsigned int
+    block_level(const Grid<dim> &grid)
+    {
+      return grid.base_level() - std::min(grid.base_level(), 2u);
+    }
+
+
+
+    /// Make the mesh consist of small cells in the blocks that any rank wants.
+    template <int dim>
+    bool
+    refine(Grid<dim>                        &grid,
+           std::unordered_set<unsigned long> wanted,
+           const bool                        spread)
+    {
+      // Tell all ranks, and climb from the blocks to what contains them.
+      const unsigned int               at_level = block_level(grid);
+      const std::vector<unsigned long> own(wanted.begin(), wanted.end());
+      for (const auto &blocks :
+           Utilities::MPI::all_gather(grid.communicator(), own))
+        wanted.insert(blocks.begin(), blocks.end());
+      std::vector<unsigned long> blocks(wanted.begin(), wanted.end());
+      for (unsigned int level = at_level; level > 0; --level)
+        {
+          for (auto &block : blocks)
+            block = Grid<dim>::key_of_parent(block);
+          std::sort(blocks.begin(), blocks.end());
+          blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
+          wanted.insert(blocks.begin(), blocks.end());
+        }
+
+      return grid.refine(
+        [&](typename Grid<dim>::Lattice place, unsigned int level) {
+          if (level >= grid.base_level())
+            return false;
+          if (level > at_level)
+            {
+              for (auto &p : place)
+                p >>= (level - at_level);
+              level = at_level;
+            }
+          return wanted.count(Grid<dim>::key_of_place(place, level)) > 0;
+        },
+        spread);
+    }
+  } // namespace
+
+
+
   /// Ask for small cells from place @p first to @p last of the lattice of cells
   /// of size h, and a margin around.
   template <int dim>
   void
   MeshTracking<dim>::want(const Grid<dim> &grid,
                           const Lattice   &first,
-                          const Lattice   &last)
+                          const Lattice   &last,
+                          Blocks          &wanted) const
   {
-    const unsigned int shift  = grid.base_level() - block_level_;
+    const unsigned int shift  = grid.base_level() - block_level(grid);
     const auto         extent = grid.extent_of_lattice(grid.base_level());
     Lattice            lower, upper;
     for (unsigned int d = 0; d < dim; ++d)
@@ -72,7 +126,7 @@ namespace talus
     Lattice at = lower;
     while (at[dim - 1] <= upper[dim - 1])
       {
-        wanted_.insert(Grid<dim>::key_of_place(at, block_level_));
+        wanted.insert(Grid<dim>::key_of_place(at, block_level(grid)));
         ++at[0];
         for (unsigned int d = 0; d + 1 < dim && at[d] > upper[d]; ++d)
           {
@@ -85,52 +139,16 @@ namespace talus
 
 
   template <int dim>
-  bool
-  MeshTracking<dim>::refine(Grid<dim> &grid, const bool spread)
-  {
-    // Tell all ranks, and climb from the blocks to what contains them.
-    const std::vector<unsigned long> own(wanted_.begin(), wanted_.end());
-    for (const auto &blocks :
-         Utilities::MPI::all_gather(grid.communicator(), own))
-      wanted_.insert(blocks.begin(), blocks.end());
-    std::vector<unsigned long> blocks(wanted_.begin(), wanted_.end());
-    for (unsigned int level = block_level_; level > 0; --level)
-      {
-        for (auto &block : blocks)
-          block = Grid<dim>::key_of_parent(block);
-        std::sort(blocks.begin(), blocks.end());
-        blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
-        wanted_.insert(blocks.begin(), blocks.end());
-      }
-
-    return grid.refine(
-      [&](Lattice place, unsigned int level) {
-        if (level >= grid.base_level())
-          return false;
-        if (level > block_level_)
-          {
-            for (auto &p : place)
-              p >>= (level - block_level_);
-            level = block_level_;
-          }
-        return wanted_.count(Grid<dim>::key_of_place(place, level)) > 0;
-      },
-      spread);
-  }
-
-
-
-  template <int dim>
   void
   MeshTracking<dim>::adapt(Grid<dim> &grid, const std::vector<Box<dim>> &boxes)
   {
-    wanted_.clear();
-    block_level_ = std::max(int(grid.base_level()) - 2, 0);
+    Blocks wanted;
     for (const Box<dim> &box : boxes)
       want(grid,
            grid.lattice_place(box.lower, grid.base_level()),
-           grid.lattice_place(box.upper, grid.base_level()));
-    refine(grid, /*spread=*/true);
+           grid.lattice_place(box.upper, grid.base_level()),
+           wanted);
+    refine(grid, wanted, /*spread=*/true);
   }
 
 
@@ -140,10 +158,10 @@ namespace talus
   MeshTracking<dim>::adapt(Grid<dim>                       &grid,
                            const std::vector<unsigned int> &occupied_cells)
   {
-    wanted_.clear();
-    block_level_ = std::max(int(grid.base_level()) - 2, 0);
     // Many cells share a block: ask once for each block.
-    std::unordered_set<unsigned long> blocks;
+    const unsigned int at_level = block_level(grid);
+    const unsigned int shift    = grid.base_level() - at_level;
+    Blocks             occupied, wanted;
     for (const unsigned int c : occupied_cells)
       {
         // In a refinement box cells are smaller; larger ones hold no soil.
@@ -151,17 +169,15 @@ namespace talus
         Lattice            block = grid.place_of_cell(c), first, last;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            block[d]                 = level >= block_level_
-                                         ? block[d] >> (level - block_level_)
-                                         : block[d] << (block_level_ - level);
-            const unsigned int shift = grid.base_level() - block_level_;
-            first[d]                 = block[d] << shift;
-            last[d]                  = first[d] + (1l << shift) - 1;
+            block[d] = level >= at_level ? block[d] >> (level - at_level)
+                                         : block[d] << (at_level - level);
+            first[d] = block[d] << shift;
+            last[d]  = first[d] + (1l << shift) - 1;
           }
-        if (blocks.insert(Grid<dim>::key_of_place(block, block_level_)).second)
-          want(grid, first, last);
+        if (occupied.insert(Grid<dim>::key_of_place(block, at_level)).second)
+          want(grid, first, last, wanted);
       }
-    return refine(grid, /*spread=*/false);
+    return refine(grid, wanted, /*spread=*/false);
   }
 
 

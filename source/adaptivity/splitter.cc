@@ -159,6 +159,15 @@ namespace talus
 
 
 
+  namespace
+  {
+    const std::string more_points_advice =
+      ". Raise it, lower 'Splitting/Maximum generation', or use "
+      "'Splitting/Directions = stretched'.";
+  }
+
+
+
   template <int dim>
   void
   Splitter<dim>::check_budget(const Points<dim> &points,
@@ -179,8 +188,7 @@ namespace talus
                   n_points,
                   " points, more than 'Splitting/Maximum number of points' = ",
                   maximum_points_,
-                  ". Raise it, lower 'Splitting/Maximum generation', or use "
-                  "'Splitting/Directions = stretched'.")));
+                  more_points_advice)));
   }
 
 
@@ -195,9 +203,7 @@ namespace talus
                               " points on all ranks, more than 'Splitting/"
                               "Maximum number of points' = ",
                               maximum_points_,
-                              ". Raise it, lower 'Splitting/Maximum "
-                              "generation', or use 'Splitting/Directions = "
-                              "stretched'.")));
+                              more_points_advice)));
   }
 
 

@@ -1,5 +1,6 @@
 #include <talus/base/errors.h>
 #include <talus/grid/grid.h>
+#include <talus/grid/nodal_exchange.h>
 
 #include <algorithm>
 #include <cmath>
@@ -94,8 +95,10 @@ namespace talus
     touching_.clear();
     for (unsigned int c = 0; c < n_owned_cells_; ++c)
       link_cell(c);
-    mark_boundary_nodes();
-    find_larger_cells();
+    NodalExchange<dim> exchange;
+    exchange.prepare(*this, 2);
+    mark_boundary_nodes(exchange);
+    find_larger_cells(exchange);
   }
 
 

@@ -147,7 +147,7 @@ namespace talus
   /// the cells of all ranks.
   template <int dim>
   void
-  Grid<dim>::mark_boundary_nodes()
+  Grid<dim>::mark_boundary_nodes(NodalExchange<dim> &exchange)
   {
     faces_of_node_.assign(n_nodes(), 0);
     for (unsigned int c = 0; c < cells_.size(); ++c)
@@ -155,8 +155,6 @@ namespace talus
         for (const unsigned int node : nodes_on_face(c, face))
           faces_of_node_[node] |= 1u << face;
 
-    NodalExchange<dim> exchange;
-    exchange.prepare(*this, 2);
     AlignedVector<double> shares(2 * n_nodes());
     for (unsigned int face = 0; face < 2 * dim; ++face)
       {
@@ -192,26 +190,25 @@ namespace talus
   /// rank, or hangs on one.
   template <int dim>
   void
-  Grid<dim>::find_larger_cells()
+  Grid<dim>::find_larger_cells(NodalExchange<dim> &exchange)
   {
     is_near_larger_cell_.assign(n_owned_cells_, false);
-    AlignedVector<double> mark(n_nodes(), 0.);
+    // Of the two numbers that travel for each node, the second is not used.
+    AlignedVector<double> mark(2 * n_nodes(), 0.);
     for (unsigned int c = 0; c < n_owned_cells_; ++c)
       if (level_of_cell_[c] < base_level_)
         for (const unsigned int node : cells_[c].patch)
           if (node != numbers::invalid_unsigned_int)
-            mark[node] = 1.;
-    NodalExchange<dim> exchange;
-    exchange.prepare(*this, 1);
+            mark[2 * node] = 1.;
     exchange.add_to_owners(mark.data());
     exchange.copy_to_ghosts(mark.data());
     for (const auto &hanging : hanging_nodes_)
       for (const auto &master : hanging.masters)
-        mark[hanging.node] += mark[master.first];
+        mark[2 * hanging.node] += mark[2 * master.first];
 
     const auto touches_mark = [&](const unsigned int c) {
       for (const unsigned int node : cells_[c].patch)
-        if (node != numbers::invalid_unsigned_int && mark[node] > 0)
+        if (node != numbers::invalid_unsigned_int && mark[2 * node] > 0)
           return true;
       return false;
     };
@@ -254,15 +251,15 @@ namespace talus
   template void
   Grid<3>::link_cell(unsigned int);
   template void
-  Grid<2>::find_larger_cells();
+  Grid<2>::find_larger_cells(NodalExchange<2> &);
   template void
-  Grid<3>::find_larger_cells();
+  Grid<3>::find_larger_cells(NodalExchange<3> &);
   template std::vector<unsigned int>
   Grid<2>::nodes_on_face(unsigned int, unsigned int) const;
   template std::vector<unsigned int>
   Grid<3>::nodes_on_face(unsigned int, unsigned int) const;
   template void
-  Grid<2>::mark_boundary_nodes();
+  Grid<2>::mark_boundary_nodes(NodalExchange<2> &);
   template void
-  Grid<3>::mark_boundary_nodes();
+  Grid<3>::mark_boundary_nodes(NodalExchange<3> &);
 } // namespace talus

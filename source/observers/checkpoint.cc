@@ -115,7 +115,8 @@ namespace talus
     // Every node of a cluster brings its own part to the disk.
     check_all(sync_folder(part));
     check_all(is_first ? publish(path) : "");
-    if (is_first)
+    // Written anew at the same step, it leaves the one before it alone.
+    if (is_first && path != last_)
       remove_checkpoints_but(output_folder_, {path, last_});
     last_      = path;
     last_time_ = Clock::now();

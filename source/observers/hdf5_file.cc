@@ -23,31 +23,28 @@ namespace talus
 
 
 
-    /// Properties of a new file, group or array: no time stamp.
     Handle
-    creation_properties(const hid_t kind)
+    group_properties()
     {
-      const hid_t id = H5Pcreate(kind);
-      H5Pset_obj_track_times(id, false);
+      Handle properties = undated(H5P_GROUP_CREATE);
       // Names stay in the header, which has a checksum. The other storage, for
       // many names, has one too, but HDF5 1.10 crashes where it is wrong.
-      if (kind == H5P_GROUP_CREATE)
-        H5Pset_link_phase_change(id, 60000, 50000);
-      return {id, H5Pclose};
+      H5Pset_link_phase_change(properties, 60000, 50000);
+      return properties;
     }
 
 
 
-    /// Select the rows [first, first + n_rows) of a data set and do
-    /// @p transfer(memory space, file space, properties), which writes/reads.
-    /// Returns whether that worked.
-    template <typename Transfer>
+    /// Write or read (@p transfer is H5Dwrite or H5Dread) the rows
+    /// [first, first + n_rows) of a data set. Returns whether that worked.
+    template <typename Transfer, typename Rows>
     bool
-    transfer_rows(const hid_t    dataset,
+    transfer_rows(const Transfer transfer,
+                  const hid_t    dataset,
                   const hsize_t  first,
                   const hsize_t  n_rows,
                   const hsize_t  n_columns,
-                  const Transfer transfer)
+                  Rows          *rows)
     {
       const hsize_t start[2] = {first, 0}, count[2] = {n_rows, n_columns};
       const int     rank = (n_columns == 1 ? 1 : 2);
@@ -62,7 +59,8 @@ namespace talus
            : H5Sselect_hyperslab(
                file_space, H5S_SELECT_SET, start, nullptr, count, nullptr));
       // Even if that failed: the others are in this call, too.
-      const herr_t status = transfer(memory_space, file_space, together);
+      const herr_t status = transfer(
+        dataset, H5T_NATIVE_DOUBLE, memory_space, file_space, together, rows);
       return selected >= 0 && status >= 0;
     }
   } // namespace
@@ -85,7 +83,7 @@ namespace talus
     if (access == Access::create)
       file_ = H5Fcreate(path_.c_str(),
                         H5F_ACC_TRUNC,
-                        creation_properties(H5P_FILE_CREATE),
+                        undated(H5P_FILE_CREATE),
                         properties);
     else
       file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, properties);
@@ -150,7 +148,7 @@ namespace talus
     const Handle group(H5Gcreate2(file_,
                                   name.c_str(),
                                   H5P_DEFAULT,
-                                  creation_properties(H5P_GROUP_CREATE),
+                                  group_properties(),
                                   H5P_DEFAULT),
                        H5Gclose);
     conclude(group >= 0, "the group '" + name + "' could not be made");
@@ -209,23 +207,13 @@ namespace talus
                                     H5T_IEEE_F64LE,
                                     space,
                                     H5P_DEFAULT,
-                                    creation_properties(H5P_DATASET_CREATE),
+                                    undated(H5P_DATASET_CREATE),
                                     H5P_DEFAULT),
                          H5Dclose);
-    const auto   transfer = [&](const hid_t memory_space,
-                              const hid_t file_space,
-                              const hid_t properties) {
-      return H5Dwrite(dataset,
-                      H5T_NATIVE_DOUBLE,
-                      memory_space,
-                      file_space,
-                      properties,
-                      rows.data());
-    };
-    const bool success =
+    const bool   success =
       dataset >= 0 &&
       (total == 0 ||
-       transfer_rows(dataset, first, n_rows, n_columns, transfer));
+       transfer_rows(H5Dwrite, dataset, first, n_rows, n_columns, rows.data()));
     conclude(success, "the array '" + name + "' could not be written");
     const std::uint64_t own = checksum(rows, first * n_columns);
     set_attribute(name, "checksum", Utilities::MPI::sum(own, communicator_));
@@ -262,20 +250,10 @@ namespace talus
       return {};
     std::vector<double> rows(n_rows * n_columns);
     const Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-    const auto   transfer = [&](const hid_t memory_space,
-                              const hid_t file_space,
-                              const hid_t properties) {
-      return H5Dread(dataset,
-                     H5T_NATIVE_DOUBLE,
-                     memory_space,
-                     file_space,
-                     properties,
-                     rows.data());
-    };
-    const bool success =
+    const bool   success =
       dataset >= 0 &&
       (total == 0 ||
-       transfer_rows(dataset, first, n_rows, n_columns, transfer));
+       transfer_rows(H5Dread, dataset, first, n_rows, n_columns, rows.data()));
     conclude(success, "the array '" + name + "' could not be read");
     return rows;
   }
@@ -323,7 +301,7 @@ namespace talus
                                     file_type,
                                     space,
                                     H5P_DEFAULT,
-                                    creation_properties(H5P_DATASET_CREATE),
+                                    undated(H5P_DATASET_CREATE),
                                     H5P_DEFAULT),
                          H5Dclose);
     const bool   success =

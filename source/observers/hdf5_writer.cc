@@ -1,3 +1,4 @@
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/observers/disk_space.h>
 #include <talus/observers/files.h>
@@ -31,18 +32,6 @@ namespace talus
 
 
 
-    /// Properties of an object that keeps no dates.
-    Hdf5Handle
-    undated(const hid_t kind)
-    {
-      Hdf5Handle properties(H5Pcreate(kind), H5Pclose);
-      if (!properties.well() || H5Pset_obj_track_times(properties, false) < 0)
-        return {};
-      return properties;
-    }
-
-
-
     bool
     add_attribute(const hid_t        object,
                   const std::string &name,
@@ -65,12 +54,8 @@ namespace talus
              const std::string &name,
              const std::string &text)
     {
-      // HDF5 has no texts of length zero.
-      const Hdf5Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+      const Hdf5Handle type = text_type(text);
       return type.well() &&
-             H5Tset_size(type, std::max<std::size_t>(text.size(), 1)) >= 0 &&
-             H5Tset_strpad(type, H5T_STR_NULLPAD) >= 0 &&
-             H5Tset_cset(type, H5T_CSET_UTF8) >= 0 &&
              add_attribute(object, name, type, type, text.c_str());
     }
   } // namespace
@@ -313,12 +298,7 @@ namespace talus
   void
   Hdf5Writer::conclude(const std::string &complaint) const
   {
-    const unsigned int first =
-      Utilities::MPI::min(complaint.empty() ? n_ranks_ : rank_, communicator_);
-    if (first == n_ranks_)
-      return;
-    const std::string reason =
-      Utilities::MPI::broadcast(communicator_, complaint, first);
-    AssertThrow(false, ExcUser(failed_write(path_, reason)));
+    const std::string reason = first_sentence(complaint, communicator_);
+    AssertThrow(reason.empty(), ExcUser(failed_write(path_, reason)));
   }
 } // namespace talus

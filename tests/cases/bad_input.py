@@ -41,6 +41,10 @@ class BadInput(Case):
         self.refuse("set Poisson's ratio = 0.3", "set Poisson's ratio = 0.5",
                     "0.5", "Poisson's ratio")
 
+    def test_too_small_a_number(self):
+        self.refuse_set(["Mesh tracking/Margin=1"],
+                        "'Margin'", "'1'", "a whole number of at least 4")
+
     def test_unknown_law(self):
         self.refuse("linear elastic", "jelly",
                     "case.prm", "line 22", "'jelly'", "linear elastic", "von Mises", "neo-Hookean")
@@ -168,6 +172,8 @@ class BadInput(Case):
                 ("0,0; 1,one; 1", "'one'", "number"),
                 ("nan,0; 1,1; 1", "'nan'", "number"),
                 ("0,1; 1,0; 1", "'0,1; 1,0; 1'", "above"),
+                ("0,0; 1,1; 1 | 9,0; 10,1; 1", "'9,0; 10,1; 1'", "outside",
+                 "(0 0) to (4 4) m"),
                 ("|", "''", "lower corner; upper corner; n")):
             with self.subTest(boxes):
                 self.refuse_set(["Grid/Refinement boxes=" + boxes],

@@ -154,6 +154,22 @@ class Tracking(Runs):
             self.assert_same(tracked, uniform)
 
 
+    def test_bodies_do_not_grow(self):
+        """The mesh grows behind a free face, a prism over all of it does not.
+        (Its outermost boxes see the cells behind the face: hence no rounding.)"""
+        settings = ["Grid/Cell size=0.8", "End time=0.01",
+                    "Boundaries/Front=free"] + TERSE
+        uniform = self.run_on(1, settings, "landslide-3d.prm", "uniform")
+        tracked = self.run_on(1, settings + TRACKING, "landslide-3d.prm")
+        self.assertIn("'Front' was moved",
+                      (self.folder / "ranks-1" / "log.txt").read_text())
+        self.assertEqual(tracked["points"], uniform["points"])
+        for axis in "xyz":
+            for there, here in zip(tracked[f"centre {axis} [m]"],
+                                   uniform[f"centre {axis} [m]"]):
+                self.assertAlmostEqual(there, here, delta=1e-8)
+
+
 class Graded(Runs):
     """Smaller cells at the seabed, soil across hanging nodes."""
 
@@ -175,7 +191,8 @@ class Graded(Runs):
         self.assert_same(self.run_on(4, settings), alone)
 
     def test_graded_and_tracked(self):
-        settings = self.settings + TRACKING + BALANCE + TERSE
+        settings = self.settings + TRACKING + BALANCE + TERSE + [
+            "Mesh tracking/Interval=20"]
         alone = self.run_on(1, settings)
         self.assert_sound(alone)
         self.assert_same(self.run_on(4, settings), alone)

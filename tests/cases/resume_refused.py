@@ -95,6 +95,7 @@ class ResumeRefused(Case):
                 ("Materials/clay/Poisson's ratio=0.48", "'0.49'"),
                 ("Materials/clay/Undrained shear strength=2e3", "'2e3'"),
                 ("Boundaries/Seabed/Maximum shear stress=9e2", "'9e2'"),
+                ("Output/Format=hdf5", "'hdf5'", "'vtu'"),
                 ("Splitting/Threshold=1.5", "'1.5'", "'1.4'")):
             self.refuse([setting], "The parameter '" + setting.split("=")[0],
                         *words)
@@ -104,6 +105,7 @@ class ResumeRefused(Case):
             "run", ["Title=Another", "End time=3", "Checkpoint/Step interval=7",
                     "Output/Statistics interval=0.5", "Grid/Cell size=8e-1",
                     "Output/Boxes as cells=false",
+                    "Bodies/slide/Vertices=0,0;48.66,0;40,5;8.66,5",
                     "Splitting/Maximum number of points=20000000"],
             ["--resume", "--validate"]))
         self.assertEqual(self.content("run", []), self.before)
@@ -148,6 +150,17 @@ class ResumeRefused(Case):
                     "--overwrite", options=())
         self.assert_ends(self.run_talus("run", ["End time=0.1"],
                                         ["--overwrite"]))
+
+    def test_extended_and_killed(self):
+        """A run that was finished and goes on is guarded at once."""
+        self.assert_ends(self.run_talus(
+            "run", ["End time=30", "Checkpoint/Wall time limit=0.001"],
+            ["--resume"]), 75)
+        # As if it had been killed before it wrote the newest.
+        shutil.rmtree(self.checkpoints("run")[-1])
+        self.before = self.content("run", [])
+        self.refuse([], "holds the checkpoint", "of a run to 30 s",
+                    options=())
 
     def test_resume_and_overwrite(self):
         self.refuse([], "--resume", "--overwrite",

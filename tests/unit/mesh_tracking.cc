@@ -73,8 +73,8 @@ namespace
         put_cluster(core, x);
         follow_to_the_end(core, x);
         expect_mesh_around_soil(core);
-        // In the middle of the mesh there is no room for trees.
-        EXPECT_GE(largest_cell(core.grid), 8.);
+        // In the middle of the mesh there is no room for whole trees.
+        EXPECT_EQ(largest_cell(core.grid), x == 20. ? 8. : 16.);
       }
     EXPECT_EQ(all_cells(core.grid), fresh);
   }

@@ -53,20 +53,18 @@ namespace talus
 
   private:
     using Lattice = typename Grid<dim>::Lattice;
+    /// Keys of what is to consist of cells of size h.
+    using Blocks = std::unordered_set<unsigned long>;
 
     void
-    want(const Grid<dim> &grid, const Lattice &first, const Lattice &last);
-    bool
-    refine(Grid<dim> &grid, bool spread);
+    want(const Grid<dim> &grid,
+         const Lattice   &first,
+         const Lattice   &last,
+         Blocks          &wanted) const;
 
     bool         enabled_  = false;
     unsigned int margin_   = 16;
     unsigned int interval_ = 500;
-
-    /// What is to consist of cells of size h: blocks of them, and all larger
-    /// blocks that contain one.
-    std::unordered_set<unsigned long> wanted_;
-    unsigned int                      block_level_ = 0;
   };
 } // namespace talus
 

@@ -26,6 +26,9 @@ namespace talus
   /// Names of the faces of the mesh in deal.II's order of boundary ids.
   extern const std::array<std::string, 6> face_names;
 
+  template <int dim>
+  class NodalExchange;
+
   /// The background grid: a p4est mesh of square (cubic) cells over a box, with
   /// Q1 elements and a flat cache of what the transfer needs.
   ///
@@ -343,12 +346,12 @@ namespace talus
     void
     find_touching_cells(unsigned int c);
     void
-    mark_boundary_nodes();
+    mark_boundary_nodes(NodalExchange<dim> &exchange);
     std::vector<unsigned int>
     nodes_on_face(unsigned int c, unsigned int face) const;
 
     void
-    find_larger_cells();
+    find_larger_cells(NodalExchange<dim> &exchange);
 
     unsigned int
     cell_at(const Lattice &place, unsigned int level) const;

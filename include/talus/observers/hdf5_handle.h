@@ -68,7 +68,20 @@ namespace talus
 
 
 
-  /// The type of a text of the length of this one.
+  /// Properties of a new file, group or dataset that keeps no dates.
+  inline Hdf5Handle
+  undated(const hid_t kind)
+  {
+    Hdf5Handle properties(H5Pcreate(kind), H5Pclose);
+    if (!properties.well() || H5Pset_obj_track_times(properties, false) < 0)
+      return {};
+    return properties;
+  }
+
+
+
+  /// The type of a text of the length of this one. (HDF5 has none of length
+  /// zero.)
   inline Hdf5Handle
   text_type(const std::string &text)
   {

@@ -28,7 +28,7 @@ namespace talus
   class Output : public dealii::ParameterAcceptor
   {
   public:
-    /// @p timer gets the section "output"; its table is printed at the end.
+    /// @p timer gets the section "output"; see phase_times().
     explicit Output(dealii::TimerOutput &timer);
 
     /// Write to this folder, whatever the parameter file says; to be called
