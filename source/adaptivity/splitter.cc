@@ -264,17 +264,18 @@ namespace talus
       if (column.inheritance == Inheritance::divided)
         for (unsigned int c = 0; c < column.n_components; ++c)
           points.data(column.first, c)[p] /= n_daughters;
-    double quarter[dim], reference_quarter[dim];
+    double quarter[dim];
     for (unsigned int d = 0; d < dim; ++d)
       {
         double      &L0      = points.data(points.reference_length, d)[p];
         const double stretch = points.data(points.stretch, d)[p];
         quarter[d]           = 0.25 * stretch * L0;
-        reference_quarter[d] = 0.25 * L0;
         if (axes & (1u << d))
           L0 *= 0.5;
         points.data(points.creation_stretch, d)[p] = stretch;
       }
+    const auto to_material =
+      inverse(load_matrix<dim, double>(points, points.deformation_gradient, p));
     const double generation = ++points.data(points.generation)[p];
     statistics_.largest_generation =
       std::max(statistics_.largest_generation,
@@ -293,10 +294,11 @@ namespace talus
         for (unsigned int d = 0, bit = 0; d < dim; ++d)
           if (axes & (1u << d))
             {
-              const double side = ((i >> bit++) & 1 ? 1. : -1.);
-              points.data(points.position, d)[q] += side * quarter[d];
-              points.data(points.initial_position, d)[q] +=
-                side * reference_quarter[d];
+              const double offset = ((i >> bit++) & 1 ? 1. : -1.) * quarter[d];
+              points.data(points.position, d)[q] += offset;
+              for (unsigned int e = 0; e < dim; ++e)
+                points.data(points.initial_position, e)[q] +=
+                  to_material[e][d] * offset;
             }
         ledger_.enter(points, q, -1.);
       }

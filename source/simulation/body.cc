@@ -1,6 +1,5 @@
 #include <talus/base/errors.h>
 #include <talus/simulation/body.h>
-#include <talus/simulation/expression.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
@@ -15,6 +14,7 @@ namespace talus
   Body<dim>::Body(const std::string &name)
     : ParameterAcceptor("/Bodies/" + name)
     , name_(name)
+    , initial_state_("/Bodies/" + name)
   {
     add_parameter("Shape",
                   shape_,
@@ -51,19 +51,6 @@ namespace talus
                   "number for all axes, or one for each, separated by commas.",
                   this->prm,
                   Patterns::List(Patterns::Integer(1, 16), 1, dim));
-    add_parameter(
-      "Initial velocity",
-      initial_velocity_,
-      "Expressions in x, y, (z,) t for the components of the "
-      "velocity, separated by semicolons [m/s]; empty for rest. t is the "
-      "time it belongs to, see "
-      "'Initial velocity time'.");
-    add_parameter(
-      "Initial stress",
-      initial_stress_,
-      "Expressions in x, y, (z,) t for the Cauchy stress, tension "
-      "positive [Pa]: in 2-D xx; yy; zz; xy, in 3-D xx; yy; zz; xy; "
-      "xz; yz. Empty for none. Only for laws in rate form.");
   }
 
 
@@ -209,7 +196,7 @@ namespace talus
       {
         Point<dim> x;
         for (unsigned int d = 0; d < dim; ++d)
-          x[d] = points.data(points.position, d)[p];
+          x[d] = points.data(points.initial_position, d)[p];
         AssertThrow(!shape.contains(x),
                     ExcUser(text("The body '",
                                  name_,
@@ -277,79 +264,6 @@ namespace talus
                              "or raise ",
                              path("Points per cell and axis"),
                              ".")));
-  }
-
-
-
-  template <int dim>
-  void
-  Body<dim>::set_initial(Points<dim>       &points,
-                         const unsigned int index,
-                         const std::string &entry,
-                         const std::string &expressions,
-                         const unsigned int column,
-                         const unsigned int n_components,
-                         const double       t) const
-  {
-    if (expressions.empty())
-      return;
-    Expression<dim> expression(path(entry), expressions, n_components);
-    for (unsigned int p = 0; p < points.size(); ++p)
-      {
-        if (points.data(points.body)[p] != index)
-          continue;
-        Point<dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = points.data(points.position, d)[p];
-        for (unsigned int c = 0; c < n_components; ++c)
-          {
-            const double value = expression.value(x, t, c);
-            AssertThrow(std::isfinite(value),
-                        ExcUser(text(path(entry),
-                                     " = '",
-                                     expressions,
-                                     "' is ",
-                                     value,
-                                     " at (",
-                                     x,
-                                     ") m, where a finite number was "
-                                     "expected; correct the expression.")));
-            points.data(column, c)[p] = value;
-          }
-      }
-  }
-
-
-
-  template <int dim>
-  void
-  Body<dim>::set_initial_velocity(Points<dim>       &points,
-                                  const unsigned int index,
-                                  const double       t) const
-  {
-    set_initial(points,
-                index,
-                "Initial velocity",
-                initial_velocity_,
-                points.velocity,
-                dim,
-                t);
-  }
-
-
-
-  template <int dim>
-  void
-  Body<dim>::set_initial_stress(Points<dim>       &points,
-                                const unsigned int index) const
-  {
-    set_initial(points,
-                index,
-                "Initial stress",
-                initial_stress_,
-                points.stress,
-                n_stress_components<dim>,
-                0.);
   }
 
 

@@ -39,7 +39,8 @@ namespace talus
     add_parameter("Coordinates",
                   coordinates,
                   "What x, y, z are: 'spatial' (where the point is now) or "
-                  "'material' (where it was at the start).",
+                  "'material' (where it was at the start, without initial "
+                  "displacement).",
                   this->prm,
                   Patterns::Selection("spatial|material"));
   }
@@ -67,7 +68,8 @@ namespace talus
   template <int dim>
   void
   Loading<dim>::prepare(const Materials<dim> &materials,
-                        const unsigned int    n_bodies)
+                        const unsigned int    n_bodies,
+                        const Constants      &constants)
   {
     loads_.acceleration_of_body.clear();
     for (unsigned int b = 0; b < n_bodies; ++b)
@@ -78,7 +80,8 @@ namespace talus
     if (loads_.varies)
       expression_ = std::make_unique<Expression<dim>>("'Body force/Expression'",
                                                       body_force_.expression,
-                                                      dim);
+                                                      dim,
+                                                      constants);
   }
 
 
@@ -98,7 +101,7 @@ namespace talus
         for (unsigned int d = 0; d < dim; ++d)
           x[d] = points.data(coordinates, d)[p];
         for (unsigned int d = 0; d < dim; ++d)
-          points.body_acceleration(d)[p] = expression_->value(x, t, d);
+          points.body_acceleration(d)[p] = expression_->finite_value(x, t, d);
       }
   }
 

@@ -105,7 +105,7 @@ namespace talus
       }
     materials_.assign(names, materials);
     materials_.add_columns(points_);
-    loading_.prepare(materials_, bodies_.size());
+    loading_.prepare(materials_, bodies_.size(), constants_);
 
     const auto                  may_move = faces_that_may_move();
     std::array<double, 2 * dim> may_lie_outside;
@@ -127,17 +127,17 @@ namespace talus
     for (unsigned int b = 0; b < bodies_.size(); ++b)
       {
         const MaterialModel<dim> &material = materials_.of_body(b);
-        AssertThrow(!(material.is_hyperelastic() &&
-                      bodies_[b]->has_initial_stress()),
-                    ExcUser("The body '" + bodies_[b]->name() +
-                            "' has an initial stress, but the stress of its "
-                            "material follows from its deformation alone. "
-                            "Remove 'Initial stress' or choose a law in rate "
-                            "form ('linear elastic', 'von Mises')."));
-        const unsigned int begin = points_.size();
+        const InitialState<dim>  &initial  = bodies_[b]->initial_state();
+        const unsigned int        begin    = points_.size();
+        initial.check(material);
         bodies_[b]->create_points(grid_, b, material.density(), points_);
-        bodies_[b]->set_initial_velocity(points_, b, 0.);
-        bodies_[b]->set_initial_stress(points_, b);
+        initial.set_velocity(points_, b, 0., constants_);
+        initial.deform(points_,
+                       begin,
+                       points_.size(),
+                       material,
+                       transfer_.box_shape().rule,
+                       constants_);
         material.initialize(points_, begin, points_.size());
       }
     number_points();
@@ -148,7 +148,10 @@ namespace talus
       {
         choose_time_step();
         for (unsigned int b = 0; b < bodies_.size(); ++b)
-          bodies_[b]->set_initial_velocity(points_, b, -0.5 * dt_);
+          bodies_[b]->initial_state().set_velocity(points_,
+                                                   b,
+                                                   -0.5 * dt_,
+                                                   constants_);
         dt_ = 0;
       }
   }

@@ -112,6 +112,29 @@ namespace talus
 
 
   template <int dim>
+  void
+  initialize_stretch(Points<dim>       &points,
+                     const unsigned int begin,
+                     const unsigned int end,
+                     const BoxRule      rule)
+  {
+    const BoxRule by_state =
+      (rule == BoxRule::fixed ? BoxRule::right_stretch : rule);
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        const auto F =
+          load_matrix<dim, double>(points, points.deformation_gradient, p);
+        const auto stretch =
+          stretch_along_axes<dim, double>(F, determinant(F), by_state, {}, {});
+        for (unsigned int d = 0; d < dim; ++d)
+          points.data(points.stretch, d)[p] =
+            points.data(points.creation_stretch, d)[p] = stretch[d];
+      }
+  }
+
+
+
+  template <int dim>
   unsigned long
   count_clipped_boxes(const Points<dim> &points,
                       const Grid<dim>   &grid,
@@ -141,6 +164,10 @@ namespace talus
   update_stretch(Points<2> &, BoxRule, double);
   template void
   update_stretch(Points<3> &, BoxRule, double);
+  template void
+  initialize_stretch(Points<2> &, unsigned int, unsigned int, BoxRule);
+  template void
+  initialize_stretch(Points<3> &, unsigned int, unsigned int, BoxRule);
   template unsigned long
   count_clipped_boxes(const Points<2> &, const Grid<2> &, const BoxShape &);
   template unsigned long

@@ -3,6 +3,7 @@
 
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
+#include <talus/simulation/initial_state.h>
 #include <talus/simulation/shape.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -13,7 +14,7 @@
 
 namespace talus
 {
-  /// A body of one material: where it is at the start and how it moves.
+  /// A body of one material: where it is at the start and how it starts.
   template <int dim>
   class Body : public dealii::ParameterAcceptor
   {
@@ -35,21 +36,11 @@ namespace talus
     Box<dim>
     bounding_box(const Box<dim> &domain) const;
 
-    /// Set the velocity of the points of body @p index, that of time @p t, s.
-    void
-    set_initial_velocity(Points<dim> &points,
-                         unsigned int index,
-                         double       t) const;
-
-    /// Set the stress of the points of body @p index, that of t = 0.
-    void
-    set_initial_stress(Points<dim> &points, unsigned int index) const;
-
-    /// True if the user prescribes an initial stress.
-    bool
-    has_initial_stress() const
+    /// How it is displaced, moves and is stressed at the start.
+    const InitialState<dim> &
+    initial_state() const
     {
-      return !initial_stress_.empty();
+      return initial_state_;
     }
 
     const std::string &
@@ -80,14 +71,6 @@ namespace talus
     void
     check_apart(const Shape<dim> &shape, const Points<dim> &points) const;
     void
-    set_initial(Points<dim>       &points,
-                unsigned int       index,
-                const std::string &entry,
-                const std::string &expressions,
-                unsigned int       column,
-                unsigned int       n_components,
-                double             t) const;
-    void
     add_point(Points<dim>              &points,
               unsigned int              index,
               const dealii::Point<dim> &x,
@@ -103,8 +86,7 @@ namespace talus
     double                    radius_   = 1.;
     std::string               material_ = "";
     std::vector<unsigned int> points_per_cell_{2};
-    std::string               initial_velocity_ = "";
-    std::string               initial_stress_   = "";
+    InitialState<dim>         initial_state_;
   };
 } // namespace talus
 

@@ -1,8 +1,8 @@
 #ifndef talus_simulation_loading_h
 #define talus_simulation_loading_h
 
+#include <talus/base/expression.h>
 #include <talus/materials/materials.h>
-#include <talus/simulation/expression.h>
 #include <talus/transfer/loads.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -20,7 +20,9 @@ namespace talus
 
     /// To be called after parsing: gravity of each of @p n_bodies bodies.
     void
-    prepare(const Materials<dim> &materials, unsigned int n_bodies);
+    prepare(const Materials<dim> &materials,
+            unsigned int          n_bodies,
+            const Constants      &constants);
 
     /// Set the accelerations at time @p t, s.
     void

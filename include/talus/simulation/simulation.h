@@ -142,6 +142,7 @@ namespace talus
     std::vector<std::string> names_of_bodies_;
 
     // Floor by floor
+    Constants                               constants_;
     Points<dim>                             points_;
     Grid<dim>                               grid_;
     NodalFields<dim>                        nodes_;

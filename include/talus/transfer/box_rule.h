@@ -55,6 +55,15 @@ namespace talus
   void
   update_stretch(Points<dim> &points, BoxRule rule, double dt);
 
+  /// Set the stretch of the points [begin, end), and that at their creation,
+  /// to that of a deformation gradient they start with.
+  template <int dim>
+  void
+  initialize_stretch(Points<dim> &points,
+                     unsigned int begin,
+                     unsigned int end,
+                     BoxRule      rule);
+
   /// Number of axes of boxes that are clipped for the weights.
   template <int dim>
   unsigned long

@@ -1,0 +1,177 @@
+#include <talus/base/errors.h>
+#include <talus/base/expression.h>
+
+#include <deal.II/base/numbers.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// muParser reads an expression when it is first used: do that now. Returns
+    /// its complaint, or nothing. Only the caller knows the parameter's name,
+    /// hence the catch; deal.II prints details before it throws, hence the
+    /// silence.
+    template <int dim>
+    std::string
+    complaint_about(const FunctionParser<dim> &function)
+    {
+      std::ostringstream    details;
+      std::streambuf *const terminal = std::cerr.rdbuf(details.rdbuf());
+      std::string           complaint;
+      try
+        {
+          for (unsigned int c = 0; c < function.n_components; ++c)
+            function.value(Point<dim>(), c);
+        }
+      catch (const ExceptionBase &exception)
+        {
+          std::ostringstream reason;
+          exception.print_info(reason);
+          complaint = Utilities::trim(reason.str());
+        }
+      std::cerr.rdbuf(terminal);
+      return complaint;
+    }
+
+
+
+    bool
+    is_new_name(const std::string                   &name,
+                const std::map<std::string, double> &known)
+    {
+      const auto is_letter = [](const unsigned char c) {
+        return std::isalpha(c) || c == '_';
+      };
+      const auto is_part = [&](const unsigned char c) {
+        return is_letter(c) || std::isdigit(c);
+      };
+      const bool is_variable =
+        (name == "x" || name == "y" || name == "z" || name == "t");
+      return !name.empty() && is_letter(name[0]) &&
+             std::all_of(name.begin(), name.end(), is_part) && !is_variable &&
+             known.count(name) == 0;
+    }
+  } // namespace
+
+
+
+  Constants::Constants()
+    : ParameterAcceptor("/")
+  {
+    add_parameter("Constants",
+                  definitions_,
+                  "Numbers for the expressions of this file, as name = value, "
+                  "separated by semicolons; a value may be an expression in "
+                  "pi and the names before it: L = 25; b = pi/(2*L).");
+  }
+
+
+
+  std::map<std::string, double>
+  Constants::values() const
+  {
+    std::map<std::string, double> values = {{"pi", numbers::PI}};
+    for (const auto &definition :
+         Utilities::split_string_list(definitions_, ';'))
+      {
+        const auto        equals = definition.find('=');
+        const std::string name = Utilities::trim(definition.substr(0, equals));
+        AssertThrow(equals != std::string::npos && is_new_name(name, values),
+                    ExcUser(text("'Constants' contains '",
+                                 definition,
+                                 "', where 'name = value' was expected with a "
+                                 "new name of letters, digits and '_' other "
+                                 "than pi, x, y, z, t; separate constants by "
+                                 "semicolons.")));
+        FunctionParser<1> value(1);
+        value.initialize("x", definition.substr(equals + 1), values);
+        std::string  complaint = complaint_about(value);
+        const double number = complaint.empty() ? value.value(Point<1>()) : 0.;
+        if (!std::isfinite(number))
+          complaint = text("it is ", number, '.');
+        AssertThrow(complaint.empty(),
+                    ExcUser(text("'Constants' contains '",
+                                 definition,
+                                 "', whose value cannot be understood: ",
+                                 complaint,
+                                 " A finite expression in pi and the constants "
+                                 "before it was expected; correct it.")));
+        values[name] = number;
+      }
+    return values;
+  }
+
+
+
+  template <int dim>
+  Expression<dim>::Expression(const std::string &name,
+                              const std::string &expressions,
+                              const unsigned int n_components,
+                              const Constants   &constants)
+    : name_(name)
+    , expressions_(expressions)
+    , function_(n_components)
+  {
+    const auto parts = Utilities::split_string_list(expressions, ';');
+    AssertThrow(parts.size() == n_components,
+                ExcUser(text(name,
+                             " = '",
+                             expressions,
+                             "' has ",
+                             parts.size(),
+                             " components, but ",
+                             n_components,
+                             " are needed, separated by semicolons.")));
+    function_.initialize(dim == 2 ? "x,y,t" : "x,y,z,t",
+                         expressions,
+                         constants.values(),
+                         /*time_dependent=*/true);
+    const std::string complaint = complaint_about(function_);
+    AssertThrow(complaint.empty(),
+                ExcUser(text(name,
+                             " = '",
+                             expressions,
+                             "' cannot be understood: ",
+                             complaint,
+                             " An expression in ",
+                             dim == 2 ? "x, y, t" : "x, y, z, t",
+                             ", pi and the names of 'Constants' was expected; "
+                             "correct it.")));
+  }
+
+
+
+  template <int dim>
+  double
+  Expression<dim>::finite_value(const Point<dim>  &x,
+                                const double       t,
+                                const unsigned int component)
+  {
+    const double result = value(x, t, component);
+    AssertThrow(std::isfinite(result),
+                ExcUser(text(name_,
+                             " = '",
+                             expressions_,
+                             "' is ",
+                             result,
+                             " at (",
+                             x,
+                             ") m, where a finite number was expected; correct "
+                             "the expression.")));
+    return result;
+  }
+
+
+
+  template class Expression<2>;
+  template class Expression<3>;
+} // namespace talus
