@@ -20,7 +20,7 @@ namespace talus
                   shape_,
                   "'polygon' (see Vertices; in 3-D a prism over it), 'box' "
                   "(see Lower corner, Upper corner) or 'ball' (a disc in 2-D; "
-                  "see Centre, Radius).",
+                  "see Centre, Radius, Inner radius).",
                   this->prm,
                   Patterns::Selection("polygon|box|ball"));
     add_parameter("Vertices",
@@ -42,6 +42,12 @@ namespace talus
                   "Radius of the ball [m].",
                   this->prm,
                   Patterns::Double(1e-12));
+    add_parameter("Inner radius",
+                  inner_radius_,
+                  "Radius of the hollow in the ball, which makes it a ring "
+                  "(in 3-D a shell) [m].",
+                  this->prm,
+                  Patterns::Double(0.));
     add_parameter("Material",
                   material_,
                   "One of the names in Materials/Names.");
@@ -103,7 +109,17 @@ namespace talus
     if (shape_ == "polygon")
       return make_polygon(domain);
     if (shape_ == "ball")
-      return std::make_unique<Ball<dim>>(centre_, radius_);
+      {
+        AssertThrow(inner_radius_ < radius_,
+                    ExcUser(text(path("Inner radius"),
+                                 " = ",
+                                 inner_radius_,
+                                 " m leaves nothing of the ball, whose radius "
+                                 "is ",
+                                 radius_,
+                                 " m. Give a smaller one.")));
+        return std::make_unique<Ball<dim>>(centre_, radius_, inner_radius_);
+      }
     for (unsigned int d = 0; d < dim; ++d)
       AssertThrow(lower_corner_[d] < upper_corner_[d],
                   ExcUser(text(path("Upper corner"),

@@ -83,7 +83,8 @@ namespace talus
     std::string               extent_z_ = "";
     dealii::Point<dim>        lower_corner_, upper_corner_;
     dealii::Point<dim>        centre_;
-    double                    radius_   = 1.;
+    double                    radius_       = 1.;
+    double                    inner_radius_ = 0.;
     std::string               material_ = "";
     std::vector<unsigned int> points_per_cell_{2};
     InitialState<dim>         initial_state_;

@@ -54,20 +54,24 @@ namespace talus
 
 
 
-  /// Disc in 2-D, sphere in 3-D.
+  /// Disc in 2-D, sphere in 3-D, or what is left of it around a hollow.
   template <int dim>
   class Ball : public Shape<dim>
   {
   public:
-    Ball(const dealii::Point<dim> &centre, const double radius)
+    Ball(const dealii::Point<dim> &centre,
+         const double              radius,
+         const double              inner_radius)
       : centre_(centre)
       , radius_(radius)
+      , inner_radius_(inner_radius)
     {}
 
     bool
     contains(const dealii::Point<dim> &x) const override
     {
-      return x.distance_square(centre_) <= radius_ * radius_;
+      const double distance = x.distance(centre_);
+      return distance <= radius_ && distance >= inner_radius_;
     }
 
     Box<dim>
@@ -84,7 +88,7 @@ namespace talus
 
   private:
     dealii::Point<dim> centre_;
-    double             radius_;
+    double             radius_, inner_radius_;
   };
 
 

@@ -1,0 +1,69 @@
+// Numerical fracture on demand, prm/verification/hanging-block.prm.
+
+#include "case.h"
+#include "verification.h"
+
+#include <talus/base/errors.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+using namespace talus;
+using namespace talus::cases;
+
+namespace
+{
+  constexpr double  end     = 1.6; // s, before torn pieces reach the far end
+  const std::string file    = "verification/hanging-block.prm";
+  const std::string end_set = text("End time=", end);
+
+  double
+  largest(const std::vector<double> &values)
+  {
+    return *std::max_element(values.begin(), values.end());
+  }
+
+
+
+  double
+  largest_stretch()
+  {
+    Case<2> block(file, {end_set});
+    double  result = 0;
+    while (block->snapshot().time < end)
+      {
+        block->advance();
+        const Points<2> &points  = block.points();
+        const double    *stretch = points.data(points.stretch);
+        result =
+          std::max(result, *std::max_element(stretch, stretch + points.size()));
+      }
+    return result;
+  }
+} // namespace
+
+
+
+TEST(HangingBlock, TearsOnlyWithoutSplitting)
+{
+  Verification gates("Hanging block under sudden gravity",
+                     "prm/" + file,
+                     "a hyperelastic body cannot tear");
+  gates.at_least("largest stretch", largest_stretch(), 2.5, "above 2.5");
+  const auto state = [&](const std::string &name, const Overrides &overrides) {
+    const Table table = run<2>(file, name, Overrides{end_set} + overrides);
+    return std::array<double, 2>{
+      {largest(table["empty columns"]), largest(table["connected bodies"])}};
+  };
+  const auto whole = state("hanging-block", {});
+  gates.holds("with splitting: empty columns, bodies, at most",
+              text(whole[0], ", ", whole[1]),
+              "0, 1",
+              whole[0] == 0 && whole[1] == 1);
+  const auto torn = state("hanging-block-unsplit", {"Splitting/Enabled=false"});
+  gates.holds("without: empty columns, bodies, at most",
+              text(torn[0], ", ", torn[1]),
+              "tears: more than 0, more than 1",
+              torn[0] > 0 && torn[1] > 1);
+}
