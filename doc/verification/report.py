@@ -1,0 +1,150 @@
+"""Run the verification and write doc/verification.md with its pictures.
+
+    python3 report.py BUILD [--rows] [--without-slow]
+
+BUILD is the build folder. The tests of ctest's label `verification` are run (with
+--rows they are not: the rows of an earlier run are taken), and every gate that
+they hold becomes a row of the table. Ends with 1 if a gate fails, if a test
+fails, or if a row is missing.
+"""
+
+import csv
+import os
+import subprocess
+import sys
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+sys.path.insert(0, os.path.join(HERE, "..", "figures"))
+from verification_plots import draw_all
+
+# Headings, and below each the test suites in the order of the page.
+SECTIONS = [
+    ("The bar of the paper", ["Bar", "BarConvergence"]),
+    ("Manufactured solutions",
+     ["ManufacturedBar", "Manufactured2d", "Manufactured3d", "Vortex"]),
+    ("Elasticity", ["Discs", "SelfWeightColumn", "Elastica"]),
+    ("Strength: one point", ["OnePoint"]),
+    ("Seabed and layers",
+     ["Block", "ShearLayer", "ViscoplasticLayer", "VerticalCut"]),
+    ("Numerical fracture", ["HangingBlock"]),
+    ("The landslide of the paper",
+     ["LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
+      "LandslideStretched", "LandslideUnsplit", "LandslideSimilarity",
+      "Landslide3d"]),
+]
+SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay"}
+
+HEAD = """# Verification
+
+What talus is held against, and how it fares: every row is asserted by a test of the label
+`verification`, and this page is written from what those tests measure:
+
+    cmake --build build/release --target verification
+
+runs all (about an hour on two cores, most of it the landslides to rest), writes this page and its
+pictures, and fails if a gate fails. Names of files are those to run by hand; sources are keys or
+titles in [references.bib](references.bib). A gate that is not met stays here as *falls short*
+with what is known of the cause.
+
+"""
+
+
+def run_tests(build, without_slow):
+    """True if all pass."""
+    command = ["ctest", "--test-dir", build, "-L", "verification",
+               "--output-on-failure"]
+    if without_slow:
+        command += ["-LE", "slow"]
+    else:
+        command += ["-j2"]
+    return subprocess.run(command).returncode == 0
+
+
+def read_rows(folder):
+    """Rows by test suite; within a suite, in the order of the tests' names."""
+    rows = {}
+    for name in sorted(os.listdir(folder)):
+        if name.endswith(".csv"):
+            with open(os.path.join(folder, name), newline="") as stream:
+                rows.setdefault(name.split(".")[0], []).extend(
+                    csv.DictReader(stream))
+    return rows
+
+
+def cell(text):
+    return text.replace("|", "\\|")
+
+
+def write_table(out, rows):
+    out.write("| case | quantity | talus | reference | gate | verdict |\n"
+              "|---|---|---|---|---|---|\n")
+    last = None
+    for row in rows:
+        case = "%s<br>`%s`<br>%s" % (row["case"], row["run"], row["source"])
+        gate = "=" if row["gate"] == row["reference"] else row["gate"]
+        out.write("| %s | %s | %s | %s | %s | %s |\n"
+                  % (cell(case) if case != last else "",
+                     cell(row["quantity"]), cell(row["talus"]),
+                     cell(row["reference"]), cell(gate),
+                     "**%s**" % row["verdict"] if row["verdict"] != "pass"
+                     else "pass"))
+        last = case
+    out.write("\n")
+    for row in rows:
+        if row["cause"]:
+            out.write("*%s, %s falls short*: %s.\n\n"
+                      % (row["case"], row["quantity"], row["cause"]))
+
+
+def write_page(path, rows, pictures, known):
+    with open(path, "w") as out:
+        out.write(HEAD)
+        verdicts = [row["verdict"] for suite in rows.values() for row in suite]
+        out.write("%d gates: %d pass, %d fall short, %d fail.\n\n"
+                  % (len(verdicts), verdicts.count("pass"),
+                     verdicts.count("falls short"), verdicts.count("FAIL")))
+        for heading, suites in SECTIONS:
+            found = [row for suite in suites for row in rows.get(suite, [])]
+            if found:
+                out.write("## %s\n\n" % heading)
+                write_table(out, found)
+            for picture, caption in pictures.get(heading, []):
+                out.write("![%s](figures/%s)\n\n*%s*\n\n"
+                          % (caption.split(".")[0], picture, caption))
+        out.write(known)
+    return verdicts
+
+
+def main():
+    options = sys.argv[2:]
+    build = os.path.abspath(sys.argv[1])
+    folder = os.path.join(build, "results", "verification")
+    passed = True
+    if "--rows" not in options:
+        subprocess.run(["rm", "-rf", folder], check=True)
+        passed = run_tests(build, "--without-slow" in options)
+
+    rows = read_rows(folder)
+    expected = {suite for _, suites in SECTIONS for suite in suites}
+    if "--without-slow" in options:
+        expected -= SLOW
+    missing = sorted(expected - set(rows))
+    unknown = sorted(set(rows) - expected)
+    with open(os.path.join(HERE, "known.md")) as stream:
+        known = stream.read()
+    pictures = draw_all(os.path.join(folder, "series"),
+                        os.path.join(HERE, "..", "figures"))
+    verdicts = write_page(os.path.join(HERE, "..", "verification.md"),
+                          rows, pictures, known)
+    print("doc/verification.md: %d gates, %d pass, %d fall short, %d fail"
+          % (len(verdicts), verdicts.count("pass"),
+             verdicts.count("falls short"), verdicts.count("FAIL")))
+    for name in missing:
+        print("No rows of the test suite '%s': it did not run." % name)
+    for name in unknown:
+        print("The test suite '%s' has no section in report.py." % name)
+    if not passed or missing or unknown or "FAIL" in verdicts:
+        sys.exit(1)
+
+
+main()
