@@ -1,5 +1,6 @@
 #include <talus/base/errors.h>
 #include <talus/materials/hencky.h>
+#include <talus/materials/herschel_bulkley.h>
 #include <talus/materials/linear_elastic.h>
 #include <talus/materials/neo_hookean.h>
 #include <talus/materials/von_mises.h>
@@ -29,6 +30,15 @@ namespace talus
 
 
 
+    template <int dim, FlowLaw flow_law>
+    std::unique_ptr<MaterialModel<dim>>
+    make_viscoplastic(const std::string &section)
+    {
+      return std::make_unique<HerschelBulkley<dim>>(section, flow_law);
+    }
+
+
+
     /// All laws, one line each.
     template <int dim>
     std::vector<Law<dim>>
@@ -37,7 +47,10 @@ namespace talus
       return {{"linear elastic", make<dim, LinearElastic>},
               {"von Mises", make<dim, VonMises>},
               {"Hencky", make<dim, Hencky>},
-              {"neo-Hookean", make<dim, NeoHookean>}};
+              {"neo-Hookean", make<dim, NeoHookean>},
+              {"Herschel-Bulkley",
+               make_viscoplastic<dim, FlowLaw::herschel_bulkley>},
+              {"Bingham", make_viscoplastic<dim, FlowLaw::bingham>}};
     }
   } // namespace
 

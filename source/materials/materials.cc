@@ -1,6 +1,8 @@
 #include <talus/base/errors.h>
 #include <talus/materials/materials.h>
 
+#include <algorithm>
+
 namespace talus
 {
   using namespace dealii;
@@ -62,6 +64,24 @@ namespace talus
                                  "/Material' or add the material.")));
         material_of_body_.push_back(m);
       }
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Materials<dim>::notes(const double cell_size) const
+  {
+    std::vector<std::string> result;
+    const auto              &used = material_of_body_;
+    for (unsigned int m = 0; m < models_.size(); ++m)
+      if (std::find(used.begin(), used.end(), m) != used.end())
+        {
+          const std::string note = models_[m]->note(cell_size);
+          if (!note.empty())
+            result.push_back(note);
+        }
+    return result;
   }
 
 

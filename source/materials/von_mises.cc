@@ -1,5 +1,6 @@
 #include <talus/base/errors.h>
-#include <talus/materials/elastic_trial.h>
+#include <talus/materials/radial_return.h>
+#include <talus/materials/shear_band.h>
 #include <talus/materials/von_mises.h>
 
 #include <limits>
@@ -58,33 +59,15 @@ namespace talus
                                    strain,
                                    moduli);
 
-      // Radial return: the part `removed` of the trial deviator goes, which is
-      // 2 mu times the plastic strain.
       const Number q = square_root(
         1.5 * contract<dim>(trial.deviator_after, trial.deviator_after) +
         std::numeric_limits<double>::min());
-      double *const ep       = points.data(plastic_strain) + p;
-      const Number  old_ep   = load<Number>(ep);
-      const Number  d_ep     = plastic_increment(q, old_ep, moduli.mu, yield);
-      const Number  removed  = 3. * moduli.mu * d_ep / q;
-      auto          deviator = trial.deviator_after;
-      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-        deviator[c] *= 1. - removed;
+      double *const ep     = points.data(plastic_strain) + p;
+      const Number  old_ep = load<Number>(ep);
+      const Number  d_ep   = plastic_increment(q, old_ep, moduli.mu, yield);
       store(ep, old_ep + d_ep);
-      store_turned_stress<dim, Number>(
-        points, p, strain, deviator, trial.mean_after);
-
-      const auto V0 = load<Number>(points.data(points.reference_volume) + p);
-      const auto force =
-        deviatoric_force<dim, Number>(motion, V0, trial, deviator);
-      const Number plastic_work = removed * (0.5 / moduli.mu) *
-                                  contract<dim>(force, trial.deviator_after);
-      const Number work =
-        work_of_step<dim, Number>(motion, V0, strain, trial, force);
-      double *const elastic = points.data(points.elastic_energy) + p;
-      double *const plastic = points.data(points.plastic_work) + p;
-      store(elastic, load<Number>(elastic) + (work - plastic_work));
-      store(plastic, load<Number>(plastic) + plastic_work);
+      return_radially<dim, Number>(
+        points, p, motion, strain, trial, moduli.mu, 3. * moduli.mu * d_ep / q);
       return all(motion.J_after > 0.);
     }
   } // namespace
@@ -192,6 +175,26 @@ namespace talus
                             double            *speed) const
   {
     elastic_wave_speed(points, begin, end, elasticity_.moduli(), speed);
+  }
+
+
+
+  // With ep = gamma/sqrt(3) of simple shear the strength is s_u + H gamma/3.
+  template <int dim>
+  std::string
+  VonMises<dim>::note(const double cell_size) const
+  {
+    const double lost = strength_ - residual_strength_;
+    if (hardening_ >= 0. || lost == 0.)
+      return "";
+    const double strain = -3. * lost / hardening_;
+    return shear_band_note(
+      {this->section(), strain, lost * strain / 2., "all"},
+      cell_size,
+      text("keep `Hardening modulus` over the cell size at ",
+           hardening_ / cell_size,
+           " Pa/m, or take the law Bingham or Herschel-Bulkley, whose "
+           "viscosity gives the band a width of its own."));
   }
 
 

@@ -262,6 +262,15 @@ class CommandLine(Case):
         (self.folder / "bad.prm").write_text(GOOD.replace("4, 4", "2, 4"))
         self.assert_refused(self.run_talus("--validate", "bad.prm"), "block")
 
+    def test_softening_is_in_the_log(self):
+        result = self.run_file(GOOD.replace("linear elastic", "Bingham"),
+                               ["Materials/clay/Remoulded strength ratio=0.5"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        log = (self.results / "log.txt").read_text()
+        for words in ("/Materials/clay softens", "on cells of 1 m",
+                      "5 m and 2083.33 J/m^2 on cells of 0.5 m"):
+            self.assertIn(words, log)
+
     def test_no_file(self):
         self.assert_refused(self.run_talus(), "parameter file", "--help")
 

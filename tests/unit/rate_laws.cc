@@ -186,7 +186,7 @@ TEST(RateLaws, SimpleShearIsElastic)
 
 TEST(RateLaws, StressTurnsWithARigidBody)
 {
-  for (const std::string name : {"linear elastic", "von Mises"})
+  for (const std::string name : {"linear elastic", "von Mises", "Bingham"})
     for (const unsigned int n_steps : {5, 360})
       {
         check_rigid_rotation<2>(name, n_steps);
@@ -198,7 +198,7 @@ TEST(RateLaws, StressTurnsWithARigidBody)
 
 TEST(RateLaws, PressureFollowsTheVolume)
 {
-  for (const std::string name : {"linear elastic", "von Mises"})
+  for (const std::string name : {"linear elastic", "von Mises", "Bingham"})
     {
       check_pressure<2>(name);
       check_pressure<3>(name);

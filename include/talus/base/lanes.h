@@ -134,6 +134,45 @@ namespace talus
 
 
 
+  /// exp(x) - 1, exact for small x, too.
+  inline double
+  exponential_minus_1(const double x)
+  {
+    return std::expm1(x);
+  }
+
+
+
+  inline Lanes
+  exponential_minus_1(const Lanes x)
+  {
+    Lanes result{};
+    for (unsigned int i = 0; i < n_lanes; ++i)
+      result[i] = std::expm1(x[i]);
+    return result;
+  }
+
+
+
+  inline double
+  real_power(const double x, const double exponent)
+  {
+    return std::pow(x, exponent);
+  }
+
+
+
+  inline Lanes
+  real_power(const Lanes x, const double exponent)
+  {
+    Lanes result{};
+    for (unsigned int i = 0; i < n_lanes; ++i)
+      result[i] = std::pow(x[i], exponent);
+    return result;
+  }
+
+
+
   inline bool
   any(const bool mask)
   {

@@ -71,6 +71,14 @@ namespace talus
     virtual bool
     locks() const = 0;
 
+    /// What the user should know of the material on cells of @p cell_size
+    /// metres before the run starts: whole sentences, or nothing.
+    virtual std::string
+    note(double /*cell_size*/) const
+    {
+      return "";
+    }
+
     /// True if the anti-locking mean is on: the parameter, or locks().
     bool
     uses_cell_mean() const;

@@ -37,6 +37,11 @@ namespace talus
       return *models_[material_of_body_[body]];
     }
 
+    /// The notes of all materials that bodies are made of, see
+    /// MaterialModel::note(). @p cell_size in m.
+    std::vector<std::string>
+    notes(double cell_size) const;
+
     /// Declare the internal variables of all laws.
     void
     add_columns(Points<dim> &points);

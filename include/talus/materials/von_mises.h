@@ -49,6 +49,9 @@ namespace talus
       return true;
     }
 
+    std::string
+    note(double cell_size) const override;
+
   private:
     Elasticity   elasticity_;
     double       strength_          = 2500.;

@@ -1,0 +1,175 @@
+#ifndef talus_materials_viscoplastic_return_h
+#define talus_materials_viscoplastic_return_h
+
+#include <talus/base/lanes.h>
+
+#include <limits>
+#include <utility>
+
+namespace talus
+{
+  /// What resists plastic shear in one step of @p dt seconds.
+  struct ShearResistance
+  {
+    double modulus;     ///< elastic shear modulus G, Pa
+    double consistency; ///< K >= 0, Pa s^n
+    double exponent;    ///< n > 0
+    double decay;       ///< of the strength that remoulding takes away, per
+                        ///< plastic shear strain; 0: no remoulding
+    double dt;          ///< s
+  };
+
+
+
+  /// Root of an increasing convex function by Newton's method from @p x, which
+  /// is not below it: the iterates fall towards the root and each step's error
+  /// is of the order of the last one squared. A lane stops, and keeps its
+  /// value, after a step of less than 1e-8, or where round-off ends the fall;
+  /// so its result does not depend on its neighbours. @p function returns value
+  /// and slope; lanes not in @p active are left alone. NaN in a lane that is
+  /// not done after 100 steps (of a million extreme cases none took over 32).
+  template <typename Number, typename Mask, typename Function>
+  inline Number
+  newton_from_above(Number x, Mask active, const Function &function)
+  {
+    for (unsigned int i = 0; i < 100 && any(active); ++i)
+      {
+        const auto [value, slope] = function(x);
+        const Number next         = x - value / slope;
+        active &= next < x;
+        const Mask more = active & (x - next > 1e-8 * x);
+        x               = active ? next : x;
+        active          = more;
+      }
+    return active ? broadcast<Number>(std::numeric_limits<double>::quiet_NaN())
+                  : x;
+  }
+
+
+
+  /// Shear stress that a plastic shear of @p x takes, less what viscosity takes
+  /// of it, Pa, and its slope: @p linear x - loss (1 - exp(-decay x)).
+  template <typename Number>
+  inline std::pair<Number, Number>
+  stress_taken(const Number x,
+               const Number loss,
+               const double linear,
+               const double decay)
+  {
+    if (decay == 0.)
+      return {linear * x, broadcast<Number>(linear)};
+    const Number change = loss * exponential_minus_1(-decay * x);
+    return {linear * x + change, linear - decay * (loss + change)};
+  }
+
+
+
+  /// The shear, not below it, with which stress_taken() is @p excess: the
+  /// function is above its tangent at zero and above its asymptote.
+  template <typename Number>
+  inline Number
+  most_shear(const Number excess,
+             const Number loss,
+             const double linear,
+             const double decay)
+  {
+    return min(excess / (linear - decay * loss),
+               (excess + loss) * (1. / linear));
+  }
+
+
+
+  /// n > 1, or @p linear resistance only; see plastic_shear().
+  template <typename Number, typename Mask>
+  inline Number
+  solve_for_shear(const Number           excess,
+                  const Number           loss,
+                  const Mask             yields,
+                  const double           linear,
+                  const ShearResistance &r)
+  {
+    const bool is_power = (r.exponent > 1. && r.consistency > 0.);
+    Number     start    = most_shear(excess, loss, linear, r.decay);
+    if (is_power)
+      start =
+        min(start, r.dt * real_power(excess / r.consistency, 1. / r.exponent));
+    return newton_from_above(start, yields, [&](const Number x) {
+      auto [value, slope] = stress_taken(x, loss, linear, r.decay);
+      if (is_power)
+        {
+          const Number viscous =
+            r.consistency * real_power(x * (1. / r.dt), r.exponent);
+          value += viscous;
+          slope += r.exponent * viscous / x;
+        }
+      return std::make_pair(value - excess, slope);
+    });
+  }
+
+
+
+  /// n < 1: the overstress y is the unknown; see plastic_shear().
+  template <typename Number, typename Mask>
+  inline Number
+  solve_for_overstress(const Number           excess,
+                       const Number           loss,
+                       const Mask             yields,
+                       const ShearResistance &r)
+  {
+    const auto shear = [&](const Number y) {
+      return r.dt * real_power(y * (1. / r.consistency), 1. / r.exponent);
+    };
+    const Number most = most_shear(excess, loss, r.modulus, r.decay);
+    const Number start =
+      min(excess, r.consistency * real_power(most * (1. / r.dt), r.exponent));
+    return shear(newton_from_above(start, yields, [&](const Number y) {
+      const Number x            = shear(y);
+      const auto [value, slope] = stress_taken(x, loss, r.modulus, r.decay);
+      return std::make_pair(value + (y - excess),
+                            1. + slope * x / (r.exponent * y));
+    }));
+  }
+
+
+
+  /// Plastic shear strain x of the step, by the backward Euler method: at its
+  /// end the shear stress is the strength,
+  ///   trial stress - G x = strength - loss (1 - exp(-decay x))
+  ///                        + K (x/dt)^n,
+  /// with @p excess = trial stress - strength at the start of the step, Pa, and
+  /// @p loss the part of that strength that remoulding takes away, Pa;
+  /// G > decay loss. Zero where nothing is in excess, or where viscous
+  /// material has no time to flow.
+  ///
+  /// The left side less the right side is made convex and increasing in the
+  /// unknown by its choice: the shear for n >= 1, the overstress K (x/dt)^n for
+  /// n < 1. The start of the iteration is the least of what each resistance
+  /// alone would allow, so above the root, and without remoulding less than
+  /// twice as large.
+  template <typename Number>
+  inline Number
+  plastic_shear(const Number           excess,
+                const Number           loss,
+                const ShearResistance &r)
+  {
+    const auto yields     = (excess > 0.);
+    const bool is_viscous = (r.consistency > 0.);
+    if (!any(yields) || (is_viscous && r.dt == 0.))
+      return Number{};
+
+    const bool   is_linear = (!is_viscous || r.exponent == 1.);
+    const double linear =
+      r.modulus + (is_linear && is_viscous ? r.consistency / r.dt : 0.);
+    if (is_linear && r.decay == 0.)
+      return max(excess, Number{}) * (1. / linear);
+
+    // In the other lanes any positive number will do.
+    const Number solvable = yields ? excess : broadcast<Number>(r.modulus);
+    const Number x        = r.exponent < 1. && is_viscous
+                              ? solve_for_overstress(solvable, loss, yields, r)
+                              : solve_for_shear(solvable, loss, yields, linear, r);
+    return yields ? x : Number{};
+  }
+} // namespace talus
+
+#endif

@@ -1,0 +1,260 @@
+#include <talus/base/errors.h>
+#include <talus/materials/herschel_bulkley.h>
+#include <talus/materials/radial_return.h>
+#include <talus/materials/shear_band.h>
+#include <talus/materials/viscoplastic_return.h>
+
+#include <limits>
+
+namespace talus
+{
+  using dealii::ParameterAcceptor;
+  using dealii::Patterns::Double;
+
+  namespace
+  {
+    /// Strength at rest, Pa: what remoulding leaves, and what it takes away.
+    struct Strength
+    {
+      double remoulded;
+      double loss;
+    };
+
+
+
+    /// One step of point(s) @p p; false if a point was turned inside out or its
+    /// plastic strain, then NaN, was not found.
+    template <int dim, typename Number>
+    inline bool
+    update_point(Points<dim>           &points,
+                 const unsigned int     p,
+                 const unsigned int     plastic_shear_strain,
+                 const double           dt,
+                 const Moduli          &moduli,
+                 const Strength        &strength,
+                 const ShearResistance &resistance)
+    {
+      const auto motion = advance_deformation<dim, Number>(points, p, dt);
+      const auto strain = strain_increment(motion);
+      const auto trial =
+        elastic_trial<dim, Number>(load_stress<dim, Number>(points, p),
+                                   strain,
+                                   moduli);
+
+      const Number tau = square_root(
+        0.5 * contract<dim>(trial.deviator_after, trial.deviator_after) +
+        std::numeric_limits<double>::min());
+      double *const xi     = points.data(plastic_shear_strain) + p;
+      const Number  old_xi = load<Number>(xi);
+      Number        loss   = broadcast<Number>(strength.loss);
+      if (resistance.decay > 0.)
+        loss *= exponential(-resistance.decay * old_xi);
+      const Number d_xi =
+        plastic_shear<Number>(tau - (strength.remoulded + loss),
+                              loss,
+                              resistance);
+      store(xi, old_xi + d_xi);
+      return_radially<dim, Number>(
+        points, p, motion, strain, trial, moduli.mu, moduli.mu * d_xi / tau);
+      return all(motion.J_after > 0.) && all(d_xi >= 0.);
+    }
+
+
+
+    /// Throw ExcPoint for the first point of [@p begin, @p end) whose plastic
+    /// shear strain was not found.
+    template <int dim>
+    void
+    throw_unsolved_point(const Points<dim> &points,
+                         const unsigned int begin,
+                         const unsigned int end,
+                         const unsigned int plastic_shear_strain)
+    {
+      for (unsigned int p = begin; p < end; ++p)
+        AssertThrow(points.data(plastic_shear_strain)[p] >= 0.,
+                    ExcPoint(
+                      text("The viscoplastic flow of point ",
+                           points.data(points.id)[p],
+                           " at ",
+                           points.data(points.position)[p],
+                           ", ",
+                           points.data(points.position, 1)[p],
+                           " m could not be solved for, which should not be. "
+                           "Look for what throws the points there about, or "
+                           "change the material's consistency.")));
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  HerschelBulkley<dim>::HerschelBulkley(const std::string &section,
+                                        const FlowLaw      flow_law)
+    : MaterialModel<dim>(section)
+    , flow_law_(flow_law)
+  {
+    const auto add = [&](const std::string &name,
+                         double            &value,
+                         const std::string &sentence,
+                         const Double      &range = Double(0.)) {
+      this->add_parameter(name, value, sentence, ParameterAcceptor::prm, range);
+    };
+    elasticity_.declare(*this);
+    add("Undrained shear strength",
+        strength_,
+        "Undrained shear strength s_u [Pa]: the shear stress at which the "
+        "undisturbed material yields in slow simple shear.");
+    if (flow_law_ == FlowLaw::bingham)
+      add("Viscosity",
+          consistency_,
+          "Viscosity [Pa s]: what the shear stress of flowing material gains "
+          "per rate of plastic shear.");
+    else
+      {
+        exponent_ = 0.5;
+        add("Consistency",
+            consistency_,
+            "Consistency K [Pa s^n]: at the rate gdot of plastic shear the "
+            "shear stress is s_u + K gdot^n.");
+        add("Flow exponent",
+            exponent_,
+            "Exponent n of the rate of plastic shear [-], more than 0; below 1 "
+            "the material thins with the rate.");
+      }
+    add("Remoulded strength ratio",
+        remoulded_ratio_,
+        "Undrained shear strength of the remoulded material over that of the "
+        "undisturbed [-], one over the sensitivity. 1: no remoulding.",
+        Double(0., 1.));
+    add("Plastic shear strain to remould",
+        strain_to_remould_,
+        "Accumulated plastic shear strain xi_95 [-] that takes away 95 % of "
+        "the strength that remoulding takes away: the strength falls as "
+        "exp(-3 xi/xi_95).");
+  }
+
+
+
+  template <int dim>
+  void
+  HerschelBulkley<dim>::check() const
+  {
+    MaterialModel<dim>::check();
+    elasticity_.check(this->section());
+    AssertThrow(exponent_ > 0.,
+                ExcUser(text("Section ",
+                             this->section(),
+                             ": `Flow exponent` is ",
+                             exponent_,
+                             ". Give a positive number; for strength that does "
+                             "not depend on the rate set `Consistency` to "
+                             "0.")));
+    if (remoulded_ratio_ == 1.)
+      return;
+    const double least =
+      3. * strength_ * (1. - remoulded_ratio_) / elasticity_.moduli().mu;
+    AssertThrow(
+      strain_to_remould_ > least,
+      ExcUser(text("Section ",
+                   this->section(),
+                   ": `Plastic shear strain to remould` is ",
+                   strain_to_remould_,
+                   ", but the material must not soften faster than it can "
+                   "unload elastically: give more than ",
+                   least,
+                   " (three times the strength that remoulding takes away over "
+                   "the shear modulus), or set `Remoulded strength ratio` to 1 "
+                   "for material that is not remoulded.")));
+  }
+
+
+
+  template <int dim>
+  void
+  HerschelBulkley<dim>::add_columns(Points<dim> &points)
+  {
+    plastic_shear_strain_ =
+      points.add_column("plastic shear strain", "-", 1, Inheritance::copied);
+  }
+
+
+
+  template <int dim>
+  void
+  HerschelBulkley<dim>::update_stress(Points<dim>       &points,
+                                      const unsigned int begin,
+                                      const unsigned int end,
+                                      const double       dt) const
+  {
+    Assert(plastic_shear_strain_ != dealii::numbers::invalid_unsigned_int,
+           dealii::ExcMessage("add_columns() was not called."));
+    const Moduli          moduli     = elasticity_.moduli();
+    const double          r          = remoulded_ratio_;
+    const Strength        strength   = {r * strength_, (1. - r) * strength_};
+    const ShearResistance resistance = {moduli.mu,
+                                        consistency_,
+                                        exponent_,
+                                        r < 1. ? 3. / strain_to_remould_ : 0.,
+                                        dt};
+    bool                  sound      = true;
+    for_lanes(begin, end, [&](const unsigned int p, auto number) {
+      sound &= update_point<dim, decltype(number)>(
+        points, p, plastic_shear_strain_, dt, moduli, strength, resistance);
+    });
+    if (!sound)
+      {
+        throw_inverted_point(points, begin, end);
+        throw_unsolved_point(points, begin, end, plastic_shear_strain_);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  HerschelBulkley<dim>::wave_speed(const Points<dim> &points,
+                                   const unsigned int begin,
+                                   const unsigned int end,
+                                   double            *speed) const
+  {
+    elastic_wave_speed(points, begin, end, elasticity_.moduli(), speed);
+  }
+
+
+
+  // The work is the integral of s_u(xi) - r s_u0 over all xi.
+  template <int dim>
+  std::string
+  HerschelBulkley<dim>::note(const double cell_size) const
+  {
+    const double lost = (1. - remoulded_ratio_) * strength_;
+    if (lost == 0.)
+      return "";
+    const std::string viscosity =
+      flow_law_ == FlowLaw::bingham ? "`Viscosity`" : "`Consistency`";
+    return shear_band_note(
+      {this->section(),
+       strain_to_remould_,
+       lost * strain_to_remould_ / 3.,
+       "95 %"},
+      cell_size,
+      text(
+        "keep `Plastic shear strain to remould` times the cell size at ",
+        strain_to_remould_ * cell_size,
+        " m, ",
+        consistency_ > 0.
+          ? text("unless ",
+                 viscosity,
+                 " makes the bands several cells wide, which a run on smaller "
+                 "cells would show.")
+          : text("or set ",
+                 viscosity,
+                 " to more than 0, which gives the band a width of its "
+                 "own.")));
+  }
+
+
+
+  template class HerschelBulkley<2>;
+  template class HerschelBulkley<3>;
+} // namespace talus

@@ -1,0 +1,33 @@
+#include <talus/base/errors.h>
+#include <talus/materials/shear_band.h>
+
+namespace talus
+{
+  std::string
+  shear_band_note(const Softening   &softening,
+                  const double       cell_size,
+                  const std::string &advice)
+  {
+    const auto numbers = [&](const double h) {
+      return text(softening.strain * h,
+                  " m and ",
+                  softening.work * h,
+                  " J/m^2 on cells of ",
+                  h,
+                  " m");
+    };
+    return text("The material of section ",
+                softening.section,
+                " softens, and a shear band settles in about one row of cells, "
+                "so the results depend on the cell size: the displacement "
+                "across the band that takes away ",
+                softening.share_of_loss,
+                " of the strength there is to lose, and the work per area "
+                "above the strength that remains, are ",
+                numbers(cell_size),
+                ", but ",
+                numbers(cell_size / 2.),
+                ". When you change the cell size, ",
+                advice);
+  }
+} // namespace talus
