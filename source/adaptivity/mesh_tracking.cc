@@ -82,7 +82,7 @@ namespace talus
       for (unsigned int level = at_level; level > 0; --level)
         {
           for (auto &block : blocks)
-            block = Grid<dim>::key_of_parent(block);
+            block = key_of_parent<dim>(block);
           std::sort(blocks.begin(), blocks.end());
           blocks.erase(std::unique(blocks.begin(), blocks.end()), blocks.end());
           wanted.insert(blocks.begin(), blocks.end());
@@ -98,7 +98,7 @@ namespace talus
                 p >>= (level - at_level);
               level = at_level;
             }
-          return wanted.count(Grid<dim>::key_of_place(place, level)) > 0;
+          return wanted.count(key_of_place<dim>(place, level)) > 0;
         },
         spread);
     }
@@ -126,7 +126,7 @@ namespace talus
     Lattice at = lower;
     while (at[dim - 1] <= upper[dim - 1])
       {
-        wanted.insert(Grid<dim>::key_of_place(at, block_level(grid)));
+        wanted.insert(key_of_place<dim>(at, block_level(grid)));
         ++at[0];
         for (unsigned int d = 0; d + 1 < dim && at[d] > upper[d]; ++d)
           {
@@ -174,7 +174,7 @@ namespace talus
             first[d] = block[d] << shift;
             last[d]  = first[d] + (1l << shift) - 1;
           }
-        if (occupied.insert(Grid<dim>::key_of_place(block, at_level)).second)
+        if (occupied.insert(key_of_place<dim>(block, at_level)).second)
           want(grid, first, last, wanted);
       }
     return refine(grid, wanted, /*spread=*/false);

@@ -80,10 +80,11 @@ namespace talus
                                     const unsigned int p,
                                     const unsigned int axes,
                                     const double       cell_size,
-                                    const Box<dim>    &domain) const
+                                    const Grid<dim>   &grid) const
   {
+    const Box<dim> &domain = grid.domain();
     for (unsigned int d = 0; d < dim; ++d)
-      if (axes & (1u << d))
+      if ((axes & (1u << d)) && !grid.periodicity().along(d))
         {
           const double x       = points.data(points.position, d)[p];
           const double quarter = 0.25 * points.data(points.stretch, d)[p] *
@@ -231,7 +232,7 @@ namespace talus
               continue;
             if (directions_ == "all")
               axes = (1u << dim) - 1;
-            if (!daughters_may_stay(points, p, axes, cell_size, grid.domain()))
+            if (!daughters_may_stay(points, p, axes, cell_size, grid))
               continue;
             violations_.push_back({p, axes});
             n_daughters += 1u << __builtin_popcount(axes);

@@ -1,3 +1,4 @@
+#include <talus/base/errors.h>
 #include <talus/boundaries/boundaries.h>
 
 namespace talus
@@ -9,10 +10,11 @@ namespace talus
     FaceCondition
     condition_by_name(const std::string &name)
     {
-      return name == "roller"   ? FaceCondition::roller
-             : name == "fixed"  ? FaceCondition::fixed
-             : name == "seabed" ? FaceCondition::seabed
-                                : FaceCondition::free;
+      return name == "roller"     ? FaceCondition::roller
+             : name == "fixed"    ? FaceCondition::fixed
+             : name == "seabed"   ? FaceCondition::seabed
+             : name == "periodic" ? FaceCondition::periodic
+                                  : FaceCondition::free;
     }
   } // namespace
 
@@ -30,15 +32,39 @@ namespace talus
         names_[face],
         "Condition on this face of the mesh: 'free' (a point that crosses it "
         "has left, which is an error), 'roller' (no motion along the normal), "
-        "'fixed' (no motion) or 'seabed' (contact with friction, see the "
-        "section Seabed). In 3-D there are Back (lower z) and Front (upper z), "
+        "'fixed' (no motion), 'seabed' (contact with friction, see the "
+        "section Seabed) or 'periodic' (what leaves here enters through the "
+        "opposite face, which must be periodic, too). In 3-D there are Back "
+        "(lower z) and Front (upper z), "
         "too.",
         this->prm,
-        Patterns::Selection("free|roller|fixed|seabed"));
+        Patterns::Selection("free|roller|fixed|seabed|periodic"));
     parse_parameters_call_back.connect([this]() {
       for (unsigned int face = 0; face < 2 * dim; ++face)
         conditions_[face] = condition_by_name(names_[face]);
     });
+  }
+
+
+
+  template <int dim>
+  std::array<bool, dim>
+  Boundaries<dim>::periodic_axes() const
+  {
+    std::array<bool, dim> axes;
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      {
+        const unsigned int opposite = face ^ 1;
+        axes[face / 2] = (conditions_[face] == FaceCondition::periodic);
+        AssertThrow(!axes[face / 2] ||
+                      conditions_[opposite] == FaceCondition::periodic,
+                    ExcUser("The face '" + face_names[face] +
+                            "' is periodic, but the opposite one is not: "
+                            "'Boundaries/" +
+                            face_names[opposite] + "' is '" + names_[opposite] +
+                            "'. Make both faces periodic or neither."));
+      }
+    return axes;
   }
 
 

@@ -182,7 +182,7 @@ namespace talus
         else
           owner_of_ghost_.push_back(cell->subdomain_id());
         index_of_active_cell_[cell->active_cell_index()] = cells_.size();
-        cell_map_[key_of_place(place, level)]            = cells_.size();
+        cell_map_[key_of_place<dim>(place, level)]       = cells_.size();
         cells_.push_back(data);
         level_of_cell_.push_back(level);
       }
@@ -196,39 +196,11 @@ namespace talus
 
 
 
-  // 6 bits for the level, the rest shared by the axes.
-  template <int dim>
-  unsigned long
-  Grid<dim>::key_of_place(const Lattice &place, const unsigned int level)
-  {
-    constexpr unsigned int bits   = 58 / dim;
-    unsigned long          result = level;
-    for (unsigned int d = 0; d < dim; ++d)
-      result = (result << bits) | static_cast<unsigned long>(place[d]);
-    return result;
-  }
-
-
-
-  template <int dim>
-  unsigned long
-  Grid<dim>::key_of_parent(const unsigned long key)
-  {
-    constexpr unsigned int  bits = 58 / dim;
-    constexpr unsigned long mask = (1ul << bits) - 1;
-    Lattice                 place;
-    for (unsigned int d = 0; d < dim; ++d)
-      place[d] = ((key >> (bits * (dim - 1 - d))) & mask) >> 1;
-    return key_of_place(place, (key >> (bits * dim)) - 1);
-  }
-
-
-
   template <int dim>
   unsigned long
   Grid<dim>::key_of_cell(const unsigned int c) const
   {
-    return key_of_place(place_of_cell(c), level_of_cell_[c]);
+    return key_of_place<dim>(place_of_cell(c), level_of_cell_[c]);
   }
 
 
@@ -295,7 +267,7 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       if (place[d] < 0)
         return numbers::invalid_unsigned_int;
-    return cell_of_key(key_of_place(place, level));
+    return cell_of_key(key_of_place<dim>(place, level));
   }
 
 

@@ -57,10 +57,12 @@ namespace talus
         for (unsigned int d = 0; d < dim; ++d)
           {
             other[d] += offset[d] - 1;
-            inside = inside && other[d] >= 0 && other[d] < extent[d];
+            inside = inside && (periodicity_.along(d) ||
+                                (other[d] >= 0 && other[d] < extent[d]));
           }
         if (!inside)
           continue;
+        periodicity_.wrap(other, extent);
         cell.neighbors[k] = cell_at(other, level);
         if (cell.neighbors[k] == numbers::invalid_unsigned_int)
           cell.uniform = false;
@@ -88,9 +90,10 @@ namespace talus
         for (unsigned int d = 0; d < dim; ++d)
           {
             // Beyond the boundary: the boundary row once more.
-            if (at[d] == 0 && place[d] == 0)
+            const bool folds = !periodicity_.along(d);
+            if (folds && at[d] == 0 && place[d] == 0)
               at[d] = 1;
-            if (at[d] == 3 && place[d] == extent[d] - 1)
+            if (folds && at[d] == 3 && place[d] == extent[d] - 1)
               at[d] = 2;
             neighbor[d] = (at[d] == 0 ? 0 : (at[d] == 3 ? 2 : 1));
             node[d]     = (at[d] >= 2 ? 2 : 1);
@@ -229,7 +232,7 @@ namespace talus
     const Lattice      place  = place_of_cell(c);
     const Lattice      extent = extent_of_lattice(level_of_cell_[c]);
     const unsigned int d = face / 2, side = face % 2;
-    if (place[d] != (side == 0 ? 0 : extent[d] - 1))
+    if (periodicity_.along(d) || place[d] != (side == 0 ? 0 : extent[d] - 1))
       return {};
     std::vector<unsigned int> nodes;
     for (unsigned int v = 0; v < power(2, dim); ++v)

@@ -215,15 +215,44 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// @param graded what makes cells of several sizes; empty if nothing does.
+    template <int dim>
+    void
+    check_one_size(const std::array<bool, dim> &periodic,
+                   const std::string           &graded)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        AssertThrow(!periodic[d] || graded.empty(),
+                    ExcUser("The faces '" + face_names[2 * d] + "' and '" +
+                            face_names[2 * d + 1] +
+                            "' are periodic, which asks for cells of one size, "
+                            "but " +
+                            graded +
+                            ". Change that, or choose another condition for "
+                            "these faces."));
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
-  Grid<dim>::create(const std::array<bool, 2 * dim> &may_move, const bool grow)
+  Grid<dim>::create(const std::array<bool, 2 * dim> &may_move,
+                    const bool                       grow,
+                    const std::array<bool, dim>     &periodic)
   {
     domain_ = {lower_corner_, upper_corner_};
     for (unsigned int d = 0; d < dim; ++d)
       fit_axis(d, may_move[2 * d + 1], 1);
     domain_before_growth_ = domain_;
     parse_refinement_boxes();
+    check_one_size<dim>(periodic,
+                        grow             ? "'Mesh tracking/Enabled' is true"
+                        : boxes_.empty() ? ""
+                                         : "'Grid/Refinement boxes' is '" +
+                                             refinement_boxes_ + "'");
     const unsigned int level = level_of_trees(may_move, grow);
     check_lattice(level);
     adjustment_.clear();
@@ -252,6 +281,9 @@ namespace talus
     triangulation_.clear();
     GridGenerator::subdivided_hyper_rectangle(
       triangulation_, trees, domain_.lower, domain_.upper, /*colorize=*/true);
+    periodicity_ = Periodicity<dim>(periodic, domain_);
+    if (periodicity_.any())
+      periodicity_.join_faces(triangulation_);
   }
 
 
@@ -329,9 +361,11 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                                                    \
-  template void Grid<dim>::create(const std::array<bool, 2 * dim> &, bool); \
-  template void Grid<dim>::refine();                                        \
+#define INSTANTIATE(dim)                                             \
+  template void Grid<dim>::create(const std::array<bool, 2 * dim> &, \
+                                  bool,                              \
+                                  const std::array<bool, dim> &);    \
+  template void Grid<dim>::refine();                                 \
   template bool Grid<dim>::refine(const WantsFiner &, bool);
 
   INSTANTIATE(2)

@@ -99,9 +99,13 @@ namespace talus
   unsigned int
   Grid<dim>::local_node(const types::global_dof_index node) const
   {
-    return owned_nodes_.is_element(node)
-             ? owned_nodes_.index_within_set(node)
-             : owned_nodes_.n_elements() + ghost_nodes_.index_within_set(node);
+    // Cells at an upper periodic face get the nodes of the lower one: those of
+    // their own are never used.
+    const auto twin = twins_.find(node);
+    const auto n    = (twin == twins_.end() ? node : twin->second);
+    return owned_nodes_.is_element(n)
+             ? owned_nodes_.index_within_set(n)
+             : owned_nodes_.n_elements() + ghost_nodes_.index_within_set(n);
   }
 
 
@@ -121,6 +125,12 @@ namespace talus
     Hanging hanging;
     for (const auto &line : constraints.get_lines())
       hanging[line.index] = line.entries;
+    // Cells of one size have no hanging nodes; but of the twin of a node at the
+    // edge of what a rank knows, it may have to ask the owner as well.
+    if (periodicity_.any())
+      for (const auto &[node, twin] :
+           periodicity_.find_twins(dof_handler_, cell_size()))
+        hanging[node] = {{twin, 1.}};
 
     ghost_nodes_ = relevant;
     ghost_nodes_.subtract_set(owned_nodes_);
@@ -140,16 +150,20 @@ namespace talus
     ghost_nodes_.compress();
 
     hanging_nodes_.clear();
+    twins_.clear();
     for (const auto &[node, masters] : hanging)
-      {
-        HangingNode entry{local_node(node), {}};
-        for (const auto &[master, weight] : masters)
-          {
-            Assert(hanging.count(master) == 0, ExcInternalError());
-            entry.masters.emplace_back(local_node(master), weight);
-          }
-        hanging_nodes_.push_back(entry);
-      }
+      if (periodicity_.any())
+        twins_[node] = masters[0].first;
+      else
+        {
+          HangingNode entry{local_node(node), {}};
+          for (const auto &[master, weight] : masters)
+            {
+              Assert(hanging.count(master) == 0, ExcInternalError());
+              entry.masters.emplace_back(local_node(master), weight);
+            }
+          hanging_nodes_.push_back(entry);
+        }
 
     const Utilities::MPI::Partitioner partitioner(owned_nodes_,
                                                   ghost_nodes_,

@@ -52,7 +52,9 @@ namespace talus
     check_read(file);
     check_parameter_changes(parameters, parameters_as_text(this->prm));
 
-    grid_.create(faces_that_may_move(), mesh_tracking_.is_enabled());
+    grid_.create(faces_that_may_move(),
+                 mesh_tracking_.is_enabled(),
+                 boundaries_.periodic_axes());
     grid_.load((resumed_from_.path / mesh_file_name).string());
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int n_ranks_then = resumed_from_.head.n_ranks;

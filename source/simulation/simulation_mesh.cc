@@ -13,7 +13,9 @@ namespace talus
   void
   Simulation<dim>::create_mesh()
   {
-    grid_.create(faces_that_may_move(), mesh_tracking_.is_enabled());
+    grid_.create(faces_that_may_move(),
+                 mesh_tracking_.is_enabled(),
+                 boundaries_.periodic_axes());
     if (mesh_tracking_.is_enabled())
       {
         std::vector<Box<dim>> boxes;

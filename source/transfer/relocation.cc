@@ -20,6 +20,27 @@ namespace talus
         x[d] = points.data(points.position, d)[p];
       return x;
     }
+
+
+
+    /// Move a point that lies beyond a periodic face to where it enters.
+    template <int dim>
+    void
+    wrap(Points<dim>            &points,
+         const Periodicity<dim> &periodicity,
+         const unsigned int      p)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          double      &x     = points.data(points.position, d)[p];
+          const double shift = periodicity.shift(d, x);
+          if (shift != 0)
+            {
+              x -= shift;
+              points.data(points.initial_position, d)[p] -= shift;
+            }
+        }
+    }
   } // namespace
 
 
@@ -127,8 +148,9 @@ namespace talus
 
   template <int dim>
   void
-  Relocation<dim>::find_movers(const Points<dim> &points, const Grid<dim> &grid)
+  Relocation<dim>::find_movers(Points<dim> &points, const Grid<dim> &grid)
   {
+    const bool wraps = grid.periodicity().any();
     movers_.clear();
     for (const Segment &segment : points.segments())
       {
@@ -144,15 +166,22 @@ namespace talus
               }
             if (__builtin_expect(is_inside, 1))
               continue;
+            if (wraps)
+              wrap(points, grid.periodicity(), p);
             const unsigned int c = locate(points, grid, p, segment.cell);
             if (c != segment.cell)
               movers_.push_back({c, segment.body, p});
           }
       }
     for (unsigned int p = points.n_sorted(); p < points.size(); ++p)
-      movers_.push_back({cell_of(points, grid, p),
-                         static_cast<unsigned int>(points.data(points.body)[p]),
-                         p});
+      {
+        if (wraps)
+          wrap(points, grid.periodicity(), p);
+        movers_.push_back(
+          {cell_of(points, grid, p),
+           static_cast<unsigned int>(points.data(points.body)[p]),
+           p});
+      }
   }
 
 

@@ -54,10 +54,12 @@ namespace talus
 
 
 
+    /// @param lower corner of the cell or, across a periodic face, of its image.
     template <int dim>
     void
     add_cell(const Grid<dim>              &grid,
              const Cell<dim>              &cell,
+             const Point<dim>             &lower,
              const Point<dim>             &centre,
              const Tensor<1, dim>         &half,
              std::vector<NodeWeight<dim>> &weights)
@@ -67,12 +69,13 @@ namespace talus
       std::array<CellShare, dim> share;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const bool lowest = cell.lower[d] < domain.lower[d] + eps;
+          const bool ends   = !grid.periodicity().along(d);
+          const bool lowest = ends && lower[d] < domain.lower[d] + eps;
           const bool highest =
-            cell.lower[d] + cell.size > domain.upper[d] - eps;
+            ends && lower[d] + cell.size > domain.upper[d] - eps;
           share[d] = share_of_cell(centre[d] - half[d],
                                    centre[d] + half[d],
-                                   cell.lower[d],
+                                   lower[d],
                                    cell.size,
                                    lowest,
                                    highest);
@@ -115,13 +118,22 @@ namespace talus
     const Cell<dim> &cell = grid.cells()[c];
     if (cell.uniform)
       {
-        for (const unsigned int n : cell.neighbors)
-          if (n != numbers::invalid_unsigned_int)
-            add_cell(grid, grid.cells()[n], centre, half, weights);
+        for (unsigned int k = 0; k < cell.neighbors.size(); ++k)
+          if (const unsigned int n = cell.neighbors[k];
+              n != numbers::invalid_unsigned_int)
+            {
+              Point<dim> lower = cell.lower;
+              for (unsigned int d = 0; d < dim; ++d)
+                lower[d] += (k / power(3, d) % 3 - 1.) * cell.size;
+              add_cell(grid, grid.cells()[n], lower, centre, half, weights);
+            }
       }
     else
       for (const unsigned int n : grid.touching_cells(c))
-        add_cell(grid, grid.cells()[n], centre, half, weights);
+        {
+          const Cell<dim> &touching = grid.cells()[n];
+          add_cell(grid, touching, touching.lower, centre, half, weights);
+        }
   }
 
 

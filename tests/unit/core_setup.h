@@ -51,7 +51,7 @@ struct Core : FreshParameters
     dealii::ParameterAcceptor::prm.parse_input_from_string(text);
     dealii::ParameterAcceptor::parse_all_parameters();
     grid.check();
-    grid.create(may_move);
+    grid.create(may_move, false, boundaries.periodic_axes());
     grid.refine();
     grid.prepare();
     nodes.prepare(grid);

@@ -86,7 +86,7 @@ namespace talus
                        unsigned int       p,
                        unsigned int       axes,
                        double             cell_size,
-                       const Box<dim>    &domain) const;
+                       const Grid<dim>   &grid) const;
     /// The same where the point's old cell is not uniform; sets the size of the
     /// cell it is in now.
     unsigned int

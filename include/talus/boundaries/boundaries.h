@@ -14,10 +14,11 @@ namespace talus
 {
   enum class FaceCondition
   {
-    free,   ///< nothing; a point that crosses the face has left
-    roller, ///< no motion along the normal, in either direction
-    fixed,  ///< no motion
-    seabed  ///< one-sided contact with friction
+    free,    ///< nothing; a point that crosses the face has left
+    roller,  ///< no motion along the normal, in either direction
+    fixed,   ///< no motion
+    seabed,  ///< one-sided contact with friction
+    periodic ///< what leaves here enters through the opposite face
   };
 
   /// Conditions on the faces of the mesh.
@@ -32,6 +33,10 @@ namespace talus
     {
       return conditions_[face];
     }
+
+    /// Axes whose two faces are periodic. Throws ExcUser if only one is.
+    std::array<bool, dim>
+    periodic_axes() const;
 
     /// Change the velocities of the active nodes on the faces as their
     /// conditions ask, after the momentum update of a step of @p dt. Nodes with

@@ -3,6 +3,7 @@
 
 #include <talus/base/box.h>
 #include <talus/grid/cell.h>
+#include <talus/grid/periodicity.h>
 
 #include <deal.II/base/index_set.h>
 #include <deal.II/base/parameter_acceptor.h>
@@ -17,6 +18,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -48,9 +50,7 @@ namespace talus
     void
     check() const;
 
-    /// Place of a cell in the lattice of its level: how many cells of its size
-    /// lie before it along each axis.
-    using Lattice = std::array<long, dim>;
+    using Lattice = talus::Lattice<dim>;
 
     /// Whether something in the cell at this place and level asks for smaller
     /// cells.
@@ -60,10 +60,12 @@ namespace talus
     /// Lay out the domain and its coarsest cells from the parameters.
     /// @p may_move tells for each face (see face_names) whether it may be moved
     /// outwards when the extent is not a multiple of the cell size, or, if
-    /// cells are to @p grow far from soil, of the largest cells. Throws ExcUser
-    /// if that cannot be done.
+    /// cells are to @p grow far from soil, of the largest cells; along
+    /// @p periodic axes the mesh repeats. Throws ExcUser if that cannot be done.
     void
-    create(const std::array<bool, 2 * dim> &may_move, bool grow = false);
+    create(const std::array<bool, 2 * dim> &may_move,
+           bool                             grow     = false,
+           const std::array<bool, dim>     &periodic = {});
 
     /// Divide all cells down to h, and further in the refinement boxes.
     void
@@ -117,6 +119,12 @@ namespace talus
     domain_before_growth() const
     {
       return domain_before_growth_;
+    }
+
+    const Periodicity<dim> &
+    periodicity() const
+    {
+      return periodicity_;
     }
 
     /// Edge h of the cells where nothing asks for smaller ones, m.
@@ -232,14 +240,6 @@ namespace talus
     Lattice
     extent_of_lattice(unsigned int level) const;
 
-    /// One number for a place in the lattice of a level, whether or not there is
-    /// a cell, and that for what contains it on the level above.
-    static unsigned long
-    key_of_place(const Lattice &place, unsigned int level);
-
-    static unsigned long
-    key_of_parent(unsigned long key);
-
     /// Whether the points of an owned cell may touch a node of a cell larger
     /// than h.
     bool
@@ -349,10 +349,8 @@ namespace talus
     mark_boundary_nodes(NodalExchange<dim> &exchange);
     std::vector<unsigned int>
     nodes_on_face(unsigned int c, unsigned int face) const;
-
     void
     find_larger_cells(NodalExchange<dim> &exchange);
-
     unsigned int
     cell_at(const Lattice &place, unsigned int level) const;
 
@@ -372,6 +370,7 @@ namespace talus
     unsigned int                                      base_level_  = 0;
     double                                            finest_size_ = 0;
     std::vector<RefinementBox<dim>>                   boxes_;
+    Periodicity<dim>                                  periodicity_;
     dealii::parallel::distributed::Triangulation<dim> triangulation_;
     dealii::FE_Q<dim>                                 fe_;
     dealii::DoFHandler<dim>                           dof_handler_;
@@ -393,6 +392,8 @@ namespace talus
     std::array<std::unordered_map<unsigned int, FaceShare>, 2 * dim>
                              face_shares_;
     std::vector<HangingNode> hanging_nodes_;
+    std::map<dealii::types::global_dof_index, dealii::types::global_dof_index>
+      twins_; ///< of nodes on upper periodic faces
   };
 } // namespace talus
 

@@ -1,0 +1,41 @@
+#include <talus/grid/lattice.h>
+
+namespace talus
+{
+  // 6 bits for the level, the rest shared by the axes.
+  template <int dim>
+  unsigned long
+  key_of_place(const Lattice<dim> &place, const unsigned int level)
+  {
+    constexpr unsigned int bits   = 58 / dim;
+    unsigned long          result = level;
+    for (unsigned int d = 0; d < dim; ++d)
+      result = (result << bits) | static_cast<unsigned long>(place[d]);
+    return result;
+  }
+
+
+
+  template <int dim>
+  unsigned long
+  key_of_parent(const unsigned long key)
+  {
+    constexpr unsigned int  bits = 58 / dim;
+    constexpr unsigned long mask = (1ul << bits) - 1;
+    Lattice<dim>            place;
+    for (unsigned int d = 0; d < dim; ++d)
+      place[d] = ((key >> (bits * (dim - 1 - d))) & mask) >> 1;
+    return key_of_place<dim>(place, (key >> (bits * dim)) - 1);
+  }
+
+
+
+  template unsigned long
+  key_of_place<2>(const Lattice<2> &, unsigned int);
+  template unsigned long
+  key_of_place<3>(const Lattice<3> &, unsigned int);
+  template unsigned long
+  key_of_parent<2>(unsigned long);
+  template unsigned long
+  key_of_parent<3>(unsigned long);
+} // namespace talus
