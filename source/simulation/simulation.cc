@@ -96,7 +96,7 @@ namespace talus
   {
     grid_.check();
     transfer_.check();
-    output_.check();
+    output_.check(damping_.coefficient());
     std::vector<std::string> names, materials;
     for (const auto &body : bodies_)
       {
@@ -106,6 +106,7 @@ namespace talus
     materials_.assign(names, materials);
     materials_.add_columns(points_);
     loading_.prepare(materials_, bodies_.size(), constants_);
+    boundaries_.prepare(constants_);
 
     const auto                  may_move = faces_that_may_move();
     std::array<double, 2 * dim> may_lie_outside;
@@ -234,8 +235,11 @@ namespace talus
     Assert(nobody_is_lost(points_, nodes_, grid_.communicator()),
            ExcMessage("The nodes do not carry all mass of the points: a box "
                       "reaches beyond the cells around its own."));
+    boundaries_.add_tractions(nodes_, grid_, time_, least_mass_);
     nodes_.update_momentum(dt_, least_mass_);
-    boundary_work_ += boundaries_.apply(nodes_, grid_, dt_, least_mass_);
+    boundary_work_.damping +=
+      damping_.apply(nodes_, grid_, boundaries_, least_mass_);
+    boundary_work_ += boundaries_.apply(nodes_, grid_, time_, dt_, least_mass_);
     nodes_.share_with_ghosts(grid_);
   }
 
@@ -311,74 +315,6 @@ namespace talus
           return false;
       }
     return true;
-  }
-
-
-
-  template <int dim>
-  void
-  Simulation<dim>::note_start()
-  {
-    const auto extent  = grid_.extent_of_lattice(grid_.base_level());
-    double     n_cells = 1;
-    for (const long n : extent)
-      n_cells *= n;
-    const bool is_uniform =
-      (n_cells == grid_.triangulation().n_global_active_cells());
-    if (!title_.empty())
-      output_.note(title_, true);
-    output_.note(text("The mesh fills (",
-                      grid_.domain().lower,
-                      ") to (",
-                      grid_.domain().upper,
-                      ") m with ",
-                      grid_.triangulation().n_global_active_cells(),
-                      " cells",
-                      is_uniform ? " of " : ", the smallest of ",
-                      grid_.finest_size(),
-                      " m; there are ",
-                      Utilities::MPI::sum(points_.size(), grid_.communicator()),
-                      " points.",
-                      grid_.adjustment()),
-                 true);
-    note_time_step();
-  }
-
-
-
-  template <int dim>
-  void
-  Simulation<dim>::note_time_step()
-  {
-    const MPI_Comm     communicator = grid_.communicator();
-    const BoxShape    &shape        = transfer_.box_shape();
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const double       dt =
-      Utilities::MPI::min(time_step_.choose(points_, grid_, materials_, shape),
-                          communicator);
-    std::string sentence =
-      text("t = ",
-           time_,
-           " s: the time step is ",
-           dt,
-           " s, limited by ",
-           time_step_.limited_by(points_, grid_, materials_, shape),
-           ".");
-    if (n_mesh_changes_ > 0)
-      sentence += text(" The mesh changed ",
-                       n_mesh_changes_,
-                       " times and has ",
-                       grid_.triangulation().n_global_active_cells(),
-                       " cells.");
-    if (n_ranks > 1)
-      sentence += text(" The largest share of points of the ",
-                       n_ranks,
-                       " ranks is ",
-                       LoadBalance<dim>::imbalance(points_, communicator),
-                       " times the mean; cells were shared out ",
-                       n_repartitions_,
-                       " times.");
-    output_.note(sentence, step_ == 0);
   }
 
 
