@@ -1,70 +1,167 @@
-#include <talus/base/errors.h>
 #include <talus/boundaries/boundaries.h>
+#include <talus/boundaries/contact_area.h>
+
+#include <algorithm>
 
 namespace talus
 {
   using namespace dealii;
 
-  namespace
-  {
-    FaceCondition
-    condition_by_name(const std::string &name)
-    {
-      return name == "roller"     ? FaceCondition::roller
-             : name == "fixed"    ? FaceCondition::fixed
-             : name == "seabed"   ? FaceCondition::seabed
-             : name == "periodic" ? FaceCondition::periodic
-                                  : FaceCondition::free;
-    }
-  } // namespace
-
-
-
   template <int dim>
-  Boundaries<dim>::Boundaries()
-    : ParameterAcceptor("/Boundaries")
+  void
+  Boundaries<dim>::locate_nodes(const Grid<dim> &grid)
   {
-    names_.fill("free");
-    conditions_.fill(FaceCondition::free);
-    for (unsigned int face = 0; face < 2 * dim; ++face)
-      add_parameter(
-        face_names[face],
-        names_[face],
-        "Condition on this face of the mesh: 'free' (a point that crosses it "
-        "has left, which is an error), 'roller' (no motion along the normal), "
-        "'fixed' (no motion), 'seabed' (contact with friction, see the "
-        "section Seabed) or 'periodic' (what leaves here enters through the "
-        "opposite face, which must be periodic, too). In 3-D there are Back "
-        "(lower z) and Front (upper z), "
-        "too.",
-        this->prm,
-        Patterns::Selection("free|roller|fixed|seabed|periodic"));
-    parse_parameters_call_back.connect([this]() {
-      for (unsigned int face = 0; face < 2 * dim; ++face)
-        conditions_[face] = condition_by_name(names_[face]);
-    });
+    places_.clear();
+    const auto is_given = [](const auto &expression) {
+      return expression != nullptr;
+    };
+    if (std::none_of(velocities_.begin(), velocities_.end(), is_given) &&
+        std::none_of(tractions_.begin(), tractions_.end(), is_given))
+      return;
+    places_.resize(grid.n_owned_nodes());
+    // Each owned node is the corner of an owned cell. Counted on the lattice,
+    // a place does not depend on which.
+    for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+      {
+        const Cell<dim> &cell  = grid.cells()[c];
+        const auto       place = grid.place_of_cell(c);
+        for (unsigned int v = 0; v < power(2, dim); ++v)
+          {
+            Point<dim>   x;
+            unsigned int at = 0;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const unsigned int side = (v >> d) & 1;
+                at += (1 + side) * power(4, d);
+                x[d] = grid.domain().lower[d] + (place[d] + side) * cell.size;
+              }
+            if (cell.patch[at] < grid.n_owned_nodes())
+              places_[cell.patch[at]] = x;
+          }
+      }
   }
 
 
 
   template <int dim>
-  std::array<bool, dim>
-  Boundaries<dim>::periodic_axes() const
+  template <typename Action>
+  void
+  Boundaries<dim>::for_faces_with(const FaceCondition condition,
+                                  const unsigned char faces,
+                                  const Action       &action) const
   {
-    std::array<bool, dim> axes;
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      {
-        const unsigned int opposite = face ^ 1;
-        axes[face / 2] = (conditions_[face] == FaceCondition::periodic);
-        AssertThrow(!axes[face / 2] ||
-                      conditions_[opposite] == FaceCondition::periodic,
-                    ExcUser("The face '" + face_names[face] +
-                            "' is periodic, but the opposite one is not: "
-                            "'Boundaries/" +
-                            face_names[opposite] + "' is '" + names_[opposite] +
-                            "'. Make both faces periodic or neither."));
-      }
-    return axes;
+      if ((faces & (1u << face)) && conditions_[face] == condition)
+        action(face);
+  }
+
+
+
+  template <int dim>
+  unsigned char
+  Boundaries<dim>::held_components(const unsigned char faces) const
+  {
+    constexpr unsigned char all    = (1u << dim) - 1;
+    unsigned char           result = 0;
+    for_faces_with(FaceCondition::fixed, faces, [&](unsigned int) {
+      result = all;
+    });
+    for_faces_with(FaceCondition::seabed, faces, [&](unsigned int) {
+      result = all;
+    });
+    for_faces_with(FaceCondition::roller, faces, [&](const unsigned int face) {
+      result |= 1u << (face / 2);
+    });
+    for_faces_with(FaceCondition::velocity,
+                   faces,
+                   [&](const unsigned int face) {
+                     for (unsigned int d = 0; d < dim; ++d)
+                       if (velocities_[face]->prescribes(d))
+                         result |= 1u << d;
+                   });
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  Boundaries<dim>::Held::hold(const unsigned int component, const double value)
+  {
+    is_held[component]  = true;
+    velocity[component] = value;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Boundaries<dim>::Held::impose(NodalFields<dim>  &nodes,
+                                const unsigned int node) const
+  {
+    Tensor<1, dim> v = nodes.velocity(node);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (is_held[d])
+        v[d] = velocity[d];
+    return nodes.set_velocity(node, v);
+  }
+
+
+
+  /// What walls prescribe for a node on these faces at time @p t.
+  template <int dim>
+  typename Boundaries<dim>::Held
+  Boundaries<dim>::held_velocity(const unsigned char faces,
+                                 const unsigned int  node,
+                                 const double        t)
+  {
+    Held held;
+    for_faces_with(
+      FaceCondition::velocity, faces, [&](const unsigned int face) {
+        for (unsigned int d = 0; d < dim; ++d)
+          if (velocities_[face]->prescribes(d) &&
+              (!held.is_held[d] || d == face / 2))
+            held.hold(d, velocities_[face]->value(places_[node], t, d));
+      });
+    for_faces_with(FaceCondition::roller, faces, [&](const unsigned int face) {
+      held.hold(face / 2, 0.);
+    });
+    for_faces_with(FaceCondition::fixed, faces, [&](unsigned int) {
+      for (unsigned int d = 0; d < dim; ++d)
+        held.hold(d, 0.);
+    });
+    return held;
+  }
+
+
+
+  template <int dim>
+  void
+  Boundaries<dim>::add_tractions(NodalFields<dim> &nodes,
+                                 const Grid<dim>  &grid,
+                                 const double      t,
+                                 const double      least_mass)
+  {
+    loaded_.clear();
+    if (std::count(conditions_.begin(),
+                   conditions_.end(),
+                   FaceCondition::traction) == 0)
+      return;
+    for (const unsigned int node : nodes.active_boundary_nodes())
+      if (nodes.mass(node) > least_mass)
+        for_faces_with(
+          FaceCondition::traction,
+          grid.faces_of_node(node),
+          [&](const unsigned int face) {
+            const double   area = contact_area(nodes, grid, face, node);
+            Tensor<1, dim> force;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                force[d] = area * tractions_[face]->value(places_[node], t, d);
+                nodes.sum(node)[NodalSum<dim>::force + d] += force[d];
+              }
+            loaded_.emplace_back(node, force);
+          });
   }
 
 
@@ -74,38 +171,24 @@ namespace talus
   Boundaries<dim>::apply_to_node(NodalFields<dim>  &nodes,
                                  const Grid<dim>   &grid,
                                  const unsigned int node,
+                                 const double       t,
                                  const double       dt,
-                                 BoundaryWork<dim> &work) const
+                                 BoundaryWork<dim> &work)
   {
     const unsigned char faces = grid.faces_of_node(node);
     Tensor<1, dim>      contact, friction, wall;
-    const auto          for_faces_with = [&](const FaceCondition condition,
-                                    const auto         &action) {
-      for (unsigned int face = 0; face < 2 * dim; ++face)
-        if ((faces & (1u << face)) && conditions_[face] == condition)
-          action(face);
-    };
-    bool is_fixed = false;
-    for_faces_with(FaceCondition::fixed,
-                   [&](const unsigned int) { is_fixed = true; });
-    if (is_fixed)
-      wall += nodes.set_velocity(node, Tensor<1, dim>());
-    else
-      {
-        // Rollers first: what they hold must not use up the friction. The
-        // seabed's impulses have no component along their normals.
-        for_faces_with(FaceCondition::roller, [&](const unsigned int face) {
-          Tensor<1, dim> velocity = nodes.velocity(node);
-          velocity[face / 2]      = 0;
-          wall += nodes.set_velocity(node, velocity);
-        });
-        for_faces_with(FaceCondition::seabed, [&](const unsigned int face) {
-          const auto [normal, tangential] =
-            seabed_.apply(nodes, grid, face, node, dt);
-          contact += normal;
-          friction += tangential;
-        });
-      }
+
+    // Walls before the seabed: what a wall holds must not use up the friction.
+    const Held held = held_velocity(faces, node, t + 0.5 * dt);
+    wall += held.impose(nodes, node);
+    for_faces_with(FaceCondition::seabed, faces, [&](const unsigned int face) {
+      const auto [normal, tangential] =
+        seabed_.apply(nodes, grid, face, node, dt);
+      contact += normal;
+      friction += tangential;
+    });
+    // Nor does friction brake what a wall drives: the wall takes it up.
+    wall += held.impose(nodes, node);
 
     const Tensor<1, dim> v = nodes.mean_velocity(node);
     work.friction -= friction * v;
@@ -120,13 +203,19 @@ namespace talus
   BoundaryWork<dim>
   Boundaries<dim>::apply(NodalFields<dim> &nodes,
                          const Grid<dim>  &grid,
+                         const double      t,
                          const double      dt,
-                         const double      least_mass) const
+                         const double      least_mass)
   {
     BoundaryWork<dim> work;
     for (const unsigned int node : nodes.active_boundary_nodes())
       if (nodes.mass(node) > least_mass)
-        apply_to_node(nodes, grid, node, dt, work);
+        apply_to_node(nodes, grid, node, t, dt, work);
+    for (const auto &[node, force] : loaded_)
+      {
+        work.contact -= dt * force * nodes.mean_velocity(node);
+        work.wall_impulse += dt * force;
+      }
     return work;
   }
 

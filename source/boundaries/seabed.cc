@@ -1,3 +1,4 @@
+#include <talus/boundaries/contact_area.h>
 #include <talus/boundaries/seabed.h>
 
 #include <algorithm>
@@ -46,13 +47,10 @@ namespace talus
     Tensor<1, dim> v_t = trial;
     v_t[axis]          = 0;
     const double speed = v_t.norm();
-    const auto  &share = grid.face_share(face, node);
-    const double filling =
-      std::min(1., nodes.sum(node)[NodalSum<dim>::volume] / share.volume);
     const double friction =
       std::min({mass * speed / dt,
                 friction_coefficient_ * normal_force,
-                maximum_shear_stress_ * share.area * filling});
+                maximum_shear_stress_ * contact_area(nodes, grid, face, node)});
 
     Tensor<1, dim> normal_impulse;
     normal_impulse[axis] = -outwards * mass * v_n;

@@ -42,18 +42,26 @@ namespace talus
     sum_terms(const Snapshot<dim> &snapshot)
     {
       const Points<dim>    &points = snapshot.points;
-      std::array<double, 7> sums   = {{kinetic_energy(points),
+      std::array<double, 8> sums   = {{kinetic_energy(points),
                                        snapshot.nodes.kinetic_energy(),
                                        total(points, points.elastic_energy),
                                        total(points, points.plastic_work),
                                        snapshot.boundary_work.friction,
                                        snapshot.boundary_work.contact,
+                                       snapshot.boundary_work.damping,
                                        snapshot.gravity_work}};
       Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
                           snapshot.grid.communicator(),
                           ArrayView<double>(sums.data(), sums.size()));
-      return {
-        sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], 0.};
+      return {sums[0],
+              sums[1],
+              sums[2],
+              sums[3],
+              sums[4],
+              sums[5],
+              sums[6],
+              sums[7],
+              0.};
     }
   } // namespace
 
@@ -76,7 +84,8 @@ namespace talus
     now.remainder =
       (now.gravity - start_.gravity) - (now.kinetic - start_.kinetic) -
       (now.elastic - start_.elastic) - (now.plastic - start_.plastic) -
-      (now.friction - start_.friction) - (now.contact - start_.contact);
+      (now.friction - start_.friction) - (now.contact - start_.contact) -
+      (now.damping - start_.damping);
     return now;
   }
 
@@ -95,6 +104,7 @@ namespace talus
     add("plastic work", start_.plastic);
     add("friction work", start_.friction);
     add("contact work", start_.contact);
+    add("damping work", start_.damping);
     add("gravity work", start_.gravity);
   }
 

@@ -53,6 +53,13 @@ namespace talus
                   "opened by points.xdmf and grid.xdmf.",
                   this->prm,
                   Patterns::Selection("vtu|hdf5"));
+    add_parameter("Runout",
+                  write_runout_,
+                  "Write what tells the runout: the columns of front and rear "
+                  "in statistics.csv, and profile.csv. Not with damping, which "
+                  "falsifies the runout.");
+    parse_parameters_call_back.connect(
+      [this]() { statistics_.show_runout(write_runout_); });
   }
 
 
@@ -72,11 +79,18 @@ namespace talus
 
   template <int dim>
   void
-  Output<dim>::check() const
+  Output<dim>::check(const double local_damping) const
   {
     AssertThrow(!folder_.empty(),
                 ExcUser("Output/Folder is empty, but the name of a folder is "
                         "expected. Name one there or with --output."));
+    AssertThrow(local_damping == 0 || !write_runout_,
+                ExcUser(text("'Damping/Local damping' is ",
+                             local_damping,
+                             ", but artificial damping falsifies the runout, "
+                             "which is to be written. Set Output/Runout = "
+                             "false to go without it, or Damping/Local damping "
+                             "= 0.")));
   }
 
 
@@ -104,7 +118,8 @@ namespace talus
     statistics_.begin(folder_, snapshot, beginning);
 
     field_times_.begin(field_interval_, snapshot.time);
-    profile_.begin(folder_, snapshot.grid, beginning);
+    if (write_runout_)
+      profile_.begin(folder_, snapshot.grid, beginning);
     const FieldFormat format =
       (format_ == "hdf5" ? FieldFormat::hdf5 : FieldFormat::vtu);
     points_output_.begin(
@@ -148,7 +163,7 @@ namespace talus
         complaint =
           statistics_.file().cannot_resume(folder / statistics_.file_name,
                                            columns);
-        if (complaint.empty())
+        if (complaint.empty() && write_runout_)
           complaint = profile_.file().cannot_resume(folder / profile_.file_name,
                                                     profile_.names());
       }
@@ -165,7 +180,8 @@ namespace talus
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
       return;
     statistics_.file().sync();
-    profile_.file().sync();
+    if (write_runout_)
+      profile_.file().sync();
     // The names of the field files, which a checkpoint lists.
     sync_to_disk(folder_);
   }
@@ -227,7 +243,8 @@ namespace talus
   Output<dim>::write_fields(const Snapshot<dim> &snapshot)
   {
     const TimerOutput::Scope scope(timer_, "output");
-    profile_.add_rows(snapshot);
+    if (write_runout_)
+      profile_.add_rows(snapshot);
     if (write_points_)
       points_output_.write(snapshot);
     if (write_grid_)

@@ -105,6 +105,7 @@ namespace talus
                   {"plastic work [J]", energy.plastic},
                   {"friction work [J]", energy.friction},
                   {"contact work [J]", energy.contact},
+                  {"damping work [J]", energy.damping},
                   {"gravity work [J]", energy.gravity},
                   {"energy remainder [J]", energy.remainder}});
     }
@@ -216,16 +217,17 @@ namespace talus
                           communicator);
     const double interval = snapshot.time - previous_time_;
 
-    std::vector<Quantity> row = {
-      {"time [s]", snapshot.time},
-      {"step", static_cast<double>(snapshot.step)},
-      {"time step [s]", snapshot.time_step},
-      {"points", motion.n_points},
-      {"front x [m]", motion.front},
-      {"front of 99.5 % mass x [m]",
-       front_of_mass(snapshot.points, 0.995, communicator)},
-      {"rear x [m]", motion.rear},
-      {"height [m]", motion.top - snapshot.grid.domain().lower[1]}};
+    std::vector<Quantity> row = {{"time [s]", snapshot.time},
+                                 {"step", static_cast<double>(snapshot.step)},
+                                 {"time step [s]", snapshot.time_step},
+                                 {"points", motion.n_points}};
+    if (has_runout_)
+      row.insert(row.end(),
+                 {{"front x [m]", motion.front},
+                  {"front of 99.5 % mass x [m]",
+                   front_of_mass(snapshot.points, 0.995, communicator)},
+                  {"rear x [m]", motion.rear}});
+    row.push_back({"height [m]", motion.top - snapshot.grid.domain().lower[1]});
     append<dim>(row, "centre", " [m]", motion.moment / motion.mass);
     append<dim>(row,
                 "centre velocity",

@@ -21,6 +21,7 @@ namespace talus
     list.add("gravity work", "J", gravity_work_, Reduction::sum);
     list.add("friction work", "J", boundary_work_.friction, Reduction::sum);
     list.add("contact work", "J", boundary_work_.contact, Reduction::sum);
+    list.add("damping work", "J", boundary_work_.damping, Reduction::sum);
     list.add_components("seabed impulse",
                         "N s",
                         boundary_work_.seabed_impulse,

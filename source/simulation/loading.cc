@@ -24,6 +24,13 @@ namespace talus
                   "points down the slope.",
                   this->prm,
                   Patterns::Double(-90., 90.));
+    add_parameter("Ramp time",
+                  ramp_time,
+                  "Time over which gravity grows from 0 to its magnitude, "
+                  "smoothly by half a cosine [s]; 0 for full gravity from the "
+                  "start.",
+                  this->prm,
+                  Patterns::Double(0.));
   }
 
 
@@ -66,17 +73,28 @@ namespace talus
 
 
   template <int dim>
+  double
+  Loading<dim>::ramp(const double t) const
+  {
+    return t < gravity_.ramp_time
+             ? 0.5 * (1. - std::cos(numbers::PI * t / gravity_.ramp_time))
+             : 1.;
+  }
+
+
+
+  template <int dim>
   void
   Loading<dim>::prepare(const Materials<dim> &materials,
                         const unsigned int    n_bodies,
                         const Constants      &constants)
   {
-    loads_.acceleration_of_body.clear();
+    full_.clear();
     for (unsigned int b = 0; b < n_bodies; ++b)
-      loads_.acceleration_of_body.push_back(
-        materials.of_body(b).submerged_density() /
-        materials.of_body(b).density() * gravity());
-    loads_.varies = !body_force_.expression.empty();
+      full_.push_back(materials.of_body(b).submerged_density() /
+                      materials.of_body(b).density() * gravity());
+    loads_.acceleration_of_body = full_;
+    loads_.varies               = !body_force_.expression.empty();
     if (loads_.varies)
       expression_ = std::make_unique<Expression<dim>>("'Body force/Expression'",
                                                       body_force_.expression,
@@ -90,6 +108,8 @@ namespace talus
   void
   Loading<dim>::update(Points<dim> &points, const double t)
   {
+    for (unsigned int b = 0; b < full_.size(); ++b)
+      loads_.acceleration_of_body[b] = ramp(t) * full_[b];
     if (!loads_.varies)
       return;
     const unsigned int coordinates = body_force_.coordinates == "material"

@@ -53,7 +53,8 @@ namespace talus
     is_harmless(const std::string &path)
     {
       // A series of files has one index, which knows one format.
-      if (path == "Output/Format")
+      // The columns of a table cannot change.
+      if (path == "Output/Format" || path == "Output/Runout")
         return false;
       for (const std::string name :
            {"Title", "End time", "Splitting/Maximum number of points"})

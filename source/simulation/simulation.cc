@@ -96,7 +96,7 @@ namespace talus
   {
     grid_.check();
     transfer_.check();
-    output_.check();
+    output_.check(damping_.coefficient());
     std::vector<std::string> names, materials;
     for (const auto &body : bodies_)
       {
@@ -106,6 +106,7 @@ namespace talus
     materials_.assign(names, materials);
     materials_.add_columns(points_);
     loading_.prepare(materials_, bodies_.size(), constants_);
+    boundaries_.prepare(constants_);
 
     const auto                  may_move = faces_that_may_move();
     std::array<double, 2 * dim> may_lie_outside;
@@ -234,8 +235,11 @@ namespace talus
     Assert(nobody_is_lost(points_, nodes_, grid_.communicator()),
            ExcMessage("The nodes do not carry all mass of the points: a box "
                       "reaches beyond the cells around its own."));
+    boundaries_.add_tractions(nodes_, grid_, time_, least_mass_);
     nodes_.update_momentum(dt_, least_mass_);
-    boundary_work_ += boundaries_.apply(nodes_, grid_, dt_, least_mass_);
+    boundary_work_.damping +=
+      damping_.apply(nodes_, grid_, boundaries_, least_mass_);
+    boundary_work_ += boundaries_.apply(nodes_, grid_, time_, dt_, least_mass_);
     nodes_.share_with_ghosts(grid_);
   }
 

@@ -73,6 +73,7 @@ namespace talus
   {
     grid_.prepare();
     nodes_.prepare(grid_);
+    boundaries_.locate_nodes(grid_);
     relocation_.rebuild(points_, grid_);
     settle();
     least_mass_ = transfer_.least_mass(least_density(), grid_.finest_size());
@@ -127,6 +128,7 @@ namespace talus
     ++n_repartitions_;
     const auto cells = load_balance_.repartition(grid_, points_);
     nodes_.prepare(grid_);
+    boundaries_.locate_nodes(grid_);
     relocation_.rebuild(points_, cells);
     settle();
   }

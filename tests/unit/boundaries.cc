@@ -43,7 +43,7 @@ namespace
         }
       nodes.update_momentum(dt, 0.);
       kinetic_energy_before = 0.5 * mass * before.norm_square();
-      work                  = this->boundaries.apply(nodes, this->grid, dt, 0.);
+      work = this->boundaries.apply(nodes, this->grid, 0., dt, 0.);
       // Work is taken with the mean of the velocities before and after.
       force_work = mass * (trial - before) * nodes.mean_velocity(node);
     }
@@ -264,9 +264,9 @@ namespace
     dealii::ParameterAcceptor::prm.parse_input_from_string(
       in_section("Boundaries", "set Bottom = fixed"));
     dealii::ParameterAcceptor::parse_all_parameters();
-    n.boundaries.apply(n.nodes, n.grid, dt, 2.1);
+    n.boundaries.apply(n.nodes, n.grid, 0., dt, 2.1);
     n.expect_velocity(trial);
-    n.boundaries.apply(n.nodes, n.grid, dt, 1.9);
+    n.boundaries.apply(n.nodes, n.grid, 0., dt, 1.9);
     n.expect_velocity(Point<2>());
   }
 } // namespace

@@ -37,8 +37,9 @@ namespace
     const std::string last =
       "seabed force x [N],seabed impulse x [N s],kinetic energy [J],"
       "grid kinetic energy [J],elastic energy [J],plastic work [J],"
-      "friction work [J],contact work [J],gravity work [J],"
-      "energy remainder [J],empty interior cells,empty columns,"
+      "friction work [J],contact work [J],damping work [J],"
+      "gravity work [J],energy remainder [J],empty interior cells,empty "
+      "columns,"
       "connected bodies,cells with one point,splits,largest generation,"
       "clipped boxes,split ledger [-]";
     {
@@ -135,6 +136,7 @@ namespace
     s.points.data(s.points.plastic_work)[0]   = 10.;
     s.boundary_work.friction                  = 20.;
     s.boundary_work.contact                   = 0.5;
+    s.boundary_work.damping                   = 4.;
     s.gravity_work                            = 50.;
     // A node with 2 kg at 3 m/s: (momentum + dt force) / mass.
     s.nodes.activate(s.grid, {0});
@@ -152,8 +154,10 @@ namespace
     EXPECT_EQ(row["plastic work [J]"], 10.);
     EXPECT_EQ(row["friction work [J]"], 20.);
     EXPECT_EQ(row["contact work [J]"], 0.5);
+    EXPECT_EQ(row["damping work [J]"], 4.);
     EXPECT_EQ(row["gravity work [J]"], 50.);
-    EXPECT_EQ(row["energy remainder [J]"], 50. - 16. - 1. - 10. - 20. - 0.5);
+    EXPECT_EQ(row["energy remainder [J]"],
+              50. - 16. - 1. - 10. - 20. - 0.5 - 4.);
   }
 
 

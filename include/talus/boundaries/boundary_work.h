@@ -11,11 +11,14 @@ namespace talus
   {
     /// Energy that friction took from the soil, J.
     double friction = 0;
-    /// Energy that normal contact and walls took from the soil, J.
+    /// Energy that normal contact, walls and tractions took from the soil, J;
+    /// negative where they drive it.
     double contact = 0;
+    /// Energy that local damping took from the soil, J.
+    double damping = 0;
     /// Impulse that the seabed gave to the soil, N s.
     dealii::Tensor<1, dim> seabed_impulse;
-    /// Impulse that fixed and roller walls gave to the soil, N s.
+    /// Impulse that walls and tractions gave to the soil, N s.
     dealii::Tensor<1, dim> wall_impulse;
 
     BoundaryWork &
@@ -23,6 +26,7 @@ namespace talus
     {
       friction += other.friction;
       contact += other.contact;
+      damping += other.damping;
       seabed_impulse += other.seabed_impulse;
       wall_impulse += other.wall_impulse;
       return *this;

@@ -21,9 +21,7 @@ namespace talus
     /// force N = m |v_n|/dt, and friction of at most
     /// min(m |v_t|/dt, mu N, tau_max A) acts against the tangential velocity.
     /// Soil that moves away is free. Returns normal and tangential impulse, N s.
-    ///
-    /// A, the area in contact, is the node's share of the face times the degree
-    /// to which soil fills the node's share of the boundary cells, at most one.
+    /// A is the area in contact, see contact_area().
     std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
     apply(NodalFields<dim> &nodes,
           const Grid<dim>  &grid,

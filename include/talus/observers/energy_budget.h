@@ -15,8 +15,11 @@ namespace talus
     double elastic      = 0;
     double plastic      = 0; ///< plastic work so far
     double friction     = 0; ///< taken by friction so far
-    double contact      = 0; ///< taken by normal contact and walls so far
-    double gravity      = 0; ///< work of weight and body forces so far
+    /// Taken by normal contact, walls and tractions so far; negative where
+    /// these drive the soil.
+    double contact = 0;
+    double damping = 0; ///< taken by local damping so far
+    double gravity = 0; ///< work of weight and body forces so far
     /// What the other terms leave of the gravity work since the start;
     /// positive if energy was lost, negative if some was created.
     double remainder = 0;
@@ -26,7 +29,7 @@ namespace talus
 
   /// The energy budget
   ///   remainder = gravity work - change of kinetic energy - change of elastic
-  ///   energy - plastic work - friction work - contact work,
+  ///   energy - plastic work - friction work - contact work - damping work,
   /// every term counted from the start. It is the points' kinetic energy that
   /// enters, so the remainder holds what the transfer dissipates.
   template <int dim>

@@ -43,9 +43,10 @@ namespace talus
       return folder_;
     }
 
-    /// Throw ExcUser if the parameters contradict each other.
+    /// Throw ExcUser if the parameters contradict each other, or if the runout
+    /// is asked for while @p local_damping falsifies it.
     void
-    check() const;
+    check(double local_damping) const;
 
     /// Make the folder, write the parameters and all that is due at the start
     /// of a run to @p end_time, s; in a resumed run go on with all files.
@@ -98,6 +99,7 @@ namespace talus
     bool        write_grid_          = true;
     bool        boxes_as_cells_      = false;
     std::string format_              = "vtu";
+    bool        write_runout_        = true;
 
     dealii::TimerOutput &timer_;
     Statistics<dim>      statistics_;

@@ -46,6 +46,14 @@ namespace talus
       double      value;
     };
 
+    /// Whether there are the columns of the runout: the two fronts and the
+    /// rear. There are unless this says no, before all else.
+    void
+    show_runout(const bool show)
+    {
+      has_runout_ = show;
+    }
+
     /// Start the file and the energy budget, and write the first row; in a
     /// resumed run only go on with the file. Throws ExcUser if the file cannot
     /// be written.
@@ -86,6 +94,7 @@ namespace talus
   private:
     EnergyBudget<dim> budget_;
     CsvFile           file_;
+    bool              has_runout_       = true;
     double            previous_time_    = 0; // s
     double            previous_impulse_ = 0; // N s, along x
   };

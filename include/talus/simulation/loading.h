@@ -24,7 +24,8 @@ namespace talus
             unsigned int          n_bodies,
             const Constants      &constants);
 
-    /// Set the accelerations at time @p t, s.
+    /// Set the accelerations at time @p t, s; to be called before loads() are
+    /// used.
     void
     update(Points<dim> &points, double t);
 
@@ -34,9 +35,14 @@ namespace talus
       return loads_;
     }
 
-    /// Acceleration of gravity, m/s^2: x points down the slope, y away from it.
+    /// Acceleration of gravity when it is full, m/s^2: x points down the slope,
+    /// y away from it.
     dealii::Tensor<1, dim>
     gravity() const;
+
+    /// Share of it that acts at time @p t, s.
+    double
+    ramp(double t) const;
 
   private:
     struct Gravity : public dealii::ParameterAcceptor
@@ -44,6 +50,7 @@ namespace talus
       Gravity();
       double magnitude   = 9.81;
       double slope_angle = 0.;
+      double ramp_time   = 0.;
     };
 
     struct BodyForce : public dealii::ParameterAcceptor
@@ -57,6 +64,8 @@ namespace talus
     BodyForce                        body_force_;
     std::unique_ptr<Expression<dim>> expression_;
     Loads<dim>                       loads_;
+    /// Full weight divided by mass, for each body, m/s^2.
+    std::vector<dealii::Tensor<1, dim>> full_;
   };
 } // namespace talus
 

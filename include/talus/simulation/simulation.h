@@ -5,6 +5,7 @@
 #include <talus/adaptivity/mesh_tracking.h>
 #include <talus/adaptivity/splitter.h>
 #include <talus/boundaries/boundaries.h>
+#include <talus/boundaries/damping.h>
 #include <talus/grid/grid.h>
 #include <talus/grid/nodal_fields.h>
 #include <talus/materials/materials.h>
@@ -150,6 +151,7 @@ namespace talus
     Relocation<dim>                         relocation_;
     Materials<dim>                          materials_;
     Boundaries<dim>                         boundaries_;
+    Damping<dim>                            damping_;
     Splitter<dim>                           splitter_;
     LoadBalance<dim>                        load_balance_;
     MeshTracking<dim>                       mesh_tracking_;

@@ -1,0 +1,48 @@
+#ifndef talus_boundaries_damping_h
+#define talus_boundaries_damping_h
+
+#include <talus/boundaries/boundaries.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+namespace talus
+{
+  /// Local non-viscous damping, with which a quasi-static problem comes to rest
+  /// @cite cundall1987: each component of the unbalanced force f of a node is
+  /// changed by alpha |f| against the motion. It vanishes in equilibrium and
+  /// knows no time scale. It falsifies a runout, so it is off by default.
+  ///
+  /// The motion is the mean velocity of the step, (before + after)/2, since it
+  /// is this that the work of a force is taken with; and damping at most stops
+  /// it. So the work it takes is never negative, whatever the step: with the
+  /// velocity before the step, damping would drive the soil where a step turns
+  /// the motion around.
+  template <int dim>
+  class Damping : public dealii::ParameterAcceptor
+  {
+  public:
+    Damping();
+
+    /// The coefficient alpha [-]; 0 for none.
+    double
+    coefficient() const
+    {
+      return coefficient_;
+    }
+
+    /// Damp the motion of the active nodes after the momentum update and before
+    /// Boundaries::apply(). Components that @p boundaries may hold are left
+    /// alone: their force is no unbalanced one, the boundary bears it. Nor are
+    /// nodes with less than @p least_mass touched. Returns the work taken, J.
+    double
+    apply(NodalFields<dim>      &nodes,
+          const Grid<dim>       &grid,
+          const Boundaries<dim> &boundaries,
+          double                 least_mass) const;
+
+  private:
+    double coefficient_ = 0.;
+  };
+} // namespace talus
+
+#endif

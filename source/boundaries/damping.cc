@@ -1,0 +1,65 @@
+#include <talus/boundaries/damping.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Damping<dim>::Damping()
+    : ParameterAcceptor("/Damping")
+  {
+    add_parameter("Local damping",
+                  coefficient_,
+                  "For quasi-static problems: share of the unbalanced force of "
+                  "a node, component by component, that acts against its "
+                  "motion [-]; 0 for none. Common values are 0.1 to 0.8. It "
+                  "falsifies the runout of a slide and so needs Output/Runout "
+                  "= false.",
+                  this->prm,
+                  Patterns::Double(0., 0.99));
+  }
+
+
+
+  template <int dim>
+  double
+  Damping<dim>::apply(NodalFields<dim>      &nodes,
+                      const Grid<dim>       &grid,
+                      const Boundaries<dim> &boundaries,
+                      const double           least_mass) const
+  {
+    double work = 0;
+    if (coefficient_ == 0)
+      return work;
+    for (const unsigned int node : nodes.active_nodes())
+      if (nodes.mass(node) > least_mass)
+        {
+          const unsigned char faces = grid.faces_of_node(node);
+          const unsigned char held =
+            (faces == 0 ? 0 : boundaries.held_components(faces));
+          const Tensor<1, dim> mean = nodes.mean_velocity(node);
+          Tensor<1, dim>       v    = nodes.velocity(node);
+          for (unsigned int d = 0; d < dim; ++d)
+            if (!(held & (1u << d)))
+              {
+                // dt f/m = 2 (v - mean); the mean changes by half of what v
+                // does.
+                const double change =
+                  std::min(coefficient_ * 2. * std::abs(v[d] - mean[d]),
+                           2. * std::abs(mean[d]));
+                v[d] -= std::copysign(change, mean[d]);
+              }
+          const Tensor<1, dim> impulse = nodes.set_velocity(node, v);
+          work -= impulse * nodes.mean_velocity(node);
+        }
+    return work;
+  }
+
+
+
+  template class Damping<2>;
+  template class Damping<3>;
+} // namespace talus
