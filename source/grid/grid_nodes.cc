@@ -34,6 +34,39 @@ namespace talus
 
 
 
+    template <int dim>
+    Hanging
+    masters_of_hanging_nodes(const DoFHandler<dim> &dof_handler,
+                             const IndexSet        &relevant)
+    {
+      AffineConstraints<double> constraints(relevant);
+      DoFTools::make_hanging_node_constraints(dof_handler, constraints);
+      constraints.close();
+      Hanging hanging;
+      for (const auto &line : constraints.get_lines())
+        hanging[line.index] = line.entries;
+      return hanging;
+    }
+
+
+
+    /// Cells of one size have no hanging nodes; but of the twin of a node at the
+    /// edge of what a rank knows, it may have to ask the owner as well.
+    template <int dim>
+    Hanging
+    masters_at_seams(const DoFHandler<dim>  &dof_handler,
+                     const Periodicity<dim> &periodicity,
+                     const double            cell_size)
+    {
+      Hanging hanging;
+      for (const auto &[node, twin] :
+           periodicity.find_twins(dof_handler, cell_size))
+        hanging[node] = {{twin, 1.}};
+      return hanging;
+    }
+
+
+
     /// A hanging node at the edge of what a rank knows may hang on a cell that
     /// it does not know: ask the owner. The owner itself, in 3-D, may have to be
     /// told by one who knows.
@@ -119,18 +152,10 @@ namespace talus
     owned_nodes_        = dof_handler_.locally_owned_dofs();
     IndexSet relevant;
     DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant);
-    AffineConstraints<double> constraints(relevant);
-    DoFTools::make_hanging_node_constraints(dof_handler_, constraints);
-    constraints.close();
-    Hanging hanging;
-    for (const auto &line : constraints.get_lines())
-      hanging[line.index] = line.entries;
-    // Cells of one size have no hanging nodes; but of the twin of a node at the
-    // edge of what a rank knows, it may have to ask the owner as well.
-    if (periodicity_.any())
-      for (const auto &[node, twin] :
-           periodicity_.find_twins(dof_handler_, cell_size()))
-        hanging[node] = {{twin, 1.}};
+    Hanging hanging =
+      (periodicity_.any()
+         ? masters_at_seams(dof_handler_, periodicity_, cell_size())
+         : masters_of_hanging_nodes(dof_handler_, relevant));
 
     ghost_nodes_ = relevant;
     ghost_nodes_.subtract_set(owned_nodes_);

@@ -53,8 +53,8 @@ namespace
     std::cout << "shear layer, " << length << " m: error of the acceleration "
               << std::abs(found / exact - 1.) << ", of the shear stress "
               << stress << " of tau_max\n";
-    EXPECT_NEAR(found, exact, 1e-8 * exact);
-    EXPECT_LT(stress, 1e-8);
+    EXPECT_NEAR(found, exact, 1e-11 * exact);
+    EXPECT_LT(stress, 1e-11);
   }
 } // namespace
 
