@@ -165,7 +165,9 @@ namespace talus
                              result,
                              " at (",
                              x,
-                             ") m, where a finite number was expected; correct "
+                             ") m, t = ",
+                             t,
+                             " s, where a finite number was expected; correct "
                              "the expression.")));
     return result;
   }

@@ -210,11 +210,11 @@ class BadInput(Case):
 
     def test_not_a_number(self):
         self.stops(["Body force/Expression=sqrt(0.05-t); 0", "End time=1"],
-                   "Point ", "nan", ") m", "CFL number")
+                   "Body force/Expression", "nan", ") m, t = 0.05", "finite")
 
     def test_not_a_number_from_the_start(self):
         self.stops(["Body force/Expression=sqrt(x-1.5); 0"],
-                   "Point ", "nan", ") m")
+                   "Body force/Expression", "nan", ") m, t = 0 s", "finite")
 
     def test_collapsed_point(self):
         # In the cell of the jump the velocity falls by 1.5 V over h.
