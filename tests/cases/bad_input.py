@@ -67,11 +67,6 @@ class BadInput(Case):
                          "Boundaries/Top traction=free; -1"],
                         "'Boundaries/Top traction = free; -1'", "Give 0")
 
-    def test_velocity_is_not_a_number(self):
-        self.refuse_set(["Boundaries/Bottom=velocity",
-                         "Boundaries/Bottom velocity=sqrt(-1-x); 0"],
-                        "'Boundaries/Bottom velocity'", "nan", "finite number")
-
     def test_runout_of_a_damped_slide(self):
         self.refuse_set(["Damping/Local damping=0.5"],
                         "'Damping/Local damping' is 0.5", "falsifies",
@@ -239,6 +234,13 @@ class BadInput(Case):
     def test_not_a_number_from_the_start(self):
         self.stops(["Body force/Expression=sqrt(x-1.5); 0"],
                    "Point ", "nan", ") m")
+
+    def test_velocity_at_a_face_is_not_a_number(self):
+        self.assert_refused(
+            self.run_file(settings=[
+                "Boundaries/Bottom=velocity",
+                "Boundaries/Bottom velocity=sqrt(0.001-t); 0"]),
+            "'Boundaries/Bottom velocity'", "nan", "finite number")
 
     def test_collapsed_point(self):
         # In the cell of the jump the velocity falls by 1.5 V over h.
