@@ -158,17 +158,17 @@ namespace talus
   {
     const double result = value(x, t, component);
     AssertThrow(std::isfinite(result),
-                ExcUser(text(name_,
-                             " = '",
-                             expressions_,
-                             "' is ",
-                             result,
-                             " at (",
-                             x,
-                             ") m, t = ",
-                             t,
-                             " s, where a finite number was expected; correct "
-                             "the expression.")));
+                ExcPoint(text(name_,
+                              " = '",
+                              expressions_,
+                              "' is ",
+                              result,
+                              " at (",
+                              x,
+                              ") m, t = ",
+                              t,
+                              " s, where a finite number was expected; correct "
+                              "the expression.")));
     return result;
   }
 

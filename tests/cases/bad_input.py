@@ -53,6 +53,25 @@ class BadInput(Case):
         self.refuse("set Bottom = roller", "set Bottom = glue",
                     "case.prm", "line 30", "'glue'", "roller", "seabed")
 
+    def test_velocity_without_expression(self):
+        self.refuse_set(["Boundaries/Top=velocity"],
+                        "'Boundaries/Top velocity' is empty", "Give them")
+
+    def test_expression_without_condition(self):
+        self.refuse_set(["Boundaries/Top traction=0; -1"],
+                        "'Boundaries/Top traction = 0; -1'", "'free'",
+                        "'traction' was expected")
+
+    def test_free_traction(self):
+        self.refuse_set(["Boundaries/Top=traction",
+                         "Boundaries/Top traction=free; -1"],
+                        "'Boundaries/Top traction = free; -1'", "Give 0")
+
+    def test_runout_of_a_damped_slide(self):
+        self.refuse_set(["Damping/Local damping=0.5"],
+                        "'Damping/Local damping' is 0.5", "falsifies",
+                        "Output/Runout = false")
+
     def test_unknown_face(self):
         self.refuse("set Bottom = roller", "set Botom = roller",
                     "case.prm", "line 30", "'Botom'", "--document")
@@ -215,6 +234,13 @@ class BadInput(Case):
     def test_not_a_number_from_the_start(self):
         self.stops(["Body force/Expression=sqrt(x-1.5); 0"],
                    "Body force/Expression", "nan", ") m, t = 0 s", "finite")
+
+    def test_velocity_at_a_face_is_not_a_number(self):
+        self.assert_refused(
+            self.run_file(settings=[
+                "Boundaries/Bottom=velocity",
+                "Boundaries/Bottom velocity=sqrt(0.001-t); 0"]),
+            "'Boundaries/Bottom velocity'", "nan", "finite number")
 
     def test_collapsed_point(self):
         # In the cell of the jump the velocity falls by 1.5 V over h.

@@ -122,7 +122,7 @@ TEST(Driven, PlaneStrainCompression)
   Case<2>      sample("verification/plane-strain-compression.prm", {});
   const double first_yield = 2500. * std::sqrt(3. / (1. - 0.49 + 0.49 * 0.49));
   double       before = 0, at = 0, elastic_error = 0;
-  while (sample->snapshot().time < 30. - 1e-12)
+  while (sample->snapshot().time < 200. - 1e-12)
     {
       sample->advance();
       const double t  = sample->snapshot().time;
@@ -133,8 +133,10 @@ TEST(Driven, PlaneStrainCompression)
         at = yy;
       if (!has_yielded)
         {
-          before             = yy;
-          const double exact = 250e3 / (1. - 0.49 * 0.49) * 1e-3 * t;
+          before = yy;
+          if (t < 20.) // until the start has died away
+            continue;
+          const double exact = 250e3 / (1. - 0.49 * 0.49) * 2e-4 * t;
           elastic_error = std::max(elastic_error, std::abs(yy - exact) / 5e3);
         }
     }
@@ -143,10 +145,11 @@ TEST(Driven, PlaneStrainCompression)
             << ", first yield between " << before << " and " << at
             << " Pa, exact " << first_yield << "; plateau " << -last.yy
             << " Pa, s_zz " << -last.zz << " Pa, s_xx " << -last.xx << " Pa\n";
-  EXPECT_LT(elastic_error, 1e-3);
-  EXPECT_NEAR(at, first_yield, 3.);
-  EXPECT_NEAR(-last.yy, 5000., 1.);
-  EXPECT_NEAR(-last.zz, 2500., 5.);
+  EXPECT_LT(elastic_error, 1e-5);
+  EXPECT_LT(before, first_yield + 0.01);
+  EXPECT_NEAR(at, first_yield, 0.5);
+  EXPECT_NEAR(-last.yy, 5000., 0.05);
+  EXPECT_NEAR(-last.zz, 2500., 10.);
 }
 
 
@@ -190,7 +193,7 @@ TEST(Driven, RigidRotation)
   const double exact = turn(chord);
   std::cout << "rigid rotation: error " << tangent
             << " Pa, with the chord of the step " << exact << " Pa\n";
-  EXPECT_LT(tangent, 1e4 / 3. * 4. * M_PI * M_PI / 20000 * 1.5);
+  EXPECT_NEAR(tangent, 1e4 * 2. * M_PI * M_PI / 20000, 0.01);
   EXPECT_LT(exact, 20e3 * 1e-10);
 }
 
@@ -257,22 +260,25 @@ TEST(Driven, EnergyOfTheWave)
 
 TEST(Driven, SlowBarIsStatic)
 {
-  // The velocity gradient -v/L is uniform in space: ln(1 + eps) = -v t/L.
+  // Drawn out at its left end; the velocity gradient is uniform in space.
   Case<2> bar("driven-bar.prm",
               {"End time=20",
-               "Boundaries/Left velocity=if(t<10, 1e-3*sin(pi*t/10)^2, 0); "
+               "Boundaries/Left velocity=if(t<10, -1e-4*sin(pi*t/10)^2, 0); "
                "free",
                "Damping/Local damping=0.5",
                "Output/Runout=false"});
   advance_to(bar, 20.);
-  const double exact = -1e5 * 5e-3 / 10.;
+  const double exact = 1e5 * 5e-4 / 10.;
   double       error = 0;
   for_points(bar, [&](const unsigned int p) {
-    error =
-      std::max(error, std::abs(StressOf(bar.points(), p).xx / exact - 1.));
+    // The first points lie beyond the mesh in part, where nothing stretches.
+    if (value(bar, bar.points().initial_position, p) > 0.5)
+      error =
+        std::max(error, std::abs(StressOf(bar.points(), p).xx / exact - 1.));
   });
   std::cout << "slow bar: relative error of the stress " << error << '\n';
-  EXPECT_LT(error, 1e-6);
+  // Of the order of the strain, 5e-5, since the end leaves the mesh.
+  EXPECT_LT(error, 5e-5);
 }
 
 
@@ -347,7 +353,8 @@ TEST(Damped, ColumnComesToRest)
             << error / 1e5 << " rho g H, damping work " << last_work
             << " J/m\n";
   EXPECT_LT(at_rest, 1e-6 * most_energy);
-  EXPECT_LT(error, 0.01 * 1e5);
+  // The strain hardly varies within a cell; points are h/4 off its centre.
+  EXPECT_NEAR(error, 1e4 * 0.25 * 0.5, 100.);
 }
 
 

@@ -190,6 +190,20 @@ class MeshThatChanges(KillAndResume):
                            "Output/Format=hdf5"]
 
 
+class DrivenAndDamped(KillAndResume):
+    """Soil that the bottom drives, under growing gravity, with damping, on a
+    mesh that changes."""
+
+    N_KILLS = 8
+    settings = SETTINGS + ["Boundaries/Bottom=velocity",
+                           "Boundaries/Bottom velocity=0.5*t*sin(x); 0",
+                           "Gravity/Ramp time=1", "Damping/Local damping=0.2",
+                           "Output/Runout=false",
+                           "Mesh tracking/Enabled=true",
+                           "Mesh tracking/Margin=4",
+                           "Mesh tracking/Interval=50"]
+
+
 class ThreeDimensions(KillAndResume):
     N_KILLS = 8
     file = "landslide-3d.prm"

@@ -41,6 +41,9 @@ namespace
           nodes.sum(node)[Sum::momentum + d] = mass * before[d];
           nodes.sum(node)[Sum::force + d] = mass * (trial[d] - before[d]) / dt;
         }
+      this->boundaries.prepare(Constants());
+      this->boundaries.locate_nodes(this->grid);
+      this->boundaries.add_tractions(nodes, this->grid, 0., 0.);
       nodes.update_momentum(dt, 0.);
       kinetic_energy_before = 0.5 * mass * before.norm_square();
       work = this->boundaries.apply(nodes, this->grid, 0., dt, 0.);
@@ -235,7 +238,15 @@ namespace
          {"set Bottom = seabed\nset Left = roller",
           "set Bottom = seabed\nset Left = seabed",
           "set Bottom = roller\nset Left = fixed",
-          "set Bottom = seabed"})
+          "set Bottom = seabed",
+          "set Bottom = seabed\nset Left = velocity\n"
+          "set Left velocity = -1.5; free",
+          "set Bottom = velocity\nset Bottom velocity = free; 0.3\n"
+          "set Left = roller",
+          "set Bottom = seabed\nset Left = traction\n"
+          "set Left traction = 7; 5",
+          "set Bottom = velocity\nset Bottom velocity = 1; free\n"
+          "set Left = traction\nset Left traction = 7; 5"})
       for (const double mu : {0.1, 0.5, 100.})
         {
           const OneNode<2> n(conditions,
@@ -268,5 +279,104 @@ namespace
     n.expect_velocity(trial);
     n.boundaries.apply(n.nodes, n.grid, 0., dt, 1.9);
     n.expect_velocity(Point<2>());
+  }
+
+
+
+  /// Conditions by expression on the bottom, and whatever else.
+  std::string
+  by_expression(const std::string &condition,
+                const std::string &expressions,
+                const std::string &others = "")
+  {
+    return "set Bottom = " + condition + "\nset Bottom " + condition + " = " +
+           expressions + "\n" + others;
+  }
+
+
+
+  TEST(Boundaries, VelocityAtThePlaceAndHalfStep)
+  {
+    const OneNode<2> n(by_expression("velocity", "x + 10*t; free"),
+                       "",
+                       on_bottom,
+                       2.,
+                       before,
+                       trial);
+    n.expect_velocity(Point<2>(2. + 10. * 0.5 * dt, -0.5));
+    n.expect_impulses(Point<2>(), Point<2>(2. * (2.5 - 3.), 0.));
+    // It brakes: mean velocity over the step (1 + 2.5)/2.
+    EXPECT_NEAR(n.work.contact, 1. * 1.75, 1e-14);
+    const OneNode<3> m("set Front = velocity\nset Front velocity = z; x; y",
+                       "",
+                       Point<3>(2., 3., 4.),
+                       2.,
+                       Tensor<1, 3>(),
+                       Tensor<1, 3>());
+    m.expect_velocity(Point<3>(4., 2., 3.));
+  }
+
+
+
+  TEST(Boundaries, CornersWithVelocity)
+  {
+    const std::string left = "set Left = velocity\nset Left velocity = ";
+    const auto expect = [](const std::string &conditions, const Point<2> &v) {
+      OneNode<2>(conditions, law(0.5, 1e9), Point<2>(0., 0.), 2., before, trial)
+        .expect_velocity(v);
+    };
+    // What both prescribe is that of the face whose normal it is.
+    expect(by_expression("velocity", "1; 2", left + "3; 4"), {3., 2.});
+    expect(by_expression("velocity", "1; free", left + "free; 4"), {1., 4.});
+    expect(by_expression("velocity", "free; 2", left + "free; 4"), {3., 2.});
+    expect(by_expression("velocity", "1; 2", "set Left = roller"), {0., 2.});
+    expect(by_expression("velocity", "1; 2", "set Left = fixed"), {0., 0.});
+    // Friction, 5 N, does not brake what is prescribed.
+    expect("set Bottom = seabed\n" + left + "1; free", {1., 0.});
+  }
+
+
+
+  TEST(Boundaries, TractionOnTheAreaThatSoilFills)
+  {
+    const std::string traction = by_expression("traction", "3; -4*x");
+    const OneNode<2>  n(traction, "", on_bottom, 2., before, trial);
+    n.expect_velocity(trial + Point<2>(3., -8.) * dt / 2.);
+    n.expect_impulses(Point<2>(), Point<2>(0.3, -0.8));
+    EXPECT_NEAR(n.work.contact,
+                -0.3 * 0.5 * (1. + 3.15) - 0.8 * 0.5 * (0.2 + 0.9),
+                1e-14);
+    OneNode<2>(traction, "", on_bottom, 2., before, trial, 0.25)
+      .expect_velocity(trial + Point<2>(3., -8.) * dt / 4.);
+  }
+
+
+
+  TEST(Boundaries, ExpressionsThatDoNotFit)
+  {
+    const auto complaint = [](const std::string &conditions) {
+      return message_of<ExcUser>([&]() {
+        Core<2> core(cube<2>() + in_section("Boundaries", conditions));
+        core.boundaries.prepare(Constants());
+      });
+    };
+    EXPECT_EQ(complaint("set Top = velocity\nset Top velocity = free; -t"), "");
+    for (const auto &[conditions, words] :
+         std::map<std::string, std::vector<std::string>>{
+           {"set Top = velocity",
+            {"'Boundaries/Top' is 'velocity'", "'Boundaries/Top velocity' is"}},
+           {"set Top velocity = 1; 2",
+            {"'Boundaries/Top velocity = 1; 2'", "is 'free'", "remove"}},
+           {"set Top = velocity\nset Top traction = 1; 2",
+            {"'Boundaries/Top velocity' is empty"}},
+           {"set Top = traction\nset Top traction = free; 2",
+            {"'Boundaries/Top traction = free; 2'", "0 for a component"}},
+           {"set Top = velocity\nset Top velocity = free",
+            {"'Boundaries/Top velocity'", "2 are needed"}},
+           {"set Top = velocity\nset Top velocity = free; q",
+            {"'Boundaries/Top velocity'", "cannot be understood"}}})
+      for (const std::string &word : words)
+        EXPECT_TRUE(contains(complaint(conditions), word))
+          << complaint(conditions);
   }
 } // namespace

@@ -51,7 +51,7 @@ namespace talus
       return function_.value(x, component);
     }
 
-    /// The same, but throws ExcUser if it is not finite.
+    /// The same, but throws ExcPoint if it is not finite.
     double
     finite_value(const dealii::Point<dim> &x, double t, unsigned int component);
 
