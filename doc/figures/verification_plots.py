@@ -48,7 +48,7 @@ def convergence(source, target):
             axes.loglog(table["cells"], table["error"], dash, color=color,
                         marker="o", markersize=3, label=label)
     n = numpy.array([20., 60.])
-    for order, level in ((1, 6e-3), (2, 1.2e-4)):
+    for order, level in ((1, 2e-4), (2, 1.2e-4)):
         axes.loglog(n, level * (n[0] / n)**order, color="black", linewidth=0.7)
         axes.text(n[1] * 1.03, level * (n[0] / n[1])**order,
                   "order %d" % order, va="center")
@@ -92,8 +92,9 @@ def profiles(source, target, panels, name):
                    markersize=3.5, label=legend)
         a.set_title(title)
         a.set_xlabel(label)
+        a.set_ylim(bottom=0)
         a.grid(linewidth=0.3)
-        a.legend(loc="best")
+        a.legend(loc="upper left" if len(lines) > 1 else "best")
     axes[0][0].set_ylabel("height [m]")
     return save(figure, target, name)
 
@@ -143,7 +144,7 @@ def draw_all(source, target):
         [("velocity down the slope", "m/s",
           [("Bingham", "layer-bingham"),
            ("Herschel-Bulkley, n = 0.5", "layer-herschel-bulkley")]),
-         ("shear stress in the layer", "kPa", [("elastic", "shear-layer")])],
+         ("shear stress", "Pa", [("layer on a capped seabed", "shear-layer")])],
         "verification-layers.png"),
         "Viscoplastic layers on a slope of 5 degrees and a layer that slides "
         "on a capped seabed, against their closed forms (grey).")

@@ -1,5 +1,6 @@
 #include <talus/base/errors.h>
 #include <talus/simulation/simulation.h>
+#include <talus/transfer/far_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -94,6 +95,7 @@ namespace talus
   void
   Simulation<dim>::set_up_laws()
   {
+    constants_.values(); // throws, also where no expression needs them
     grid_.check();
     transfer_.check();
     output_.check(damping_.coefficient());
@@ -141,6 +143,12 @@ namespace talus
                        constants_);
         material.initialize(points_, begin, points_.size());
       }
+    for (const auto &body : bodies_)
+      if (body->initial_state().is_displaced())
+        {
+          send_far_points(points_, grid_);
+          break;
+        }
     number_points();
     relocation_.update(points_, grid_);
     nodes_.activate(grid_, relocation_.occupied_cells());

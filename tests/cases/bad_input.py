@@ -173,6 +173,32 @@ class BadInput(Case):
         self.refuse_set(["Bodies/block/Initial velocity=2*; 0"],
                         "Bodies/block/Initial velocity", "2*")
 
+    def test_constants(self):
+        for constants, *words in (
+                ("x=1", "'x=1'", "new name", "pi, x, y, z, t"),
+                ("a=1; a=2", "'a=2'", "new name"),
+                ("2a=1", "'2a=1'", "new name"),
+                ("a", "'a'", "name = value"),
+                ("a=2*", "'a=2*'", "cannot be understood"),
+                ("a=b", "'a=b'", "cannot be understood"),
+                ("a=1/0", "'a=1/0'", "inf", "finite")):
+            self.refuse_set(["Constants=" + constants], "'Constants'", *words)
+
+    def test_initial_displacement(self):
+        self.refuse_set(["Bodies/block/Initial displacement=-2*x; 0"],
+                        "Bodies/block/Initial displacement", "inside out",
+                        "-1", "smaller")
+        self.refuse_set(["Bodies/block/Initial displacement="
+                         "0.01*sqrt(1.6-x); 0"],
+                        "Bodies/block/Initial displacement", "nan",
+                        "finite number")
+
+    def test_ring_without_material(self):
+        self.refuse_set(["Bodies/block/Shape=ball",
+                         "Bodies/block/Centre=2,2",
+                         "Bodies/block/Inner radius=1"],
+                        "Bodies/block/Inner radius", "leaves nothing", "1 m")
+
     def test_initial_velocity_components(self):
         self.refuse_set(["Bodies/block/Initial velocity=1"],
                         "Bodies/block/Initial velocity", "2 are needed")

@@ -127,6 +127,16 @@ class Ranks(Runs):
         alone = self.run_on(1, settings, "landslide-3d.prm")
         self.assert_same(self.run_on(3, settings, "landslide-3d.prm"), alone)
 
+    def test_displaced_at_the_start(self):
+        """By up to 1.4 cells, beyond the neighbours of a rank's cells."""
+        settings = ["Grid/Cell size=0.03125", "Time step/Maximum=6e-5",
+                    "End time=0.002", "Output/Statistics interval=2e-4"] + TERSE
+        name = "verification/manufactured-2d.prm"
+        alone = self.run_on(1, settings, name)
+        for n_ranks in (2, 4):
+            self.assert_same(self.run_on(n_ranks, settings, name), alone)
+
+
     def test_a_point_that_leaves(self):
         """One rank of four sees it: one sentence, and the state of that rank;
         besides, the launcher tells that it stopped the others."""

@@ -25,6 +25,12 @@ namespace talus
     void
     check(const MaterialModel<dim> &law) const;
 
+    bool
+    is_displaced() const
+    {
+      return !displacement_.empty();
+    }
+
     /// Move the points [begin, end) by the displacement at t = 0 and set their
     /// deformation gradient, the stretch of their boxes and their stress. The
     /// gradient of the displacement is taken by differences of sixth order,

@@ -1,0 +1,17 @@
+#ifndef talus_transfer_far_points_h
+#define talus_transfer_far_points_h
+
+#include <talus/grid/grid.h>
+#include <talus/points/points.h>
+
+namespace talus
+{
+  /// Bring points that were just made, and are in no order yet, to the ranks
+  /// that own their cells, however far away: what Relocation does for
+  /// neighbours only. Collective.
+  template <int dim>
+  void
+  send_far_points(Points<dim> &points, const Grid<dim> &grid);
+} // namespace talus
+
+#endif

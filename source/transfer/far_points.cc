@@ -1,0 +1,80 @@
+#include <talus/base/errors.h>
+#include <talus/transfer/far_points.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// All arrays of a point, one after the other.
+    using Record = std::vector<double>;
+
+
+
+    template <int dim>
+    bool
+    is_at_home(const Record      &record,
+               const Points<dim> &points,
+               const Grid<dim>   &grid)
+    {
+      Point<dim> x;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] = record[points.position + d];
+      // Whoever lies outside is told so by the relocation at the boundary.
+      const unsigned int c = grid.find_cell(x);
+      return c != numbers::invalid_unsigned_int && c < grid.n_owned_cells();
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  send_far_points(Points<dim> &points, const Grid<dim> &grid)
+  {
+    const MPI_Comm communicator = grid.communicator();
+    Assert(points.n_sorted() == 0, ExcInternalError());
+    if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+      return;
+
+    std::vector<Record> here, far;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        Record record(points.n_arrays());
+        for (unsigned int array = 0; array < points.n_arrays(); ++array)
+          record[array] = points.data(array)[p];
+        (is_at_home(record, points, grid) ? here : far).push_back(record);
+      }
+    for (const auto &records : Utilities::MPI::all_gather(communicator, far))
+      for (const Record &record : records)
+        if (is_at_home(record, points, grid))
+          here.push_back(record);
+
+    const double n_before =
+      Utilities::MPI::sum(1. * points.size(), communicator);
+    points.clear();
+    points.append(here.size());
+    for (unsigned int p = 0; p < points.size(); ++p)
+      for (unsigned int array = 0; array < points.n_arrays(); ++array)
+        points.data(array)[p] = here[p][array];
+    const double n_after =
+      Utilities::MPI::sum(1. * points.size(), communicator);
+    AssertThrow(n_before == n_after,
+                ExcMessage(text("The headcount of the points does not hold: ",
+                                n_before,
+                                " before they were sent to the ranks of their "
+                                "cells, ",
+                                n_after,
+                                " after.")));
+  }
+
+
+
+  template void
+  send_far_points(Points<2> &, const Grid<2> &);
+  template void
+  send_far_points(Points<3> &, const Grid<3> &);
+} // namespace talus
