@@ -42,7 +42,7 @@ namespace talus::cases
   void
   expect_split_landslide(Verification &gates, const Table &table, double share);
 
-  /// Empty cells in every row from 10 s on, at least @p least at some time.
+  /// Empty cells in every row from 10 s on, @p least or more in most of them.
   void
   expect_fracture(Verification &gates, const Table &table, double least);
 

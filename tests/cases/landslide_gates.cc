@@ -166,15 +166,25 @@ namespace talus::cases
   void
   expect_fracture(Verification &gates, const Table &table, const double least)
   {
-    double fewest = 1e300;
+    double fewest = 1e300, n_rows = 0, n_many = 0;
     for (unsigned int i = 0; i < table.n_rows(); ++i)
       if (table["time [s]"][i] >= 10.)
-        fewest = std::min(fewest, table["empty interior cells"][i]);
-    const double most = largest(table["empty interior cells"]);
-    gates.holds("unsplit: empty interior cells from 10 s on",
-                text(fewest, " to ", most),
-                text("some in every row, ", least, " or more at some time"),
-                fewest >= 1 && most >= least);
+        {
+          const double n = table["empty interior cells"][i];
+          fewest         = std::min(fewest, n);
+          ++n_rows;
+          n_many += (n >= least ? 1. : 0.);
+        }
+    gates.at_least("unsplit: empty interior cells from 10 s on, fewest",
+                   fewest,
+                   1.,
+                   "fractures");
+    gates.at_least(text("unsplit: share of the times from 10 s on with ",
+                        least,
+                        " or more"),
+                   n_many / n_rows,
+                   0.5,
+                   "most");
   }
 
 
