@@ -1,4 +1,5 @@
-"""Run the verification and write doc/verification.md with its pictures.
+"""Run the verification; write doc/verification.md with its pictures, and the
+summary in README.md.
 
     python3 report.py BUILD [--rows] [--without-slow]
 
@@ -31,6 +32,32 @@ SECTIONS = [
      ["LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
       "LandslideStretched", "LandslideUnsplit", "LandslideSimilarity",
       "Landslide3d"]),
+]
+# What README shows: suite and the quantity's beginning.
+SUMMARY = [
+    ("Bar", "error of v_cm / v0, split"),
+    ("Bar", "v_cm / v0, split - unsplit"),
+    ("Bar", "points that split"),
+    ("BarConvergence", "order"),
+    ("ManufacturedBar", "order"),
+    ("Manufactured2d", "order"),
+    ("Manufactured3d", "order"),
+    ("Vortex", "order"),
+    ("Discs", "momentum"),
+    ("Discs", "energy lost, h = 0.0125"),
+    ("SelfWeightColumn", ""),
+    ("Elastica", ""),
+    ("OnePoint", "plateau [Pa]"),
+    ("Block", "acceleration"),
+    ("ShearLayer", "acceleration"),
+    ("ViscoplasticLayer", "velocity of the surface"),
+    ("VerticalCut", ""),
+    ("HangingBlock", ""),
+    ("LandslideFull", "energy lost"),
+    ("LandslideFull", "at rest"),
+    ("LandslideFull", "h = 0.4 against 0.2 m: front"),
+    ("LandslideSimilarity", ""),
+    ("Landslide3d", "3-D against 2-D, to 4 s: front"),
 ]
 SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay"}
 
@@ -100,9 +127,7 @@ def write_page(path, rows, pictures, known):
     with open(path, "w") as out:
         out.write(HEAD)
         verdicts = [row["verdict"] for suite in rows.values() for row in suite]
-        out.write("%d gates: %d pass, %d fall short, %d fail.\n\n"
-                  % (len(verdicts), verdicts.count("pass"),
-                     verdicts.count("falls short"), verdicts.count("FAIL")))
+        out.write(count(verdicts) + ".\n\n")
         for heading, suites in SECTIONS:
             found = [row for suite in suites for row in rows.get(suite, [])]
             if found:
@@ -113,6 +138,37 @@ def write_page(path, rows, pictures, known):
                           % (caption.split(".")[0], picture, caption))
         out.write(known)
     return verdicts
+
+
+def count(verdicts):
+    return ("%d gates: %d pass, %d fall short, %d fail"
+            % (len(verdicts), verdicts.count("pass"),
+               verdicts.count("falls short"), verdicts.count("FAIL")))
+
+
+def update_readme(path, rows, verdicts):
+    """Replace what stands between the two comments."""
+    with open(path) as stream:
+        text = stream.read()
+    begin, end = "<!-- verification: begin -->\n", "<!-- verification: end -->"
+    table = [count(verdicts) + ".\n", "| case | quantity | talus | reference | "
+             "gate |", "|---|---|---|---|---|"]
+    seen = set()
+    for suite, start in SUMMARY:
+        for row in rows.get(suite, []):
+            key = (row["case"], row["quantity"])
+            if row["quantity"].startswith(start) and key not in seen:
+                seen.add(key)
+                gate = row["gate"] if row["gate"] != row["reference"] else "="
+                if row["verdict"] != "pass":
+                    gate += ", **%s**" % row["verdict"]
+                table.append("| " + " | ".join(cell(x) for x in (
+                    row["case"], row["quantity"], row["talus"],
+                    row["reference"], gate)) + " |")
+    before, rest = text.split(begin)
+    after = rest.split(end)[1]
+    with open(path, "w") as out:
+        out.write(before + begin + "\n".join(table) + "\n" + end + after)
 
 
 def main():
@@ -136,9 +192,8 @@ def main():
                         os.path.join(HERE, "..", "figures"))
     verdicts = write_page(os.path.join(HERE, "..", "verification.md"),
                           rows, pictures, known)
-    print("doc/verification.md: %d gates, %d pass, %d fall short, %d fail"
-          % (len(verdicts), verdicts.count("pass"),
-             verdicts.count("falls short"), verdicts.count("FAIL")))
+    update_readme(os.path.join(HERE, "..", "..", "README.md"), rows, verdicts)
+    print("doc/verification.md: " + count(verdicts))
     for name in missing:
         print("No rows of the test suite '%s': it did not run." % name)
     for name in unknown:
