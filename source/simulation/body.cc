@@ -210,9 +210,7 @@ namespace talus
   {
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        Point<dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = points.data(points.initial_position, d)[p];
+        const auto x = load_place(points, points.initial_position, p);
         AssertThrow(!shape.contains(x),
                     ExcUser(text("The body '",
                                  name_,

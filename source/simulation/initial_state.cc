@@ -9,19 +9,6 @@ namespace talus
 
   namespace
   {
-    /// Where the point was before it was displaced, X.
-    template <int dim>
-    Point<dim>
-    material_place(const Points<dim> &points, const unsigned int p)
-    {
-      Point<dim> X;
-      for (unsigned int d = 0; d < dim; ++d)
-        X[d] = points.data(points.initial_position, d)[p];
-      return X;
-    }
-
-
-
     /// Derivative of component @p i along @p axis at t = 0, by central
     /// differences over three steps of @p delta on each side.
     template <int dim>
@@ -114,7 +101,7 @@ namespace talus
                       constants);
     for (unsigned int p = begin; p < end; ++p)
       {
-        const Point<dim>    X = material_place(points, p);
+        const Point<dim>    X = load_place(points, points.initial_position, p);
         Matrix<dim, double> F = identity<dim, double>();
         for (unsigned int i = 0; i < dim; ++i)
           {
@@ -154,7 +141,9 @@ namespace talus
     for (unsigned int p = begin; p < end; ++p)
       for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
         points.data(points.stress, c)[p] =
-          sigma.finite_value(material_place(points, p), 0., c);
+          sigma.finite_value(load_place(points, points.initial_position, p),
+                             0.,
+                             c);
   }
 
 
@@ -199,7 +188,9 @@ namespace talus
       if (points.data(points.body)[p] == index)
         for (unsigned int d = 0; d < dim; ++d)
           points.data(points.velocity, d)[p] =
-            v.finite_value(material_place(points, p), t, d);
+            v.finite_value(load_place(points, points.initial_position, p),
+                           t,
+                           d);
   }
 
 

@@ -117,9 +117,7 @@ namespace talus
                                        : points.position;
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        Point<dim> x;
-        for (unsigned int d = 0; d < dim; ++d)
-          x[d] = points.data(coordinates, d)[p];
+        const Point<dim> x = load_place(points, coordinates, p);
         for (unsigned int d = 0; d < dim; ++d)
           points.body_acceleration(d)[p] = expression_->finite_value(x, t, d);
       }

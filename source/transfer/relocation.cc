@@ -11,18 +11,6 @@ namespace talus
 
   namespace
   {
-    template <int dim>
-    inline Point<dim>
-    position_of(const Points<dim> &points, const unsigned int p)
-    {
-      Point<dim> x;
-      for (unsigned int d = 0; d < dim; ++d)
-        x[d] = points.data(points.position, d)[p];
-      return x;
-    }
-
-
-
     /// Move a point that lies beyond a periodic face to where it enters.
     template <int dim>
     void
@@ -52,7 +40,7 @@ namespace talus
                                 const unsigned int p,
                                 const double       cell_size) const
   {
-    const Point<dim> x = position_of(points, p);
+    const Point<dim> x = load_place(points, points.position, p);
     for (unsigned int face = 0; face < 2 * dim; ++face)
       {
         const unsigned int d = face / 2;
@@ -97,7 +85,7 @@ namespace talus
                           const unsigned int p,
                           const unsigned int old_cell) const
   {
-    const Point<dim> x    = position_of(points, p);
+    const Point<dim> x    = load_place(points, points.position, p);
     const Cell<dim> &cell = grid.cells()[old_cell];
     if (cell.uniform && grid.domain().contains(x))
       {
@@ -126,8 +114,9 @@ namespace talus
                            const Grid<dim>   &grid,
                            const unsigned int p) const
   {
-    const unsigned int c        = grid.find_cell(position_of(points, p));
-    const bool         is_known = (c != numbers::invalid_unsigned_int);
+    const unsigned int c =
+      grid.find_cell(load_place(points, points.position, p));
+    const bool is_known = (c != numbers::invalid_unsigned_int);
     // The wall is that of the cell it belongs to now.
     check_inside(points,
                  grid,
@@ -137,7 +126,7 @@ namespace talus
                 ExcPoint(text("Point ",
                               points.data(points.id)[p],
                               " went to (",
-                              position_of(points, p),
+                              load_place(points, points.position, p),
                               ") m in one step, farther than to a neighbouring "
                               "cell. The simulation became unstable: lower "
                               "'Time step/CFL number'.")));

@@ -4,6 +4,7 @@
 #include <talus/base/small_matrix.h>
 
 #include <deal.II/base/aligned_vector.h>
+#include <deal.II/base/point.h>
 
 #include <string>
 #include <vector>
@@ -209,6 +210,21 @@ namespace talus
     void
     reserve(unsigned int n);
   };
+
+
+
+  /// Read a column of places, m, at point p.
+  template <int dim>
+  inline dealii::Point<dim>
+  load_place(const Points<dim> &points,
+             const unsigned int column,
+             const unsigned int p)
+  {
+    dealii::Point<dim> x;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = points.data(column, d)[p];
+    return x;
+  }
 
 
 
