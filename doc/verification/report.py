@@ -25,14 +25,16 @@ SECTIONS = [
     ("Elasticity", ["Discs", "SelfWeightColumn", "Elastica"]),
     ("Strength: one point", ["OnePoint"]),
     ("Seabed and layers",
-     ["Block", "ShearLayer", "ViscoplasticLayer", "VerticalCut"]),
+     ["Block", "ShearLayer", "ViscoplasticLayer", "VerticalCut",
+      "VerticalCutBracket"]),
     ("Numerical fracture", ["HangingBlock"]),
     ("The landslide of the paper",
      ["LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
       "LandslideStretched", "LandslideUnsplit", "LandslideSimilarity",
       "Landslide3d"]),
 ]
-SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay"}
+SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
+        "VerticalCutBracket"}
 
 HEAD = """# Verification
 
