@@ -99,6 +99,25 @@ def profiles(source, target, panels, name):
     return save(figure, target, name)
 
 
+def vertical_cut(source, target):
+    """Settlement of the crest over the load; grey: bounds of the critical one."""
+    tables = [(n, series(source, "vertical-cut-%d" % n)) for n in (8, 16, 32)]
+    tables = [(n, table) for n, table in tables if table]
+    if not tables:
+        return None
+    figure, axes = plt.subplots(figsize=(5.2, 2.6), constrained_layout=True)
+    axes.axvspan(3.776, 3.83, color=EXACT, alpha=0.4, linewidth=0)
+    for (n, table), color in zip(tables, (SPLIT, UNSPLIT, "#3a8f5c")):
+        axes.semilogy(table["gamma H / s_u"],
+                      table["final crest settlement / H"], "o-", color=color,
+                      markersize=3.5, label="cells of H / %d" % n)
+    axes.set_title("vertical cut: final settlement of the crest / H")
+    axes.set_xlabel("gamma H / s_u")
+    axes.grid(linewidth=0.3)
+    axes.legend(loc="upper left")
+    return save(figure, target, "verification-cut.png")
+
+
 def deposits(results, target):
     """Height of the soil in the last rows of profile.csv."""
     figure, axes = plt.subplots(figsize=(7.8, 1.9), constrained_layout=True)
@@ -148,6 +167,10 @@ def draw_all(source, target):
         "verification-layers.png"),
         "Viscoplastic layers on a slope of 5 degrees and a layer that slides "
         "on a capped seabed, against their closed forms (grey).")
+    add("Seabed and layers", vertical_cut(source, target),
+        "Vertical cut in clay under growing weight; runs end where the crest "
+        "has settled by 0.2 % of the height. Grey: bounds of the load at which "
+        "it collapses.")
     add("The landslide of the paper", deposits(os.path.join(source, "..", ".."), target),
         "Shape of the deposit.")
     return pictures

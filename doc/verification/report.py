@@ -26,7 +26,8 @@ SECTIONS = [
     ("Elasticity", ["Discs", "SelfWeightColumn", "Elastica"]),
     ("Strength: one point", ["OnePoint"]),
     ("Seabed and layers",
-     ["Block", "ShearLayer", "ViscoplasticLayer", "VerticalCut"]),
+     ["Block", "ShearLayer", "ViscoplasticLayer", "VerticalCut",
+      "VerticalCutBracket"]),
     ("Numerical fracture", ["HangingBlock"]),
     ("The landslide of the paper",
      ["LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
@@ -52,6 +53,7 @@ SUMMARY = [
     ("ShearLayer", "acceleration"),
     ("ViscoplasticLayer", "velocity of the surface"),
     ("VerticalCut", ""),
+    ("VerticalCutBracket", ""),
     ("HangingBlock", ""),
     ("LandslideFull", "energy lost"),
     ("LandslideFull", "at rest"),
@@ -59,7 +61,8 @@ SUMMARY = [
     ("LandslideSimilarity", ""),
     ("Landslide3d", "3-D against 2-D, to 4 s: front"),
 ]
-SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay"}
+SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
+        "VerticalCutBracket"}
 
 HEAD = """# Verification
 
