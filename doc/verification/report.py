@@ -22,7 +22,7 @@ SECTIONS = [
     ("The bar of the paper", ["Bar", "BarConvergence"]),
     ("Manufactured solutions",
      ["ManufacturedBar", "Manufactured2d", "Manufactured3d", "Vortex"]),
-    ("Elasticity", ["Discs", "SelfWeightColumn", "Elastica"]),
+    ("Elasticity", ["Discs", "SelfWeightColumn", "ElasticaLoads", "Elastica"]),
     ("Strength: one point", ["OnePoint"]),
     ("Seabed and layers",
      ["Block", "ShearLayer", "ViscoplasticLayer", "VerticalCut"]),
@@ -32,7 +32,8 @@ SECTIONS = [
       "LandslideStretched", "LandslideUnsplit", "LandslideSimilarity",
       "Landslide3d"]),
 ]
-SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay"}
+SLOW = {"ElasticaLoads", "LandslideFull", "LandslideFullUnsplit",
+        "LandslideFourWay"}
 
 HEAD = """# Verification
 
