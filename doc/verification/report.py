@@ -23,7 +23,7 @@ SECTIONS = [
     ("The bar of the paper", ["Bar", "BarConvergence"]),
     ("Manufactured solutions",
      ["ManufacturedBar", "Manufactured2d", "Manufactured3d", "Vortex"]),
-    ("Elasticity", ["Discs", "SelfWeightColumn", "Elastica"]),
+    ("Elasticity", ["Discs", "SelfWeightColumn", "ElasticaLoads", "Elastica"]),
     ("Strength: one point", ["OnePoint"]),
     ("Seabed and layers",
      ["Block", "ShearLayer", "ViscoplasticLayer", "VerticalCut",
@@ -62,7 +62,7 @@ SUMMARY = [
     ("Landslide3d", "3-D against 2-D, to 4 s: front"),
 ]
 SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
-        "VerticalCutBracket"}
+        "VerticalCutBracket", "ElasticaLoads"}
 
 HEAD = """# Verification
 
