@@ -168,7 +168,7 @@ def draw_all(source, target):
         "Viscoplastic layers on a slope of 5 degrees and a layer that slides "
         "on a capped seabed, against their closed forms (grey).")
     add("Seabed and layers", vertical_cut(source, target),
-        "Vertical cut in clay under growing weight; runs end where the crest "
+        "Vertical cut in clay under growing weight. Runs end where the crest "
         "has settled by 0.2 % of the height. Grey: bounds of the load at which "
         "it collapses.")
     add("The landslide of the paper", deposits(os.path.join(source, "..", ".."), target),
