@@ -132,7 +132,8 @@ def deposits(results, target):
                       color=color, label=label)
     axes.set_title("landslide of the paper at rest: height of the soil [m]")
     axes.set_xlabel("x [m]")
-    axes.legend(loc="upper right")
+    axes.set_ylim(0, 2.6)
+    axes.legend(loc="upper right", ncol=3)
     axes.grid(linewidth=0.3)
     return save(figure, target, "verification-deposits.png")
 

@@ -7,6 +7,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <iostream>
 #include <thread>
 
@@ -129,6 +130,12 @@ namespace
 int
 main(int argc, char **argv)
 {
+  // Open MPI guards a file that it opens by a semaphore which is named after the
+  // file without its folder and outlives a program that is killed: one killed
+  // there, and all checkpoints on this machine would wait for ever. Do without,
+  // unless the user has a say; nothing here uses what it guards (shared file
+  // pointers). Other MPIs do not read this.
+  setenv("OMPI_MCA_sharedfp", "^sm", /*overwrite=*/0);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   try
     {

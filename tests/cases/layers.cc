@@ -129,7 +129,8 @@ namespace
       return std::pow(S / K, 1. / n) / m *
              (std::pow(h_s, m) - std::pow(std::max(h_s - y, 0.), m));
     };
-    Verification gates(name + " layer on a slope",
+    Verification gates((n < 1. ? "Herschel-Bulkley" : "Bingham") +
+                         std::string(" layer on a slope"),
                        "prm/" + file,
                        "steady flow, closed form");
     gates.near("velocity of the surface [m/s]",
