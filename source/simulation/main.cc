@@ -130,12 +130,12 @@ namespace
 int
 main(int argc, char **argv)
 {
-  // Open MPI guards a file that it opens by a semaphore which is named after the
-  // file without its folder and outlives a program that is killed: one killed
-  // there, and all checkpoints on this machine would wait for ever. Do without,
-  // unless the user has a say; nothing here uses what it guards (shared file
-  // pointers). Other MPIs do not read this.
-  setenv("OMPI_MCA_sharedfp", "^sm", /*overwrite=*/0);
+  // Open MPI's own MPI-IO guards a file that it opens by a semaphore which is
+  // named after the file without its folder and outlives a program that is
+  // killed: one killed there, and all checkpoints on this machine would wait for
+  // ever. ROMIO, which comes with Open MPI, has no such lock. Unless the user
+  // has a say; other MPIs do not read this.
+  setenv("OMPI_MCA_io", "^ompio", /*overwrite=*/0);
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   try
     {
