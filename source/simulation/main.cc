@@ -1,4 +1,5 @@
 #include <talus/base/errors.h>
+#include <talus/base/mpi_io.h>
 #include <talus/simulation/command_line.h>
 #include <talus/simulation/message.h>
 #include <talus/simulation/parameter_file.h>
@@ -7,7 +8,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
-#include <cstdlib>
 #include <iostream>
 #include <thread>
 
@@ -130,12 +130,7 @@ namespace
 int
 main(int argc, char **argv)
 {
-  // Open MPI's own MPI-IO guards a file that it opens by a semaphore which is
-  // named after the file without its folder and outlives a program that is
-  // killed: one killed there, and all checkpoints on this machine would wait for
-  // ever. ROMIO, which comes with Open MPI, has no such lock. Unless the user
-  // has a say; other MPIs do not read this.
-  setenv("OMPI_MCA_io", "^ompio", /*overwrite=*/0);
+  talus::choose_mpi_io();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   try
     {

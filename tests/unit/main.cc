@@ -1,3 +1,5 @@
+#include <talus/base/mpi_io.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <gtest/gtest.h>
@@ -5,6 +7,7 @@
 int
 main(int argc, char **argv)
 {
+  talus::choose_mpi_io();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   // The other ranks only tell what failed.
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) > 0)
