@@ -72,7 +72,7 @@ What talus is held against, and how it fares: every row is asserted by a test of
 
     cmake --build build/release --target verification
 
-runs all (about an hour on two cores, most of it the landslides to rest), writes this page and its
+runs all (expect an hour or more, most of it the landslides to rest), writes this page and its
 pictures, and fails if a gate fails. Names of files are those to run by hand; sources are keys or
 titles in [references.bib](references.bib). A gate that is not met stays here as *falls short*
 with what is known of the cause.
