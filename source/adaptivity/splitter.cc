@@ -2,6 +2,7 @@
 #include <talus/base/errors.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace talus
 {
@@ -50,6 +51,30 @@ namespace talus
 
 
   template <int dim>
+  template <typename Number>
+  auto
+  Splitter<dim>::violates(const Points<dim> &points,
+                          const unsigned int p,
+                          const unsigned int d,
+                          const double       cell_size) const
+  {
+    const Number stretch = load<Number>(points.data(points.stretch, d) + p);
+    const Number at_creation =
+      load<Number>(points.data(points.creation_stretch, d) + p);
+    const Number length =
+      stretch * load<Number>(points.data(points.reference_length, d) + p);
+    const auto is_stretched =
+      (stretch > threshold_ * at_creation) &
+      (length > broadcast<Number>(minimum_length_ * cell_size));
+    // Longer than a cell, a box would be clipped and leave gaps.
+    const auto is_too_long =
+      length > broadcast<Number>((1. + 1e-9) * cell_size);
+    return is_stretched | is_too_long;
+  }
+
+
+
+  template <int dim>
   unsigned int
   Splitter<dim>::axes_to_split(const Points<dim> &points,
                                const unsigned int p,
@@ -57,19 +82,38 @@ namespace talus
   {
     unsigned int axes = 0;
     for (unsigned int d = 0; d < dim; ++d)
-      {
-        const double stretch = points.data(points.stretch, d)[p];
-        const double length =
-          stretch * points.data(points.reference_length, d)[p];
-        const bool is_stretched =
-          stretch > threshold_ * points.data(points.creation_stretch, d)[p] &&
-          length > minimum_length_ * cell_size;
-        // Longer than a cell, a box would be clipped and leave gaps.
-        const bool is_too_long = length > (1. + 1e-9) * cell_size;
-        if (is_stretched || is_too_long)
-          axes |= 1u << d;
-      }
+      if (violates<double>(points, p, d, cell_size))
+        axes |= 1u << d;
     return axes;
+  }
+
+
+
+  template <int dim>
+  bool
+  Splitter<dim>::may_violate(const Points<dim> &points,
+                             const Batch       &batch,
+                             const Grid<dim>   &grid) const
+  {
+    double least_size = std::numeric_limits<double>::max();
+    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+      {
+        const Cell<dim> &cell = grid.cells()[points.segments()[s].cell];
+        // A neighbour may have cells of half the size.
+        least_size =
+          std::min(least_size, cell.size * (cell.uniform ? 1. : 0.5));
+      }
+    bool found = false;
+    for_lanes(batch.begin, batch.end, [&](const unsigned int p, auto number) {
+      using Number         = decltype(number);
+      auto may_be_violated = violates<Number>(points, p, 0, least_size);
+      for (unsigned int d = 1; d < dim; ++d)
+        may_be_violated |= violates<Number>(points, p, d, least_size);
+      found |= any(may_be_violated &
+                   (load<Number>(points.data(points.generation) + p) <
+                    broadcast<Number>(maximum_generation_)));
+    });
+    return found;
   }
 
 
@@ -210,15 +254,16 @@ namespace talus
 
 
   template <int dim>
-  bool
-  Splitter<dim>::enforce(Points<dim> &points, const Grid<dim> &grid)
+  void
+  Splitter<dim>::find(const Points<dim> &points,
+                      const Batch       &batch,
+                      const Grid<dim>   &grid)
   {
-    if (!enabled_)
-      return false;
-    violations_.clear();
-    std::size_t n_daughters = 0;
-    for (const Segment &segment : points.segments())
+    if (!enabled_ || !may_violate(points, batch, grid))
+      return;
+    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
+        const Segment   &segment   = points.segments()[s];
         const Cell<dim> &cell      = grid.cells()[segment.cell];
         double           cell_size = cell.size;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
@@ -232,20 +277,30 @@ namespace talus
               continue;
             if (directions_ == "all")
               axes = (1u << dim) - 1;
-            if (!daughters_may_stay(points, p, axes, cell_size, grid))
-              continue;
-            violations_.push_back({p, axes});
-            n_daughters += 1u << __builtin_popcount(axes);
+            if (daughters_may_stay(points, p, axes, cell_size, grid))
+              violations_.push_back({p, axes});
           }
       }
+  }
+
+
+
+  template <int dim>
+  bool
+  Splitter<dim>::enforce(Points<dim> &points)
+  {
     if (violations_.empty())
       return false;
+    std::size_t n_daughters = 0;
+    for (const Violation &violation : violations_)
+      n_daughters += 1u << __builtin_popcount(violation.axes);
     check_budget(points, points.size() - violations_.size() + n_daughters);
     for (const Violation &violation : violations_)
       split(points, violation.point, violation.axes);
     statistics_.n_splits += violations_.size();
     statistics_.ledger = ledger_.relative_error();
     Assert(statistics_.ledger <= 1e-12, ExcInternalError());
+    violations_.clear();
     return true;
   }
 

@@ -98,9 +98,12 @@ namespace talus
 
   template <int dim>
   void
-  Materials<dim>::update_stress(Points<dim> &points, const double dt) const
+  Materials<dim>::update_stress(Points<dim> &points,
+                                const Batch &batch,
+                                const double dt) const
   {
     for_runs(points,
+             batch,
              [&](const MaterialModel<dim> &model,
                  const unsigned int        begin,
                  const unsigned int        end) {

@@ -81,9 +81,20 @@ namespace talus
     capacity_ = std::max(n, capacity_ + capacity_ / 2);
     for (auto &array : arrays_)
       array.resize(capacity_ + n_lanes, 0.);
-    for (auto &array : workspace_)
-      array.resize(capacity_ + n_lanes, 0.);
     reordered_.resize(capacity_ + n_lanes, 0.);
+  }
+
+
+
+  template <int dim>
+  void
+  Points<dim>::lend_workspace(const unsigned int begin, const unsigned int end)
+  {
+    workspace_begin_    = begin;
+    const std::size_t n = end - begin + n_lanes;
+    if (workspace_[0].size() < n)
+      for (auto &row : workspace_)
+        row.resize(n, 0.);
   }
 
 
@@ -139,7 +150,8 @@ namespace talus
   std::size_t
   Points<dim>::memory_consumption() const
   {
-    return (arrays_.size() + workspace_.size() + 1) * (capacity_ + n_lanes) *
+    return ((arrays_.size() + 1) * (capacity_ + n_lanes) +
+            workspace_.size() * workspace_[0].size()) *
            sizeof(double);
   }
 

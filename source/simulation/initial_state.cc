@@ -163,13 +163,14 @@ namespace talus
       return;
     displace(points, begin, end, constants);
     initialize_stretch(points, begin, end, rule);
+    if (!law.is_hyperelastic())
+      return;
+    points.lend_workspace(begin, end);
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
-        std::fill(points.velocity_gradient(i, j) + begin,
-                  points.velocity_gradient(i, j) + end,
-                  0.);
-    if (law.is_hyperelastic())
-      law.update_stress(points, begin, end, /*dt=*/0.);
+        std::fill_n(points.velocity_gradient(i, j), end - begin, 0.);
+    law.update_stress(points, begin, end, /*dt=*/0.);
+    points.return_workspace();
   }
 
 

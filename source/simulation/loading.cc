@@ -106,7 +106,7 @@ namespace talus
 
   template <int dim>
   void
-  Loading<dim>::update(Points<dim> &points, const double t)
+  Loading<dim>::update(const Points<dim> &points, const double t)
   {
     for (unsigned int b = 0; b < full_.size(); ++b)
       loads_.acceleration_of_body[b] = ramp(t) * full_[b];
@@ -115,11 +115,14 @@ namespace talus
     const unsigned int coordinates = body_force_.coordinates == "material"
                                        ? points.initial_position
                                        : points.position;
+    for (auto &row : loads_.acceleration_of_point)
+      row.resize(points.size() + n_lanes);
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         const Point<dim> x = load_place(points, coordinates, p);
         for (unsigned int d = 0; d < dim; ++d)
-          points.body_acceleration(d)[p] = expression_->finite_value(x, t, d);
+          loads_.acceleration_of_point[d][p] =
+            expression_->finite_value(x, t, d);
       }
   }
 

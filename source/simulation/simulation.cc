@@ -235,8 +235,11 @@ namespace talus
       TimerOutput::Scope scope(timer_, "points to grid");
       loading_.update(points_, time_);
       nodes_.clear();
-      transfer_.average_mean_stress(points_);
-      transfer_.scatter(points_, grid_, loading_.loads(), nodes_);
+      points_.for_batches([this](const Batch &batch) {
+        points_.lend_workspace(batch.begin, batch.end);
+        transfer_.average_mean_stress(points_, batch);
+        transfer_.scatter(points_, batch, grid_, loading_.loads(), nodes_);
+      });
     }
     TimerOutput::Scope scope(timer_, "nodes, messages");
     nodes_.sum_over_ranks(grid_);
@@ -257,15 +260,17 @@ namespace talus
   void
   Simulation<dim>::grid_to_points()
   {
-    {
-      TimerOutput::Scope scope(timer_, "grid to points");
+    TimerOutput::Scope scope(timer_, "grid to points");
+    const BoxRule      rule = transfer_.box_shape().rule;
+    points_.for_batches([&](const Batch &batch) {
+      points_.lend_workspace(batch.begin, batch.end);
       gravity_work_ +=
-        transfer_.gather(nodes_, grid_, loading_.loads(), points_, dt_);
-      transfer_.average_dilatation(points_);
-    }
-    TimerOutput::Scope scope(timer_, "stress update");
-    materials_.update_stress(points_, dt_);
-    update_stretch(points_, transfer_.box_shape().rule, dt_);
+        transfer_.gather(nodes_, grid_, loading_.loads(), points_, batch, dt_);
+      transfer_.average_dilatation(points_, batch);
+      materials_.update_stress(points_, batch, dt_);
+      update_stretch(points_, batch.begin, batch.end, rule, dt_);
+      splitter_.find(points_, batch, grid_);
+    });
   }
 
 
@@ -275,7 +280,7 @@ namespace talus
   Simulation<dim>::split()
   {
     TimerOutput::Scope scope(timer_, "splitting");
-    splitter_.enforce(points_, grid_);
+    splitter_.enforce(points_);
   }
 
 

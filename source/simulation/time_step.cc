@@ -10,6 +10,19 @@ namespace talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// The larger one; what is not a number is taken, and then stays.
+    template <typename Number>
+    inline Number
+    larger_or_none(const Number a, const Number b)
+    {
+      return ((a < b) | (b != b)) ? b : a;
+    }
+  } // namespace
+
+
+
   template <int dim>
   TimeStep<dim>::TimeStep()
     : ParameterAcceptor("/Time step")
@@ -64,21 +77,79 @@ namespace talus
 
   template <int dim>
   std::string
-  TimeStep<dim>::first_without_bound(const Points<dim> &points) const
+  TimeStep<dim>::first_without_bound(const Points<dim>    &points,
+                                     const Materials<dim> &materials) const
   {
-    for (unsigned int p = 0; p < points.size(); ++p)
-      {
-        Point<dim> x;
-        double     sum = wave_speed_[p];
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            x[d] = points.data(points.position, d)[p];
+    for (const Segment &segment : points.segments())
+      for (unsigned int p = segment.begin; p < segment.end; ++p)
+        {
+          double sum;
+          materials.of_body(segment.body).wave_speed(points, p, p + 1, &sum);
+          for (unsigned int d = 0; d < dim; ++d)
             sum += points.data(points.velocity, d)[p];
-          }
-        if (!std::isfinite(sum))
-          return text("point ", points.data(points.id)[p], " at (", x, ") m");
-      }
+          if (!std::isfinite(sum))
+            return text("point ",
+                        points.data(points.id)[p],
+                        " at (",
+                        load_place(points, points.position, p),
+                        ") m");
+        }
     return "no point, though";
+  }
+
+
+
+  template <int dim>
+  Lanes
+  TimeStep<dim>::largest_inverse_bound(const Points<dim>    &points,
+                                       const Batch          &batch,
+                                       const Grid<dim>      &grid,
+                                       const Materials<dim> &materials,
+                                       const BoxShape       &shape)
+  {
+    const unsigned int n = batch.end - batch.begin;
+    if (wave_speed_.size() < n + n_lanes)
+      {
+        wave_speed_.resize(n + n_lanes);
+        inverse_cell_size_.resize(n + n_lanes);
+      }
+    materials.for_runs(points,
+                       batch,
+                       [&](const MaterialModel<dim> &model,
+                           const unsigned int        begin,
+                           const unsigned int        end) {
+                         model.wave_speed(points,
+                                          begin,
+                                          end,
+                                          &wave_speed_[begin - batch.begin]);
+                       });
+    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+      {
+        // Whole registers; the next segment overwrites what is too much.
+        const Segment &segment = points.segments()[s];
+        const Lanes    inverse_size =
+          broadcast<Lanes>(1. / grid.cells()[segment.cell].size);
+        for (unsigned int p = segment.begin; p < segment.end; p += n_lanes)
+          store(&inverse_cell_size_[p - batch.begin], inverse_size);
+      }
+
+    Lanes largest{};
+    for_lanes(batch.begin, batch.end, [&](const unsigned int p, auto number) {
+      using Number         = decltype(number);
+      const unsigned int k = p - batch.begin;
+      const auto         bounds =
+        inverse_bounds<Number>(points,
+                               shape,
+                               p,
+                               load<Number>(&wave_speed_[k]),
+                               load<Number>(&inverse_cell_size_[k]));
+      for (const Number &bound : bounds)
+        if constexpr (std::is_same_v<Number, Lanes>)
+          largest = larger_or_none(largest, bound);
+        else
+          largest[0] = larger_or_none(largest[0], bound);
+    });
+    return largest;
   }
 
 
@@ -90,44 +161,15 @@ namespace talus
                         const Materials<dim> &materials,
                         const BoxShape       &shape)
   {
-    wave_speed_.resize(points.size() + n_lanes);
-    inverse_cell_size_.resize(points.size() + n_lanes);
-    materials.for_runs(points,
-                       [&](const MaterialModel<dim> &model,
-                           const unsigned int        begin,
-                           const unsigned int        end) {
-                         model.wave_speed(points,
-                                          begin,
-                                          end,
-                                          wave_speed_.data() + begin);
-                       });
-    for (const Segment &segment : points.segments())
-      std::fill(inverse_cell_size_.begin() + segment.begin,
-                inverse_cell_size_.begin() + segment.end,
-                1. / grid.cells()[segment.cell].size);
-
-    Lanes      largest_lanes{};
-    double     largest = 0;
-    const auto raise   = [](auto &to, const auto &bounds) {
-      // A bound that is not a number is taken, and then stays.
-      for (const auto &bound : bounds)
-        to = ((to < bound) | (bound != bound)) ? bound : to;
-    };
-    for_lanes(0, points.size(), [&](const unsigned int p, const auto number) {
-      using Number = std::decay_t<decltype(number)>;
-      const auto bounds =
-        inverse_bounds<Number>(points,
-                               shape,
-                               p,
-                               load<Number>(&wave_speed_[p]),
-                               load<Number>(&inverse_cell_size_[p]));
-      if constexpr (std::is_same_v<Number, Lanes>)
-        raise(largest_lanes, bounds);
-      else
-        raise(largest, bounds);
+    Lanes largest_lanes{};
+    points.for_batches([&](const Batch &batch) {
+      largest_lanes = larger_or_none(
+        largest_lanes,
+        largest_inverse_bound(points, batch, grid, materials, shape));
     });
+    double largest = 0;
     for (unsigned int i = 0; i < n_lanes; ++i)
-      raise(largest, std::array<double, 2>{{largest_lanes[i], 0.}});
+      largest = larger_or_none(largest, largest_lanes[i]);
 
     // Infinite where there are no points.
     const double dt = 1. / largest;
@@ -135,7 +177,7 @@ namespace talus
                 ExcPoint(text("No time step can be chosen (it would be ",
                               dt,
                               " s): velocity or wave speed are not finite at ",
-                              first_without_bound(points),
+                              first_without_bound(points, materials),
                               ". The simulation became unstable: lower 'Time "
                               "step/CFL number'.")));
     return maximum_ > 0 ? std::min(dt, maximum_) : dt;

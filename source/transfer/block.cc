@@ -13,17 +13,11 @@ namespace talus
     const Cell<dim>   &cell  = grid_.cells()[segment.cell];
     const unsigned int begin = block.size, end = begin + n;
     block.pieces[block.n_pieces++] = {segment.cell, begin, end};
-
-    const auto  &acceleration = loads_.acceleration_of_body[segment.body];
-    const double inverse_size = 1. / cell.size;
-    for (unsigned int k = begin; k < end; ++k)
-      block.inverse_cell_size[k] = inverse_size;
+    // Whole registers: what goes beyond the end is overwritten by the next
+    // piece.
     for (unsigned int d = 0; d < dim; ++d)
-      for (unsigned int k = begin; k < end; ++k)
-        {
-          block.cell_lower[d][k]        = cell.lower[d];
-          block.body_acceleration[d][k] = acceleration[d];
-        }
+      for (unsigned int k = begin; k < end; k += n_lanes)
+        store(&block.cell_lower[d][k], broadcast<Lanes>(cell.lower[d]));
     block.size = end;
   }
 
@@ -33,31 +27,29 @@ namespace talus
   void
   BlockWalk<dim>::compute_weights(Block<dim> &block) const
   {
+    const double inverse_size = 1. / block.cell_size;
     // Whole lanes: what lies behind the last point of the block is computed,
     // too, from whatever is there, and never used.
     for (unsigned int k = 0; k < block.size; k += n_lanes)
       {
-        const unsigned int p     = block.begin + k;
-        const Lanes inverse_size = load<Lanes>(&block.inverse_cell_size[k]);
+        const unsigned int p = block.begin + k;
+        Lanes              first{};
         for (unsigned int d = 0; d < dim; ++d)
           {
             const Lanes x = load<Lanes>(points_.data(points_.position, d) + p);
             const Lanes lower = load<Lanes>(&block.cell_lower[d][k]);
-            const Lanes half =
-              half_length_in_cells<dim>(points_, shape_, d, p, inverse_size);
+            const Lanes half  = half_length_in_cells<dim>(
+              points_, shape_, d, p, broadcast<Lanes>(inverse_size));
             const auto w = axis_weights((x - lower) * inverse_size, half);
-            for (unsigned int i = 0; i < 4; ++i)
+            first += w.first * static_cast<double>(power(4, d));
+            for (unsigned int i = 0; i < 3; ++i)
               {
                 store(&block.value[d][i][k], w.value[i]);
                 store(&block.gradient[d][i][k], w.gradient[i] * inverse_size);
               }
           }
+        store_as_integers(&block.first_node[k], first);
       }
-    if (loads_.varies)
-      for (unsigned int d = 0; d < dim; ++d)
-        for (unsigned int k = 0; k < block.size; ++k)
-          block.body_acceleration[d][k] +=
-            points_.body_acceleration(d)[block.begin + k];
   }
 
 
@@ -69,29 +61,32 @@ namespace talus
     block.size           = 0;
     block.n_pieces       = 0;
     const auto &segments = points_.segments();
-    for (; segment_ < segments.size(); ++segment_, taken_ = 0)
+    for (; segment_ < last_segment_; ++segment_, taken_ = 0)
       {
-        const Segment &segment = segments[segment_];
-        if (!grid_.cells()[segment.cell].uniform)
-          {
-            if (block.size > 0)
-              break;
-            continue;
-          }
+        const Segment   &segment = segments[segment_];
+        const Cell<dim> &cell    = grid_.cells()[segment.cell];
         if (block.size == 0)
-          block.begin = segment.begin + taken_;
+          {
+            if (!cell.uniform)
+              continue;
+            block.begin     = segment.begin + taken_;
+            block.body      = segment.body;
+            block.cell_size = cell.size;
+          }
+        else if (!cell.uniform || segment.body != block.body ||
+                 cell.size != block.cell_size)
+          break;
         const unsigned int left = segment.end - segment.begin - taken_;
         const unsigned int room = Block<dim>::n_points - block.size;
         take_piece(block, segment, std::min(left, room));
-        if (left > room)
+        if (left >= room)
           {
             taken_ += room;
-            break;
-          }
-        if (left == room)
-          {
-            ++segment_;
-            taken_ = 0;
+            if (left == room)
+              {
+                ++segment_;
+                taken_ = 0;
+              }
             break;
           }
       }

@@ -78,7 +78,8 @@ namespace talus
           case BoxRule::fixed:
           default:
             for (unsigned int d = 0; d < dim; ++d)
-              stretch[d] = old_stretch[d] * exponential(strain_increment[d]);
+              stretch[d] =
+                old_stretch[d] * exponential_of_step(strain_increment[d]);
             return stretch;
         }
     }
@@ -88,19 +89,23 @@ namespace talus
 
   template <int dim>
   void
-  update_stretch(Points<dim> &points, const BoxRule rule, const double dt)
+  update_stretch(Points<dim>       &points,
+                 const unsigned int begin,
+                 const unsigned int end,
+                 const BoxRule      rule,
+                 const double       dt)
   {
-    for_lanes(0, points.size(), [&](const unsigned int p, const auto number) {
-      using Number = std::decay_t<decltype(number)>;
+    for_lanes(begin, end, [&](const unsigned int p, auto number) {
+      using Number = decltype(number);
       const auto F =
         load_matrix<dim, Number>(points, points.deformation_gradient, p);
-      const Number            J = determinant(F);
+      const Number J = determinant(F);
+      const auto   L = load_velocity_gradient<dim, Number>(points, p);
       std::array<Number, dim> old_stretch, strain_increment;
       for (unsigned int d = 0; d < dim; ++d)
         {
           old_stretch[d] = load<Number>(points.data(points.stretch, d) + p);
-          strain_increment[d] =
-            dt * load<Number>(points.velocity_gradient(d, d) + p);
+          strain_increment[d] = dt * L[d][d];
         }
       const auto stretch =
         stretch_along_axes<dim>(F, J, rule, old_stretch, strain_increment);
@@ -161,9 +166,9 @@ namespace talus
 
 
   template void
-  update_stretch(Points<2> &, BoxRule, double);
+  update_stretch(Points<2> &, unsigned int, unsigned int, BoxRule, double);
   template void
-  update_stretch(Points<3> &, BoxRule, double);
+  update_stretch(Points<3> &, unsigned int, unsigned int, BoxRule, double);
   template void
   initialize_stretch(Points<2> &, unsigned int, unsigned int, BoxRule);
   template void

@@ -12,99 +12,147 @@ namespace talus
     template <int dim>
     using Record = typename MotionRecord<dim>::type;
 
-    /// What the nodes tell the points of a block: velocity and its increment,
-    /// and the velocity gradient.
+    /// What the nodes tell a point: registers of n_lanes entries, in which
+    /// velocity, its increment and the velocity gradient have fixed places.
     template <int dim>
-    struct Told
+    struct Told;
+
+    template <>
+    struct Told<2>
     {
-      using Row = typename Block<dim>::Row;
-      alignas(64) std::array<Row, dim> velocity;
-      alignas(64) std::array<Row, dim> increment;
-      alignas(64) std::array<std::array<Row, dim>, dim> gradient;
+      std::array<Lanes, 1> registers;
+
+      Told() = default;
+
+      Told(const Record<2> &motion, const std::array<Record<2>, 2> &gradient)
+      {
+        const Record<2> L =
+          __builtin_shufflevector(gradient[0], gradient[1], 0, 1, 4, 5);
+        registers[0] =
+          __builtin_shufflevector(motion, L, 0, 1, 2, 3, 4, 5, 6, 7);
+      }
+
+      static constexpr unsigned int velocity  = NodalMotion<2>::velocity;
+      static constexpr unsigned int increment = NodalMotion<2>::increment;
+
+      static constexpr unsigned int
+      gradient(const unsigned int i, const unsigned int d)
+      {
+        return 4 + 2 * d + i;
+      }
+    };
+
+    template <>
+    struct Told<3>
+    {
+      std::array<Lanes, 4> registers;
+
+      Told() = default;
+
+      Told(const Record<3> &motion, const std::array<Record<3>, 3> &gradient)
+        : registers{{motion, gradient[0], gradient[1], gradient[2]}}
+      {}
+
+      static constexpr unsigned int velocity  = NodalMotion<3>::velocity;
+      static constexpr unsigned int increment = NodalMotion<3>::increment;
+
+      static constexpr unsigned int
+      gradient(const unsigned int i, const unsigned int d)
+      {
+        return n_lanes * (1 + d) + NodalMotion<3>::velocity + i;
+      }
+    };
+
+    template <int dim>
+    using ToldPoints = std::array<Told<dim>, Block<dim>::n_points>;
+
+
+
+    /// The same entry by entry, for one point or for eight.
+    template <int dim, typename Number>
+    struct ToldEntries
+    {
+      std::array<Number, n_lanes * sizeof(Told<dim>) / sizeof(Lanes)> entry;
+
+      explicit ToldEntries(const Told<dim> *told)
+      {
+        for (unsigned int r = 0; r < told->registers.size(); ++r)
+          if constexpr (std::is_same_v<Number, Lanes>)
+            {
+              Lanes rows[n_lanes];
+              for (unsigned int i = 0; i < n_lanes; ++i)
+                rows[i] = told[i].registers[r];
+              transpose(rows);
+              for (unsigned int i = 0; i < n_lanes; ++i)
+                entry[n_lanes * r + i] = rows[i];
+            }
+          else
+            for (unsigned int i = 0; i < n_lanes; ++i)
+              entry[n_lanes * r + i] = told->registers[r][i];
+      }
     };
 
 
 
-    template <int dim>
-    inline void
-    tell_point(const Record<dim>                  &motion,
-               const std::array<Record<dim>, dim> &gradient,
-               const unsigned int                  k,
-               Told<dim>                          &told)
+    /// What point @p k of the block is told by its nodes, the first of which is
+    /// @p patch[0].
+    inline Told<2>
+    interpolate(const Block<2>       &block,
+                const unsigned int    k,
+                const unsigned int   *patch,
+                const NodalFields<2> &nodes)
     {
-      using Motion = NodalMotion<dim>;
-      for (unsigned int i = 0; i < dim; ++i)
+      Record<2>                motion{};
+      std::array<Record<2>, 2> gradient{};
+      for (unsigned int j = 0; j < 3; ++j)
         {
-          told.velocity[i][k]  = motion[Motion::velocity + i];
-          told.increment[i][k] = motion[Motion::increment + i];
-          for (unsigned int d = 0; d < dim; ++d)
-            told.gradient[i][d][k] = gradient[d][Motion::velocity + i];
+          Record<2> value{}, slope{};
+          for (unsigned int i = 0; i < 3; ++i)
+            {
+              const auto node = load<Record<2>>(nodes.motion(patch[4 * j + i]));
+              value += block.value[0][i][k] * node;
+              slope += block.gradient[0][i][k] * node;
+            }
+          motion += block.value[1][j][k] * value;
+          gradient[0] += block.value[1][j][k] * slope;
+          gradient[1] += block.gradient[1][j][k] * value;
         }
+      return {motion, gradient};
     }
 
 
 
-    void
-    interpolate(const Block<2>                  &block,
-                const Piece                     &piece,
-                const std::array<Record<2>, 16> &patch,
-                Told<2>                         &told)
+    inline Told<3>
+    interpolate(const Block<3>       &block,
+                const unsigned int    k,
+                const unsigned int   *patch,
+                const NodalFields<3> &nodes)
     {
-      for (unsigned int k = piece.begin; k < piece.end; ++k)
+      Record<3>                motion{};
+      std::array<Record<3>, 3> gradient{};
+      for (unsigned int l = 0; l < 3; ++l)
         {
-          Record<2>                motion{};
-          std::array<Record<2>, 2> gradient{};
-          for (unsigned int j = 0; j < 4; ++j)
+          Record<3> value{}, slope_x{}, slope_y{};
+          for (unsigned int j = 0; j < 3; ++j)
             {
-              Record<2> value{}, slope{};
-              for (unsigned int i = 0; i < 4; ++i)
+              Record<3> row{}, slope{};
+              for (unsigned int i = 0; i < 3; ++i)
                 {
-                  value += block.value[0][i][k] * patch[4 * j + i];
-                  slope += block.gradient[0][i][k] * patch[4 * j + i];
+                  const auto node =
+                    load<Record<3>>(nodes.motion(patch[16 * l + 4 * j + i]));
+                  row += block.value[0][i][k] * node;
+                  slope += block.gradient[0][i][k] * node;
                 }
-              motion += block.value[1][j][k] * value;
-              gradient[0] += block.value[1][j][k] * slope;
-              gradient[1] += block.gradient[1][j][k] * value;
+              value += block.value[1][j][k] * row;
+              slope_x += block.value[1][j][k] * slope;
+              slope_y += block.gradient[1][j][k] * row;
             }
-          tell_point<2>(motion, gradient, k, told);
+          motion += block.value[2][l][k] * value;
+          gradient[0] += block.value[2][l][k] * slope_x;
+          gradient[1] += block.value[2][l][k] * slope_y;
+          gradient[2] += block.gradient[2][l][k] * value;
         }
-    }
-
-
-
-    void
-    interpolate(const Block<3>                  &block,
-                const Piece                     &piece,
-                const std::array<Record<3>, 64> &patch,
-                Told<3>                         &told)
-    {
-      for (unsigned int k = piece.begin; k < piece.end; ++k)
-        {
-          Record<3>                motion{};
-          std::array<Record<3>, 3> gradient{};
-          for (unsigned int l = 0; l < 4; ++l)
-            {
-              Record<3> value{}, slope_x{}, slope_y{};
-              for (unsigned int j = 0; j < 4; ++j)
-                {
-                  Record<3> row{}, slope{};
-                  for (unsigned int i = 0; i < 4; ++i)
-                    {
-                      const Record<3> &node = patch[16 * l + 4 * j + i];
-                      row += block.value[0][i][k] * node;
-                      slope += block.gradient[0][i][k] * node;
-                    }
-                  value += block.value[1][j][k] * row;
-                  slope_x += block.value[1][j][k] * slope;
-                  slope_y += block.gradient[1][j][k] * row;
-                }
-              motion += block.value[2][l][k] * value;
-              gradient[0] += block.value[2][l][k] * slope_x;
-              gradient[1] += block.value[2][l][k] * slope_y;
-              gradient[2] += block.gradient[2][l][k] * value;
-            }
-          tell_point<3>(motion, gradient, k, told);
-        }
+      return {motion, gradient};
     }
 
 
@@ -114,56 +162,42 @@ namespace talus
     template <int dim, typename Number>
     inline Number
     move_points(Points<dim>       &points,
-                const Block<dim>  &block,
-                const Told<dim>   &told,
-                const unsigned int k,
+                const unsigned int p,
+                const unsigned int body,
+                const Told<dim>   *told,
+                const Loads<dim>  &loads,
                 const double       flip,
                 const double       dt)
     {
-      const unsigned int p = block.begin + k;
-      Number             power_of_loads{};
+      using Place                            = Told<dim>;
+      const unsigned int             in_work = p - points.workspace_begin();
+      const ToldEntries<dim, Number> now(told);
+      Number                         power_of_loads{};
       for (unsigned int i = 0; i < dim; ++i)
         {
-          const Number v    = load<Number>(&told.velocity[i][k]);
-          const Number dv   = load<Number>(&told.increment[i][k]);
+          const Number v    = now.entry[Place::velocity + i];
+          const Number dv   = now.entry[Place::increment + i];
           double      *to_v = points.data(points.velocity, i) + p;
           double      *to_x = points.data(points.position, i) + p;
           store(to_v, flip * (load<Number>(to_v) + dv) + (1. - flip) * v);
           store(to_x, load<Number>(to_x) + dt * v);
           for (unsigned int d = 0; d < dim; ++d)
-            store(points.velocity_gradient(i, d) + p,
-                  load<Number>(&told.gradient[i][d][k]));
+            store(points.velocity_gradient(i, d) + in_work,
+                  now.entry[Place::gradient(i, d)]);
           power_of_loads +=
-            load<Number>(&block.body_acceleration[i][k]) * (v - 0.5 * dv);
+            loads.template acceleration<Number>(body, p, i) * (v - 0.5 * dv);
         }
       return dt * power_of_loads * load<Number>(points.data(points.mass) + p);
     }
 
 
 
-    inline double
-    sum(const double x)
-    {
-      return x;
-    }
-
-
-
-    inline double
-    sum(const Lanes &x)
-    {
-      return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
-    }
-
-
-
-    /// Cells whose neighbours differ in size: fill the block's rows of one
-    /// point from the weights by definition.
+    /// Cells whose neighbours differ in size: what one point is told, by the
+    /// weights as they are defined.
     template <int dim>
-    void
+    Told<dim>
     interpolate_general(const NodalFields<dim>             &nodes,
-                        const std::vector<NodeWeight<dim>> &weights,
-                        Told<dim>                          &told)
+                        const std::vector<NodeWeight<dim>> &weights)
     {
       Record<dim>                  motion{};
       std::array<Record<dim>, dim> gradient{};
@@ -174,7 +208,7 @@ namespace talus
           for (unsigned int d = 0; d < dim; ++d)
             gradient[d] += w.gradient[d] * node;
         }
-      tell_point<dim>(motion, gradient, 0, told);
+      return {motion, gradient};
     }
   } // namespace
 
@@ -186,45 +220,70 @@ namespace talus
                         const Grid<dim>        &grid,
                         const Loads<dim>       &loads,
                         Points<dim>            &points,
+                        const Batch            &batch,
                         const double            dt) const
   {
-    double         work = 0;
-    Block<dim>     block;
-    Told<dim>      told;
-    BlockWalk<dim> walk(points, grid, loads, box_shape_);
+    double          work = 0;
+    Lanes           work_of_lanes{};
+    Block<dim>      block;
+    ToldPoints<dim> told;
+    BlockWalk<dim>  walk(points, batch, grid, box_shape_);
     while (walk.next(block))
       {
         for (unsigned int i = 0; i < block.n_pieces; ++i)
           {
-            std::array<Record<dim>, power(4, dim)> motions;
-            const auto &patch = grid.cells()[block.pieces[i].cell].patch;
-            for (unsigned int n = 0; n < motions.size(); ++n)
-              motions[n] = load<Record<dim>>(nodes.motion(patch[n]));
-            interpolate(block, block.pieces[i], motions, told);
+            const Piece &piece = block.pieces[i];
+            const auto  *patch = grid.cells()[piece.cell].patch.data();
+            for (unsigned int k = piece.begin; k < piece.end; ++k)
+              told[k] =
+                interpolate(block, k, patch + block.first_node[k], nodes);
           }
-        for_lanes(0, block.size, [&](const unsigned int k, const auto number) {
-          using Number = std::decay_t<decltype(number)>;
-          work += sum(move_points<dim, Number>(
-            points, block, told, k, flip_fraction_, dt));
+        for_lanes(0, block.size, [&](const unsigned int k, auto number) {
+          using Number           = decltype(number);
+          const Number work_here = move_points<dim, Number>(points,
+                                                            block.begin + k,
+                                                            block.body,
+                                                            &told[k],
+                                                            loads,
+                                                            flip_fraction_,
+                                                            dt);
+          if constexpr (std::is_same_v<Number, Lanes>)
+            work_of_lanes += work_here;
+          else
+            work += work_here;
         });
       }
+    work += gather_general(nodes, grid, loads, points, batch, dt);
+    return work + sum_of_lanes(work_of_lanes);
+  }
 
+
+
+  template <int dim>
+  double
+  Transfer<dim>::gather_general(const NodalFields<dim> &nodes,
+                                const Grid<dim>        &grid,
+                                const Loads<dim>       &loads,
+                                Points<dim>            &points,
+                                const Batch            &batch,
+                                const double            dt) const
+  {
+    double                       work = 0;
     std::vector<NodeWeight<dim>> weights;
-    for (const Segment &segment : points.segments())
-      if (!grid.cells()[segment.cell].uniform)
+    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+      {
+        const Segment &segment = points.segments()[s];
+        if (grid.cells()[segment.cell].uniform)
+          continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
             weights_of_point(
               points, grid, box_shape_, segment.cell, p, weights);
-            interpolate_general(nodes, weights, told);
-            block.begin = p;
-            for (unsigned int d = 0; d < dim; ++d)
-              block.body_acceleration[d][0] =
-                loads.acceleration_of_body[segment.body][d] +
-                (loads.varies ? points.body_acceleration(d)[p] : 0.);
+            const Told<dim> told = interpolate_general(nodes, weights);
             work += move_points<dim, double>(
-              points, block, told, 0, flip_fraction_, dt);
+              points, p, segment.body, &told, loads, flip_fraction_, dt);
           }
+      }
     return work;
   }
 
@@ -235,11 +294,13 @@ namespace talus
                       const Grid<2> &,
                       const Loads<2> &,
                       Points<2> &,
+                      const Batch &,
                       double) const;
   template double
   Transfer<3>::gather(const NodalFields<3> &,
                       const Grid<3> &,
                       const Loads<3> &,
                       Points<3> &,
+                      const Batch &,
                       double) const;
 } // namespace talus

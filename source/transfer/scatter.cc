@@ -9,154 +9,193 @@ namespace talus
 
   namespace
   {
-    /// What a point gives to its nodes: register 0 is multiplied by the weight,
-    /// register 1 + d by component d of its gradient. Entries that are not set
-    /// stay zero. Kept as doubles: they are written one by one, and read as
-    /// registers only when the whole block is written.
-    template <int dim>
-    struct alignas(sizeof(Lanes)) Contribution
+    /// What a point gives to its nodes. `by_weight` is laid out as a NodalSum
+    /// and multiplied by the weight; `flux` is -V sigma in the order of the
+    /// stress, and its row d is multiplied by component d of the gradient.
+    struct Contribution
     {
-      double entry[1 + dim][n_lanes] = {};
-
-      Lanes
-      operator[](const unsigned int i) const
-      {
-        return load<Lanes>(entry[i]);
-      }
+      Lanes by_weight;
+      Lanes flux;
     };
 
     template <int dim>
-    using Contributions = std::array<Contribution<dim>, Block<dim>::n_points>;
+    using Contributions = std::array<Contribution, Block<dim>::n_points>;
 
 
 
-    /// Cauchy stress of point p with the mean over its cell.
-    template <int dim>
-    inline Matrix<dim, double>
-    averaged_stress(Points<dim> &points, const unsigned int p)
+    /// Row @p d of the flux where NodalSum has the force.
+    template <int dim, int d>
+    inline Lanes
+    force_by_gradient(const Lanes &flux)
     {
-      Matrix<dim, double> sigma;
-      for (unsigned int i = 0; i < dim; ++i)
-        for (unsigned int j = 0; j < dim; ++j)
-          sigma[i][j] = points.data(points.stress, stress_index<dim>(i, j))[p] +
-                        (i == j ? points.mean_stress_shift()[p] : 0.);
-      return sigma;
+      constexpr int zero = n_lanes;
+      if constexpr (dim == 2)
+        return __builtin_shufflevector(flux,
+                                       Lanes{},
+                                       zero,
+                                       zero,
+                                       zero,
+                                       stress_index<2>(d, 0),
+                                       stress_index<2>(d, 1),
+                                       zero,
+                                       zero,
+                                       zero);
+      else
+        return __builtin_shufflevector(flux,
+                                       Lanes{},
+                                       zero,
+                                       zero,
+                                       zero,
+                                       zero,
+                                       stress_index<3>(d, 0),
+                                       stress_index<3>(d, 1),
+                                       stress_index<3>(d, 2),
+                                       zero);
     }
+
+    static_assert(NodalSum<2>::force == 3 && NodalSum<3>::force == 4);
 
 
 
     /// f_i = -sum_p V_p sigma_p . grad S_ip + sum_p m_p b_p S_ip, and the sums
-    /// of mass, momentum and reference volume. @cite bardenhagen2004, eq. 19 ff.
+    /// of mass, momentum and reference volume, for the points @p p and
+    /// following: entry by entry, point by lane. The stress has the mean over
+    /// its cell. @cite bardenhagen2004, eq. 19 ff.
     template <int dim>
     inline void
-    set_contribution(Points<dim>       &points,
-                     const unsigned int p,
-                     const double      *acceleration,
-                     Contribution<dim> &r)
+    set_contributions(Points<dim>       &points,
+                      const unsigned int p,
+                      const unsigned int body,
+                      const Loads<dim>  &loads,
+                      Lanes (&by_weight)[n_lanes],
+                      Lanes (&flux)[n_lanes])
     {
-      using Sum            = NodalSum<dim>;
-      const double mass    = points.data(points.mass)[p];
-      const double volume0 = points.data(points.reference_volume)[p];
-      const double volume =
-        volume0 *
-        determinant(
-          load_matrix<dim, double>(points, points.deformation_gradient, p));
-      const Matrix<dim, double> sigma = averaged_stress(points, p);
-
-      r.entry[0][Sum::mass]   = mass;
-      r.entry[0][Sum::volume] = volume0;
+      using Sum        = NodalSum<dim>;
+      const Lanes mass = load<Lanes>(points.data(points.mass) + p);
+      const Lanes volume0 =
+        load<Lanes>(points.data(points.reference_volume) + p);
+      const Lanes J = determinant(
+        load_matrix<dim, Lanes>(points, points.deformation_gradient, p));
+      const Lanes shift =
+        load<Lanes>(points.mean_stress_shift() + p - points.workspace_begin());
+      by_weight[Sum::mass]   = mass;
+      by_weight[Sum::volume] = volume0;
       for (unsigned int i = 0; i < dim; ++i)
         {
-          r.entry[0][Sum::momentum + i] =
-            mass * points.data(points.velocity, i)[p];
-          r.entry[0][Sum::force + i] = mass * acceleration[i];
-          for (unsigned int d = 0; d < dim; ++d)
-            r.entry[1 + d][Sum::force + i] = -volume * sigma[i][d];
+          by_weight[Sum::momentum + i] =
+            mass * load<Lanes>(points.data(points.velocity, i) + p);
+          by_weight[Sum::force + i] =
+            mass * loads.template acceleration<Lanes>(body, p, i);
         }
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          {
+            constexpr auto index = stress_index<dim>;
+            const Lanes    sigma =
+              load<Lanes>(points.data(points.stress, index(i, j)) + p);
+            flux[index(i, j)] = -volume0 * J * (i == j ? sigma + shift : sigma);
+          }
     }
 
 
 
+    /// The contributions of all points of the block, one after the other.
     template <int dim>
     void
     stage(Points<dim>        &points,
           const Block<dim>   &block,
+          const Loads<dim>   &loads,
           Contributions<dim> &contributions)
     {
-      for (unsigned int k = 0; k < block.size; ++k)
+      for (unsigned int k = 0; k < block.size; k += n_lanes)
         {
-          double acceleration[dim];
-          for (unsigned int d = 0; d < dim; ++d)
-            acceleration[d] = block.body_acceleration[d][k];
-          set_contribution(points,
-                           block.begin + k,
-                           acceleration,
-                           contributions[k]);
+          Lanes by_weight[n_lanes] = {}, flux[n_lanes] = {};
+          set_contributions(
+            points, block.begin + k, block.body, loads, by_weight, flux);
+          transpose(by_weight);
+          transpose(flux);
+          for (unsigned int i = 0; i < n_lanes; ++i)
+            contributions[k + i] = {by_weight[i], flux[i]};
         }
     }
 
 
 
-    /// Sum over the points of a piece for the nodes of its patch. The sums stay
-    /// in registers in 2-D: 16 nodes, one register each.
-    void
-    accumulate(const Block<2>         &block,
-               const Contributions<2> &contributions,
-               const Piece            &piece,
-               std::array<Lanes, 16>  &sum)
+    inline void
+    add(double      *to,
+        const Lanes &a,
+        const double x,
+        const Lanes &b,
+        const double y)
     {
-      for (unsigned int k = piece.begin; k < piece.end; ++k)
-        {
-          const Lanes r[3] = {contributions[k][0],
-                              contributions[k][1],
-                              contributions[k][2]};
-          Lanes       P[4], Q[4];
-          for (unsigned int i = 0; i < 4; ++i)
-            {
-              P[i] =
-                block.value[0][i][k] * r[0] + block.gradient[0][i][k] * r[1];
-              Q[i] = block.value[0][i][k] * r[2];
-            }
-          for (unsigned int j = 0; j < 4; ++j)
-            for (unsigned int i = 0; i < 4; ++i)
-              sum[4 * j + i] +=
-                block.value[1][j][k] * P[i] + block.gradient[1][j][k] * Q[i];
-        }
+      // Term by term: each is one fused multiply-add.
+      Lanes sum = load<Lanes>(to) + x * a;
+      sum += y * b;
+      store(to, sum);
     }
 
 
 
-    void
-    accumulate(const Block<3>         &block,
-               const Contributions<3> &contributions,
-               const Piece            &piece,
-               std::array<Lanes, 64>  &sum)
+    /// Add what point @p k of the block gives to its nodes, the first of which
+    /// is @p patch[0].
+    inline void
+    add_point(const Block<2>     &block,
+              const unsigned int  k,
+              const Contribution &given,
+              const unsigned int *patch,
+              NodalFields<2>     &nodes)
     {
-      for (unsigned int k = piece.begin; k < piece.end; ++k)
+      const Lanes f_x = force_by_gradient<2, 0>(given.flux);
+      const Lanes f_y = force_by_gradient<2, 1>(given.flux);
+      Lanes       P[3], Q[3];
+      for (unsigned int i = 0; i < 3; ++i)
         {
-          const Lanes r[4] = {contributions[k][0],
-                              contributions[k][1],
-                              contributions[k][2],
-                              contributions[k][3]};
-          Lanes       P[4], Q[4], T[4];
-          for (unsigned int i = 0; i < 4; ++i)
-            {
-              P[i] =
-                block.value[0][i][k] * r[0] + block.gradient[0][i][k] * r[1];
-              Q[i] = block.value[0][i][k] * r[2];
-              T[i] = block.value[0][i][k] * r[3];
-            }
-          for (unsigned int j = 0; j < 4; ++j)
-            for (unsigned int i = 0; i < 4; ++i)
-              {
-                const Lanes A =
-                  block.value[1][j][k] * P[i] + block.gradient[1][j][k] * Q[i];
-                const Lanes B = block.value[1][j][k] * T[i];
-                for (unsigned int l = 0; l < 4; ++l)
-                  sum[16 * l + 4 * j + i] +=
-                    block.value[2][l][k] * A + block.gradient[2][l][k] * B;
-              }
+          P[i] = block.value[0][i][k] * given.by_weight +
+                 block.gradient[0][i][k] * f_x;
+          Q[i] = block.value[0][i][k] * f_y;
         }
+      for (unsigned int j = 0; j < 3; ++j)
+        for (unsigned int i = 0; i < 3; ++i)
+          add(nodes.sum(patch[4 * j + i]),
+              P[i],
+              block.value[1][j][k],
+              Q[i],
+              block.gradient[1][j][k]);
+    }
+
+
+
+    inline void
+    add_point(const Block<3>     &block,
+              const unsigned int  k,
+              const Contribution &given,
+              const unsigned int *patch,
+              NodalFields<3>     &nodes)
+    {
+      const Lanes f_x = force_by_gradient<3, 0>(given.flux);
+      const Lanes f_y = force_by_gradient<3, 1>(given.flux);
+      const Lanes f_z = force_by_gradient<3, 2>(given.flux);
+      Lanes       P[3], Q[3], T[3];
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          P[i] = block.value[0][i][k] * given.by_weight +
+                 block.gradient[0][i][k] * f_x;
+          Q[i] = block.value[0][i][k] * f_y;
+          T[i] = block.value[0][i][k] * f_z;
+        }
+      for (unsigned int j = 0; j < 3; ++j)
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            const Lanes A =
+              block.value[1][j][k] * P[i] + block.gradient[1][j][k] * Q[i];
+            const Lanes B = block.value[1][j][k] * T[i];
+            for (unsigned int l = 0; l < 3; ++l)
+              add(nodes.sum(patch[16 * l + 4 * j + i]),
+                  A,
+                  block.value[2][l][k],
+                  B,
+                  block.gradient[2][l][k]);
+          }
     }
 
 
@@ -175,18 +214,20 @@ namespace talus
       for (unsigned int p = segment.begin; p < segment.end; ++p)
         {
           weights_of_point(points, grid, shape, segment.cell, p, weights);
-          double acceleration[dim];
-          for (unsigned int d = 0; d < dim; ++d)
-            acceleration[d] =
-              loads.acceleration_of_body[segment.body][d] +
-              (loads.varies ? points.body_acceleration(d)[p] : 0.);
-          Contribution<dim> r;
-          set_contribution(points, p, acceleration, r);
+          Lanes by_weight[n_lanes] = {}, flux[n_lanes] = {};
+          set_contributions(points, p, segment.body, loads, by_weight, flux);
+          transpose(by_weight);
+          transpose(flux);
+          std::array<Lanes, dim> force;
+          force[0]       = force_by_gradient<dim, 0>(flux[0]);
+          force[1]       = force_by_gradient<dim, 1>(flux[0]);
+          force[dim - 1] = force_by_gradient<dim, dim - 1>(flux[0]);
           for (const auto &w : weights)
             {
-              Lanes sum = load<Lanes>(nodes.sum(w.node)) + w.value * r[0];
+              Lanes sum =
+                load<Lanes>(nodes.sum(w.node)) + w.value * by_weight[0];
               for (unsigned int d = 0; d < dim; ++d)
-                sum += w.gradient[d] * r[1 + d];
+                sum += w.gradient[d] * force[d];
               store(nodes.sum(w.node), sum);
             }
         }
@@ -198,28 +239,29 @@ namespace talus
   template <int dim>
   void
   Transfer<dim>::scatter(Points<dim>      &points,
+                         const Batch      &batch,
                          const Grid<dim>  &grid,
                          const Loads<dim> &loads,
                          NodalFields<dim> &nodes) const
   {
     Block<dim>         block;
     Contributions<dim> contributions;
-    BlockWalk<dim>     walk(points, grid, loads, box_shape_);
+    BlockWalk<dim>     walk(points, batch, grid, box_shape_);
     while (walk.next(block))
       {
-        stage(points, block, contributions);
+        stage(points, block, loads, contributions);
         for (unsigned int i = 0; i < block.n_pieces; ++i)
           {
-            std::array<Lanes, power(4, dim)> sum{};
-            accumulate(block, contributions, block.pieces[i], sum);
-            const auto &patch = grid.cells()[block.pieces[i].cell].patch;
-            for (unsigned int n = 0; n < sum.size(); ++n)
-              store(nodes.sum(patch[n]),
-                    load<Lanes>(nodes.sum(patch[n])) + sum[n]);
+            const Piece &piece = block.pieces[i];
+            const auto  *patch = grid.cells()[piece.cell].patch.data();
+            for (unsigned int k = piece.begin; k < piece.end; ++k)
+              add_point(
+                block, k, contributions[k], patch + block.first_node[k], nodes);
           }
       }
-    for (const Segment &segment : points.segments())
-      if (!grid.cells()[segment.cell].uniform)
+    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+      if (const Segment &segment = points.segments()[s];
+          !grid.cells()[segment.cell].uniform)
         scatter_general(points, grid, loads, box_shape_, segment, nodes);
   }
 
@@ -227,11 +269,13 @@ namespace talus
 
   template void
   Transfer<2>::scatter(Points<2> &,
+                       const Batch &,
                        const Grid<2> &,
                        const Loads<2> &,
                        NodalFields<2> &) const;
   template void
   Transfer<3>::scatter(Points<3> &,
+                       const Batch &,
                        const Grid<3> &,
                        const Loads<3> &,
                        NodalFields<3> &) const;

@@ -86,16 +86,64 @@ namespace talus
 
   namespace
   {
-    template <int dim>
-    inline double
-    volume_of_point(const Points<dim> &points, const unsigned int p)
+    /// Volumes of point(s) @p p, m^dim.
+    template <int dim, typename Number>
+    inline Number
+    volume_of_points(const Points<dim> &points, const unsigned int p)
     {
-      return points.data(points.reference_volume)[p] *
-             determinant(load_matrix<dim, double>(points,
+      return load<Number>(points.data(points.reference_volume) + p) *
+             determinant(load_matrix<dim, Number>(points,
                                                   points.deformation_gradient,
                                                   p));
     }
+
+
+
   } // namespace
+
+
+
+  template <int dim>
+  bool
+  Transfer<dim>::takes_cell_mean(const Points<dim> &points,
+                                 const Batch       &batch) const
+  {
+    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+      if (cell_mean_of_body_[points.segments()[s].body])
+        return true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  void
+  Transfer<dim>::subtract_from_mean(const Points<dim> &points,
+                                    const Batch       &batch,
+                                    const double      *volume,
+                                    double            *quantity) const
+  {
+    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+      {
+        const Segment     &segment = points.segments()[s];
+        const unsigned int begin   = segment.begin - batch.begin;
+        const unsigned int end     = segment.end - batch.begin;
+        if (!cell_mean_of_body_[segment.body])
+          {
+            std::fill(quantity + begin, quantity + end, 0.);
+            continue;
+          }
+        double sum = 0, sum_of_volumes = 0;
+        for (unsigned int k = begin; k < end; ++k)
+          {
+            sum += volume[k] * quantity[k];
+            sum_of_volumes += volume[k];
+          }
+        const double mean = sum / sum_of_volumes;
+        for (unsigned int k = begin; k < end; ++k)
+          quantity[k] = mean - quantity[k];
+      }
+  }
 
 
 
@@ -105,64 +153,49 @@ namespace talus
 
   template <int dim>
   void
-  Transfer<dim>::average_mean_stress(Points<dim> &points) const
+  Transfer<dim>::average_mean_stress(Points<dim> &points,
+                                     const Batch &batch) const
   {
-    double *shift = points.mean_stress_shift();
-    for (const Segment &segment : points.segments())
+    double *const shift  = points.mean_stress_shift();
+    double *const volume = points.scratch(0);
+    if (!takes_cell_mean(points, batch))
       {
-        if (!cell_mean_of_body_[segment.body])
-          {
-            std::fill(shift + segment.begin, shift + segment.end, 0.);
-            continue;
-          }
-        double sum_q = 0, sum_volume = 0;
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
-          {
-            double q = 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              q += points.data(points.stress, d)[p];
-            q /= dim;
-            const double volume = volume_of_point(points, p);
-            sum_q += volume * q;
-            sum_volume += volume;
-            shift[p] = -q;
-          }
-        const double mean = sum_q / sum_volume;
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
-          shift[p] += mean;
+        std::fill_n(shift, batch.end - batch.begin, 0.);
+        return;
       }
+    for_lanes(batch.begin, batch.end, [&](const unsigned int p, auto number) {
+      using Number = decltype(number);
+      Number q{};
+      for (unsigned int d = 0; d < dim; ++d)
+        q += load<Number>(points.data(points.stress, d) + p);
+      const unsigned int k = p - batch.begin;
+      store(shift + k, q * (1. / dim));
+      store(volume + k, volume_of_points<dim, Number>(points, p));
+    });
+    subtract_from_mean(points, batch, volume, shift);
   }
 
 
 
   template <int dim>
   void
-  Transfer<dim>::average_dilatation(Points<dim> &points) const
+  Transfer<dim>::average_dilatation(Points<dim> &points,
+                                    const Batch &batch) const
   {
-    for (const Segment &segment : points.segments())
-      {
-        if (!cell_mean_of_body_[segment.body])
-          continue;
-        double sum_rate = 0, sum_volume = 0;
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
-          {
-            double rate = 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              rate += points.velocity_gradient(d, d)[p];
-            const double volume = volume_of_point(points, p);
-            sum_rate += volume * rate;
-            sum_volume += volume;
-          }
-        const double mean = sum_rate / sum_volume;
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
-          {
-            double rate = 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              rate += points.velocity_gradient(d, d)[p];
-            for (unsigned int d = 0; d < dim; ++d)
-              points.velocity_gradient(d, d)[p] += (mean - rate) / dim;
-          }
-      }
+    if (!takes_cell_mean(points, batch))
+      return;
+    double *const volume = points.scratch(0);
+    double *const rate   = points.scratch(1);
+    for_lanes(batch.begin, batch.end, [&](const unsigned int p, auto number) {
+      using Number         = decltype(number);
+      const unsigned int k = p - batch.begin;
+      store(rate + k, trace(load_velocity_gradient<dim, Number>(points, p)));
+      store(volume + k, volume_of_points<dim, Number>(points, p));
+    });
+    subtract_from_mean(points, batch, volume, rate);
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int k = 0; k < batch.end - batch.begin; ++k)
+        points.velocity_gradient(d, d)[k] += rate[k] * (1. / dim);
   }
 
 
@@ -178,11 +211,11 @@ namespace talus
   template double
   Transfer<3>::least_mass(double, double) const;
   template void
-  Transfer<2>::average_mean_stress(Points<2> &) const;
+  Transfer<2>::average_mean_stress(Points<2> &, const Batch &) const;
   template void
-  Transfer<3>::average_mean_stress(Points<3> &) const;
+  Transfer<3>::average_mean_stress(Points<3> &, const Batch &) const;
   template void
-  Transfer<2>::average_dilatation(Points<2> &) const;
+  Transfer<2>::average_dilatation(Points<2> &, const Batch &) const;
   template void
-  Transfer<3>::average_dilatation(Points<3> &) const;
+  Transfer<3>::average_dilatation(Points<3> &, const Batch &) const;
 } // namespace talus

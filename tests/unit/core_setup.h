@@ -230,6 +230,22 @@ struct Core : FreshParameters
     nodes.activate(grid, relocation.occupied_cells());
   }
 
+  /// Gather for all points. Returns the work of the loads, J.
+  double
+  gather(const double dt)
+  {
+    points.lend_workspace(0, points.size());
+    return transfer.gather(nodes, grid, loads, points, points.all(), dt);
+  }
+
+  /// Find and split what violates the criterion, once.
+  bool
+  enforce()
+  {
+    splitter.find(points, points.all(), grid);
+    return splitter.enforce(points);
+  }
+
   /// The sums at all nodes of the mesh, hanging nodes condensed; from nothing,
   /// whatever was active before.
   std::vector<std::array<double, talus::n_lanes>>
@@ -237,8 +253,9 @@ struct Core : FreshParameters
   {
     nodes.prepare(grid);
     nodes.activate(grid, relocation.occupied_cells());
-    transfer.average_mean_stress(points);
-    transfer.scatter(points, grid, loads, nodes);
+    points.lend_workspace(0, points.size());
+    transfer.average_mean_stress(points, points.all());
+    transfer.scatter(points, points.all(), grid, loads, nodes);
     nodes.sum_over_ranks(grid);
     std::vector<std::array<double, talus::n_lanes>> sums(grid.n_nodes());
     for (unsigned int n = 0; n < grid.n_nodes(); ++n)

@@ -83,7 +83,7 @@ namespace
     core.scatter();
     core.nodes.update_momentum(dt, 1e-9);
     core.nodes.share_with_ghosts(core.grid);
-    core.transfer.gather(core.nodes, core.grid, core.loads, core.points, dt);
+    core.gather(dt);
   }
 
 
@@ -192,7 +192,10 @@ namespace
               mass[w.node] += w.value * core.points.data(core.points.mass)[p];
           }
       core.nodes.clear();
-      core.transfer.scatter(core.points, core.grid, core.loads, core.nodes);
+      core.points.lend_workspace(0, core.points.size());
+      core.transfer.average_mean_stress(core.points, core.points.all());
+      core.transfer.scatter(
+        core.points, core.points.all(), core.grid, core.loads, core.nodes);
       for (unsigned int node = 0; node < core.grid.n_nodes(); ++node)
         EXPECT_NEAR(core.nodes.mass(node), mass[node], 1e-12);
     });

@@ -87,7 +87,7 @@ namespace
           }
         core.sort();
         const auto before = sums_by_place(core);
-        core.splitter.enforce(core.points, core.grid);
+        core.enforce();
         core.sort();
         EXPECT_EQ(MPI::sum(core.points.size(), MPI_COMM_WORLD), 4u);
         unsigned int n_across = 0;
@@ -194,10 +194,11 @@ namespace
         core.scatter();
         core.nodes.update_momentum(dt, 0.);
         core.nodes.share_with_ghosts(core.grid);
-        core.transfer.gather(core.nodes, core.grid, core.loads, points, dt);
-        core.transfer.average_dilatation(points);
+        core.gather(dt);
+        core.transfer.average_dilatation(points, points.all());
         law->update_stress(points, 0, points.size(), dt);
-        update_stretch(points, core.transfer.box_shape().rule, dt);
+        update_stretch(
+          points, 0, points.size(), core.transfer.box_shape().rule, dt);
         core.sort();
         EXPECT_LT((look_at(core).momentum - start.momentum).norm(),
                   1e-13 * start.momentum.norm());

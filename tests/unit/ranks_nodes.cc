@@ -262,8 +262,9 @@ namespace
     const double dt     = 0.01;
     core.sort();
     nodes.clear();
-    core.transfer.average_mean_stress(points);
-    core.transfer.scatter(points, grid, core.loads, nodes);
+    points.lend_workspace(0, points.size());
+    core.transfer.average_mean_stress(points, points.all());
+    core.transfer.scatter(points, points.all(), grid, core.loads, nodes);
     nodes.sum_over_ranks(grid);
 
     Record record;
@@ -281,8 +282,8 @@ namespace
       record.motions[number_of_node(grid, node)].assign(nodes.motion(node),
                                                         nodes.motion(node) +
                                                           2 * dim);
-    core.transfer.gather(nodes, grid, core.loads, points, dt);
-    core.transfer.average_dilatation(points);
+    core.gather(dt);
+    core.transfer.average_dilatation(points, points.all());
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         auto &state = record.points[std::lround(points.data(points.id)[p])];

@@ -75,6 +75,7 @@ namespace talus
     void
     set_increment(const Matrix<dim, double> &H, const unsigned int p = 0)
     {
+      points.lend_workspace(0, points.size());
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
           points.velocity_gradient(i, j)[p] = H[i][j] / dt;
@@ -94,6 +95,7 @@ namespace talus
     energy_at(const Matrix<dim, double> &F)
     {
       set_F(F);
+      points.lend_workspace(0, points.size());
       law->update_stress(points, 0, 1, 0.);
       return elastic_energy() / volume;
     }

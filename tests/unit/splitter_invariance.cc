@@ -76,7 +76,7 @@ namespace
     core.sort();
     const auto         before = core.scatter();
     const unsigned int n      = core.points.size();
-    ASSERT_TRUE(core.splitter.enforce(core.points, core.grid));
+    ASSERT_TRUE(core.enforce());
     core.sort();
     EXPECT_EQ(core.splitter.statistics().n_splits, n);
     EXPECT_GE(core.points.size(), 2 * n);
@@ -188,7 +188,7 @@ namespace
       }
     core.sort();
     const auto before = core.scatter();
-    ASSERT_TRUE(core.splitter.enforce(points, core.grid));
+    ASSERT_TRUE(core.enforce());
     for (unsigned int q = 0; q < points.size(); ++q)
       for (unsigned int d = 0; d < dim; ++d)
         points.data(points.position, d)[q] =

@@ -65,7 +65,8 @@ namespace
           this->set_deformation(i, F[i]);
         }
       auto &points = this->points;
-      update_stretch(points, rule, 0.);
+      points.lend_workspace(0, points.size());
+      update_stretch(points, 0, points.size(), rule, 0.);
       for (unsigned int i = 0; i < 50; ++i)
         this->set(points.creation_stretch, i, this->get(points.stretch, i));
       this->sort();
@@ -91,7 +92,7 @@ namespace
           points.velocity_gradient(0, 1)[p] = -rate;
           points.velocity_gradient(1, 0)[p] = rate;
         }
-      update_stretch(points, rule, dt);
+      update_stretch(points, 0, points.size(), rule, dt);
       this->sort();
     }
 
@@ -112,7 +113,7 @@ namespace
     for (unsigned int step = 1; step <= n_steps; ++step)
       {
         body.step(double(step) / n_steps, 1. / n_steps);
-        ASSERT_FALSE(body.splitter.enforce(body.points, body.grid)) << step;
+        ASSERT_FALSE(body.enforce()) << step;
       }
     EXPECT_EQ(body.points.size(), 50u);
   }
@@ -182,7 +183,7 @@ namespace
           for (unsigned int d = 0; d < dim; ++d)
             points.data(points.stretch, d)[p] *= core.number(0.99, 1.04);
         core.sort();
-        core.splitter.enforce(points, core.grid);
+        core.enforce();
       }
     const Totals<dim> after(core);
     EXPECT_GT(core.splitter.statistics().n_splits, 300u);

@@ -231,7 +231,7 @@ namespace
         old_x.push_back(core.get(points.position, p));
         old_v.push_back(core.get(points.velocity, p));
       }
-    core.transfer.gather(core.nodes, core.grid, core.loads, core.points, dt);
+    core.gather(dt);
 
     unsigned int n_interior = 0;
     for (unsigned int p = 0; p < points.size(); ++p)
@@ -294,10 +294,7 @@ namespace
         expected += work;
         scale += std::abs(work);
       }
-    EXPECT_NEAR(
-      core.transfer.gather(core.nodes, core.grid, core.loads, core.points, dt),
-      expected,
-      1e-13 * scale);
+    EXPECT_NEAR(core.gather(dt), expected, 1e-13 * scale);
   }
 
 

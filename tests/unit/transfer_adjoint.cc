@@ -36,7 +36,7 @@ namespace
       for (unsigned int d = 0; d < dim; ++d)
         of_nodes +=
           sums[n][NodalSum<dim>::force + d] * core.nodes.velocity(n)[d];
-    core.transfer.gather(core.nodes, core.grid, core.loads, core.points, 0.1);
+    core.gather(0.1);
     for (unsigned int p = 0; p < core.points.size(); ++p)
       {
         Tensor<2, dim> sigma = core.stress(p);
@@ -65,6 +65,7 @@ namespace
   expect_adjoint_means(Core<dim> &core)
   {
     auto &points = core.points;
+    points.lend_workspace(0, points.size());
     for (unsigned int p = 0; p < points.size(); ++p)
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
@@ -72,8 +73,8 @@ namespace
     std::vector<Tensor<2, dim>> old;
     for (unsigned int p = 0; p < points.size(); ++p)
       old.push_back(core.velocity_gradient(p));
-    core.transfer.average_mean_stress(points);
-    core.transfer.average_dilatation(points);
+    core.transfer.average_mean_stress(points, points.all());
+    core.transfer.average_dilatation(points, points.all());
 
     double rate_averaged = 0, stress_averaged = 0, scale = 0, change = 0;
     for (unsigned int p = 0; p < points.size(); ++p)

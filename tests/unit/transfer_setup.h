@@ -30,9 +30,11 @@ namespace
     for (auto &acceleration : core.loads.acceleration_of_body)
       acceleration = core.vector(-10., 10.);
     core.loads.varies = true;
+    for (auto &row : core.loads.acceleration_of_point)
+      row.resize(core.points.size() + n_lanes);
     for (unsigned int p = 0; p < core.points.size(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
-        core.points.body_acceleration(d)[p] = core.number(-5., 5.);
+        core.loads.acceleration_of_point[d][p] = core.number(-5., 5.);
   }
 
 
@@ -61,7 +63,7 @@ namespace
       core.loads.acceleration_of_body[static_cast<unsigned int>(
         core.points.data(core.points.body)[p])];
     for (unsigned int d = 0; d < dim; ++d)
-      b[d] += core.points.body_acceleration(d)[p];
+      b[d] += core.loads.acceleration_of_point[d][p];
     return b;
   }
 } // namespace

@@ -38,10 +38,30 @@ namespace
 
 
 
+  /// Weights at the nodes -1, 0, 1, 2.
+  struct FourNodes
+  {
+    std::array<double, 4> value{}, gradient{};
+
+    FourNodes(const double centre, const double half)
+    {
+      const auto         w     = axis_weights(centre, half);
+      const unsigned int first = w.first;
+      EXPECT_TRUE(w.first == 0. || w.first == 1.);
+      for (unsigned int n = 0; n < 3; ++n)
+        {
+          value[first + n]    = w.value[n];
+          gradient[first + n] = w.gradient[n];
+        }
+    }
+  };
+
+
+
   TEST(AxisWeights, ClosedForm)
   {
     for_boxes([](const double centre, const double half) {
-      const auto w = axis_weights(centre, half);
+      const FourNodes w(centre, half);
       for (int node = -1; node <= 2; ++node)
         {
           const auto [value, slope] = closed_form(centre - node, half);
@@ -58,8 +78,8 @@ namespace
   TEST(AxisWeights, UnityAndLinearReproduction)
   {
     for_boxes([](const double centre, const double half) {
-      const auto w   = axis_weights(centre, half);
-      double     one = 0, x = 0, zero = 0, slope = 0;
+      const FourNodes w(centre, half);
+      double          one = 0, x = 0, zero = 0, slope = 0;
       for (int node = -1; node <= 2; ++node)
         {
           one += w.value[node + 1];
@@ -89,7 +109,8 @@ namespace
     for (unsigned int i = 0; i < n_lanes; ++i)
       {
         const auto w = axis_weights<double>(centre[i], half[i]);
-        for (unsigned int n = 0; n < 4; ++n)
+        EXPECT_EQ(lanes.first[i], w.first);
+        for (unsigned int n = 0; n < 3; ++n)
           {
             EXPECT_NEAR(lanes.value[n][i], w.value[n], 1e-15);
             EXPECT_NEAR(lanes.gradient[n][i], w.gradient[n], 4e-15);
@@ -108,11 +129,11 @@ namespace
            const Point<dim>     &centre,
            const Tensor<1, dim> &half)
   {
-    const Cell<dim> &cell = grid.cells()[grid.find_cell(centre)];
-    std::array<AxisWeights<double>, dim> axis;
+    const Cell<dim>       &cell = grid.cells()[grid.find_cell(centre)];
+    std::vector<FourNodes> axis;
     for (unsigned int d = 0; d < dim; ++d)
-      axis[d] = axis_weights((centre[d] - cell.lower[d]) / cell.size,
-                             half[d] / cell.size);
+      axis.emplace_back((centre[d] - cell.lower[d]) / cell.size,
+                        half[d] / cell.size);
     Weights<dim> weights;
     for (unsigned int k = 0; k < cell.patch.size(); ++k)
       {

@@ -28,13 +28,17 @@ namespace talus
   public:
     Splitter();
 
-    /// Split every point that violates the criterion, once. Points may have left
-    /// the cell they are sorted into, and daughters their parent's: both wait
-    /// for Relocation::update(). The first daughter takes the parent's place,
-    /// the others are appended. Returns whether any point was split. Throws
-    /// ExcPoint if this rank would have too many points.
+    /// Note which points of the batch violate the criterion. They may have left
+    /// the cell they are sorted into.
+    void
+    find(const Points<dim> &points, const Batch &batch, const Grid<dim> &grid);
+
+    /// Split the points that find() noted, once. Daughters may lie outside
+    /// their parent's cell: they wait for Relocation::update(). The first one
+    /// takes the parent's place, the others are appended. Returns whether any
+    /// point was split. Throws ExcPoint if this rank would have too many points.
     bool
-    enforce(Points<dim> &points, const Grid<dim> &grid);
+    enforce(Points<dim> &points);
 
     /// Throw ExcPoint if there are more points than allowed, over all ranks.
     void
@@ -73,6 +77,19 @@ namespace talus
     list_state(StateList &list);
 
   private:
+    /// Whether axis @p d of point(s) @p p is too long in cells of this size.
+    template <typename Number>
+    auto
+    violates(const Points<dim> &points,
+             unsigned int       p,
+             unsigned int       d,
+             double             cell_size) const;
+    /// False if no point of the batch violates the criterion: nearly always,
+    /// and known from a look at eight points at a time.
+    bool
+    may_violate(const Points<dim> &points,
+                const Batch       &batch,
+                const Grid<dim>   &grid) const;
     /// Bit d: the point is to be split along axis d. Zero: not at all.
     unsigned int
     axes_to_split(const Points<dim> &points,

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <initializer_list>
 
 namespace talus
 {
@@ -41,6 +42,17 @@ namespace talus
 
 
 
+  /// Store eight numbers without fraction as integers.
+  inline void
+  store_as_integers(int *to, const Lanes &value)
+  {
+    using Integers = int __attribute__((vector_size(sizeof(int) * n_lanes)));
+    const Integers integers = __builtin_convertvector(value, Integers);
+    std::memcpy(to, &integers, sizeof(Integers));
+  }
+
+
+
   template <typename Number>
   inline Number
   broadcast(const double value)
@@ -73,6 +85,41 @@ namespace talus
   clamp(const Number x, const double lower, const double upper)
   {
     return min(max(x, broadcast<Number>(lower)), broadcast<Number>(upper));
+  }
+
+
+
+  inline bool
+  any(const bool mask)
+  {
+    return mask;
+  }
+
+
+
+  inline bool
+  any(const LaneMask mask)
+  {
+    long long all = 0;
+    for (unsigned int i = 0; i < n_lanes; ++i)
+      all |= mask[i];
+    return all != 0;
+  }
+
+
+
+  inline bool
+  all(const bool mask)
+  {
+    return mask;
+  }
+
+
+
+  inline bool
+  all(const LaneMask mask)
+  {
+    return !any(mask == LaneMask{});
   }
 
 
@@ -154,6 +201,29 @@ namespace talus
 
 
 
+  /// exp(x), for small x by a series as quick as it is exact (next term: below
+  /// 1e-18 for |x| < 0.02). The strain of one explicit step is smaller.
+  template <typename Number>
+  inline Number
+  exponential_of_step(const Number x)
+  {
+    const Number series =
+      1. +
+      x *
+        (1. +
+         x * (1. / 2. +
+              x * (1. / 6. +
+                   x * (1. / 24. + x * (1. / 120. +
+                                        x * (1. / 720. + x * (1. / 5040.)))))));
+    const auto large =
+      (x > broadcast<Number>(0.02)) | (x < broadcast<Number>(-0.02));
+    if (__builtin_expect(any(large), 0))
+      return large ? exponential(x) : series;
+    return series;
+  }
+
+
+
   inline double
   real_power(const double x, const double exponent)
   {
@@ -173,37 +243,42 @@ namespace talus
 
 
 
-  inline bool
-  any(const bool mask)
+  /// Swap rows and columns: afterwards lane j of rows[i] is what lane i of
+  /// rows[j] was.
+  inline void
+  transpose(Lanes (&rows)[n_lanes])
   {
-    return mask;
+    static_assert(n_lanes == 8);
+    // Blocks of one, two and four entries change sides.
+    for (unsigned int i = 0; i < 8; i += 2)
+      {
+        const Lanes a = rows[i], b = rows[i + 1];
+        rows[i]     = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+        rows[i + 1] = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+      }
+    for (const unsigned int half : {0, 4})
+      for (unsigned int i = half; i < half + 2; ++i)
+        {
+          const Lanes a = rows[i], b = rows[i + 2];
+          rows[i] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+          rows[i + 2] =
+            __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+        }
+    for (unsigned int i = 0; i < 4; ++i)
+      {
+        const Lanes a = rows[i], b = rows[i + 4];
+        rows[i]     = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+        rows[i + 4] = __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+      }
   }
 
 
 
-  inline bool
-  any(const LaneMask mask)
+  /// Sum of the lanes.
+  inline double
+  sum_of_lanes(const Lanes &x)
   {
-    long long all = 0;
-    for (unsigned int i = 0; i < n_lanes; ++i)
-      all |= mask[i];
-    return all != 0;
-  }
-
-
-
-  inline bool
-  all(const bool mask)
-  {
-    return mask;
-  }
-
-
-
-  inline bool
-  all(const LaneMask mask)
-  {
-    return !any(mask == LaneMask{});
+    return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7]));
   }
 
 

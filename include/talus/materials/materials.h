@@ -46,23 +46,24 @@ namespace talus
     void
     add_columns(Points<dim> &points);
 
-    /// Advance deformation and stress of all points: one batch for each run of
-    /// points of the same material.
+    /// Advance deformation and stress of the points, which have the workspace.
     void
-    update_stress(Points<dim> &points, double dt) const;
+    update_stress(Points<dim> &points, const Batch &batch, double dt) const;
 
-    /// Call action(model, begin, end) for each run of sorted points of the same
+    /// Call action(model, begin, end) for each run of points of the same
     /// material.
     template <typename Action>
     void
-    for_runs(const Points<dim> &points, const Action &action) const
+    for_runs(const Points<dim> &points,
+             const Batch       &batch,
+             const Action      &action) const
     {
       const auto &segments = points.segments();
-      for (std::size_t s = 0; s < segments.size();)
+      for (unsigned int s = batch.first_segment; s < batch.last_segment;)
         {
           const unsigned int begin    = segments[s].begin;
           const unsigned int material = material_of_body_[segments[s].body];
-          while (s < segments.size() &&
+          while (s < batch.last_segment &&
                  material_of_body_[segments[s].body] == material)
             ++s;
           action(*models_[material], begin, segments[s - 1].end);

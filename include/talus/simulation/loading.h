@@ -27,7 +27,7 @@ namespace talus
     /// Set the accelerations at time @p t, s; to be called before loads() are
     /// used.
     void
-    update(Points<dim> &points, double t);
+    update(const Points<dim> &points, double t);
 
     const Loads<dim> &
     loads() const

@@ -50,14 +50,24 @@ namespace talus
                    Number             wave_speed,
                    Number             inverse_cell_size) const;
 
+    /// The largest inverse bound of the points of a batch, lane by lane.
+    Lanes
+    largest_inverse_bound(const Points<dim>    &points,
+                          const Batch          &batch,
+                          const Grid<dim>      &grid,
+                          const Materials<dim> &materials,
+                          const BoxShape       &shape);
+
     /// Name and place of the first point whose speed is not finite.
     std::string
-    first_without_bound(const Points<dim> &points) const;
+    first_without_bound(const Points<dim>    &points,
+                        const Materials<dim> &materials) const;
 
     double cfl_number_        = 0.4;
     double box_safety_factor_ = 0.9;
     double maximum_           = 0.;
 
+    // Of a batch.
     std::vector<double> wave_speed_;
     std::vector<double> inverse_cell_size_;
   };

@@ -4,7 +4,6 @@
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
 #include <talus/transfer/box_rule.h>
-#include <talus/transfer/loads.h>
 #include <talus/transfer/weights.h>
 
 namespace talus
@@ -17,45 +16,52 @@ namespace talus
     unsigned int end;
   };
 
-  /// Up to n_points consecutive points whose cells are uniform, with what the
-  /// kernels need of them side by side: small enough for the first-level cache,
-  /// large enough that loops over points fill the registers although a cell may
-  /// have only a few.
+  /// Up to n_points consecutive points of one body, in uniform cells of one
+  /// size, with what the kernels need of them side by side: small enough for the
+  /// first-level cache, large enough that loops over points fill the registers
+  /// although a cell may have only a few.
   template <int dim>
   struct Block
   {
     static constexpr unsigned int n_points = 64;
-    using Row                              = std::array<double, n_points>;
+    template <typename Number>
+    using Row = std::array<Number, n_points>;
 
     unsigned int                begin    = 0; ///< first point
     unsigned int                size     = 0;
     unsigned int                n_pieces = 0;
+    unsigned int                body     = 0;
+    double                      cell_size;
     std::array<Piece, n_points> pieces;
 
-    alignas(64) std::array<Row, dim> cell_lower;
-    alignas(64) Row inverse_cell_size;
-    alignas(64) std::array<Row, dim> body_acceleration;
+    /// Corner of the cell, m. Filled a register at a time, which may go beyond
+    /// the last point.
+    std::array<std::array<double, n_points + n_lanes>, dim> cell_lower;
 
-    alignas(64) std::array<std::array<Row, 4>, dim> value;
-    alignas(64) std::array<std::array<Row, 4>, dim> gradient; ///< 1/m
+    /// A point has weights at the 3^dim nodes of its cell's patch that begin
+    /// with this one; 4 nodes of the patch are a row.
+    alignas(64) Row<int> first_node;
+    alignas(64) std::array<std::array<Row<double>, 3>, dim> value;
+    alignas(64) std::array<std::array<Row<double>, 3>, dim> gradient; ///< 1/m
   };
 
 
 
-  /// Walks over the points in blocks; points in cells that are not uniform are
-  /// passed over.
+  /// Walks over the points of a batch in blocks; points in cells that are not
+  /// uniform are passed over.
   template <int dim>
   class BlockWalk
   {
   public:
-    BlockWalk(Points<dim>      &points,
-              const Grid<dim>  &grid,
-              const Loads<dim> &loads,
-              const BoxShape   &shape)
+    BlockWalk(const Points<dim> &points,
+              const Batch       &batch,
+              const Grid<dim>   &grid,
+              const BoxShape    &shape)
       : points_(points)
       , grid_(grid)
-      , loads_(loads)
       , shape_(shape)
+      , segment_(batch.first_segment)
+      , last_segment_(batch.last_segment)
     {}
 
     /// Fill @p block with the next points; false if there are none left.
@@ -68,12 +74,12 @@ namespace talus
     void
     compute_weights(Block<dim> &block) const;
 
-    Points<dim>      &points_;
-    const Grid<dim>  &grid_;
-    const Loads<dim> &loads_;
-    const BoxShape   &shape_;
-    unsigned int      segment_ = 0;
-    unsigned int      taken_   = 0; ///< points of the segment
+    const Points<dim> &points_;
+    const Grid<dim>   &grid_;
+    const BoxShape    &shape_;
+    unsigned int       segment_;
+    unsigned int       last_segment_;
+    unsigned int       taken_ = 0; ///< points of the segment
   };
 } // namespace talus
 

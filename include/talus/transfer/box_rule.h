@@ -48,12 +48,16 @@ namespace talus
 
 
 
-  /// Set the stretch of all points from their deformation gradient, after a
-  /// step of @p dt. With the rule `fixed` the box does not use it, only the
+  /// Set the stretch of the points [begin, end), which have the workspace, from
+  /// their deformation gradient, after a step of @p dt. With the rule `fixed` the box does not use it, only the
   /// splitter does: it is exp(integral of D_dd dt), positive by construction.
   template <int dim>
   void
-  update_stretch(Points<dim> &points, BoxRule rule, double dt);
+  update_stretch(Points<dim> &points,
+                 unsigned int begin,
+                 unsigned int end,
+                 BoxRule      rule,
+                 double       dt);
 
   /// Set the stretch of the points [begin, end), and that at their creation,
   /// to that of a deformation gradient they start with.

@@ -32,32 +32,36 @@ namespace talus
       cell_mean_of_body_ = of_body;
     }
 
+    // The points of the batch must have the workspace.
+
     /// First half of the anti-locking pair: store at each point the difference
     /// between the mean over its cell of q = tr_dim(sigma)/dim and its own q.
     void
-    average_mean_stress(Points<dim> &points) const;
+    average_mean_stress(Points<dim> &points, const Batch &batch) const;
 
     /// Add mass, momentum, internal and external force and reference volume of
-    /// all points to their nodes.
+    /// the points to their nodes.
     void
     scatter(Points<dim>      &points,
+            const Batch      &batch,
             const Grid<dim>  &grid,
             const Loads<dim> &loads,
             NodalFields<dim> &nodes) const;
 
-    /// Update velocity and position of all points from the motion of the nodes
+    /// Update velocity and position of the points from the motion of the nodes
     /// and store their velocity gradient. Returns the work of the loads, J.
     double
     gather(const NodalFields<dim> &nodes,
            const Grid<dim>        &grid,
            const Loads<dim>       &loads,
            Points<dim>            &points,
+           const Batch            &batch,
            double                  dt) const;
 
     /// Second half of the anti-locking pair: replace the rate of volume change
     /// by its mean over the cell.
     void
-    average_dilatation(Points<dim> &points) const;
+    average_dilatation(Points<dim> &points, const Batch &batch) const;
 
     const BoxShape &
     box_shape() const
@@ -71,6 +75,28 @@ namespace talus
     least_mass(const double density, const double cell_size) const;
 
   private:
+    /// Whether any body in the batch is averaged over its cells.
+    bool
+    takes_cell_mean(const Points<dim> &points, const Batch &batch) const;
+
+    /// Replace a quantity of the points by the difference between its mean over
+    /// the segment, weighted by volume, and itself; by zero where the body is
+    /// not averaged.
+    void
+    subtract_from_mean(const Points<dim> &points,
+                       const Batch       &batch,
+                       const double      *volume,
+                       double            *quantity) const;
+
+    /// gather() for cells whose neighbours differ in size.
+    double
+    gather_general(const NodalFields<dim> &nodes,
+                   const Grid<dim>        &grid,
+                   const Loads<dim>       &loads,
+                   Points<dim>            &points,
+                   const Batch            &batch,
+                   double                  dt) const;
+
     double      flip_fraction_ = 1.;
     std::string box_rule_      = "right stretch";
     double      mass_cut_off_  = 1e-9;

@@ -9,47 +9,50 @@
 
 namespace talus
 {
-  /// Mean over a box of the four one-dimensional shape functions around a cell
-  /// and of their derivatives: nodes at -1, 0, 1, 2 in units of the cell.
+  /// Mean over a box of the one-dimensional shape functions around a cell and of
+  /// their derivatives. A box no longer than a cell touches two cells, so that
+  /// three nodes that follow each other have a weight.
   template <typename Number>
   struct AxisWeights
   {
-    std::array<Number, 4> value;
-    std::array<Number, 4> gradient; ///< per cell size
+    /// The first of them among those at -1, 0, 1, 2 in units of the cell: the
+    /// zeroth or the first.
+    Number                first;
+    std::array<Number, 3> value;
+    std::array<Number, 3> gradient; ///< per cell size
   };
 
 
 
   /// Weights of the box [centre - half, centre + half] along one axis, in units
-  /// of the cell with origin at its lower face. The box must lie in [-1, 2].
-  /// The shape functions are the hats of the nodes; their integrals over the
-  /// three cells are taken one by one. @cite bardenhagen2004, eq. 36 ff.
+  /// of the cell with origin at its lower face. The box must lie in [-1, 2] and
+  /// be no longer than one. The shape functions are the hats of the nodes; their
+  /// integrals over the two cells are taken one by one. @cite bardenhagen2004,
+  /// eq. 36 ff.
   template <typename Number>
   inline AxisWeights<Number>
   axis_weights(const Number centre, const Number half)
   {
-    const Number a = centre - half, b = centre + half, scale = 0.5 / half;
     const Number zero{}, one = broadcast<Number>(1.);
 
-    // Ends of the parts of the box in the cell below, the cell, the one above.
-    const Number a_below = min(a, zero), b_below = min(b, zero);
-    const Number a_in = min(max(a, zero), one), b_in = min(max(b, zero), one);
-    const Number a_above = max(a - 1., zero), b_above = max(b - 1., zero);
-
     AxisWeights<Number> w;
-    w.value[0] = 0.5 * scale * (a_below * a_below - b_below * b_below);
-    w.value[3] = 0.5 * scale * (b_above * b_above - a_above * a_above);
-    w.value[2] = 0.5 * scale * (b_in * b_in - a_in * a_in) +
-                 scale * (b_above - a_above) - w.value[3];
-    w.value[1] = 1. - w.value[0] - w.value[2] - w.value[3];
+    w.first = centre < half ? zero : one;
+    // The ends of the box, seen from the first node.
+    const Number a = centre - half - (w.first - 1.), b = a + 2. * half;
+    const Number scale = 0.5 / half;
+    // Of the first cell from the ends of the box on; of the second up to them.
+    const Number a_left = max(1. - a, zero), b_left = max(1. - b, zero);
+    const Number a_right = max(a - 1., zero), b_right = max(b - 1., zero);
 
-    const Number in_below = scale * (b_below - a_below),
-                 in_cell  = scale * (b_in - a_in),
-                 in_above = scale * (b_above - a_above);
-    w.gradient[0]         = -in_below;
-    w.gradient[1]         = in_below - in_cell;
-    w.gradient[2]         = in_cell - in_above;
-    w.gradient[3]         = in_above;
+    w.value[0] = 0.5 * scale * (a_left * a_left - b_left * b_left);
+    w.value[2] = 0.5 * scale * (b_right * b_right - a_right * a_right);
+    w.value[1] = 1. - w.value[0] - w.value[2];
+
+    const Number in_first  = scale * (a_left - b_left),
+                 in_second = scale * (b_right - a_right);
+    w.gradient[0]          = -in_first;
+    w.gradient[1]          = in_first - in_second;
+    w.gradient[2]          = in_second;
     return w;
   }
 
