@@ -8,8 +8,8 @@ templates come from talus-benchmark, which evaluates them with a number that
 counts; those of the loops over nodes are formulas below.
 
 Bytes are those of the columns that a sweep over all points reads and writes, once
-each, a column that is changed twice. Nodes and lists of cells are left out: they
-are shared by the points of a cell.
+each, a column that is changed twice. Nodes, and the sums that a cell hands on to
+them, are left out of both: the points of a cell share them.
 """
 
 import statistics
@@ -84,11 +84,10 @@ def bytes_of(phase, d):
 
 class Operations:
     """Operations per point in @p d dimensions. @p counted are the counts by
-    talus-benchmark, @p points_per_cell how many share the work of a cell."""
+    talus-benchmark."""
 
-    def __init__(self, counted, d, points_per_cell):
+    def __init__(self, counted, d):
         self.d = d
-        self.points_per_cell = points_per_cell
         self.determinant = counted[f"determinant, {d}-D"]
         self.weights = d * counted["weights along an axis"]
         self.linear_elastic = counted[f"linear elastic, {d}-D"]
@@ -99,12 +98,11 @@ class Operations:
         too. After axis k there are 4^k partial sums, those of the forces once
         for each axis whose derivative is still to come."""
         d, s = self.d, 2 + 2 * self.d
-        staging = self.determinant + 2 + 3 * d + d * d
+        staging = self.determinant + 1 + 3 * d + d * d
         first = 4 * (s + 2 * d + (d - 1) * d)
         middle = 16 * (s + 2 * d + d) if d == 3 else 0
         last = 4**d * (2 * s + 2 * d)
-        to_nodes = 4**d * s / self.points_per_cell
-        return self.weights + staging + first + middle + last + to_nodes
+        return self.weights + staging + first + middle + last
 
     def gather(self):
         """Axis by axis from the last to the first: 2d values take the weights,
@@ -116,7 +114,7 @@ class Operations:
         return self.weights + sums + 10 * d + 3
 
     def mean_stress(self):
-        return self.determinant + self.d + 6
+        return self.determinant + self.d + 5
 
     def mean_dilatation(self):
         return self.determinant + 3 * self.d + 4
@@ -176,7 +174,7 @@ def phase_table(runs, operations, roof):
         )
     rows.append(
         ("all", f"{1e9 * total:.2f}", "100 %",
-         f"{sum(bytes_of(name, operations.d) for name in SWEEPS)}",
-         f"{sum(work.values()):.0f}", "", "", "")
+         f"{sum(bytes_of(name, operations.d) or 0 for name in runs[0].phases)}",
+         f"{sum(work.get(name, 0) for name in runs[0].phases):.0f}", "", "", "")
     )
     return rows
