@@ -26,9 +26,10 @@ STATES = {"mid": 8, "late": 20}
 
 
 class Run:
-    """What a run of talus tells at its end: point-steps, seconds of the time
-    loop, steps, points at the end, cells, seconds by phase, peak memory of a
-    rank in bytes, and seconds of the whole process."""
+    """What a run of talus tells at its end: steps, point-steps, points at the
+    end, cells, seconds by phase of the log and of all steps, peak memory of a
+    rank in bytes, and seconds of the whole process. Checkpoints are in none of
+    the times but the last: a run that is resumed begins with one."""
 
     def __init__(self, output, log, elapsed):
         last = re.search(
@@ -39,19 +40,19 @@ class Run:
         self.steps = int(last.group(1))
         self.n_points = int(last.group(3))
         self.point_steps = float(last.group(4))
-        self.seconds = float(last.group(5))
-        self.elapsed = elapsed
         cells = re.findall(r"(?:with|and has) (\d+) cells", log)
         self.cells = max(int(n) for n in cells)
-        table = log[log.rindex("Wall time by phase") :].splitlines()[1:]
         self.phases = {}
-        for line in table:
-            row = re.match(r"  (\S.*?)\s+\S+\s+(\S+)\s+\S+\s+\S+ %$", line)
-            if row is None:
+        for line in log[log.rindex("Wall time by phase") :].splitlines()[1:]:
+            phase = re.match(r"  (\S.*?)\s+\S+\s+(\S+)\s+\S+\s+\S+ %$", line)
+            if phase is None:
                 break
-            self.phases[row.group(1)] = float(row.group(2))
+            self.phases[phase.group(1)] = float(phase.group(2))
+        checkpoints = self.phases.pop("checkpoint", 0.0)
+        self.seconds = float(last.group(5)) - checkpoints
         memory = re.findall(r"Peak memory of a rank, MB:.* largest (\d+)", log)
         self.peak_memory = float(memory[-1]) * 2**20
+        self.elapsed = elapsed
 
     @property
     def rate(self):
@@ -62,6 +63,10 @@ class Run:
     def ns(self):
         """Nanoseconds per point and step."""
         return 1e9 * self.seconds / self.point_steps
+
+    def ns_of(self, phase):
+        """The same of one phase."""
+        return 1e9 * self.phases[phase] / self.point_steps
 
 
 def parameter_file(name):
@@ -135,7 +140,10 @@ class Bench:
             )
         program = os.path.join(self.folder, "yardstick")
         subprocess.run(
-            [self.compiler, "-O3", "-march=native", "-std=c++17", source, "-o", program],
+            [
+                self.compiler, "-O3", "-march=native", "-std=c++17",
+                source, "-o", program,
+            ],
             check=True,
         )
         return program

@@ -152,29 +152,37 @@ class Operations:
         }
 
 
-def phase_table(runs, operations, roof):
+def phase_table(runs, fresh, late, operations, roof):
     """Heading and rows: where the time of runs of a landslide goes, beside what
-    the roofline @p roof allows each phase."""
+    the roofline @p roof allows each phase; the time for points that are new and
+    for as many after a long way."""
     rows = [("phase", "ns per point and step", "share", "bytes", "operations",
-             "least ns by bytes", "least ns by operations", "over the roofline")]
+             "least ns by bytes", "least ns by operations", "over the roofline",
+             "ns, new points", "ns, late")]
     work = operations.by_phase()
-    total = statistics.median(sum(r.phases.values()) / r.point_steps for r in runs)
+    total = statistics.median(r.ns for r in runs)
     for name in runs[0].phases:
-        ns = 1e9 * statistics.median(r.phases[name] / r.point_steps for r in runs)
-        row = [name, f"{ns:.2f}", f"{1e-7 * ns / total:.1f} %"]
+        ns, *others = [
+            statistics.median(r.ns_of(name) for r in some)
+            for some in (runs, fresh, late)
+        ]
         n_bytes = bytes_of(name, operations.d)
-        if n_bytes is None:
-            rows.append(tuple(row + [""] * 5))
-            continue
-        by_bytes = 1e9 * n_bytes / roof.bandwidth
-        by_operations = 1e9 * work[name] / roof.operations
-        rows.append(
-            (*row, f"{n_bytes}", f"{work[name]:.0f}", f"{by_bytes:.2f}",
-             f"{by_operations:.2f}", f"{ns / max(by_bytes, by_operations):.1f}")
-        )
+        limits = [""] * 5
+        if n_bytes is not None:
+            by_bytes = 1e9 * n_bytes / roof.bandwidth
+            by_operations = 1e9 * work[name] / roof.operations
+            limits = [
+                f"{n_bytes}", f"{work[name]:.0f}", f"{by_bytes:.2f}",
+                f"{by_operations:.2f}",
+                f"{ns / max(by_bytes, by_operations):.1f}",
+            ]
+        rows.append((name, f"{ns:.2f}", f"{100 * ns / total:.1f} %", *limits,
+                     *[f"{other:.2f}" for other in others]))
+    n_bytes = sum(bytes_of(name, operations.d) or 0 for name in runs[0].phases)
+    n_operations = sum(work.get(name, 0) for name in runs[0].phases)
     rows.append(
-        ("all", f"{1e9 * total:.2f}", "100 %",
-         f"{sum(bytes_of(name, operations.d) or 0 for name in runs[0].phases)}",
-         f"{sum(work.get(name, 0) for name in runs[0].phases):.0f}", "", "", "")
+        ("all", f"{total:.2f}", "100 %", f"{n_bytes}", f"{n_operations:.0f}",
+         "", "", "",
+         *[f"{statistics.median(r.ns for r in some):.2f}" for some in (fresh, late)])
     )
     return rows
