@@ -75,7 +75,7 @@ def compare_with_yardstick(bench, what, run, n_points, steps, goal):
     return row(
         what,
         ratio,
-        f"{ratio:.2f} ({statistics.median(r.rate for r in runs):.1f} of "
+        f"{ratio:.3f} ({statistics.median(r.rate for r in runs):.1f} of "
         f"{statistics.median(limits):.1f} million point-steps/s)",
         goal,
     )
@@ -123,7 +123,7 @@ def three_dimensions(bench):
         "3-D block, 8 points per cell: operations per second over those of the "
         "2-D block",
         ratio,
-        f"{ratio:.2f} ({statistics.median(rates[1]):.1f} and "
+        f"{ratio:.3f} ({statistics.median(rates[1]):.1f} and "
         f"{statistics.median(rates[0]):.1f} GFLOP/s; "
         f"{statistics.median(r.rate for r in deep):.1f} and "
         f"{statistics.median(r.rate for r in flat):.1f} million point-steps/s)",
@@ -150,7 +150,7 @@ def constant_time(bench):
         yield row(
             f"{name}, 10k, 100k, 1M points: longest time per point over shortest",
             spread,
-            f"{spread:.2f} ({times} ns)",
+            f"{spread:.3f} ({times} ns)",
             at_most(1.1),
         )
 
@@ -180,7 +180,7 @@ def wandered(bench):
         f"landslide after {STATES['late']} s, {late[0].n_points} points, over one "
         f"that begins with {fresh[0].n_points}: time per point",
         ratio,
-        f"{ratio:.2f} ({statistics.median(r.ns for r in late):.0f} and "
+        f"{ratio:.3f} ({statistics.median(r.ns for r in late):.0f} and "
         f"{statistics.median(r.ns for r in fresh):.0f} ns)",
         at_most(1.15),
     )
@@ -242,7 +242,7 @@ def ranks_and_domain(bench):
     yield row(
         "landslide, two ranks over one: speed",
         gain,
-        f"{gain:.2f} ({statistics.median(seconds[0]):.1f} and "
+        f"{gain:.3f} ({statistics.median(seconds[0]):.1f} and "
         f"{statistics.median(seconds[1]):.1f} s)",
         at_least(1.85),
     )
@@ -252,7 +252,7 @@ def ranks_and_domain(bench):
         f"landslide in 32 km with mesh tracking, {large[0].cells} cells, over "
         f"320 m, {one[0].cells} cells: time",
         cost,
-        f"{cost:.2f}, peak memory {memory_ratio:.2f}",
+        f"{cost:.3f}, peak memory {memory_ratio:.2f}",
     )
 
 
@@ -280,7 +280,7 @@ def output(bench):
         yield row(
             f"{what}: share of output at the default interval [%]",
             100 * share,
-            f"{100 * share:.1f}",
+            f"{100 * share:.2f}",
             at_most(5),
         )
 
