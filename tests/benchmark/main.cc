@@ -1,0 +1,17 @@
+#include <talus/base/mpi_io.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <benchmark/benchmark.h>
+
+int
+main(int argc, char **argv)
+{
+  talus::choose_mpi_io();
+  dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv))
+    return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

@@ -1,0 +1,228 @@
+// Counts the floating-point operations of the formulas, by evaluating them with
+// a number that counts. Not a measurement of time: the counter "operations" is
+// what matters.
+
+#include <talus/materials/radial_return.h>
+#include <talus/transfer/weights.h>
+
+#include <benchmark/benchmark.h>
+
+namespace talus
+{
+  /// A double that counts what is done with it: additions, multiplications,
+  /// divisions, roots and comparisons as one each. A change of sign is none, as
+  /// it becomes part of another instruction.
+  struct Counted
+  {
+    double               value;
+    static unsigned long n_operations;
+  };
+
+  unsigned long Counted::n_operations = 0;
+
+  inline Counted
+  counted(const double value)
+  {
+    ++Counted::n_operations;
+    return {value};
+  }
+
+#define TALUS_OPERATOR(op)                              \
+  inline Counted operator op(Counted a, Counted b)      \
+  {                                                     \
+    return counted(a.value op b.value);                 \
+  }                                                     \
+  inline Counted operator op(Counted a, double b)       \
+  {                                                     \
+    return counted(a.value op b);                       \
+  }                                                     \
+  inline Counted operator op(double a, Counted b)       \
+  {                                                     \
+    return counted(a op b.value);                       \
+  }                                                     \
+  inline Counted &operator op##=(Counted &a, Counted b) \
+  {                                                     \
+    return a = a op b;                                  \
+  }                                                     \
+  inline Counted &operator op##=(Counted &a, double b)  \
+  {                                                     \
+    return a = a op b;                                  \
+  }
+  TALUS_OPERATOR(+)
+  TALUS_OPERATOR(-)
+  TALUS_OPERATOR(*)
+  TALUS_OPERATOR(/)
+#undef TALUS_OPERATOR
+
+  inline Counted
+  operator-(const Counted a)
+  {
+    return {-a.value};
+  }
+
+  inline bool
+  operator>(const Counted a, const Counted b)
+  {
+    return counted(a.value - b.value).value > 0;
+  }
+
+  inline bool
+  operator<(const Counted a, const Counted b)
+  {
+    return b > a;
+  }
+
+  template <>
+  inline Counted
+  broadcast<Counted>(const double value)
+  {
+    return {value};
+  }
+
+  inline Counted
+  square_root(const Counted x)
+  {
+    return counted(std::sqrt(x.value));
+  }
+
+  inline Counted
+  logarithm(const Counted x)
+  {
+    return counted(std::log(x.value));
+  }
+} // namespace talus
+
+namespace
+{
+  using namespace talus;
+
+  /// A point of volume one that is strained a little.
+  template <int dim>
+  Points<dim>
+  strained_point()
+  {
+    Points<dim> points;
+    points.append(1);
+    points.data(points.reference_volume)[0] = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        points.data(points.deformation_gradient, d * (dim + 1))[0] = 1.;
+        for (unsigned int e = 0; e < dim; ++e)
+          points.velocity_gradient(d, e)[0] = 1e-3 * (1. + d + 2. * e);
+      }
+    return points;
+  }
+
+
+
+  /// Box in the cell and its weights along one axis.
+  void
+  weights_along_axis()
+  {
+    Points<2>     points = strained_point<2>();
+    BoxShape      shape;
+    const Counted inverse_size{1.};
+    const Counted half =
+      half_length_in_cells<2, Counted>(points, shape, 0, 0, inverse_size);
+    const Counted x = load<Counted>(points.data(points.position));
+    const auto    w = axis_weights((x - Counted{0.}) * inverse_size, half);
+    for (const Counted gradient : w.gradient)
+      benchmark::DoNotOptimize(gradient * inverse_size);
+  }
+
+
+
+  /// The step of linear_elastic.cc.
+  template <int dim>
+  void
+  elastic_stress()
+  {
+    Points<dim>  points = strained_point<dim>();
+    const Moduli moduli{1., 1., 1.};
+    const auto   motion = advance_deformation<dim, Counted>(points, 0, 1.);
+    const auto   strain = strain_increment(motion);
+    const auto   trial =
+      elastic_trial<dim, Counted>(load_stress<dim, Counted>(points, 0),
+                                  strain,
+                                  moduli);
+    store_turned_stress<dim, Counted>(
+      points, 0, strain, trial.deviator_after, trial.mean_after);
+    const Counted V0{1.};
+    const auto    force =
+      deviatoric_force<dim, Counted>(motion, V0, trial, trial.deviator_after);
+    benchmark::DoNotOptimize(
+      Counted{0.} +
+      work_of_step<dim, Counted>(motion, V0, strain, trial, force));
+  }
+
+
+
+  /// The step of von_mises.cc.
+  template <int dim>
+  void
+  von_mises_stress()
+  {
+    Points<dim>  points = strained_point<dim>();
+    const Moduli moduli{1., 1., 1.};
+    const auto   motion = advance_deformation<dim, Counted>(points, 0, 1.);
+    const auto   strain = strain_increment(motion);
+    const auto   trial =
+      elastic_trial<dim, Counted>(load_stress<dim, Counted>(points, 0),
+                                  strain,
+                                  moduli);
+    const Counted q = square_root(
+      1.5 * contract<dim>(trial.deviator_after, trial.deviator_after) + 1e-300);
+    // Yield stress on a line and a residual one, the smaller return, no
+    // negative one; the new plastic strain.
+    Counted       plastic_strain{0.};
+    const Counted on_line     = (q - 1. - 0.1 * plastic_strain) * 0.3;
+    const Counted on_residual = (q - 1.) * 0.3;
+    const Counted increment   = max(min(on_line, on_residual), Counted{});
+    plastic_strain += increment;
+    return_radially<dim, Counted>(
+      points, 0, motion, strain, trial, 1., 3. * increment / q);
+  }
+
+
+
+  template <int dim>
+  void
+  determinant_of_deformation()
+  {
+    const Points<dim> points = strained_point<dim>();
+    benchmark::DoNotOptimize(determinant(
+      load_matrix<dim, Counted>(points, points.deformation_gradient, 0)));
+  }
+
+
+
+  void
+  count(benchmark::State &state, void (*formula)())
+  {
+    for (auto _ : state)
+      {
+        Counted::n_operations = 0;
+        formula();
+      }
+    state.counters["operations"] = Counted::n_operations;
+  }
+
+
+
+  [[maybe_unused]] const bool registered = []() {
+    const auto add = [](const std::string &name, void (*formula)()) {
+      benchmark::RegisterBenchmark(("operations/" + name).c_str(),
+                                   count,
+                                   formula)
+        ->Iterations(1);
+    };
+    add("weights along an axis", weights_along_axis);
+    add("determinant, 2-D", determinant_of_deformation<2>);
+    add("determinant, 3-D", determinant_of_deformation<3>);
+    add("linear elastic, 2-D", elastic_stress<2>);
+    add("linear elastic, 3-D", elastic_stress<3>);
+    add("von Mises, 2-D", von_mises_stress<2>);
+    add("von Mises, 3-D", von_mises_stress<3>);
+    return true;
+  }();
+} // namespace

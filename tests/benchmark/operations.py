@@ -1,0 +1,188 @@
+"""Bytes and floating-point operations of a step, per point: the one place where
+they are written down. doc/performance.md derives them.
+
+Operations are additions, multiplications, divisions, roots, comparisons and
+exponentials, one each, a multiply-add two. They are those that the formulas need;
+lanes of a register that carry nothing are not counted. Counts of formulas that are
+templates come from talus-benchmark, which evaluates them with a number that
+counts; those of the loops over nodes are formulas below.
+
+Bytes are those of the columns that a sweep over all points reads and writes, once
+each, a column that is changed twice. Nodes, and the sums that a cell hands on to
+them, are left out of both: the points of a cell share them.
+"""
+
+import statistics
+
+# Doubles of the columns, in d dimensions.
+COLUMNS = {
+    "position": lambda d: d,
+    "velocity": lambda d: d,
+    "deformation gradient": lambda d: d * d,
+    "stress": lambda d: 2 * d,
+    "stress in the plane": lambda d: d * (d + 1) // 2,
+    "normal stress": lambda d: d,
+    "mass": lambda d: 1,
+    "reference volume": lambda d: 1,
+    "reference length": lambda d: d,
+    "stretch": lambda d: d,
+    "creation stretch": lambda d: d,
+    "elastic energy": lambda d: 1,
+    "plastic work": lambda d: 1,
+    "plastic strain": lambda d: 1,
+    "velocity gradient": lambda d: d * d,
+    "dilatation rate": lambda d: d,
+    "mean stress shift": lambda d: 1,
+    "wave speed": lambda d: 1,
+    "inverse cell size": lambda d: 1,
+}
+
+# Columns read and columns written by each sweep over the points, by phase of the
+# log. All is on: anti-locking mean, von Mises, boxes that follow the stretch.
+SWEEPS = {
+    "time step": [
+        (["deformation gradient", "reference volume", "mass"],
+         ["wave speed", "inverse cell size"]),
+        (["velocity", "reference length", "stretch", "wave speed",
+          "inverse cell size"], []),
+    ],
+    "points to grid": [
+        (["normal stress", "deformation gradient", "reference volume"],
+         ["mean stress shift"]),
+        (["position", "reference length", "stretch", "mass", "reference volume",
+          "deformation gradient", "stress in the plane", "mean stress shift",
+          "velocity"], []),
+    ],
+    "grid to points": [
+        (["position", "reference length", "stretch", "velocity", "mass"],
+         ["position", "velocity", "velocity gradient"]),
+        (["dilatation rate", "deformation gradient", "reference volume"],
+         ["dilatation rate"]),
+    ],
+    "stress update": [
+        (["velocity gradient", "deformation gradient", "stress",
+          "reference volume", "elastic energy", "plastic work",
+          "plastic strain"],
+         ["deformation gradient", "stress", "elastic energy", "plastic work",
+          "plastic strain"]),
+        (["deformation gradient", "dilatation rate", "stretch"], ["stretch"]),
+    ],
+    "splitting": [(["stretch", "creation stretch", "reference length"], [])],
+    "relocation": [(["position"], [])],
+}
+
+
+def bytes_of(phase, d):
+    """Per point and step, or None for a phase that has no sweep over points."""
+    if phase not in SWEEPS:
+        return None
+    return 8 * sum(
+        COLUMNS[name](d) for sweep in SWEEPS[phase] for names in sweep
+        for name in names
+    )
+
+
+class Operations:
+    """Operations per point in @p d dimensions. @p counted are the counts by
+    talus-benchmark."""
+
+    def __init__(self, counted, d):
+        self.d = d
+        self.determinant = counted[f"determinant, {d}-D"]
+        self.weights = d * counted["weights along an axis"]
+        self.linear_elastic = counted[f"linear elastic, {d}-D"]
+        self.von_mises = counted[f"von Mises, {d}-D"]
+
+    def scatter(self):
+        """Axis by axis: s sums take the weights, the d forces the gradients,
+        too. After axis k there are 4^k partial sums, those of the forces once
+        for each axis whose derivative is still to come."""
+        d, s = self.d, 2 + 2 * self.d
+        staging = self.determinant + 1 + 3 * d + d * d
+        first = 4 * (s + 2 * d + (d - 1) * d)
+        middle = 16 * (s + 2 * d + d) if d == 3 else 0
+        last = 4**d * (2 * s + 2 * d)
+        return self.weights + staging + first + middle + last
+
+    def gather(self):
+        """Axis by axis from the last to the first: 2d values take the weights,
+        and the d velocities a gradient for each axis so far."""
+        d = self.d
+        sums = sum(
+            4**k * (2 * 2 * d + 2 * d * (d - k + 1)) for k in range(1, d + 1)
+        )
+        return self.weights + sums + 10 * d + 3
+
+    def mean_stress(self):
+        return self.determinant + self.d + 5
+
+    def mean_dilatation(self):
+        return self.determinant + 3 * self.d + 4
+
+    def time_step(self):
+        """Wave speed; per axis speed and box; the two bounds."""
+        return self.determinant + 4 + 9 * self.d + 12
+
+    def stretch_fixed(self):
+        return self.determinant + 3 * self.d
+
+    def stretch_right(self):
+        """2-D in closed form; 3-D by some four iterations for the rotation."""
+        return self.determinant + (17 if self.d == 2 else 4 * 96 + 15)
+
+    def relocation(self):
+        return 3 * self.d
+
+    def elastic_block(self):
+        """The step of block.prm and block-3d.prm."""
+        return (
+            self.time_step() + self.scatter() + self.gather()
+            + self.linear_elastic + self.stretch_fixed() + self.relocation()
+        )
+
+    def by_phase(self):
+        """The step of a landslide, by phase of the log."""
+        return {
+            "time step": self.time_step(),
+            "points to grid": self.mean_stress() + self.scatter(),
+            "grid to points": self.gather() + self.mean_dilatation(),
+            "stress update": self.von_mises + self.stretch_right(),
+            "splitting": 3 * self.d,
+            "relocation": self.relocation(),
+        }
+
+
+def phase_table(runs, fresh, late, operations, roof):
+    """Heading and rows: where the time of runs of a landslide goes, beside what
+    the roofline @p roof allows each phase; the time for points that are new and
+    for as many after a long way."""
+    rows = [("phase", "ns per point and step", "share", "bytes", "operations",
+             "least ns by bytes", "least ns by operations", "over the roofline",
+             "ns, new points", "ns, late")]
+    work = operations.by_phase()
+    total = statistics.median(r.ns for r in runs)
+    for name in runs[0].phases:
+        ns, *others = [
+            statistics.median(r.ns_of(name) for r in some)
+            for some in (runs, fresh, late)
+        ]
+        n_bytes = bytes_of(name, operations.d)
+        limits = [""] * 5
+        if n_bytes is not None:
+            by_bytes = 1e9 * n_bytes / roof.bandwidth
+            by_operations = 1e9 * work[name] / roof.operations
+            limits = [
+                f"{n_bytes}", f"{work[name]:.0f}", f"{by_bytes:.2f}",
+                f"{by_operations:.2f}",
+                f"{ns / max(by_bytes, by_operations):.1f}",
+            ]
+        rows.append((name, f"{ns:.2f}", f"{100 * ns / total:.1f} %", *limits,
+                     *[f"{other:.2f}" for other in others]))
+    n_bytes = sum(bytes_of(name, operations.d) or 0 for name in runs[0].phases)
+    n_operations = sum(work.get(name, 0) for name in runs[0].phases)
+    rows.append(
+        ("all", f"{total:.2f}", "100 %", f"{n_bytes}", f"{n_operations:.0f}",
+         "", "", "",
+         *[f"{statistics.median(r.ns for r in some):.2f}" for some in (fresh, late)])
+    )
+    return rows

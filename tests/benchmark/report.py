@@ -1,0 +1,60 @@
+"""Tables on the terminal and in doc/performance.md."""
+
+import os
+import re
+import subprocess
+
+
+def processor():
+    with open("/proc/cpuinfo") as file:
+        text = file.read()
+    name = re.search(r"^model name\s*: (.*)$", text, re.M)
+    return (name.group(1) if name else "unknown processor"), text.count("processor\t")
+
+
+def machine(bench):
+    """One sentence about what the figures were measured on."""
+    name, n_cores = processor()
+    version = subprocess.run(
+        [bench.compiler, "--version"], stdout=subprocess.PIPE, text=True
+    ).stdout.splitlines()[0]
+    roof = bench.roofline()
+    return (
+        f"{name}, {n_cores} cores; {version}, `-march=native`; on one core "
+        f"{1e-9 * roof.bandwidth:.1f} GB/s (triad) and "
+        f"{1e-9 * roof.operations:.1f} GFLOP/s (multiply-add, "
+        "counted as two); medians of "
+        f"{bench.repeat}."
+    )
+
+
+def print_table(rows):
+    for row in rows:
+        print(" | ".join(str(cell) for cell in row), flush=True)
+
+
+def as_markdown(heading, rows):
+    lines = ["| " + " | ".join(row) + " |" for row in (heading, *rows)]
+    lines.insert(1, "|" + "---|" * len(heading))
+    return "\n".join(lines)
+
+
+def replace_between(text, name, content):
+    """@p text with what stands between the comments of that name replaced."""
+    begin, end = f"<!-- {name}: begin -->\n", f"<!-- {name}: end -->"
+    before, rest = text.split(begin)
+    return before + begin + content + "\n" + end + rest.split(end)[1]
+
+
+def write_tables(path, sentence, goals, phases):
+    with open(path) as file:
+        text = file.read()
+    text = replace_between(
+        text,
+        "goals",
+        sentence + "\n\n" + as_markdown(("what", "measured", "goal", ""), goals),
+    )
+    text = replace_between(text, "phases", as_markdown(phases[0], phases[1:]))
+    with open(path, "w") as file:
+        file.write(text)
+    print(os.path.relpath(path) + " is written.")

@@ -1,0 +1,65 @@
+#ifndef talus_tests_benchmark_sample_h
+#define talus_tests_benchmark_sample_h
+
+#include <talus/materials/material_model.h>
+#include <talus/transfer/box_rule.h>
+
+#include <memory>
+#include <string>
+
+namespace talus
+{
+  /// Points of one law in simple shear, few enough for the second-level cache.
+  /// They can be sheared for ever: volumes stay, and the stress of plastic laws
+  /// does, too. One at a time: deal.II's parameters are global.
+  template <int dim>
+  struct Sample
+  {
+    static constexpr unsigned int n_points = 512;
+
+    std::unique_ptr<MaterialModel<dim>> law;
+    Points<dim>                         points;
+    double                              dt = 1e-3; ///< s
+
+    explicit Sample(const std::string &name)
+    {
+      using dealii::ParameterAcceptor;
+      ParameterAcceptor::clear();
+      ParameterAcceptor::prm.clear();
+      law = make_material<dim>(name, "/Materials/soil");
+      ParameterAcceptor::declare_all_parameters();
+      ParameterAcceptor::parse_all_parameters();
+      law->check();
+      law->add_columns(points);
+      points.append(n_points);
+      for (unsigned int p = 0; p < n_points; ++p)
+        set_point(p);
+      initialize_stretch(points, 0, n_points, BoxRule::right_stretch);
+    }
+
+    ~Sample()
+    {
+      law.reset();
+      dealii::ParameterAcceptor::clear();
+      dealii::ParameterAcceptor::prm.clear();
+    }
+
+  private:
+    void
+    set_point(const unsigned int p)
+    {
+      points.data(points.mass)[p]             = law->density();
+      points.data(points.reference_volume)[p] = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          points.data(points.deformation_gradient, d * (dim + 1))[p] = 1.;
+          points.data(points.reference_length, d)[p]                 = 1.;
+          for (unsigned int e = 0; e < dim; ++e)
+            points.velocity_gradient(d, e)[p] = 0.;
+        }
+      points.velocity_gradient(0, 1)[p] = 0.1 * (1. + p % 7); // 1/s
+    }
+  };
+} // namespace talus
+
+#endif
