@@ -52,6 +52,7 @@ namespace talus
     {
       law->add_columns(points);
       points.append(n_points);
+      points.lend_workspace(0, n_points);
       for (unsigned int p = 0; p < n_points; ++p)
         {
           points.data(points.reference_volume)[p] = volume;
@@ -75,7 +76,6 @@ namespace talus
     void
     set_increment(const Matrix<dim, double> &H, const unsigned int p = 0)
     {
-      points.lend_workspace(0, points.size());
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
           points.velocity_gradient(i, j)[p] = H[i][j] / dt;
@@ -95,7 +95,6 @@ namespace talus
     energy_at(const Matrix<dim, double> &F)
     {
       set_F(F);
-      points.lend_workspace(0, points.size());
       law->update_stress(points, 0, 1, 0.);
       return elastic_energy() / volume;
     }
