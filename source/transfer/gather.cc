@@ -230,6 +230,9 @@ namespace talus
     BlockWalk<dim>  walk(points, batch, grid, box_shape_);
     while (walk.next(block))
       {
+        prefetch_nodes(block, grid, [&](const unsigned int node) {
+          return nodes.motion(node);
+        });
         for (unsigned int i = 0; i < block.n_pieces; ++i)
           {
             const Piece &piece = block.pieces[i];

@@ -249,6 +249,9 @@ namespace talus
     BlockWalk<dim>     walk(points, batch, grid, box_shape_);
     while (walk.next(block))
       {
+        prefetch_nodes(block, grid, [&](const unsigned int node) {
+          return nodes.sum(node);
+        });
         stage(points, block, loads, contributions);
         for (unsigned int i = 0; i < block.n_pieces; ++i)
           {

@@ -81,6 +81,23 @@ namespace talus
     unsigned int       last_segment_;
     unsigned int       taken_ = 0; ///< points of the segment
   };
+
+
+
+  /// Ask for the memory of all nodes near the block, which begins at
+  /// address(node). On a large mesh it is not in the cache, and the machine,
+  /// which sees ahead of loops over points, does not see which nodes will be
+  /// next: without this a step on 640 000 points takes a quarter longer.
+  template <int dim, typename Address>
+  inline void
+  prefetch_nodes(const Block<dim> &block,
+                 const Grid<dim>  &grid,
+                 const Address    &address)
+  {
+    for (unsigned int i = 0; i < block.n_pieces; ++i)
+      for (const unsigned int node : grid.cells()[block.pieces[i].cell].patch)
+        __builtin_prefetch(address(node));
+  }
 } // namespace talus
 
 #endif
