@@ -155,13 +155,12 @@ namespace talus
 
     if (initial_velocity_time_ == "half step")
       {
-        choose_time_step();
+        const double dt = std::min(allowed_time_step(), end_time_ - time_);
         for (unsigned int b = 0; b < bodies_.size(); ++b)
           bodies_[b]->initial_state().set_velocity(points_,
                                                    b,
-                                                   -0.5 * dt_,
+                                                   -0.5 * dt,
                                                    constants_);
-        dt_ = 0;
       }
   }
 
@@ -193,9 +192,10 @@ namespace talus
   void
   Simulation<dim>::advance()
   {
-    choose_time_step();
     adapt_mesh();
     points_to_grid();
+    choose_time_step();
+    update_nodes();
     grid_to_points();
     split();
     relocate(); // daughters, too: they may live next door
@@ -205,42 +205,50 @@ namespace talus
 
 
 
+  // The step goes over the points twice, here and in grid_to_points(), batch by
+  // batch: what it needs of a point comes from memory once each time.
   template <int dim>
   void
-  Simulation<dim>::choose_time_step()
+  Simulation<dim>::points_to_grid()
   {
-    TimerOutput::Scope scope(timer_, "time step");
-    // The only operation of all ranks in a step. The largest wish is the one
-    // that becomes the least.
-    const std::array<double, 3> local = {
-      {time_step_.choose(points_, grid_, materials_, transfer_.box_shape()),
-       mesh_tracking_.is_urgent(grid_, relocation_.occupied_cells()) ? 0. : 1.,
-       -static_cast<double>(own_wish())}};
-    std::array<double, 3> all;
-    Utilities::MPI::min(ArrayView<const double>(local.data(), 3),
-                        grid_.communicator(),
-                        ArrayView<double>(all.data(), 3));
-    dt_             = std::min(all[0], end_time_ - time_);
-    mesh_is_urgent_ = (all[1] == 0.);
-    wish_           = static_cast<Wish>(-all[2]);
+    TimerOutput::Scope scope(timer_, "points to grid");
+    loading_.update(points_, time_);
+    nodes_.clear();
+    time_step_.begin();
+    points_.for_batches([this](const Batch &batch) {
+      points_.lend_workspace(batch.begin, batch.end);
+      time_step_.heed(points_, batch, grid_, materials_, transfer_.box_shape());
+      transfer_.average_mean_stress(points_, batch);
+      transfer_.scatter(points_, batch, grid_, loading_.loads(), nodes_);
+    });
   }
 
 
 
   template <int dim>
   void
-  Simulation<dim>::points_to_grid()
+  Simulation<dim>::choose_time_step()
   {
-    {
-      TimerOutput::Scope scope(timer_, "points to grid");
-      loading_.update(points_, time_);
-      nodes_.clear();
-      points_.for_batches([this](const Batch &batch) {
-        points_.lend_workspace(batch.begin, batch.end);
-        transfer_.average_mean_stress(points_, batch);
-        transfer_.scatter(points_, batch, grid_, loading_.loads(), nodes_);
-      });
-    }
+    // But for mesh tracking the only operation of all ranks in a step. The
+    // largest wish is the one that becomes the least.
+    TimerOutput::Scope          scope(timer_, "nodes, messages");
+    const std::array<double, 2> local = {
+      {time_step_.of_heeded(points_, materials_),
+       -static_cast<double>(own_wish())}};
+    std::array<double, 2> all;
+    Utilities::MPI::min(ArrayView<const double>(local.data(), 2),
+                        grid_.communicator(),
+                        ArrayView<double>(all.data(), 2));
+    dt_   = std::min(all[0], end_time_ - time_);
+    wish_ = static_cast<Wish>(-all[1]);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::update_nodes()
+  {
     TimerOutput::Scope scope(timer_, "nodes, messages");
     nodes_.sum_over_ranks(grid_);
     Assert(nobody_is_lost(points_, nodes_, grid_.communicator()),

@@ -140,9 +140,12 @@ namespace talus
   Simulation<dim>::adapt_mesh()
   {
     TimerOutput::Scope scope(timer_, "mesh");
-    if (mesh_is_urgent_ ||
-        (mesh_tracking_.is_enabled() && mesh_tracking_.is_due(step_)))
-      if (mesh_tracking_.adapt(grid_, relocation_.occupied_cells()))
+    const auto        &occupied = relocation_.occupied_cells();
+    if (mesh_tracking_.is_enabled() &&
+        (mesh_tracking_.is_due(step_) ||
+         Utilities::MPI::logical_or(mesh_tracking_.is_urgent(grid_, occupied),
+                                    grid_.communicator())))
+      if (mesh_tracking_.adapt(grid_, occupied))
         {
           ++n_mesh_changes_;
           prepare();

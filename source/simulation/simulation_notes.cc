@@ -42,24 +42,33 @@ namespace talus
 
 
 
+  /// What the points of all ranks allow in this state, s. Collective.
+  template <int dim>
+  double
+  Simulation<dim>::allowed_time_step()
+  {
+    return Utilities::MPI::min(
+      time_step_.choose(points_, grid_, materials_, transfer_.box_shape()),
+      grid_.communicator());
+  }
+
+
+
   template <int dim>
   void
   Simulation<dim>::note_time_step()
   {
     const MPI_Comm     communicator = grid_.communicator();
-    const BoxShape    &shape        = transfer_.box_shape();
-    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
-    const double       dt =
-      Utilities::MPI::min(time_step_.choose(points_, grid_, materials_, shape),
-                          communicator);
-    std::string sentence =
-      text("t = ",
-           time_,
-           " s: the time step is ",
-           dt,
-           " s, limited by ",
-           time_step_.limited_by(points_, grid_, materials_, shape),
-           ".");
+    const unsigned int n_ranks  = Utilities::MPI::n_mpi_processes(communicator);
+    const double       dt       = allowed_time_step();
+    std::string        sentence = text(
+      "t = ",
+      time_,
+      " s: the time step is ",
+      dt,
+      " s, limited by ",
+      time_step_.limited_by(points_, grid_, materials_, transfer_.box_shape()),
+      ".");
     if (n_mesh_changes_ > 0)
       sentence += text(" The mesh changed ",
                        n_mesh_changes_,

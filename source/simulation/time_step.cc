@@ -100,12 +100,12 @@ namespace talus
 
 
   template <int dim>
-  Lanes
-  TimeStep<dim>::largest_inverse_bound(const Points<dim>    &points,
-                                       const Batch          &batch,
-                                       const Grid<dim>      &grid,
-                                       const Materials<dim> &materials,
-                                       const BoxShape       &shape)
+  void
+  TimeStep<dim>::heed(const Points<dim>    &points,
+                      const Batch          &batch,
+                      const Grid<dim>      &grid,
+                      const Materials<dim> &materials,
+                      const BoxShape       &shape)
   {
     const unsigned int n = batch.end - batch.begin;
     if (wave_speed_.size() < n + n_lanes)
@@ -133,7 +133,7 @@ namespace talus
           store(&inverse_cell_size_[p - batch.begin], inverse_size);
       }
 
-    Lanes largest{};
+    Lanes largest = largest_;
     for_lanes(batch.begin, batch.end, [&](const unsigned int p, auto number) {
       using Number         = decltype(number);
       const unsigned int k = p - batch.begin;
@@ -149,7 +149,7 @@ namespace talus
         else
           largest[0] = larger_or_none(largest[0], bound);
     });
-    return largest;
+    largest_ = largest;
   }
 
 
@@ -161,15 +161,22 @@ namespace talus
                         const Materials<dim> &materials,
                         const BoxShape       &shape)
   {
-    Lanes largest_lanes{};
-    points.for_batches([&](const Batch &batch) {
-      largest_lanes = larger_or_none(
-        largest_lanes,
-        largest_inverse_bound(points, batch, grid, materials, shape));
-    });
+    begin();
+    points.for_batches(
+      [&](const Batch &batch) { heed(points, batch, grid, materials, shape); });
+    return of_heeded(points, materials);
+  }
+
+
+
+  template <int dim>
+  double
+  TimeStep<dim>::of_heeded(const Points<dim>    &points,
+                           const Materials<dim> &materials) const
+  {
     double largest = 0;
     for (unsigned int i = 0; i < n_lanes; ++i)
-      largest = larger_or_none(largest, largest_lanes[i]);
+      largest = larger_or_none(largest, largest_[i]);
 
     // Infinite where there are no points.
     const double dt = 1. / largest;

@@ -85,7 +85,7 @@ namespace talus
     dealii::Point<dim>        centre_;
     double                    radius_       = 1.;
     double                    inner_radius_ = 0.;
-    std::string               material_ = "";
+    std::string               material_     = "";
     std::vector<unsigned int> points_per_cell_{2};
     InitialState<dim>         initial_state_;
   };

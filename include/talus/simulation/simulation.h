@@ -110,8 +110,12 @@ namespace talus
     note_time_step();
     void
     choose_time_step();
+    double
+    allowed_time_step();
     void
     points_to_grid();
+    void
+    update_nodes();
     void
     grid_to_points();
     void
@@ -169,7 +173,6 @@ namespace talus
     double            gravity_work_ = 0; ///< J
     BoundaryWork<dim> boundary_work_;
     double            least_mass_     = 0; ///< kg
-    bool              mesh_is_urgent_ = false;
     unsigned long     n_mesh_changes_ = 0;
     unsigned long     n_repartitions_ = 0;
 

@@ -24,8 +24,27 @@ namespace talus
   public:
     TimeStep();
 
-    /// The step that this rank's points allow, s; infinite if there are none.
-    /// Throws ExcPoint if it is not a positive number.
+    /// Forget what was heeded.
+    void
+    begin()
+    {
+      largest_ = Lanes{};
+    }
+
+    /// Take the points of a batch into account.
+    void
+    heed(const Points<dim>    &points,
+         const Batch          &batch,
+         const Grid<dim>      &grid,
+         const Materials<dim> &materials,
+         const BoxShape       &shape);
+
+    /// The step that the points heeded since begin() allow, s; infinite if there
+    /// are none. Throws ExcPoint if it is not a positive number.
+    double
+    of_heeded(const Points<dim> &points, const Materials<dim> &materials) const;
+
+    /// The step that all points of this rank allow.
     double
     choose(const Points<dim>    &points,
            const Grid<dim>      &grid,
@@ -50,14 +69,6 @@ namespace talus
                    Number             wave_speed,
                    Number             inverse_cell_size) const;
 
-    /// The largest inverse bound of the points of a batch, lane by lane.
-    Lanes
-    largest_inverse_bound(const Points<dim>    &points,
-                          const Batch          &batch,
-                          const Grid<dim>      &grid,
-                          const Materials<dim> &materials,
-                          const BoxShape       &shape);
-
     /// Name and place of the first point whose speed is not finite.
     std::string
     first_without_bound(const Points<dim>    &points,
@@ -66,6 +77,9 @@ namespace talus
     double cfl_number_        = 0.4;
     double box_safety_factor_ = 0.9;
     double maximum_           = 0.;
+
+    /// The largest inverse bound so far, lane by lane, 1/s.
+    Lanes largest_{};
 
     // Of a batch.
     std::vector<double> wave_speed_;
