@@ -285,7 +285,8 @@ namespace talus
   Simulation<dim>::relocate()
   {
     TimerOutput::Scope scope(timer_, "relocation");
-    if (relocation_.update(points_, grid_))
+    const bool         other_cells = relocation_.update(points_, grid_);
+    if (other_cells)
       nodes_.activate(grid_, relocation_.occupied_cells());
   }
 
