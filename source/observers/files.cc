@@ -64,8 +64,7 @@ namespace talus
     std::ofstream file(part, std::ios::binary);
     file << content.rdbuf();
     file.close();
-    // A rename may reach the disk before the content does.
-    if (!file || !sync_to_disk(part).empty())
+    if (!file)
       {
         const std::string sentence = failed_write(path);
         std::error_code   ignored;

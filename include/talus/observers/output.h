@@ -66,7 +66,7 @@ namespace talus
     void
     check_resumable(const Snapshot<dim> &snapshot) const;
 
-    /// Bring all rows written so far to the disk.
+    /// Bring all rows and fields written so far to the disk.
     void
     sync();
 
