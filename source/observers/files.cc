@@ -53,16 +53,11 @@ namespace talus
   write_file(const std::filesystem::path               &path,
              const std::function<void(std::ostream &)> &write)
   {
-    // Through memory, because deal.II's writers throw errors of their own at a
-    // stream that failed, and they do not know the name of the file.
-    std::stringstream content;
-    write(content);
-
     std::filesystem::path part = path;
     part += ".part";
     errno = 0;
     std::ofstream file(part, std::ios::binary);
-    file << content.rdbuf();
+    write(file);
     file.close();
     if (!file)
       {

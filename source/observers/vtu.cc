@@ -25,8 +25,9 @@ namespace talus
                 const std::string         &attributes,
                 const std::vector<Number> &values)
     {
-      out << "<DataArray " << attributes << " format=\"binary\">\n"
-          << vtu_array(values) << "\n</DataArray>\n";
+      out << "<DataArray " << attributes << " format=\"binary\">\n";
+      write_vtu_array(out, values);
+      out << "\n</DataArray>\n";
     }
 
 

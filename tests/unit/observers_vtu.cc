@@ -220,8 +220,11 @@ namespace
   TEST(VtuArrays, Base64)
   {
     const auto encode = [](const std::string &text) {
-      return base64(reinterpret_cast<const unsigned char *>(text.data()),
-                    text.size());
+      std::ostringstream out;
+      write_base64(out,
+                   reinterpret_cast<const unsigned char *>(text.data()),
+                   text.size());
+      return out.str();
     };
     EXPECT_EQ(encode(""), "");
     EXPECT_EQ(encode("f"), "Zg==");
@@ -235,15 +238,24 @@ namespace
 
 
 
+  /// Short arrays, noise, which is only wrapped, and what can be compressed.
   TEST(VtuArrays, DecodeToWhatTheyWere)
   {
-    for (const unsigned int n : {0, 1, 2, 3, 1000, 100000})
-      {
-        std::vector<float> values(n);
-        for (unsigned int i = 0; i < n; ++i)
-          values[i] = std::sin(i);
-        EXPECT_EQ(decode<float>(vtu_array(values)), values);
-      }
+    for (const unsigned int n : {0, 1, 2, 3, 1000, 2048, 100000})
+      for (const bool is_noise : {false, true})
+        {
+          std::vector<float> values(n);
+          for (unsigned int i = 0; i < n; ++i)
+            values[i] = (is_noise ? std::sin(i) : 1.f);
+          std::ostringstream out;
+          write_vtu_array(out, values);
+          EXPECT_EQ(decode<float>(out.str()), values);
+          if (n == 100000)
+            {
+              const double ratio = out.str().size() / (4. * n);
+              EXPECT_TRUE(is_noise ? ratio < 1.34 : ratio < 0.01) << ratio;
+            }
+        }
   }
 
 
