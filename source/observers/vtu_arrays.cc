@@ -50,10 +50,10 @@ namespace talus
                const unsigned char *bytes,
                const std::size_t    n)
   {
-    constexpr char         digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                      "abcdefghijklmnopqrstuvwxyz0123456789+/";
+    constexpr char          digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                       "abcdefghijklmnopqrstuvwxyz0123456789+/";
     std::array<char, 16384> buffer; // a multiple of 4
-    std::size_t            size = 0;
+    std::size_t             size = 0;
     for (std::size_t i = 0; i < n; i += 3)
       {
         const unsigned int n_here = (n - i < 3 ? n - i : 3);

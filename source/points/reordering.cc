@@ -119,15 +119,4 @@ namespace talus
   {
     *this = Reordering();
   }
-
-
-
-  std::size_t
-  Reordering::memory_consumption() const
-  {
-    return sizeof(unsigned int) * leaving_.capacity() +
-           sizeof(Shift) * shifts_.capacity() +
-           sizeof(Jump) * jumps_.capacity() +
-           sizeof(Segment) * segments_.capacity();
-  }
 } // namespace talus

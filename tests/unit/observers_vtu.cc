@@ -327,6 +327,22 @@ namespace
 
 
 
+  /// What the user moved away meanwhile is no error.
+  TEST_F(VtuTest, FilesReachTheDisk)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    PointsOutput<2> output;
+    output.begin(folder, MPI_COMM_WORLD, /*boxes_as_cells=*/true);
+    output.write(s.snapshot());
+    output.write(s.snapshot());
+    fs::remove(folder / "points-0000.vtu");
+    EXPECT_NO_THROW(output.sync());
+    EXPECT_EQ(read_vtu(folder / "points-0001.vtu").n_cells, 2u);
+  }
+
+
+
   TEST_F(VtuTest, LastState)
   {
     dealii::TimerOutput timer(std::cout,

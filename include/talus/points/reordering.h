@@ -3,6 +3,7 @@
 
 #include <talus/points/points.h>
 
+#include <cstddef>
 #include <vector>
 
 namespace talus
@@ -49,10 +50,6 @@ namespace talus
     /// Forget all, memory included.
     void
     clear();
-
-    /// Bytes of memory held.
-    std::size_t
-    memory_consumption() const;
 
   private:
     void
