@@ -100,7 +100,10 @@ def render(source, time, field, limits, window, size, dots=None):
     display.PointSize = dots or 1
     # A flat picture needs no light: colours as in the colour bar.
     display.Ambient, display.Diffuse, display.Specular = 1, 0, 0
-    simple.ColorBy(display, ("POINTS", field))
+    # Boxes hold their values as cell data.
+    simple.UpdatePipeline(time, source)
+    at_cells = field in source.CellData.keys()
+    simple.ColorBy(display, ("CELLS" if at_cells else "POINTS", field))
     display.SetScalarBarVisibility(view, False)
     colors = simple.GetColorTransferFunction(field)
     colors.ApplyPreset("Viridis (matplotlib)", True)

@@ -53,19 +53,13 @@ namespace talus
   write_file(const std::filesystem::path               &path,
              const std::function<void(std::ostream &)> &write)
   {
-    // Through memory, because deal.II's writers throw errors of their own at a
-    // stream that failed, and they do not know the name of the file.
-    std::stringstream content;
-    write(content);
-
     std::filesystem::path part = path;
     part += ".part";
     errno = 0;
     std::ofstream file(part, std::ios::binary);
-    file << content.rdbuf();
+    write(file);
     file.close();
-    // A rename may reach the disk before the content does.
-    if (!file || !sync_to_disk(part).empty())
+    if (!file)
       {
         const std::string sentence = failed_write(path);
         std::error_code   ignored;

@@ -104,6 +104,15 @@ namespace talus
 
   template <int dim>
   void
+  GridOutput<dim>::sync()
+  {
+    series_.sync();
+  }
+
+
+
+  template <int dim>
+  void
   GridOutput<dim>::write(const Snapshot<dim> &snapshot)
   {
     const AlignedVector<double> sums = sums_with_ghosts(snapshot);

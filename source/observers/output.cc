@@ -10,7 +10,7 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  Output<dim>::Output(TimerOutput &timer)
+  Output<dim>::Output(PhaseTimer &timer)
     : ParameterAcceptor("/Output")
     , timer_(timer)
   {
@@ -42,9 +42,7 @@ namespace talus
     add_parameter("Boxes as cells",
                   boxes_as_cells_,
                   "Write each point as its box, a quad or hex, so that "
-                  "ParaView shows a continuum, instead of as a dot. VTU "
-                  "files become up to four (3-D: eight) times as large, HDF5 "
-                  "files hardly.");
+                  "ParaView shows a continuum, instead of as a dot.");
     add_parameter("Format",
                   format_,
                   "Files of points and grid: vtu, one file per rank and output "
@@ -177,6 +175,8 @@ namespace talus
   void
   Output<dim>::sync()
   {
+    points_output_.sync();
+    grid_output_.sync();
     if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
       return;
     statistics_.file().sync();

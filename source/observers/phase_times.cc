@@ -10,19 +10,18 @@ namespace talus
   using namespace dealii;
 
   std::vector<std::string>
-  phase_times(const TimerOutput &timer, const MPI_Comm communicator)
+  phase_times(const PhaseTimer &timer, const MPI_Comm communicator)
   {
-    // Sections are the same on all ranks, and in the order of their names.
-    const auto sections = timer.get_summary_data(TimerOutput::total_wall_time);
-    double     total    = 0;
-    for (const auto &section : sections)
-      total += section.second;
+    const auto phases = timer.seconds();
+    double     total  = 0;
+    for (const auto &phase : phases)
+      total += phase.second;
     total = Utilities::MPI::sum(total, communicator) /
             Utilities::MPI::n_mpi_processes(communicator);
 
     std::vector<std::string> lines = {
       "Wall time by phase, s: least, mean and largest over the ranks, share"};
-    for (const auto &[name, seconds] : sections)
+    for (const auto &[name, seconds] : phases)
       {
         const auto over_ranks =
           Utilities::MPI::min_max_avg(seconds, communicator);

@@ -268,6 +268,15 @@ namespace talus
 
   template <int dim>
   void
+  PointsOutput<dim>::sync()
+  {
+    series_.sync();
+  }
+
+
+
+  template <int dim>
+  void
   PointsOutput<dim>::write(const Snapshot<dim> &snapshot)
   {
     if (boxes_as_cells_)
@@ -282,9 +291,11 @@ namespace talus
   void
   write_points(const Snapshot<dim> &snapshot, const std::filesystem::path &path)
   {
-    Patches<0, dim> patches(points_as_vertices(snapshot));
     write_file(path, [&](std::ostream &out) {
-      patches.write(out, snapshot.time, snapshot.step);
+      write_vtu(out,
+                points_as_vertices(snapshot),
+                snapshot.time,
+                snapshot.step);
     });
   }
 

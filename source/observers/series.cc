@@ -1,3 +1,4 @@
+#include <talus/base/errors.h>
 #include <talus/observers/files.h>
 #include <talus/observers/hdf5_output.h>
 #include <talus/observers/series.h>
@@ -5,6 +6,7 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <sstream>
 
@@ -45,7 +47,8 @@ namespace talus
     name_         = name;
     communicator_ = communicator;
     format_       = format;
-    xdmf_         = XdmfIndex();
+    unsynced_.clear();
+    xdmf_ = XdmfIndex();
     if (beginning == Beginning::anew)
       times_and_names_.clear();
   }
@@ -87,22 +90,48 @@ namespace talus
     if (format_ == FieldFormat::hdf5)
       write_hdf5(folder_ / file, communicator_, cells, time, step);
     else
-      file = write_vtu(folder_, base, communicator_, cells, time, step);
+      file =
+        write_vtu(folder_, base, communicator_, cells, time, step, unsynced_);
     times_and_names_.emplace_back(time, file);
     if (Utilities::MPI::this_mpi_process(communicator_) == 0)
-      write_index();
+      unsynced_.push_back(write_index());
+  }
+
+
+
+  /// Returns its path.
+  std::filesystem::path
+  FieldSeries::write_index()
+  {
+    const bool                  is_hdf5 = (format_ == FieldFormat::hdf5);
+    const std::filesystem::path path =
+      folder_ / (name_ + (is_hdf5 ? ".xdmf" : ".pvd"));
+    if (is_hdf5)
+      xdmf_.write(path, times_and_names_);
+    else
+      write_file(path,
+                 [&](std::ostream &out) { write_pvd(out, times_and_names_); });
+    return path;
   }
 
 
 
   void
-  FieldSeries::write_index()
+  FieldSeries::sync()
   {
-    if (format_ == FieldFormat::hdf5)
-      xdmf_.write(folder_ / (name_ + ".xdmf"), times_and_names_);
-    else
-      write_file(folder_ / (name_ + ".pvd"),
-                 [&](std::ostream &out) { write_pvd(out, times_and_names_); });
+    // The index was written once for each time. A file that is not there any
+    // more was moved by somebody.
+    std::sort(unsynced_.begin(), unsynced_.end());
+    unsynced_.erase(std::unique(unsynced_.begin(), unsynced_.end()),
+                    unsynced_.end());
+    for (const std::filesystem::path &path : unsynced_)
+      if (std::filesystem::exists(path))
+        {
+          const std::string complaint = sync_to_disk(path);
+          AssertThrow(complaint.empty(),
+                      ExcUser(failed_write(path, complaint)));
+        }
+    unsynced_.clear();
   }
 
 

@@ -1,152 +1,172 @@
+#include <talus/base/errors.h>
 #include <talus/observers/files.h>
 #include <talus/observers/vtu.h>
-
-#include <deal.II/grid/reference_cell.h>
+#include <talus/observers/vtu_arrays.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <iomanip>
 
 namespace talus
 {
   using namespace dealii;
 
-  template <int patch_dim, int dim>
-  Patches<patch_dim, dim>::Patches(const OutputCells<patch_dim, dim> &cells)
-    : fields_(cells.fields)
+  namespace
   {
-    std::size_t n_components = 0;
-    for (const Field &field : fields_)
-      n_components += field.n_components;
-    values_.resize(n_components);
-    patches_.reserve(cells.size());
-    for (unsigned int c = 0; c < cells.size(); ++c)
-      add(cells, c);
-  }
+#ifdef DEAL_II_WORDS_BIGENDIAN
+    const std::string byte_order = "BigEndian";
+#else
+    const std::string byte_order = "LittleEndian";
+#endif
+
+    template <typename Number>
+    void
+    write_array(std::ostream              &out,
+                const std::string         &attributes,
+                const std::vector<Number> &values)
+    {
+      out << "<DataArray " << attributes << " format=\"binary\">\n";
+      write_vtu_array(out, values);
+      out << "\n</DataArray>\n";
+    }
 
 
 
-  template <int patch_dim, int dim>
+    /// Type, name and number of components of a field.
+    std::string
+    attributes_of(const Field &field)
+    {
+      return text("type=\"Float32\" Name=\"",
+                  field.name,
+                  "\" NumberOfComponents=\"",
+                  n_columns(field),
+                  "\"");
+    }
+
+
+
+    template <int cell_dim, int dim>
+    void
+    write_geometry(std::ostream &out, const OutputCells<cell_dim, dim> &cells)
+    {
+      // Of VTK: a vertex, a quad, a hexahedron.
+      constexpr std::uint8_t type =
+        (cell_dim == 0 ? 1 : (cell_dim == 2 ? 9 : 12));
+      std::vector<std::int32_t> offsets(cells.size());
+      for (unsigned int c = 0; c < cells.size(); ++c)
+        offsets[c] = (c + 1) * cells.n_vertices;
+
+      out << "<Points>\n";
+      write_array(out,
+                  "type=\"Float32\" NumberOfComponents=\"3\"",
+                  vertex_coordinates(cells));
+      out << "</Points>\n<Cells>\n";
+      write_array(out,
+                  "type=\"Int32\" Name=\"connectivity\"",
+                  corners_of_cells<std::int32_t>(cells));
+      write_array(out, "type=\"Int32\" Name=\"offsets\"", offsets);
+      write_array(out,
+                  "type=\"UInt8\" Name=\"types\"",
+                  std::vector<std::uint8_t>(cells.size(), type));
+      out << "</Cells>\n";
+    }
+
+
+
+    /// Kind of data that ParaView is to take the fields for.
+    template <int cell_dim, int dim>
+    std::string
+    data_of(const OutputCells<cell_dim, dim> &cells)
+    {
+      return cells.items_at == ItemsAt::cells ? "CellData" : "PointData";
+    }
+
+
+
+    /// What names the files of all ranks.
+    template <int cell_dim, int dim>
+    void
+    write_pvtu(std::ostream                     &out,
+               const OutputCells<cell_dim, dim> &cells,
+               const std::vector<std::string>   &pieces)
+    {
+      const std::string data = data_of(cells);
+      out << "<?xml version=\"1.0\"?>\n"
+             "<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" "
+             "byte_order=\""
+          << byte_order
+          << "\">\n"
+             "<PUnstructuredGrid GhostLevel=\"0\">\n"
+             "<PPoints>\n"
+             "<PDataArray type=\"Float32\" NumberOfComponents=\"3\"/>\n"
+             "</PPoints>\n"
+             "<P"
+          << data << ">\n";
+      for (const Field &field : cells.fields)
+        out << "<PDataArray " << attributes_of(field) << "/>\n";
+      out << "</P" << data << ">\n";
+      for (const std::string &piece : pieces)
+        out << "<Piece Source=\"" << piece << "\"/>\n";
+      out << "</PUnstructuredGrid>\n</VTKFile>\n";
+    }
+  } // namespace
+
+
+
+  template <int cell_dim, int dim>
   void
-  Patches<patch_dim, dim>::add(const OutputCells<patch_dim, dim> &cells,
-                               const unsigned int                 c)
+  write_vtu(std::ostream                     &out,
+            const OutputCells<cell_dim, dim> &cells,
+            const double                      time,
+            const unsigned long               step)
   {
-    constexpr unsigned int n = OutputCells<patch_dim, dim>::n_vertices;
-    Patch                  patch;
-    patch.patch_index = c;
-    if constexpr (patch_dim > 0)
-      patch.reference_cell = ReferenceCells::get_hypercube<patch_dim>();
-    patch.data.reinit(values_.size(), n);
-    for (unsigned int v = 0; v < n; ++v)
-      {
-        patch.vertices[v] = cells.vertices[c * n + v];
-        // The vertices of a point's box share its values.
-        if (v == 0 || cells.items_at == ItemsAt::vertices)
-          {
-            float *to = values_.data();
-            for (const Field &field : fields_)
-              {
-                field.evaluate(cells.item(c, v), to);
-                to += field.n_components;
-              }
-          }
-        for (unsigned int i = 0; i < values_.size(); ++i)
-          patch.data(i, v) = values_[i];
-      }
-    patches_.push_back(std::move(patch));
-  }
-
-
-
-  template <int patch_dim, int dim>
-  void
-  Patches<patch_dim, dim>::write(std::ostream       &out,
-                                 const double        time,
-                                 const unsigned long step)
-  {
-    DataOutBase::VtkFlags flags;
-    flags.time                = time;
-    flags.cycle               = step;
-    flags.print_date_and_time = false;
-    flags.compression_level   = DataOutBase::VtkFlags::best_speed;
-    this->set_flags(flags);
-    this->write_vtu(out);
-  }
-
-
-
-  template <int patch_dim, int dim>
-  const std::vector<typename Patches<patch_dim, dim>::Patch> &
-  Patches<patch_dim, dim>::get_patches() const
-  {
-    return patches_;
-  }
-
-
-
-  template <int patch_dim, int dim>
-  std::vector<std::string>
-  Patches<patch_dim, dim>::get_dataset_names() const
-  {
-    std::vector<std::string> names;
-    for (const Field &field : fields_)
-      for (unsigned int c = 0; c < field.n_components; ++c)
-        names.push_back(field.name);
-    return names;
-  }
-
-
-
-  template <int patch_dim, int dim>
-  std::vector<
-    std::tuple<unsigned int,
-               unsigned int,
-               std::string,
-               DataComponentInterpretation::DataComponentInterpretation>>
-  Patches<patch_dim, dim>::get_nonscalar_data_ranges() const
-  {
-    namespace Interpretation = DataComponentInterpretation;
-    std::vector<std::tuple<unsigned int,
-                           unsigned int,
-                           std::string,
-                           Interpretation::DataComponentInterpretation>>
-                 ranges;
-    unsigned int first = 0;
-    for (const Field &field : fields_)
-      {
-        const unsigned int last = first + field.n_components - 1;
-        if (field.kind == FieldKind::vector)
-          ranges.emplace_back(first,
-                              last,
-                              field.name,
-                              Interpretation::component_is_part_of_vector);
-        else if (field.kind == FieldKind::tensor)
-          ranges.emplace_back(first,
-                              last,
-                              field.name,
-                              Interpretation::component_is_part_of_tensor);
-        first = last + 1;
-      }
-    return ranges;
+    const std::string data = data_of(cells);
+    out << "<?xml version=\"1.0\"?>\n"
+           "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\""
+        << byte_order
+        << "\" compressor=\"vtkZLibDataCompressor\">\n"
+           "<UnstructuredGrid>\n"
+           "<FieldData>\n"
+           "<DataArray type=\"Float64\" Name=\"TIME\" NumberOfTuples=\"1\" "
+           "format=\"ascii\">"
+        << std::setprecision(16) << time
+        << "</DataArray>\n"
+           "<DataArray type=\"Int64\" Name=\"CYCLE\" NumberOfTuples=\"1\" "
+           "format=\"ascii\">"
+        << step << "</DataArray>\n</FieldData>\n<Piece NumberOfPoints=\""
+        << cells.vertices.size() << "\" NumberOfCells=\"" << cells.size()
+        << "\">\n";
+    write_geometry(out, cells);
+    out << '<' << data << ">\n";
+    for (const Field &field : cells.fields)
+      write_array(out, attributes_of(field), values_of(field, cells.items));
+    out << "</" << data << ">\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   }
 
 
 
   template <int cell_dim, int dim>
   std::string
-  write_vtu(const std::filesystem::path      &folder,
-            const std::string                &base,
-            const MPI_Comm                    communicator,
-            const OutputCells<cell_dim, dim> &cells,
-            const double                      time,
-            const unsigned long               step)
+  write_vtu(const std::filesystem::path        &folder,
+            const std::string                  &base,
+            const MPI_Comm                      communicator,
+            const OutputCells<cell_dim, dim>   &cells,
+            const double                        time,
+            const unsigned long                 step,
+            std::vector<std::filesystem::path> &written)
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
     const auto         piece   = [&](const unsigned int r) {
       return base + (n_ranks > 1 ? "." + std::to_string(r) : "") + ".vtu";
     };
+    const auto write = [&](const std::string &name, const auto &content) {
+      write_file(folder / name, content);
+      written.push_back(folder / name);
+    };
 
-    // ParaView complains about the files that deal.II writes without cells:
-    // only ranks with cells write one, the first if nobody has any.
+    // ParaView has no use for files without cells: only ranks with cells write
+    // one, the first if nobody has any.
     const auto n_cells = Utilities::MPI::all_gather(communicator, cells.size());
     const bool nobody  = std::all_of(n_cells.begin(),
                                     n_cells.end(),
@@ -154,11 +174,9 @@ namespace talus
     const auto writes  = [&](const unsigned int r) {
       return n_cells[r] > 0 || (nobody && r == 0);
     };
-
-    Patches<cell_dim, dim> patches(cells);
     if (writes(rank))
-      write_file(folder / piece(rank),
-                 [&](std::ostream &out) { patches.write(out, time, step); });
+      write(piece(rank),
+            [&](std::ostream &out) { write_vtu(out, cells, time, step); });
     if (n_ranks == 1)
       return piece(0);
 
@@ -167,27 +185,25 @@ namespace talus
       if (writes(r))
         pieces.push_back(piece(r));
     if (rank == 0)
-      write_file(folder / (base + ".pvtu"), [&](std::ostream &out) {
-        // deal.II leaves no choice but to write the date, as a comment.
-        std::stringstream record;
-        patches.write_pvtu_record(record, pieces);
-        for (std::string line; std::getline(record, line);)
-          if (line.find("#This file was generated") == std::string::npos)
-            out << line << '\n';
-      });
+      write(base + ".pvtu",
+            [&](std::ostream &out) { write_pvtu(out, cells, pieces); });
     return base + ".pvtu";
   }
 
 
 
 #define INSTANTIATE(cell_dim, dim)                                   \
-  template class Patches<cell_dim, dim>;                             \
+  template void        write_vtu(std::ostream &,                     \
+                                 const OutputCells<cell_dim, dim> &, \
+                                 double,                             \
+                                 unsigned long);                     \
   template std::string write_vtu(const std::filesystem::path &,      \
                                  const std::string &,                \
                                  MPI_Comm,                           \
                                  const OutputCells<cell_dim, dim> &, \
                                  double,                             \
-                                 unsigned long);
+                                 unsigned long,                      \
+                                 std::vector<std::filesystem::path> &);
 
   INSTANTIATE(0, 2)
   INSTANTIATE(0, 3)

@@ -72,16 +72,31 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// AlignedVector::resize() would take twice the memory when it grows.
+    void
+    enlarge(AlignedVector<double> &array, const unsigned int size)
+    {
+      AlignedVector<double> larger(size, 0.);
+      std::copy(array.begin(), array.end(), larger.begin());
+      array.swap(larger);
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   Points<dim>::reserve(const unsigned int n)
   {
     if (n <= capacity_)
       return;
-    capacity_ = std::max(n, capacity_ + capacity_ / 2);
+    // Little by little, as most of the memory of a run is here. A step over
+    // all points costs about as much as making all arrays larger.
+    capacity_ = std::max(n, capacity_ + capacity_ / 8);
     for (auto &array : arrays_)
-      array.resize(capacity_ + n_lanes, 0.);
-    reordered_.resize(capacity_ + n_lanes, 0.);
+      enlarge(array, capacity_ + n_lanes);
   }
 
 
@@ -123,25 +138,45 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Since the runs keep their order, each lands between its neighbours: those
+    /// that go down, first to last, and then those that go up, last to first,
+    /// never overwrite one that is still to move.
+    void
+    move_runs(double *array, const std::vector<Shift> &shifts)
+    {
+      for (const Shift &s : shifts)
+        if (s.to < s.begin)
+          std::copy(array + s.begin, array + s.end, array + s.to);
+      for (auto s = shifts.rbegin(); s != shifts.rend(); ++s)
+        if (s->to > s->begin)
+          std::copy_backward(array + s->begin,
+                             array + s->end,
+                             array + s->to + (s->end - s->begin));
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
-  Points<dim>::reorder(const std::vector<Run>     &runs,
-                       const std::vector<Segment> &segments)
+  Points<dim>::reorder(const std::vector<Shift> &shifts,
+                       const std::vector<Jump>  &jumps,
+                       std::vector<Segment>     &segments)
   {
-    unsigned int n = 0;
-    for (const Run &run : runs)
-      n += run.end - run.begin;
+    jumping_.resize(jumps.size());
     for (auto &array : arrays_)
       {
-        double *to = reordered_.begin();
-        for (const Run &run : runs)
-          to =
-            std::copy(array.begin() + run.begin, array.begin() + run.end, to);
-        array.swap(reordered_);
+        for (std::size_t i = 0; i < jumps.size(); ++i)
+          jumping_[i] = array[jumps[i].from];
+        move_runs(array.data(), shifts);
+        for (std::size_t i = 0; i < jumps.size(); ++i)
+          array[jumps[i].to] = jumping_[i];
       }
-    size_     = n;
-    segments_ = segments;
-    Assert(n_sorted() == size_, ExcInternalError());
+    segments_.swap(segments);
+    Assert(n_sorted() <= size_, ExcInternalError());
+    size_ = n_sorted();
   }
 
 
@@ -150,9 +185,10 @@ namespace talus
   std::size_t
   Points<dim>::memory_consumption() const
   {
-    return ((arrays_.size() + 1) * (capacity_ + n_lanes) +
+    return (arrays_.size() * (capacity_ + n_lanes) +
             workspace_.size() * workspace_[0].size()) *
-           sizeof(double);
+             sizeof(double) +
+           segments_.capacity() * sizeof(Segment);
   }
 
 

@@ -41,7 +41,6 @@ namespace talus
     : ParameterAcceptor("/")
     , grid_(MPI_COMM_WORLD)
     , materials_(preview.materials)
-    , timer_(std::cout, TimerOutput::never, TimerOutput::wall_times)
     , output_(timer_)
   {
     for (const std::string &name : preview.bodies)
@@ -211,15 +210,18 @@ namespace talus
   void
   Simulation<dim>::points_to_grid()
   {
-    TimerOutput::Scope scope(timer_, "points to grid");
+    timer_.start_laps();
     loading_.update(points_, time_);
     nodes_.clear();
+    timer_.lap(PhaseTimer::points_to_grid);
     time_step_.begin();
     points_.for_batches([this](const Batch &batch) {
       points_.lend_workspace(batch.begin, batch.end);
       time_step_.heed(points_, batch, grid_, materials_, transfer_.box_shape());
+      timer_.lap(PhaseTimer::time_step);
       transfer_.average_mean_stress(points_, batch);
       transfer_.scatter(points_, batch, grid_, loading_.loads(), nodes_);
+      timer_.lap(PhaseTimer::points_to_grid);
     });
   }
 
@@ -231,7 +233,7 @@ namespace talus
   {
     // But for mesh tracking the only operation of all ranks in a step. The
     // largest wish is the one that becomes the least.
-    TimerOutput::Scope          scope(timer_, "nodes, messages");
+    TimerOutput::Scope          scope(timer_, "messages");
     const std::array<double, 2> local = {
       {time_step_.of_heeded(points_, materials_),
        -static_cast<double>(own_wish())}};
@@ -249,16 +251,26 @@ namespace talus
   void
   Simulation<dim>::update_nodes()
   {
-    TimerOutput::Scope scope(timer_, "nodes, messages");
-    nodes_.sum_over_ranks(grid_);
+    {
+      TimerOutput::Scope scope(timer_, "messages");
+      nodes_.sum_over_ranks(grid_);
+    }
     Assert(nobody_is_lost(points_, nodes_, grid_.communicator()),
            ExcMessage("The nodes do not carry all mass of the points: a box "
                       "reaches beyond the cells around its own."));
-    boundaries_.add_tractions(nodes_, grid_, time_, least_mass_);
-    nodes_.update_momentum(dt_, least_mass_);
-    boundary_work_.damping +=
-      damping_.apply(nodes_, grid_, boundaries_, least_mass_);
-    boundary_work_ += boundaries_.apply(nodes_, grid_, time_, dt_, least_mass_);
+    {
+      TimerOutput::Scope scope(timer_, "nodal update");
+      boundaries_.add_tractions(nodes_, grid_, time_, least_mass_);
+      nodes_.update_momentum(dt_, least_mass_);
+      boundary_work_.damping +=
+        damping_.apply(nodes_, grid_, boundaries_, least_mass_);
+    }
+    {
+      TimerOutput::Scope scope(timer_, "boundaries");
+      boundary_work_ +=
+        boundaries_.apply(nodes_, grid_, time_, dt_, least_mass_);
+    }
+    TimerOutput::Scope scope(timer_, "messages");
     nodes_.share_with_ghosts(grid_);
   }
 
@@ -268,16 +280,19 @@ namespace talus
   void
   Simulation<dim>::grid_to_points()
   {
-    TimerOutput::Scope scope(timer_, "grid to points");
-    const BoxRule      rule = transfer_.box_shape().rule;
+    timer_.start_laps();
+    const BoxRule rule = transfer_.box_shape().rule;
     points_.for_batches([&](const Batch &batch) {
       points_.lend_workspace(batch.begin, batch.end);
       gravity_work_ +=
         transfer_.gather(nodes_, grid_, loading_.loads(), points_, batch, dt_);
       transfer_.average_dilatation(points_, batch);
+      timer_.lap(PhaseTimer::grid_to_points);
       materials_.update_stress(points_, batch, dt_);
       update_stretch(points_, batch.begin, batch.end, rule, dt_);
+      timer_.lap(PhaseTimer::stress_update);
       splitter_.find(points_, batch, grid_);
+      timer_.lap(PhaseTimer::splitting);
     });
   }
 
@@ -298,7 +313,8 @@ namespace talus
   Simulation<dim>::relocate()
   {
     TimerOutput::Scope scope(timer_, "relocation");
-    if (relocation_.update(points_, grid_))
+    const bool         other_cells = relocation_.update(points_, grid_);
+    if (other_cells)
       nodes_.activate(grid_, relocation_.occupied_cells());
   }
 

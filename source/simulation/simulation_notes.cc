@@ -88,9 +88,10 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                       \
-  template void Simulation<dim>::note_start(); \
-  template void Simulation<dim>::note_time_step();
+#define INSTANTIATE(dim)                             \
+  template void   Simulation<dim>::note_start();     \
+  template void   Simulation<dim>::note_time_step(); \
+  template double Simulation<dim>::allowed_time_step();
 
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 namespace talus
 {
@@ -29,6 +28,34 @@ namespace talus
             }
         }
     }
+
+
+
+    /// Whether the centres of all these points are in the cell; false if one is
+    /// no number. Lanes beyond the last point do not count.
+    template <int dim>
+    bool
+    all_inside(const Points<dim> &points,
+               const Segment     &segment,
+               const Cell<dim>   &cell)
+    {
+      Lanes lane;
+      for (unsigned int i = 0; i < n_lanes; ++i)
+        lane[i] = i;
+      LaneMask inside = (lane == lane);
+      for (unsigned int p = segment.begin; p < segment.end; p += n_lanes)
+        {
+          LaneMask here = (lane == lane);
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const auto x = load<Lanes>(points.data(points.position, d) + p);
+              here &= (x >= cell.lower[d]) & (x < cell.lower[d] + cell.size);
+            }
+          inside &= here | (lane >= static_cast<double>(segment.end - p));
+        }
+      return all(inside);
+    }
+
   } // namespace
 
 
@@ -137,23 +164,21 @@ namespace talus
 
   template <int dim>
   void
-  Relocation<dim>::find_movers(Points<dim> &points, const Grid<dim> &grid)
+  Relocation<dim>::find_movers(Points<dim>      &points,
+                               const Grid<dim>  &grid,
+                               const std::size_t first_segment,
+                               const std::size_t last_segment)
   {
     const bool wraps = grid.periodicity().any();
-    movers_.clear();
-    for (const Segment &segment : points.segments())
+    for (std::size_t s = first_segment; s < last_segment; ++s)
       {
-        const Cell<dim> &cell = grid.cells()[segment.cell];
+        const Segment   &segment = points.segments()[s];
+        const Cell<dim> &cell    = grid.cells()[segment.cell];
+        if (__builtin_expect(all_inside(points, segment, cell), 1))
+          continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
-            bool is_inside = true;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                const double x = points.data(points.position, d)[p];
-                is_inside &=
-                  (x >= cell.lower[d]) & (x < cell.lower[d] + cell.size);
-              }
-            if (__builtin_expect(is_inside, 1))
+            if (all_inside(points, {0, 0, p, p + 1}, cell))
               continue;
             if (wraps)
               wrap(points, grid.periodicity(), p);
@@ -162,9 +187,19 @@ namespace talus
               movers_.push_back({c, segment.body, p});
           }
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Relocation<dim>::find_movers(Points<dim> &points, const Grid<dim> &grid)
+  {
+    movers_.clear();
+    find_movers(points, grid, 0, points.segments().size());
     for (unsigned int p = points.n_sorted(); p < points.size(); ++p)
       {
-        if (wraps)
+        if (grid.periodicity().any())
           wrap(points, grid.periodicity(), p);
         movers_.push_back(
           {cell_of(points, grid, p),
@@ -203,103 +238,6 @@ namespace talus
 
 
   template <int dim>
-  void
-  Relocation<dim>::open_segment(const unsigned int cell,
-                                const unsigned int body)
-  {
-    if (segments_.empty() || segments_.back().cell != cell ||
-        segments_.back().body != body)
-      segments_.push_back({cell, body, n_merged_, n_merged_});
-  }
-
-
-
-  template <int dim>
-  void
-  Relocation<dim>::add_run(const unsigned int begin, const unsigned int end)
-  {
-    if (begin == end)
-      return;
-    if (!runs_.empty() && runs_.back().end == begin)
-      runs_.back().end = end;
-    else
-      runs_.push_back({begin, end});
-    n_merged_ += end - begin;
-    segments_.back().end = n_merged_;
-  }
-
-
-
-  /// Add the points of an old segment except those that leave it.
-  /// @param skip next entry of leaving_.
-  template <int dim>
-  void
-  Relocation<dim>::add_staying(const Segment &segment, std::size_t &skip)
-  {
-    unsigned int begin = segment.begin;
-    for (; skip < leaving_.size() && leaving_[skip] < segment.end; ++skip)
-      {
-        if (begin < leaving_[skip])
-          {
-            open_segment(segment.cell, segment.body);
-            add_run(begin, leaving_[skip]);
-          }
-        begin = leaving_[skip] + 1;
-      }
-    if (begin < segment.end)
-      {
-        open_segment(segment.cell, segment.body);
-        add_run(begin, segment.end);
-      }
-  }
-
-
-
-  /// Merge the old order without the movers with the movers, both sorted by
-  /// cell and body; among equals, those that stayed come first.
-  template <int dim>
-  void
-  Relocation<dim>::merge(const Points<dim> &points)
-  {
-    leaving_.clear();
-    for (const Mover &mover : movers_)
-      leaving_.push_back(mover.index);
-    for (const auto &traveller : travellers_)
-      leaving_.push_back(traveller.index);
-    std::sort(leaving_.begin(), leaving_.end());
-    std::sort(movers_.begin(),
-              movers_.end(),
-              [](const Mover &a, const Mover &b) {
-                return std::tie(a.cell, a.body, a.index) <
-                       std::tie(b.cell, b.body, b.index);
-              });
-
-    runs_.clear();
-    segments_.clear();
-    n_merged_                     = 0;
-    std::size_t skip              = 0;
-    auto        mover             = movers_.begin();
-    const auto  add_movers_before = [&](const auto &is_before) {
-      for (; mover != movers_.end() && is_before(*mover); ++mover)
-        {
-          open_segment(mover->cell, mover->body);
-          add_run(mover->index, mover->index + 1);
-        }
-    };
-    for (const Segment &segment : points.segments())
-      {
-        add_movers_before([&](const Mover &m) {
-          return std::tie(m.cell, m.body) <
-                 std::tie(segment.cell, segment.body);
-        });
-        add_staying(segment, skip);
-      }
-    add_movers_before([](const Mover &) { return true; });
-  }
-
-
-
-  template <int dim>
   bool
   Relocation<dim>::update(Points<dim> &points, const Grid<dim> &grid)
   {
@@ -307,31 +245,53 @@ namespace talus
     send_movers(points, grid);
     if (movers_.empty() && travellers_.empty())
       return false;
-    sort_in(points);
-    return true;
+    return sort_in(points);
+  }
+
+
+
+  /// Returns whether the set of the occupied cells changed.
+  template <int dim>
+  bool
+  Relocation<dim>::sort_in(Points<dim> &points)
+  {
+    gone_.clear();
+    for (const auto &traveller : travellers_)
+      // Appended points are in no segment that they could leave.
+      if (traveller.index < points.n_sorted())
+        gone_.push_back(traveller.index);
+    reordering_.merge(points.segments(), movers_, gone_);
+    AssertThrow(reordering_.n_points() + travellers_.size() == points.size(),
+                ExcMessage(text("The headcount of the points does not hold: ",
+                                points.size(),
+                                " before sorting, ",
+                                reordering_.n_points(),
+                                " after, and ",
+                                travellers_.size(),
+                                " went to other ranks.")));
+    reordering_.apply(points);
+    // At the start and after a change of the mesh all points move, in a step
+    // only a few: the long lists would be a waste of memory.
+    if (movers_.size() > points.size() / 8)
+      {
+        std::vector<Mover>().swap(movers_);
+        reordering_.clear();
+      }
+    return find_occupied_cells(points);
   }
 
 
 
   template <int dim>
-  void
-  Relocation<dim>::sort_in(Points<dim> &points)
+  bool
+  Relocation<dim>::find_occupied_cells(const Points<dim> &points)
   {
-    merge(points);
-    AssertThrow(n_merged_ + travellers_.size() == points.size(),
-                ExcMessage(text("The headcount of the points does not hold: ",
-                                points.size(),
-                                " before sorting, ",
-                                n_merged_,
-                                " after, and ",
-                                travellers_.size(),
-                                " went to other ranks.")));
-    points.reorder(runs_, segments_);
-
+    formerly_occupied_cells_.swap(occupied_cells_);
     occupied_cells_.clear();
     for (const Segment &segment : points.segments())
       if (occupied_cells_.empty() || occupied_cells_.back() != segment.cell)
         occupied_cells_.push_back(segment.cell);
+    return occupied_cells_ != formerly_occupied_cells_;
   }
 
 

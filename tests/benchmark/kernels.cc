@@ -78,7 +78,7 @@ namespace
     sample.law->update_stress(sample.points, 0, sample.points.size(), 0.3);
     for (auto _ : state)
       {
-        update_stretch(sample.points, rule, sample.dt);
+        update_stretch(sample.points, 0, sample.points.size(), rule, sample.dt);
         benchmark::ClobberMemory();
       }
     count_points(state, sample.points.size());

@@ -103,6 +103,7 @@ namespace
   {
     Points<dim> points;
     points.append(1);
+    points.lend_workspace(0, 1);
     points.data(points.reference_volume)[0] = 1.;
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -126,7 +127,7 @@ namespace
       half_length_in_cells<2, Counted>(points, shape, 0, 0, inverse_size);
     const Counted x = load<Counted>(points.data(points.position));
     const auto    w = axis_weights((x - Counted{0.}) * inverse_size, half);
-    for (const Counted gradient : w.gradient)
+    for (const Counted &gradient : w.gradient)
       benchmark::DoNotOptimize(gradient * inverse_size);
   }
 

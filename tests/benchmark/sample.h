@@ -32,6 +32,7 @@ namespace talus
       law->check();
       law->add_columns(points);
       points.append(n_points);
+      points.lend_workspace(0, n_points);
       for (unsigned int p = 0; p < n_points; ++p)
         set_point(p);
       initialize_stretch(points, 0, n_points, BoxRule::right_stretch);

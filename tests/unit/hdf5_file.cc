@@ -153,7 +153,7 @@ namespace
               segments.push_back({g - first_cell, body, p, p});
             segments.back().end = p + 1;
           }
-      points.reorder({{0, points.size()}}, segments);
+      points.reorder({}, {}, segments);
       for (unsigned int g = first_cell; g < end_cell; ++g)
         weights.push_back(0.5 * g);
     }

@@ -36,13 +36,7 @@ namespace
   class OutputTest : public ObserversTest
   {
   protected:
-    OutputTest()
-      : timer(std::cout,
-              dealii::TimerOutput::never,
-              dealii::TimerOutput::wall_times)
-    {}
-
-    dealii::TimerOutput timer;
+    PhaseTimer timer;
   };
 
 

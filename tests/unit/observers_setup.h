@@ -67,17 +67,17 @@ struct Scene
           x[d] = points.data(points.position, d)[p];
         of_cell[grid.find_cell(x)].push_back(p);
       }
-    std::vector<talus::Run>     runs;
+    std::vector<talus::Jump>    jumps;
     std::vector<talus::Segment> segments;
     for (unsigned int c = 0; c < of_cell.size(); ++c)
       if (!of_cell[c].empty())
         {
-          const unsigned int begin = runs.size();
+          const unsigned int begin = jumps.size();
           for (const unsigned int p : of_cell[c])
-            runs.push_back({p, p + 1});
-          segments.push_back({c, 0, begin, unsigned(runs.size())});
+            jumps.push_back({p, unsigned(jumps.size())});
+          segments.push_back({c, 0, begin, unsigned(jumps.size())});
         }
-    points.reorder(runs, segments);
+    points.reorder({}, jumps, segments);
   }
 
   talus::Snapshot<dim>

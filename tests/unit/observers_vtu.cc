@@ -1,4 +1,5 @@
 #include <talus/observers/output.h>
+#include <talus/observers/vtu_arrays.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -22,6 +23,10 @@ namespace
   struct Vtu
   {
     std::size_t                               n_points, n_cells;
+    bool                                      at_cells;
+    std::vector<float>                        vertices;
+    std::vector<std::int32_t>                 corners;
+    std::vector<std::uint8_t>                 types;
     std::map<std::string, unsigned int>       n_components;
     std::map<std::string, std::vector<float>> values;
   };
@@ -62,7 +67,10 @@ namespace
     Vtu         vtu;
     vtu.n_points = piece.get<std::size_t>("<xmlattr>.NumberOfPoints");
     vtu.n_cells  = piece.get<std::size_t>("<xmlattr>.NumberOfCells");
-    for (const auto &[tag, array] : piece.get_child("PointData"))
+    vtu.at_cells = piece.count("CellData") == 1;
+    EXPECT_EQ(piece.count("PointData"), vtu.at_cells ? 0u : 1u);
+    for (const auto &[tag, array] :
+         piece.get_child(vtu.at_cells ? "CellData" : "PointData"))
       if (tag == "DataArray")
         {
           const auto name = array.get<std::string>("<xmlattr>.Name");
@@ -72,11 +80,17 @@ namespace
           vtu.values[name] = decode<float>(array.data());
         }
 
+    vtu.vertices = decode<float>(piece.get<std::string>("Points.DataArray"));
     // Every cell has its own vertices, one after the other.
     for (const auto &[tag, array] : piece.get_child("Cells"))
-      if (tag == "DataArray" &&
-          array.get<std::string>("<xmlattr>.Name") == "offsets")
+      if (const auto name = array.get<std::string>("<xmlattr>.Name");
+          name == "connectivity")
+        vtu.corners = decode<std::int32_t>(array.data());
+      else if (name == "types")
+        vtu.types = decode<std::uint8_t>(array.data());
+      else
         {
+          EXPECT_EQ(name, "offsets");
           const auto offsets = decode<std::int32_t>(array.data());
           EXPECT_EQ(offsets.size(), vtu.n_cells);
           for (std::size_t c = 0; c < offsets.size(); ++c)
@@ -123,6 +137,10 @@ namespace
     Vtu vtu = read_vtu(folder / "p.vtu");
     EXPECT_EQ(vtu.n_points, 2u);
     EXPECT_EQ(vtu.n_cells, 2u);
+    EXPECT_FALSE(vtu.at_cells);
+    EXPECT_EQ(vtu.vertices, std::vector<float>({0.5, 0.5, 0, 1.5, 1.5, 0}));
+    EXPECT_EQ(vtu.corners, std::vector<std::int32_t>({0, 1}));
+    EXPECT_EQ(vtu.types, std::vector<std::uint8_t>(2, 1)); // VTK_VERTEX
 
     const std::map<std::string, unsigned int> expected = {
       {"position [m]", 3},
@@ -172,6 +190,76 @@ namespace
 
 
 
+  TEST_F(VtuTest, BoxesHoldTheirValuesOnce)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    s.points.data(s.points.stretch, 1)[1] = 3.;
+    PointsOutput<2> output;
+    output.begin(folder, MPI_COMM_WORLD, /*boxes_as_cells=*/true);
+    output.write(s.snapshot());
+    const Vtu vtu = read_vtu(folder / "points-0000.vtu");
+    EXPECT_EQ(vtu.n_points, 8u);
+    EXPECT_EQ(vtu.n_cells, 2u);
+    EXPECT_TRUE(vtu.at_cells);
+    EXPECT_EQ(vtu.values.at("mass [kg]"), std::vector<float>({2, 3}));
+    EXPECT_EQ(vtu.types, std::vector<std::uint8_t>(2, 9)); // VTK_QUAD
+    // Around the second box, 0.5 m x 1.5 m about (1.5, 1.5).
+    std::vector<float> around;
+    for (unsigned int i = 4; i < 8; ++i)
+      for (unsigned int d = 0; d < 3; ++d)
+        around.push_back(vtu.vertices.at(3 * vtu.corners.at(i) + d));
+    EXPECT_EQ(around,
+              std::vector<float>(
+                {1.25, 0.75, 0, 1.75, 0.75, 0, 1.75, 2.25, 0, 1.25, 2.25, 0}));
+  }
+
+
+
+  /// The test vectors of RFC 4648.
+  TEST(VtuArrays, Base64)
+  {
+    const auto encode = [](const std::string &text) {
+      std::ostringstream out;
+      write_base64(out,
+                   reinterpret_cast<const unsigned char *>(text.data()),
+                   text.size());
+      return out.str();
+    };
+    EXPECT_EQ(encode(""), "");
+    EXPECT_EQ(encode("f"), "Zg==");
+    EXPECT_EQ(encode("fo"), "Zm8=");
+    EXPECT_EQ(encode("foo"), "Zm9v");
+    EXPECT_EQ(encode("foob"), "Zm9vYg==");
+    EXPECT_EQ(encode("fooba"), "Zm9vYmE=");
+    EXPECT_EQ(encode("foobar"), "Zm9vYmFy");
+    EXPECT_EQ(encode("\xff\xfe\xfb"), "//77");
+  }
+
+
+
+  /// Short arrays, noise, which is only wrapped, and what can be compressed.
+  TEST(VtuArrays, DecodeToWhatTheyWere)
+  {
+    for (const unsigned int n : {0, 1, 2, 3, 1000, 2048, 100000})
+      for (const bool is_noise : {false, true})
+        {
+          std::vector<float> values(n);
+          for (unsigned int i = 0; i < n; ++i)
+            values[i] = (is_noise ? std::sin(i) : 1.f);
+          std::ostringstream out;
+          write_vtu_array(out, values);
+          EXPECT_EQ(decode<float>(out.str()), values);
+          if (n == 100000)
+            {
+              const double ratio = out.str().size() / (4. * n);
+              EXPECT_TRUE(is_noise ? ratio < 1.34 : ratio < 0.01) << ratio;
+            }
+        }
+  }
+
+
+
   TEST_F(VtuTest, ThreeDimensions)
   {
     Scene<3> s("0, 0, 0", "4, 4, 4");
@@ -184,7 +272,8 @@ namespace
     EXPECT_EQ(vtu.n_cells, 2u);
     EXPECT_EQ(vtu.n_components["stress [Pa]"], 9u);
     const std::vector<float> &all = vtu.values["stress [Pa]"];
-    // xx, yy, zz, xy, xz, yz = 1, ..., 6 at the last corner of the last box.
+    EXPECT_EQ(vtu.types, std::vector<std::uint8_t>(2, 12)); // VTK_HEXAHEDRON
+    // xx, yy, zz, xy, xz, yz = 1, ..., 6 in the last box.
     EXPECT_EQ(std::vector<float>(all.end() - 9, all.end()),
               std::vector<float>({1, 4, 5, 4, 2, 6, 5, 6, 3}));
     EXPECT_EQ(vtu.n_components["reference volume [m^3]"], 1u);
@@ -238,13 +327,27 @@ namespace
 
 
 
+  /// What the user moved away meanwhile is no error.
+  TEST_F(VtuTest, FilesReachTheDisk)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    PointsOutput<2> output;
+    output.begin(folder, MPI_COMM_WORLD, /*boxes_as_cells=*/true);
+    output.write(s.snapshot());
+    output.write(s.snapshot());
+    fs::remove(folder / "points-0000.vtu");
+    EXPECT_NO_THROW(output.sync());
+    EXPECT_EQ(read_vtu(folder / "points-0001.vtu").n_cells, 2u);
+  }
+
+
+
   TEST_F(VtuTest, LastState)
   {
-    dealii::TimerOutput timer(std::cout,
-                              dealii::TimerOutput::never,
-                              dealii::TimerOutput::wall_times);
-    Output<2>           output(timer);
-    Scene<2>            s("0, 0", "8, 4");
+    PhaseTimer timer;
+    Output<2>  output(timer);
+    Scene<2>   s("0, 0", "8, 4");
     s.add({0.5, 0.5});
     s.points.data(s.points.velocity)[0] =
       std::numeric_limits<double>::quiet_NaN();

@@ -29,6 +29,9 @@ namespace talus
 
   /// Make the file @p path from what @p write puts into the stream: all of it
   /// or, with ExcUser, nothing; an older file of that name survives a failure.
+  /// If the machine dies, not only the program, the new file may be found
+  /// empty, unless it was brought to the disk by sync_to_disk(). That waits for
+  /// the disk, often longer than a file takes to write.
   void
   write_file(const std::filesystem::path               &path,
              const std::function<void(std::ostream &)> &write);

@@ -29,6 +29,10 @@ namespace talus
     void
     write(const Snapshot<dim> &snapshot);
 
+    /// Bring all files written so far to the disk.
+    void
+    sync();
+
   private:
     FieldSeries series_;
   };

@@ -1,6 +1,7 @@
 #ifndef talus_observers_output_h
 #define talus_observers_output_h
 
+#include <talus/base/phase_timer.h>
 #include <talus/observers/files.h>
 #include <talus/observers/grid_output.h>
 #include <talus/observers/output_times.h>
@@ -11,7 +12,6 @@
 #include <talus/observers/statistics.h>
 
 #include <deal.II/base/parameter_acceptor.h>
-#include <deal.II/base/timer.h>
 
 #include <filesystem>
 #include <string>
@@ -29,7 +29,7 @@ namespace talus
   {
   public:
     /// @p timer gets the section "output"; see phase_times().
-    explicit Output(dealii::TimerOutput &timer);
+    explicit Output(PhaseTimer &timer);
 
     /// Write to this folder, whatever the parameter file says; to be called
     /// after parsing.
@@ -66,7 +66,7 @@ namespace talus
     void
     check_resumable(const Snapshot<dim> &snapshot) const;
 
-    /// Bring all rows written so far to the disk.
+    /// Bring all rows and fields written so far to the disk.
     void
     sync();
 
@@ -101,17 +101,17 @@ namespace talus
     std::string format_              = "vtu";
     bool        write_runout_        = true;
 
-    dealii::TimerOutput &timer_;
-    Statistics<dim>      statistics_;
-    Profile<dim>         profile_;
-    PointsOutput<dim>    points_output_;
-    GridOutput<dim>      grid_output_;
-    Progress             progress_;
-    LogFile              log_;
-    OutputTimes          row_times_;
-    OutputTimes          field_times_;
-    unsigned long        step_of_last_row_    = 0;
-    unsigned long        step_of_last_fields_ = 0;
+    PhaseTimer       &timer_;
+    Statistics<dim>   statistics_;
+    Profile<dim>      profile_;
+    PointsOutput<dim> points_output_;
+    GridOutput<dim>   grid_output_;
+    Progress          progress_;
+    LogFile           log_;
+    OutputTimes       row_times_;
+    OutputTimes       field_times_;
+    unsigned long     step_of_last_row_    = 0;
+    unsigned long     step_of_last_fields_ = 0;
   };
 } // namespace talus
 

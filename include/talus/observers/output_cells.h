@@ -3,6 +3,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
@@ -28,6 +29,33 @@ namespace talus
     /// Write the components at item @p i (a point, a node) to @p values.
     std::function<void(unsigned int i, float *values)> evaluate;
   };
+
+
+
+  /// Number of components in a file: vectors have three, also in 2-D.
+  inline unsigned int
+  n_columns(const Field &field)
+  {
+    return field.kind == FieldKind::scalar   ? 1
+           : field.kind == FieldKind::vector ? 3
+                                             : 9;
+  }
+
+
+
+  /// Values of the field at these items, n_columns() for each.
+  inline std::vector<float>
+  values_of(const Field &field, const std::vector<unsigned int> &items)
+  {
+    std::vector<float> values(items.size() * n_columns(field));
+    float             *to = values.data();
+    for (const unsigned int item : items)
+      {
+        field.evaluate(item, to);
+        to += n_columns(field);
+      }
+    return values;
+  }
 
 
 
@@ -59,18 +87,44 @@ namespace talus
       return vertices.size() / n_vertices;
     }
 
-    /// Item at vertex @p v of cell @p c.
-    unsigned int
-    item(const unsigned int c, const unsigned int v) const
-    {
-      return items[items_at == ItemsAt::cells ? c : c * n_vertices + v];
-    }
-
     std::vector<Field>              fields;
     ItemsAt                         items_at;
     std::vector<dealii::Point<dim>> vertices; ///< cell by cell, deal.II's order
     std::vector<unsigned int>       items;    ///< one per vertex or per cell
   };
+
+
+
+  /// Three coordinates for each vertex, m; z = 0 in 2-D.
+  template <int cell_dim, int dim>
+  std::vector<float>
+  vertex_coordinates(const OutputCells<cell_dim, dim> &cells)
+  {
+    std::vector<float> coordinates(3 * cells.vertices.size());
+    for (std::size_t v = 0; v < cells.vertices.size(); ++v)
+      for (unsigned int d = 0; d < dim; ++d)
+        coordinates[3 * v + d] = cells.vertices[v][d];
+    return coordinates;
+  }
+
+
+
+  /// Cell by cell the numbers of its vertices, in VTK's order, if the first
+  /// vertex of all has the number @p first. deal.II counts lexicographically,
+  /// VTK around each quad.
+  template <typename Number, int cell_dim, int dim>
+  std::vector<Number>
+  corners_of_cells(const OutputCells<cell_dim, dim> &cells,
+                   const Number                      first = 0)
+  {
+    constexpr std::array<unsigned int, 8> vtk_order = {
+      {0, 1, 3, 2, 4, 5, 7, 6}};
+    constexpr unsigned int n = OutputCells<cell_dim, dim>::n_vertices;
+    std::vector<Number>    corners(cells.vertices.size());
+    for (std::size_t v = 0; v < corners.size(); ++v)
+      corners[v] = first + v - v % n + vtk_order[v % n];
+    return corners;
+  }
 } // namespace talus
 
 #endif

@@ -1,19 +1,20 @@
 #ifndef talus_observers_phase_times_h
 #define talus_observers_phase_times_h
 
+#include <talus/base/phase_timer.h>
+
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/timer.h>
 
 #include <string>
 #include <vector>
 
 namespace talus
 {
-  /// The wall time of each section of the timer, one line each: least, mean and
+  /// The wall time of each phase, one line each: least, mean and
   /// largest over the ranks, and the mean's share of all; and the peak memory.
   /// Collective; the lines are right on all ranks.
   std::vector<std::string>
-  phase_times(const dealii::TimerOutput &timer, MPI_Comm communicator);
+  phase_times(const PhaseTimer &timer, MPI_Comm communicator);
 } // namespace talus
 
 #endif

@@ -25,8 +25,7 @@ namespace talus
   /// points.pvd and its VTU files, or points.xdmf and its HDF5 files: each
   /// point as a vertex, or its box as a quad (hex), so that ParaView shows a
   /// continuum. The boxes are unclipped: full current lengths. The values of a
-  /// point are at its vertex; at all corners of its box in VTU, and once, at
-  /// the cell, in HDF5.
+  /// point are at its vertex or at the cell that is its box.
   template <int dim>
   class PointsOutput
   {
@@ -45,6 +44,10 @@ namespace talus
     /// fails.
     void
     write(const Snapshot<dim> &snapshot);
+
+    /// Bring all files written so far to the disk.
+    void
+    sync();
 
   private:
     FieldSeries series_;

@@ -51,8 +51,13 @@ namespace talus
           double                            time,
           unsigned long                     step);
 
-  private:
+    /// Bring all files that this rank wrote to the disk. Throws ExcUser if that
+    /// fails.
     void
+    sync();
+
+  private:
+    std::filesystem::path
     write_index();
 
     std::filesystem::path                       folder_;
@@ -61,6 +66,7 @@ namespace talus
     FieldFormat                                 format_ = FieldFormat::vtu;
     std::vector<std::pair<double, std::string>> times_and_names_;
     XdmfIndex                                   xdmf_;
+    std::vector<std::filesystem::path>          unsynced_;
   };
 } // namespace talus
 

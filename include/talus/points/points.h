@@ -40,11 +40,19 @@ namespace talus
     unsigned int end;
   };
 
-  /// A range of points, in the order before a reordering.
-  struct Run
+  /// Points that a reordering moves as they are: [begin, end) begins at @p to.
+  struct Shift
   {
     unsigned int begin;
     unsigned int end;
+    unsigned int to;
+  };
+
+  /// A single point that changes its place among the others.
+  struct Jump
+  {
+    unsigned int from;
+    unsigned int to;
   };
 
   /// Consecutive segments: what a phase of the step works on at a time.
@@ -79,8 +87,8 @@ namespace talus
     std::vector<dealii::AlignedVector<double>> arrays_;
     std::vector<dealii::AlignedVector<double>> workspace_{dim * dim + 3};
     unsigned int                               workspace_begin_ = 0;
-    dealii::AlignedVector<double>              reordered_;
     std::vector<Segment>                       segments_;
+    std::vector<double>                        jumping_; ///< in reorder()
 
   public:
     Points();
@@ -143,11 +151,15 @@ namespace talus
     void
     copy(unsigned int from, unsigned int to);
 
-    /// Reorder: the new order is the concatenation of @p runs, which name each
-    /// point once but those that went to another rank. @p segments describes
-    /// the new order.
+    /// Reorder in place. @p shifts are the runs of points that keep their order
+    /// but not their place: ascending in begin, and so in @p to; @p jumps are
+    /// all other points that move. Those named by neither stay where they are,
+    /// or, if they went to another rank, are overwritten. @p segments describes
+    /// the new order, and is exchanged for the description of the old one.
     void
-    reorder(const std::vector<Run> &runs, const std::vector<Segment> &segments);
+    reorder(const std::vector<Shift> &shifts,
+            const std::vector<Jump>  &jumps,
+            std::vector<Segment>     &segments);
 
     /// Remove all points: they went elsewhere.
     void

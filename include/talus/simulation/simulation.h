@@ -22,7 +22,6 @@
 #include <talus/transfer/transfer.h>
 
 #include <deal.II/base/parameter_acceptor.h>
-#include <deal.II/base/timer.h>
 
 #include <array>
 #include <filesystem>
@@ -162,7 +161,7 @@ namespace talus
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     Loading<dim>                            loading_;
     TimeStep<dim>                           time_step_;
-    dealii::TimerOutput                     timer_;
+    PhaseTimer                              timer_;
     Output<dim>                             output_;
     Checkpoint<dim>                         checkpoint_;
 

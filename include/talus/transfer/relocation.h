@@ -3,6 +3,7 @@
 
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
+#include <talus/points/reordering.h>
 #include <talus/transfer/point_exchange.h>
 
 #include <array>
@@ -12,7 +13,7 @@ namespace talus
 {
   /// Keeps the points sorted by cell as they move, and on the rank that owns
   /// their cell. The cost is that of looking at every point once, plus, when
-  /// points changed cell, of copying the columns in a few long runs.
+  /// points changed cell, of shifting those between their old and new places.
   template <int dim>
   class Relocation
   {
@@ -28,8 +29,8 @@ namespace talus
 
     /// Find the cells of all points and sort those that changed cell, and those
     /// appended since the last call, into the order; those whose new cell
-    /// belongs to another rank travel there. Returns whether the order changed.
-    /// One that left through a periodic face goes on at the opposite one, its
+    /// belongs to another rank travel there. Returns whether the set of the
+    /// occupied cells changed. One that left through a periodic face goes on at the opposite one, its
     /// initial position shifted as far, so that its displacement does not jump.
     /// Throws ExcPoint, naming the point, if one left the mesh. Collective.
     bool
@@ -51,13 +52,6 @@ namespace talus
     }
 
   private:
-    struct Mover
-    {
-      unsigned int cell;
-      unsigned int body;
-      unsigned int index;
-    };
-
     unsigned int
     locate(const Points<dim> &points,
            const Grid<dim>   &grid,
@@ -73,32 +67,31 @@ namespace talus
             const Grid<dim>   &grid,
             unsigned int       p) const;
     void
+    find_movers(Points<dim>     &points,
+                const Grid<dim> &grid,
+                std::size_t      first_segment,
+                std::size_t      last_segment);
+    void
     find_movers(Points<dim> &points, const Grid<dim> &grid);
     void
     send_movers(Points<dim> &points, const Grid<dim> &grid);
-    void
+    bool
     sort_in(Points<dim> &points);
-    void
-    merge(const Points<dim> &points);
-    void
-    open_segment(unsigned int cell, unsigned int body);
-    void
-    add_run(unsigned int begin, unsigned int end);
-    void
-    add_staying(const Segment &segment, std::size_t &skip);
+    bool
+    find_occupied_cells(const Points<dim> &points);
 
     std::array<double, 2 * dim> allowed_outside_{};
     std::vector<unsigned int>   occupied_cells_;
 
     PointExchange<dim> exchange_;
 
+    Reordering reordering_;
+
     // Kept between calls so that a step does not allocate.
     std::vector<Mover>                                  movers_;
     std::vector<typename PointExchange<dim>::Traveller> travellers_;
-    std::vector<unsigned int> leaving_; ///< indices of both, ascending
-    std::vector<Run>          runs_;
-    std::vector<Segment>      segments_;
-    unsigned int              n_merged_ = 0;
+    std::vector<unsigned int> gone_; ///< indices of the travellers
+    std::vector<unsigned int> formerly_occupied_cells_;
   };
 } // namespace talus
 

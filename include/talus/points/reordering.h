@@ -1,0 +1,73 @@
+#ifndef talus_points_reordering_h
+#define talus_points_reordering_h
+
+#include <talus/points/points.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace talus
+{
+  /// A point that changes its segment: its new cell, its body and its index.
+  struct Mover
+  {
+    unsigned int cell;
+    unsigned int body;
+    unsigned int index;
+  };
+
+
+
+  /// Works out how points that change their segment, and those appended, come
+  /// into the order of those that stay. For Points::reorder(), which moves the
+  /// data; here nothing but the lists of segments and movers is looked at.
+  class Reordering
+  {
+  public:
+    /// The points of @p segments but for the @p movers, which become sorted,
+    /// and for those @p gone elsewhere, merged with the movers. Within a
+    /// segment those that stay come first, then the movers, by their index.
+    void
+    merge(const std::vector<Segment>      &segments,
+          std::vector<Mover>              &movers,
+          const std::vector<unsigned int> &gone);
+
+    /// Let Points::reorder() move the points.
+    template <int dim>
+    void
+    apply(Points<dim> &points)
+    {
+      points.reorder(shifts_, jumps_, segments_);
+    }
+
+    /// Number of points in the new order.
+    unsigned int
+    n_points() const
+    {
+      return n_points_;
+    }
+
+    /// Forget all, memory included.
+    void
+    clear();
+
+  private:
+    void
+    open_segment(unsigned int cell, unsigned int body);
+    void
+    add_mover(const Mover &mover);
+    void
+    add_run(unsigned int begin, unsigned int end);
+    void
+    add_staying(const Segment &segment, std::size_t &skip);
+
+    // Kept between calls so that a step does not allocate.
+    std::vector<unsigned int> leaving_; ///< a segment, ascending
+    std::vector<Shift>        shifts_;
+    std::vector<Jump>         jumps_;
+    std::vector<Segment>      segments_;
+    unsigned int              n_points_ = 0;
+  };
+} // namespace talus
+
+#endif
