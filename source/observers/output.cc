@@ -230,7 +230,7 @@ namespace talus
   void
   Output<dim>::write_row(const Snapshot<dim> &snapshot)
   {
-    const TimerOutput::Scope scope(timer_, "output");
+    const PhaseTimer::Scope scope(timer_, "output");
     statistics_.add_row(snapshot);
     progress_.print_line(snapshot.time, snapshot.points.size());
     step_of_last_row_ = snapshot.step;
@@ -242,7 +242,7 @@ namespace talus
   void
   Output<dim>::write_fields(const Snapshot<dim> &snapshot)
   {
-    const TimerOutput::Scope scope(timer_, "output");
+    const PhaseTimer::Scope scope(timer_, "output");
     if (write_runout_)
       profile_.add_rows(snapshot);
     if (write_points_)

@@ -218,7 +218,7 @@ namespace talus
   std::filesystem::path
   Simulation<dim>::write_checkpoint()
   {
-    TimerOutput::Scope scope(timer_, "checkpoint");
+    PhaseTimer::Scope scope(timer_, "checkpoint");
     output_.sync();
     std::vector<double> cell_weights = load_balance_.weights();
     cell_weights.resize(grid_.n_owned_cells(), 1.);

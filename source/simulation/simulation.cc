@@ -233,7 +233,7 @@ namespace talus
   {
     // But for mesh tracking the only operation of all ranks in a step. The
     // largest wish is the one that becomes the least.
-    TimerOutput::Scope          scope(timer_, "messages");
+    PhaseTimer::Scope           scope(timer_, "messages");
     const std::array<double, 2> local = {
       {time_step_.of_heeded(points_, materials_),
        -static_cast<double>(own_wish())}};
@@ -252,25 +252,25 @@ namespace talus
   Simulation<dim>::update_nodes()
   {
     {
-      TimerOutput::Scope scope(timer_, "messages");
+      PhaseTimer::Scope scope(timer_, "messages");
       nodes_.sum_over_ranks(grid_);
     }
     Assert(nobody_is_lost(points_, nodes_, grid_.communicator()),
            ExcMessage("The nodes do not carry all mass of the points: a box "
                       "reaches beyond the cells around its own."));
     {
-      TimerOutput::Scope scope(timer_, "nodal update");
+      PhaseTimer::Scope scope(timer_, "nodal update");
       boundaries_.add_tractions(nodes_, grid_, time_, least_mass_);
       nodes_.update_momentum(dt_, least_mass_);
       boundary_work_.damping +=
         damping_.apply(nodes_, grid_, boundaries_, least_mass_);
     }
     {
-      TimerOutput::Scope scope(timer_, "boundaries");
+      PhaseTimer::Scope scope(timer_, "boundaries");
       boundary_work_ +=
         boundaries_.apply(nodes_, grid_, time_, dt_, least_mass_);
     }
-    TimerOutput::Scope scope(timer_, "messages");
+    PhaseTimer::Scope scope(timer_, "messages");
     nodes_.share_with_ghosts(grid_);
   }
 
@@ -302,7 +302,7 @@ namespace talus
   void
   Simulation<dim>::split()
   {
-    TimerOutput::Scope scope(timer_, "splitting");
+    PhaseTimer::Scope scope(timer_, "splitting");
     splitter_.enforce(points_);
   }
 
@@ -312,8 +312,8 @@ namespace talus
   void
   Simulation<dim>::relocate()
   {
-    TimerOutput::Scope scope(timer_, "relocation");
-    const bool         other_cells = relocation_.update(points_, grid_);
+    PhaseTimer::Scope scope(timer_, "relocation");
+    const bool        other_cells = relocation_.update(points_, grid_);
     if (other_cells)
       nodes_.activate(grid_, relocation_.occupied_cells());
   }

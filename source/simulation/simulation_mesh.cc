@@ -139,8 +139,8 @@ namespace talus
   void
   Simulation<dim>::adapt_mesh()
   {
-    TimerOutput::Scope scope(timer_, "mesh");
-    const auto        &occupied = relocation_.occupied_cells();
+    PhaseTimer::Scope scope(timer_, "mesh");
+    const auto       &occupied = relocation_.occupied_cells();
     if (mesh_tracking_.is_enabled() &&
         (mesh_tracking_.is_due(step_) ||
          Utilities::MPI::logical_or(mesh_tracking_.is_urgent(grid_, occupied),

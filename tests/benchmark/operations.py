@@ -20,8 +20,6 @@ COLUMNS = {
     "velocity": lambda d: d,
     "deformation gradient": lambda d: d * d,
     "stress": lambda d: 2 * d,
-    "stress in the plane": lambda d: d * (d + 1) // 2,
-    "normal stress": lambda d: d,
     "mass": lambda d: 1,
     "reference volume": lambda d: 1,
     "reference length": lambda d: d,
@@ -30,45 +28,28 @@ COLUMNS = {
     "elastic energy": lambda d: 1,
     "plastic work": lambda d: 1,
     "plastic strain": lambda d: 1,
-    "velocity gradient": lambda d: d * d,
-    "dilatation rate": lambda d: d,
-    "mean stress shift": lambda d: 1,
-    "wave speed": lambda d: 1,
-    "inverse cell size": lambda d: 1,
+    "generation": lambda d: 1,
 }
 
-# Columns read and columns written by each sweep over the points, by phase of the
-# log. All is on: anti-locking mean, von Mises, boxes that follow the stretch.
+# Columns that come from memory, and columns that go there, by phase of the log. A
+# step is two sweeps over the points; a column belongs to the phase of a sweep that
+# needs it first, as the others find it in the cache. All is on: anti-locking mean,
+# von Mises, boxes that follow the stretch.
 SWEEPS = {
-    "time step": [
-        (["deformation gradient", "reference volume", "mass"],
-         ["wave speed", "inverse cell size"]),
-        (["velocity", "reference length", "stretch", "wave speed",
-          "inverse cell size"], []),
-    ],
-    "points to grid": [
-        (["normal stress", "deformation gradient", "reference volume"],
-         ["mean stress shift"]),
-        (["position", "reference length", "stretch", "mass", "reference volume",
-          "deformation gradient", "stress in the plane", "mean stress shift",
-          "velocity"], []),
-    ],
-    "grid to points": [
-        (["position", "reference length", "stretch", "velocity", "mass"],
-         ["position", "velocity", "velocity gradient"]),
-        (["dilatation rate", "deformation gradient", "reference volume"],
-         ["dilatation rate"]),
-    ],
-    "stress update": [
-        (["velocity gradient", "deformation gradient", "stress",
-          "reference volume", "elastic energy", "plastic work",
-          "plastic strain"],
-         ["deformation gradient", "stress", "elastic energy", "plastic work",
-          "plastic strain"]),
-        (["deformation gradient", "dilatation rate", "stretch"], ["stretch"]),
-    ],
-    "splitting": [(["stretch", "creation stretch", "reference length"], [])],
-    "relocation": [(["position"], [])],
+    "time step": (
+        ["deformation gradient", "reference volume", "mass", "velocity",
+         "reference length", "stretch"], []),
+    "points to grid": (["position", "stress"], []),
+    "grid to points": (
+        ["position", "reference length", "stretch", "velocity", "mass",
+         "deformation gradient", "reference volume"],
+        ["position", "velocity"]),
+    "stress update": (
+        ["stress", "elastic energy", "plastic work", "plastic strain"],
+        ["deformation gradient", "stress", "elastic energy", "plastic work",
+         "plastic strain", "stretch"]),
+    "splitting": (["creation stretch", "generation"], []),
+    "relocation": (["position"], []),
 }
 
 
@@ -76,10 +57,7 @@ def bytes_of(phase, d):
     """Per point and step, or None for a phase that has no sweep over points."""
     if phase not in SWEEPS:
         return None
-    return 8 * sum(
-        COLUMNS[name](d) for sweep in SWEEPS[phase] for names in sweep
-        for name in names
-    )
+    return 8 * sum(COLUMNS[name](d) for names in SWEEPS[phase] for name in names)
 
 
 class Operations:
@@ -95,13 +73,13 @@ class Operations:
 
     def scatter(self):
         """Axis by axis: s sums take the weights, the d forces the gradients,
-        too. After axis k there are 4^k partial sums, those of the forces once
+        too. After axis k there are 3^k partial sums, those of the forces once
         for each axis whose derivative is still to come."""
         d, s = self.d, 2 + 2 * self.d
         staging = self.determinant + 1 + 3 * d + d * d
-        first = 4 * (s + 2 * d + (d - 1) * d)
-        middle = 16 * (s + 2 * d + d) if d == 3 else 0
-        last = 4**d * (2 * s + 2 * d)
+        first = 3 * (s + 2 * d + (d - 1) * d)
+        middle = 9 * (s + 2 * d + d) if d == 3 else 0
+        last = 3**d * (2 * s + 2 * d)
         return self.weights + staging + first + middle + last
 
     def gather(self):
@@ -109,7 +87,7 @@ class Operations:
         and the d velocities a gradient for each axis so far."""
         d = self.d
         sums = sum(
-            4**k * (2 * 2 * d + 2 * d * (d - k + 1)) for k in range(1, d + 1)
+            3**k * (2 * 2 * d + 2 * d * (d - k + 1)) for k in range(1, d + 1)
         )
         return self.weights + sums + 10 * d + 3
 
@@ -147,7 +125,7 @@ class Operations:
             "points to grid": self.mean_stress() + self.scatter(),
             "grid to points": self.gather() + self.mean_dilatation(),
             "stress update": self.von_mises + self.stretch_right(),
-            "splitting": 3 * self.d,
+            "splitting": 5 * self.d + 1,
             "relocation": self.relocation(),
         }
 

@@ -1,22 +1,40 @@
 #ifndef talus_base_phase_timer_h
 #define talus_base_phase_timer_h
 
-#include <deal.II/base/timer.h>
-
-#include <array>
 #include <chrono>
-#include <iostream>
 #include <map>
 #include <string>
 
 namespace talus
 {
-  /// Wall time of the phases of a run: sections, as deal.II times them, and
-  /// laps within the sweeps over the points, which take turns for every batch
-  /// and are too short for a section.
-  class PhaseTimer : public dealii::TimerOutput
+  /// Wall time of the phases of a run. deal.II's TimerOutput asks the system for
+  /// processor times whenever a section begins or ends, which on a small mesh
+  /// takes some per cent of a step.
+  class PhaseTimer
   {
   public:
+    /// The life of a Scope is booked on its phase.
+    class Scope
+    {
+    public:
+      Scope(PhaseTimer &timer, const std::string &phase)
+        : booked_(timer.times_[phase])
+        , begin_(Clock::now())
+      {}
+
+      Scope(const Scope &) = delete;
+
+      ~Scope()
+      {
+        booked_ += Clock::now() - begin_;
+      }
+
+    private:
+      std::chrono::steady_clock::duration  &booked_;
+      std::chrono::steady_clock::time_point begin_;
+    };
+
+    /// Phases that take turns for every batch of a sweep over the points.
     enum Lap
     {
       time_step,
@@ -26,10 +44,6 @@ namespace talus
       splitting,
       n_laps
     };
-
-    PhaseTimer()
-      : dealii::TimerOutput(std::cout, never, wall_times)
-    {}
 
     void
     start_laps()
@@ -50,23 +64,26 @@ namespace talus
     std::map<std::string, double>
     seconds() const
     {
-      static const std::array<std::string, n_laps> names = {
-        {"time step",
-         "points to grid",
-         "grid to points",
-         "stress update",
-         "splitting"}};
-      auto result = get_summary_data(total_wall_time);
+      const char *const names[n_laps] = {"time step",
+                                         "points to grid",
+                                         "grid to points",
+                                         "stress update",
+                                         "splitting"};
+      using Seconds                   = std::chrono::duration<double>;
+      std::map<std::string, double> result;
+      for (const auto &[phase, time] : times_)
+        result[phase] = Seconds(time).count();
       for (unsigned int i = 0; i < n_laps; ++i)
-        result[names[i]] += std::chrono::duration<double>(laps_[i]).count();
+        result[names[i]] += Seconds(laps_[i]).count();
       return result;
     }
 
   private:
     using Clock = std::chrono::steady_clock;
 
-    Clock::time_point                   last_;
-    std::array<Clock::duration, n_laps> laps_{};
+    std::map<std::string, Clock::duration> times_;
+    Clock::time_point                      last_;
+    Clock::duration                        laps_[n_laps] = {};
   };
 } // namespace talus
 
