@@ -17,16 +17,22 @@ namespace talus
     return exponent == 0 ? 1 : base * power(base, exponent - 1);
   }
 
-  /// What the transfer needs to know about a cell of the background grid.
+  /// What the transfer needs to know about a cell of the background grid. In 2-D
+  /// two lines of the cache: what finding a point's cell takes, and the patch.
   template <int dim>
-  struct Cell
+  struct alignas(64) Cell
   {
     dealii::Point<dim> lower; ///< corner, m
     double             size;  ///< length of the edges, m
 
     /// True if all neighbours, across corners too, have the same size. Then
-    /// the patch below is complete.
+    /// the patch is complete.
     bool uniform;
+
+    /// Neighbours of the same size, 3 per axis, x fastest, the cell itself in
+    /// the middle; invalid_unsigned_int beyond the boundary of the mesh or
+    /// where there is no active cell of the same size.
+    std::array<unsigned int, power(3, dim)> neighbors;
 
     /// Nodes of the patch from one cell below to one cell above, 4 per axis,
     /// x fastest. Beyond the boundary of the mesh the outer row repeats the
@@ -34,11 +40,6 @@ namespace talus
     /// functions that are constant along the normal. The inner 2^dim entries
     /// are the cell's own nodes, valid also where the cell is not uniform.
     std::array<unsigned int, power(4, dim)> patch;
-
-    /// Neighbours of the same size, 3 per axis, x fastest, the cell itself in
-    /// the middle; invalid_unsigned_int beyond the boundary of the mesh or
-    /// where there is no active cell of the same size.
-    std::array<unsigned int, power(3, dim)> neighbors;
   };
 
 
