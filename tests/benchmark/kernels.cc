@@ -27,7 +27,7 @@ namespace
   weights(benchmark::State &state)
   {
     constexpr unsigned int n = 512;
-    alignas(64) double     centre[n], half[n], value[4][n], gradient[4][n];
+    alignas(64) double     centre[n], half[n], value[3][n], gradient[3][n];
     for (unsigned int i = 0; i < n; ++i)
       {
         centre[i] = (i + 0.5) / n;
@@ -39,7 +39,7 @@ namespace
           {
             const auto w =
               axis_weights(load<Lanes>(centre + i), load<Lanes>(half + i));
-            for (unsigned int k = 0; k < 4; ++k)
+            for (unsigned int k = 0; k < 3; ++k)
               {
                 store(value[k] + i, w.value[k]);
                 store(gradient[k] + i, w.gradient[k]);

@@ -191,8 +191,8 @@ namespace talus
 
     /// Call action(batch) for batches that together hold all sorted points, in
     /// their order. A batch is so small that what one phase of the step writes,
-    /// the next one finds in the second-level cache; 256 to 1024 points do
-    /// equally well.
+    /// the next one finds in a cache, and so large that the loops over eight
+    /// points at a time have few rests.
     template <typename Action>
     void
     for_batches(const Action &action) const
