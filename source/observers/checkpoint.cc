@@ -5,6 +5,8 @@
 #include <talus/observers/disk_space.h>
 #include <talus/version.h>
 
+#include <algorithm>
+
 namespace talus
 {
   using namespace dealii;
@@ -74,7 +76,18 @@ namespace talus
       return;
     remove_parts(output_folder_);
     if (resumed_from.empty())
-      remove_checkpoints_but(output_folder_, {});
+      {
+        remove_checkpoints_but(output_folder_, {});
+        return;
+      }
+    // The run may have been killed before it removed the third newest.
+    std::vector<fs::path> kept = find_checkpoints(output_folder_);
+    const auto used = std::find(kept.begin(), kept.end(), resumed_from);
+    if (kept.end() - used > 2)
+      {
+        kept.erase(used + 2, kept.end());
+        remove_checkpoints_but(output_folder_, kept);
+      }
   }
 
 

@@ -112,6 +112,8 @@ namespace talus
     const MPI_Comm communicator = grid_.communicator();
     if (is_resumed && time_ >= end_time_)
       {
+        // It may have been killed after its last step.
+        checkpoint_.begin(output_.folder(), communicator, resumed_from_.path);
         say(text("The run in '",
                  output_.folder(),
                  "' has reached its end time, t = ",

@@ -205,8 +205,9 @@ namespace
     EXPECT_EQ(found[1].filename(), "0000000020");
     EXPECT_EQ(find().path, found[0]);
 
-    // A run that resumes removes what was half-written; one that starts anew
-    // removes all.
+    // A run that resumes removes what was half-written, or not yet removed when
+    // the run before was killed; one that starts anew removes all.
+    fs::create_directories(folder / "checkpoints" / "0000000001");
     checkpoint->begin(folder, MPI_COMM_WORLD, found[0]);
     EXPECT_EQ(find_checkpoints(folder).size(), 2u);
     EXPECT_FALSE(fs::exists(folder / "checkpoints" / "0000000009.part"));

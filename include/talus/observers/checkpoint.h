@@ -26,8 +26,9 @@ namespace talus
   public:
     Checkpoint();
 
-    /// Start the clock. Checkpoints of an earlier run are removed, except
-    /// in a run that resumes from @p resumed_from.
+    /// Start the clock. Checkpoints of an earlier run are removed; a run that
+    /// resumes from @p resumed_from keeps that one, the one before it and
+    /// those, damaged ones, after it. What is half-written goes.
     void
     begin(const std::filesystem::path &output_folder,
           MPI_Comm                     communicator,
