@@ -55,7 +55,6 @@ namespace talus
         }
       return all(inside);
     }
-
   } // namespace
 
 

@@ -96,9 +96,6 @@ namespace talus
                                                   points.deformation_gradient,
                                                   p));
     }
-
-
-
   } // namespace
 
 

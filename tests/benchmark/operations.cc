@@ -133,27 +133,43 @@ namespace
 
 
 
+  /// What both laws begin with.
+  template <int dim>
+  struct Begun
+  {
+    Points<dim>                   points = strained_point<dim>();
+    Motion<dim, Counted>          motion;
+    StrainIncrement<dim, Counted> strain;
+    ElasticTrial<dim, Counted>    trial;
+
+    Begun()
+      : motion(advance_deformation<dim, Counted>(points, 0, 1.))
+      , strain(strain_increment(motion))
+      , trial(elastic_trial<dim, Counted>(load_stress<dim, Counted>(points, 0),
+                                          strain,
+                                          Moduli{1., 1., 1.}))
+    {}
+  };
+
+
+
   /// The step of linear_elastic.cc.
   template <int dim>
   void
   elastic_stress()
   {
-    Points<dim>  points = strained_point<dim>();
-    const Moduli moduli{1., 1., 1.};
-    const auto   motion = advance_deformation<dim, Counted>(points, 0, 1.);
-    const auto   strain = strain_increment(motion);
-    const auto   trial =
-      elastic_trial<dim, Counted>(load_stress<dim, Counted>(points, 0),
-                                  strain,
-                                  moduli);
-    store_turned_stress<dim, Counted>(
-      points, 0, strain, trial.deviator_after, trial.mean_after);
+    Begun<dim> step;
+    store_turned_stress<dim, Counted>(step.points,
+                                      0,
+                                      step.strain,
+                                      step.trial.deviator_after,
+                                      step.trial.mean_after);
     const Counted V0{1.};
-    const auto    force =
-      deviatoric_force<dim, Counted>(motion, V0, trial, trial.deviator_after);
+    const auto    force = deviatoric_force<dim, Counted>(
+      step.motion, V0, step.trial, step.trial.deviator_after);
     benchmark::DoNotOptimize(
-      Counted{0.} +
-      work_of_step<dim, Counted>(motion, V0, strain, trial, force));
+      Counted{0.} + work_of_step<dim, Counted>(
+                      step.motion, V0, step.strain, step.trial, force));
   }
 
 
@@ -163,16 +179,9 @@ namespace
   void
   von_mises_stress()
   {
-    Points<dim>  points = strained_point<dim>();
-    const Moduli moduli{1., 1., 1.};
-    const auto   motion = advance_deformation<dim, Counted>(points, 0, 1.);
-    const auto   strain = strain_increment(motion);
-    const auto   trial =
-      elastic_trial<dim, Counted>(load_stress<dim, Counted>(points, 0),
-                                  strain,
-                                  moduli);
-    const Counted q = square_root(
-      1.5 * contract<dim>(trial.deviator_after, trial.deviator_after) + 1e-300);
+    Begun<dim>    step;
+    const auto   &trial = step.trial.deviator_after;
+    const Counted q = square_root(1.5 * contract<dim>(trial, trial) + 1e-300);
     // Yield stress on a line and a residual one, the smaller return, no
     // negative one; the new plastic strain.
     Counted       plastic_strain{0.};
@@ -180,8 +189,13 @@ namespace
     const Counted on_residual = (q - 1.) * 0.3;
     const Counted increment   = max(min(on_line, on_residual), Counted{});
     plastic_strain += increment;
-    return_radially<dim, Counted>(
-      points, 0, motion, strain, trial, 1., 3. * increment / q);
+    return_radially<dim, Counted>(step.points,
+                                  0,
+                                  step.motion,
+                                  step.strain,
+                                  step.trial,
+                                  1.,
+                                  3. * increment / q);
   }
 
 
