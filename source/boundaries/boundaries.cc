@@ -1,5 +1,6 @@
 #include <talus/boundaries/boundaries.h>
 #include <talus/boundaries/contact_area.h>
+#include <talus/grid/node_places.h>
 
 #include <algorithm>
 
@@ -18,27 +19,7 @@ namespace talus
     if (std::none_of(velocities_.begin(), velocities_.end(), is_given) &&
         std::none_of(tractions_.begin(), tractions_.end(), is_given))
       return;
-    places_.resize(grid.n_owned_nodes());
-    // Each owned node is the corner of an owned cell. Counted on the lattice,
-    // a place does not depend on which.
-    for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
-      {
-        const Cell<dim> &cell  = grid.cells()[c];
-        const auto       place = grid.place_of_cell(c);
-        for (unsigned int v = 0; v < power(2, dim); ++v)
-          {
-            Point<dim>   x;
-            unsigned int at = 0;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                const unsigned int side = (v >> d) & 1;
-                at += (1 + side) * power(4, d);
-                x[d] = grid.domain().lower[d] + (place[d] + side) * cell.size;
-              }
-            if (cell.patch[at] < grid.n_owned_nodes())
-              places_[cell.patch[at]] = x;
-          }
-      }
+    places_ = places_of_owned_nodes(grid);
   }
 
 
@@ -59,15 +40,11 @@ namespace talus
 
   template <int dim>
   unsigned char
-  Boundaries<dim>::held_components(const unsigned char faces) const
+  Boundaries<dim>::components_held_by_walls(const unsigned char faces) const
   {
-    constexpr unsigned char all    = (1u << dim) - 1;
-    unsigned char           result = 0;
+    unsigned char result = 0;
     for_faces_with(FaceCondition::fixed, faces, [&](unsigned int) {
-      result = all;
-    });
-    for_faces_with(FaceCondition::seabed, faces, [&](unsigned int) {
-      result = all;
+      result = (1u << dim) - 1;
     });
     for_faces_with(FaceCondition::roller, faces, [&](const unsigned int face) {
       result |= 1u << (face / 2);
@@ -79,6 +56,19 @@ namespace talus
                        if (velocities_[face]->prescribes(d))
                          result |= 1u << d;
                    });
+    return result;
+  }
+
+
+
+  template <int dim>
+  unsigned char
+  Boundaries<dim>::held_components(const unsigned char faces) const
+  {
+    unsigned char result = components_held_by_walls(faces);
+    for_faces_with(FaceCondition::seabed, faces, [&](unsigned int) {
+      result = (1u << dim) - 1;
+    });
     return result;
   }
 

@@ -48,9 +48,9 @@ namespace talus
     v_t[axis]          = 0;
     const double speed = v_t.norm();
     const double friction =
-      std::min({mass * speed / dt,
-                friction_coefficient_ * normal_force,
-                maximum_shear_stress_ * contact_area(nodes, grid, face, node)});
+      std::min(mass * speed / dt,
+               largest_friction(normal_force,
+                                contact_area(nodes, grid, face, node)));
 
     Tensor<1, dim> normal_impulse;
     normal_impulse[axis] = -outwards * mass * v_n;

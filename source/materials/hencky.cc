@@ -1,5 +1,6 @@
 #include <talus/materials/hencky.h>
 #include <talus/materials/hyperelastic.h>
+#include <talus/materials/load_step.h>
 
 #include <limits>
 
@@ -69,19 +70,30 @@ namespace talus
     /// method: accurate for equal eigenvalues, too, and without branches. Off-
     /// diagonal entries vanish to third order per sweep; five reach round-off.
     template <typename Number>
-    inline Stress<3, Number>
-    logarithmic_strain(const DeformationState<3, Number> &state)
+    inline Matrix<3, Number>
+    principal_directions(Matrix<3, Number> &A)
     {
-      Matrix<3, Number> A, n = identity<3, Number>();
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = i; j < 3; ++j)
-          A[i][j] = A[j][i] = state.b_minus_1[stress_index<3>(i, j)];
+      auto n = identity<3, Number>();
       for (unsigned int sweep = 0; sweep < 5; ++sweep)
         {
           rotate_axes(A, n, 0, 1);
           rotate_axes(A, n, 0, 2);
           rotate_axes(A, n, 1, 2);
         }
+      return n;
+    }
+
+
+
+    template <typename Number>
+    inline Stress<3, Number>
+    logarithmic_strain(const DeformationState<3, Number> &state)
+    {
+      Matrix<3, Number> A;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = i; j < 3; ++j)
+          A[i][j] = A[j][i] = state.b_minus_1[stress_index<3>(i, j)];
+      const auto n = principal_directions(A);
 
       Stress<3, Number> strain{};
       for (unsigned int k = 0; k < 3; ++k)
@@ -91,6 +103,54 @@ namespace talus
             for (unsigned int j = i; j < 3; ++j)
               strain[stress_index<3>(i, j)] += log_l * n[i][k] * n[j][k];
         }
+      return strain;
+    }
+
+
+
+    /// With derivatives. Those of the principal directions are infinite where
+    /// stretches are equal, that of ln b is not: in principal axes component
+    /// (k, l) of db becomes (ln b_k - ln b_l)/(b_k - b_l) times itself, or
+    /// 1/b_k times itself in the limit @cite ogden1984, section 3.4.
+    inline Stress<3, Dual<9>>
+    logarithmic_strain(const DeformationState<3, Dual<9>> &state)
+    {
+      DeformationState<3, double> values;
+      Matrix<3, double>           A;
+      for (unsigned int i = 0; i < 3; ++i)
+        for (unsigned int j = i; j < 3; ++j)
+          {
+            const unsigned int c = stress_index<3>(i, j);
+            values.b_minus_1[c]  = state.b_minus_1[c].value;
+            A[i][j] = A[j][i] = values.b_minus_1[c];
+          }
+      const auto         logarithm = logarithmic_strain(values);
+      Stress<3, Dual<9>> strain{};
+      std::copy(logarithm.begin(), logarithm.end(), strain.begin());
+
+      const auto n = principal_directions(A);
+      for (unsigned int k = 0; k < 3; ++k)
+        for (unsigned int l = 0; l < 3; ++l)
+          {
+            const double y = (A[k][k] - A[l][l]) / (1. + A[l][l]);
+            const double factor =
+              0.5 / (1. + A[l][l]) * (y == 0. ? 1. : logarithm_1p(y) / y);
+            Dual<9> b_kl;
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int j = 0; j < 3; ++j)
+                b_kl +=
+                  n[i][k] * n[j][l] *
+                  state
+                    .b_minus_1[stress_index<3>(std::min(i, j), std::max(i, j))];
+            for (unsigned int i = 0; i < 3; ++i)
+              for (unsigned int j = i; j < 3; ++j)
+                {
+                  auto &component = strain[stress_index<3>(i, j)];
+                  for (unsigned int q = 0; q < 9; ++q)
+                    component.derivative[q] +=
+                      factor * n[i][k] * n[j][l] * b_kl.derivative[q];
+                }
+          }
       return strain;
     }
 
@@ -172,6 +232,42 @@ namespace talus
                     [moduli = elasticity_.moduli()](const auto &state) {
                       return hencky(state, moduli);
                     });
+  }
+
+
+
+  template <int dim>
+  bool
+  Hencky<dim>::linearize(const Points<dim>  &points,
+                         const unsigned int  begin,
+                         const unsigned int  end,
+                         const StrainMeasure measure,
+                         StressTangent<dim> *answer) const
+  {
+    Assert(measure == StrainMeasure::large, dealii::ExcInternalError());
+    (void)measure;
+    return linearize_by_state(points,
+                              begin,
+                              end,
+                              answer,
+                              [moduli =
+                                 elasticity_.moduli()](const auto &state) {
+                                return hencky(state, moduli);
+                              });
+  }
+
+
+
+  template <int dim>
+  void
+  Hencky<dim>::accept(Points<dim>        &points,
+                      const unsigned int  begin,
+                      const unsigned int  end,
+                      const StrainMeasure measure) const
+  {
+    Assert(measure == StrainMeasure::large, dealii::ExcInternalError());
+    (void)measure;
+    update_stress(points, begin, end, /*dt=*/1.);
   }
 
 

@@ -1,5 +1,6 @@
 #include <talus/base/errors.h>
 #include <talus/materials/herschel_bulkley.h>
+#include <talus/materials/load_step.h>
 #include <talus/materials/radial_return.h>
 #include <talus/materials/shear_band.h>
 #include <talus/materials/viscoplastic_return.h>
@@ -206,6 +207,69 @@ namespace talus
         throw_inverted_point(points, begin, end);
         throw_unsolved_point(points, begin, end, plastic_shear_strain_);
       }
+  }
+
+
+
+  /// Maps a point and its trial deviator to what flows if there is time enough:
+  /// viscosity takes no share. Remoulding follows from one load step to the
+  /// next.
+  template <int dim>
+  auto
+  HerschelBulkley<dim>::slow_flow_rule(const Points<dim> &points) const
+  {
+    const double r     = remoulded_ratio_;
+    const double decay = (r < 1. ? 3. / strain_to_remould_ : 0.);
+    return [decay,
+            strength = Strength{r * strength_, (1. - r) * strength_},
+            mu       = elasticity_.moduli().mu,
+            xi       = points.data(plastic_shear_strain_)](const unsigned int p,
+                                                     const auto &deviator) {
+      using Number     = std::decay_t<decltype(deviator[0])>;
+      const Number tau = square_root(0.5 * contract<dim>(deviator, deviator) +
+                                     std::numeric_limits<double>::min());
+      const double s_u =
+        strength.remoulded + strength.loss * std::exp(-decay * xi[p]);
+      const Number d_xi = max(Number((tau - s_u) / mu), Number{});
+      return Flow<Number>{mu * d_xi / tau, d_xi};
+    };
+  }
+
+
+
+  template <int dim>
+  bool
+  HerschelBulkley<dim>::linearize(const Points<dim>  &points,
+                                  const unsigned int  begin,
+                                  const unsigned int  end,
+                                  const StrainMeasure measure,
+                                  StressTangent<dim> *answer) const
+  {
+    return linearize_rate_law(points,
+                              begin,
+                              end,
+                              measure,
+                              elasticity_.moduli(),
+                              answer,
+                              slow_flow_rule(points));
+  }
+
+
+
+  template <int dim>
+  void
+  HerschelBulkley<dim>::accept(Points<dim>        &points,
+                               const unsigned int  begin,
+                               const unsigned int  end,
+                               const StrainMeasure measure) const
+  {
+    accept_rate_law(points,
+                    begin,
+                    end,
+                    measure,
+                    elasticity_.moduli(),
+                    plastic_shear_strain_,
+                    slow_flow_rule(points));
   }
 
 

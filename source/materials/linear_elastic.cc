@@ -1,5 +1,6 @@
 #include <talus/materials/elastic_trial.h>
 #include <talus/materials/linear_elastic.h>
+#include <talus/materials/load_step.h>
 
 namespace talus
 {
@@ -31,6 +32,14 @@ namespace talus
               work_of_step<dim, Number>(motion, V0, strain, trial, force));
       return all(motion.J_after > 0.);
     }
+
+
+
+    /// Elastic material does not flow.
+    constexpr auto no_flow = [](const unsigned int, const auto &deviator) {
+      using Number = std::decay_t<decltype(deviator[0])>;
+      return Flow<Number>{Number{}, Number{}};
+    };
   } // namespace
 
 
@@ -68,6 +77,38 @@ namespace talus
     });
     if (!sound)
       throw_inverted_point(points, begin, end);
+  }
+
+
+
+  template <int dim>
+  bool
+  LinearElastic<dim>::linearize(const Points<dim>  &points,
+                                const unsigned int  begin,
+                                const unsigned int  end,
+                                const StrainMeasure measure,
+                                StressTangent<dim> *answer) const
+  {
+    return linearize_rate_law(
+      points, begin, end, measure, elasticity_.moduli(), answer, no_flow);
+  }
+
+
+
+  template <int dim>
+  void
+  LinearElastic<dim>::accept(Points<dim>        &points,
+                             const unsigned int  begin,
+                             const unsigned int  end,
+                             const StrainMeasure measure) const
+  {
+    accept_rate_law(points,
+                    begin,
+                    end,
+                    measure,
+                    elasticity_.moduli(),
+                    dealii::numbers::invalid_unsigned_int,
+                    no_flow);
   }
 
 

@@ -1,4 +1,5 @@
 #include <talus/materials/hyperelastic.h>
+#include <talus/materials/load_step.h>
 #include <talus/materials/neo_hookean.h>
 
 namespace talus
@@ -83,6 +84,42 @@ namespace talus
                     [moduli = elasticity_.moduli()](const auto &state) {
                       return neo_hookean(state, moduli);
                     });
+  }
+
+
+
+  template <int dim>
+  bool
+  NeoHookean<dim>::linearize(const Points<dim>  &points,
+                             const unsigned int  begin,
+                             const unsigned int  end,
+                             const StrainMeasure measure,
+                             StressTangent<dim> *answer) const
+  {
+    Assert(measure == StrainMeasure::large, dealii::ExcInternalError());
+    (void)measure;
+    return linearize_by_state(points,
+                              begin,
+                              end,
+                              answer,
+                              [moduli =
+                                 elasticity_.moduli()](const auto &state) {
+                                return neo_hookean(state, moduli);
+                              });
+  }
+
+
+
+  template <int dim>
+  void
+  NeoHookean<dim>::accept(Points<dim>        &points,
+                          const unsigned int  begin,
+                          const unsigned int  end,
+                          const StrainMeasure measure) const
+  {
+    Assert(measure == StrainMeasure::large, dealii::ExcInternalError());
+    (void)measure;
+    update_stress(points, begin, end, /*dt=*/1.);
   }
 
 

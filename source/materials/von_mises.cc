@@ -1,4 +1,5 @@
 #include <talus/base/errors.h>
+#include <talus/materials/load_step.h>
 #include <talus/materials/radial_return.h>
 #include <talus/materials/shear_band.h>
 #include <talus/materials/von_mises.h>
@@ -163,6 +164,65 @@ namespace talus
     });
     if (!sound)
       throw_inverted_point(points, begin, end);
+  }
+
+
+
+  /// Maps a point and its trial deviator to what flows.
+  template <int dim>
+  auto
+  VonMises<dim>::flow_rule(const Points<dim> &points) const
+  {
+    const YieldStress yield = {std::sqrt(3.) * strength_,
+                               hardening_,
+                               std::sqrt(3.) * residual_strength_};
+    return [yield,
+            mu = elasticity_.moduli().mu,
+            ep = points.data(plastic_strain_)](const unsigned int p,
+                                               const auto        &deviator) {
+      using Number      = std::decay_t<decltype(deviator[0])>;
+      const Number q    = square_root(1.5 * contract<dim>(deviator, deviator) +
+                                   std::numeric_limits<double>::min());
+      const Number d_ep = plastic_increment(q, Number(ep[p]), mu, yield);
+      return Flow<Number>{3. * mu * d_ep / q, d_ep};
+    };
+  }
+
+
+
+  template <int dim>
+  bool
+  VonMises<dim>::linearize(const Points<dim>  &points,
+                           const unsigned int  begin,
+                           const unsigned int  end,
+                           const StrainMeasure measure,
+                           StressTangent<dim> *answer) const
+  {
+    return linearize_rate_law(points,
+                              begin,
+                              end,
+                              measure,
+                              elasticity_.moduli(),
+                              answer,
+                              flow_rule(points));
+  }
+
+
+
+  template <int dim>
+  void
+  VonMises<dim>::accept(Points<dim>        &points,
+                        const unsigned int  begin,
+                        const unsigned int  end,
+                        const StrainMeasure measure) const
+  {
+    accept_rate_law(points,
+                    begin,
+                    end,
+                    measure,
+                    elasticity_.moduli(),
+                    plastic_strain_,
+                    flow_rule(points));
   }
 
 

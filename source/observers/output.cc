@@ -118,13 +118,21 @@ namespace talus
     field_times_.begin(field_interval_, snapshot.time);
     if (write_runout_)
       profile_.begin(folder_, snapshot.grid, beginning);
-    const FieldFormat format =
-      (format_ == "hdf5" ? FieldFormat::hdf5 : FieldFormat::vtu);
     points_output_.begin(
-      folder_, communicator, boxes_as_cells_, format, beginning);
-    grid_output_.begin(folder_, communicator, format, beginning);
-    if (beginning == Beginning::resumed)
+      folder_, communicator, boxes_as_cells_, format(), beginning);
+    grid_output_.begin(folder_, communicator, format(), beginning);
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::start(const Snapshot<dim> &snapshot)
+  {
+    if (has_started_)
       return;
+    has_started_ = true;
+    statistics_.add_first_row(snapshot);
     step_of_last_row_ = snapshot.step;
     write_fields(snapshot);
   }
@@ -135,6 +143,7 @@ namespace talus
   void
   Output<dim>::list_state(StateList &list)
   {
+    list.add("output has started", "-", has_started_, Reduction::equal);
     list.add("step of the last row", "-", step_of_last_row_, Reduction::equal);
     list.add("step of the last fields",
              "-",
@@ -250,6 +259,40 @@ namespace talus
     if (write_grid_)
       grid_output_.write(snapshot);
     step_of_last_fields_ = snapshot.step;
+  }
+
+
+
+  template <int dim>
+  FieldFormat
+  Output<dim>::format() const
+  {
+    return format_ == "hdf5" ? FieldFormat::hdf5 : FieldFormat::vtu;
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::write_mechanism(const Snapshot<dim>       &snapshot,
+                               const std::string         &name,
+                               const std::vector<double> &displacement) const
+  {
+    PointsOutput<dim> output;
+    output.begin(folder_,
+                 snapshot.grid.communicator(),
+                 boxes_as_cells_,
+                 format(),
+                 Beginning::anew,
+                 name);
+    output.write(snapshot,
+                 {{"displacement of the mechanism [m]",
+                   FieldKind::vector,
+                   dim,
+                   [&](const unsigned int p, float *values) {
+                     for (unsigned int d = 0; d < dim; ++d)
+                       values[d] = displacement[dim * p + d];
+                   }}});
   }
 
 

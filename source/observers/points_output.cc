@@ -249,9 +249,10 @@ namespace talus
                            const MPI_Comm               communicator,
                            const bool                   boxes_as_cells,
                            const FieldFormat            format,
-                           const Beginning              beginning)
+                           const Beginning              beginning,
+                           const std::string           &name)
   {
-    series_.begin(folder, "points", communicator, format, beginning);
+    series_.begin(folder, name, communicator, format, beginning);
     boxes_as_cells_ = boxes_as_cells;
   }
 
@@ -277,12 +278,19 @@ namespace talus
 
   template <int dim>
   void
-  PointsOutput<dim>::write(const Snapshot<dim> &snapshot)
+  PointsOutput<dim>::write(const Snapshot<dim>      &snapshot,
+                           const std::vector<Field> &further_fields)
   {
+    const auto write_cells = [&](auto cells) {
+      cells.fields.insert(cells.fields.end(),
+                          further_fields.begin(),
+                          further_fields.end());
+      series_.write(cells, snapshot.time, snapshot.step);
+    };
     if (boxes_as_cells_)
-      series_.write(points_as_boxes(snapshot), snapshot.time, snapshot.step);
+      write_cells(points_as_boxes(snapshot));
     else
-      series_.write(points_as_vertices(snapshot), snapshot.time, snapshot.step);
+      write_cells(points_as_vertices(snapshot));
   }
 
 

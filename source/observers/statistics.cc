@@ -253,20 +253,23 @@ namespace talus
                          const Snapshot<dim>         &snapshot,
                          const Beginning              beginning)
   {
-    const MPI_Comm communicator = snapshot.grid.communicator();
-    if (beginning == Beginning::anew)
-      {
-        budget_.begin(snapshot);
-        previous_time_ = snapshot.time;
-        previous_impulse_ =
-          Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
-                              communicator);
-      }
     const std::vector<std::string> columns = names(snapshot);
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+    if (Utilities::MPI::this_mpi_process(snapshot.grid.communicator()) == 0)
       file_.open(folder / file_name, columns, beginning);
-    if (beginning == Beginning::anew)
-      add_row(snapshot);
+  }
+
+
+
+  template <int dim>
+  void
+  Statistics<dim>::add_first_row(const Snapshot<dim> &snapshot)
+  {
+    budget_.begin(snapshot);
+    previous_time_ = snapshot.time;
+    previous_impulse_ =
+      Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
+                          snapshot.grid.communicator());
+    add_row(snapshot);
   }
 
 

@@ -31,6 +31,8 @@ namespace talus
       "wall impulse", "N s", boundary_work_.wall_impulse, dim, Reduction::sum);
     list.add("mesh changes", "-", n_mesh_changes_, Reduction::equal);
     list.add("repartitions", "-", n_repartitions_, Reduction::equal);
+    stages_.list_state(list);
+    newton_table_.file().list_state(newton_table_.file_name, list);
     splitter_.list_state(list);
     load_balance_.list_state(list);
     output_.list_state(list);
@@ -105,27 +107,49 @@ namespace talus
 
 
   template <int dim>
+  bool
+  Simulation<dim>::is_finished() const
+  {
+    return !stages_.next_is_static() && time_ >= end_of_run();
+  }
+
+
+
+  /// A run without dynamics ends where it begins.
+  template <int dim>
+  double
+  Simulation<dim>::end_of_run() const
+  {
+    return stages_.contain(Stage::dynamics) ? end_time_ : 0.;
+  }
+
+
+
+  template <int dim>
   void
   Simulation<dim>::begin_run()
   {
     const bool     is_resumed   = !resumed_from_.path.empty();
     const MPI_Comm communicator = grid_.communicator();
-    if (is_resumed && time_ >= end_time_)
+    if (is_resumed && is_finished())
       {
         // It may have been killed after its last step.
         checkpoint_.begin(output_.folder(), communicator, resumed_from_.path);
         say(text("The run in '",
                  output_.folder(),
-                 "' has reached its end time, t = ",
+                 "' has reached its end, t = ",
                  time_,
                  " s; there is nothing left to do."));
         return;
       }
     if (!is_resumed && !may_overwrite_)
       check_nothing_unfinished(output_.folder(), communicator);
-    output_.begin(snapshot(),
-                  end_time_,
-                  is_resumed ? Beginning::resumed : Beginning::anew);
+    const Beginning beginning =
+      is_resumed ? Beginning::resumed : Beginning::anew;
+    output_.begin(snapshot(), end_time_, beginning);
+    if (stages_.have_static() &&
+        Utilities::MPI::this_mpi_process(communicator) == 0)
+      newton_table_.begin(output_.folder(), beginning);
     checkpoint_.begin(output_.folder(), communicator, resumed_from_.path);
     remember_signals();
     if (is_resumed)
@@ -187,7 +211,7 @@ namespace talus
   bool
   Simulation<dim>::act_on(const Wish wish)
   {
-    const bool is_end = (time_ >= end_time_);
+    const bool is_end = is_finished();
     const bool is_wanted =
       (is_end ? checkpoint_.is_wanted_at_the_end() : wish != Wish::none);
     if (!is_wanted)
@@ -227,7 +251,7 @@ namespace talus
     const StateList   list       = state();
     const std::string parameters = parameters_as_text(this->prm);
     return checkpoint_.write(
-      {points_, cell_weights, list, parameters, step_, time_, end_time_},
+      {points_, cell_weights, list, parameters, step_, time_, end_of_run()},
       grid_);
   }
 
@@ -248,6 +272,8 @@ namespace talus
   template StateList             Simulation<dim>::state();                       \
   template void                  Simulation<dim>::resume();                      \
   template void                  Simulation<dim>::restore_partition(Hdf5File &); \
+  template bool                  Simulation<dim>::is_finished() const;           \
+  template double                Simulation<dim>::end_of_run() const;            \
   template void                  Simulation<dim>::begin_run();                   \
   template Wish                  Simulation<dim>::own_wish() const;              \
   template bool                  Simulation<dim>::act_on(Wish);                  \

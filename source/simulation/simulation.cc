@@ -95,6 +95,7 @@ namespace talus
   Simulation<dim>::set_up_laws()
   {
     constants_.values(); // throws, also where no expression needs them
+    stages_.check();
     grid_.check();
     transfer_.check();
     output_.check(damping_.coefficient());
@@ -105,6 +106,8 @@ namespace talus
         materials.push_back(body->material());
       }
     materials_.assign(names, materials);
+    if (stages_.contain(Stage::equilibrium))
+      equilibrium_.check(materials_, names);
     materials_.add_columns(points_);
     loading_.prepare(materials_, bodies_.size(), constants_);
     boundaries_.prepare(constants_);
@@ -343,7 +346,10 @@ namespace talus
   Simulation<dim>::run()
   {
     begin_run();
-    while (time_ < end_time_)
+    if (!run_static_stages())
+      return false;
+    output_.start(snapshot());
+    while (!is_finished())
       {
         advance();
         if (output_.observe(snapshot(), time_ >= end_time_))

@@ -61,8 +61,19 @@ namespace talus
     std::array<bool, dim>
     periodic_axes() const;
 
-    /// Bit d is set if a node on these faces (see Grid::faces_of_node) may be
-    /// held along axis d, by a wall or by the seabed.
+    /// Bit d is set if walls hold a node on these faces (see
+    /// Grid::faces_of_node) along axis d, or drive it.
+    unsigned char
+    components_held_by_walls(unsigned char faces) const;
+
+    const Seabed<dim> &
+    seabed() const
+    {
+      return seabed_;
+    }
+
+    /// Bit d is set if a node on these faces may be held along axis d, by a
+    /// wall or by the seabed.
     unsigned char
     held_components(unsigned char faces) const;
 

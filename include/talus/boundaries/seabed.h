@@ -5,6 +5,8 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <algorithm>
+
 namespace talus
 {
   /// One-sided contact with Coulomb friction whose shear stress is capped, on a
@@ -28,6 +30,15 @@ namespace talus
           unsigned int      face,
           unsigned int      node,
           double            dt) const;
+
+    /// Largest friction force on soil that is pressed onto @p area, m^(dim-1),
+    /// with @p normal_force, N.
+    double
+    largest_friction(const double normal_force, const double area) const
+    {
+      return std::min(friction_coefficient_ * normal_force,
+                      maximum_shear_stress_ * area);
+    }
 
   private:
     double friction_coefficient_ = 10.;

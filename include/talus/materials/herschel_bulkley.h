@@ -45,6 +45,25 @@ namespace talus
                   unsigned int end,
                   double       dt) const override;
 
+    bool
+    linearize(const Points<dim>  &points,
+              unsigned int        begin,
+              unsigned int        end,
+              StrainMeasure       measure,
+              StressTangent<dim> *answer) const override;
+
+    void
+    accept(Points<dim>  &points,
+           unsigned int  begin,
+           unsigned int  end,
+           StrainMeasure measure) const override;
+
+    double
+    shear_modulus() const override
+    {
+      return elasticity_.moduli().mu;
+    }
+
     void
     wave_speed(const Points<dim> &points,
                unsigned int       begin,
@@ -68,6 +87,9 @@ namespace talus
     note(double cell_size) const override;
 
   private:
+    auto
+    slow_flow_rule(const Points<dim> &points) const;
+
     FlowLaw      flow_law_;
     Elasticity   elasticity_;
     double       strength_             = 2500.;

@@ -25,6 +25,25 @@ namespace talus
                   unsigned int end,
                   double       dt) const override;
 
+    bool
+    linearize(const Points<dim>  &points,
+              unsigned int        begin,
+              unsigned int        end,
+              StrainMeasure       measure,
+              StressTangent<dim> *answer) const override;
+
+    void
+    accept(Points<dim>  &points,
+           unsigned int  begin,
+           unsigned int  end,
+           StrainMeasure measure) const override;
+
+    double
+    shear_modulus() const override
+    {
+      return elasticity_.moduli().mu;
+    }
+
     void
     wave_speed(const Points<dim> &points,
                unsigned int       begin,

@@ -5,12 +5,35 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace talus
 {
+  /// What is taken as the strain of a quasi-static load step.
+  enum class StrainMeasure
+  {
+    small, ///< symmetric part of the displacement gradient; soil stays in place
+    large  ///< that of the dynamics; soil, volumes and boxes follow
+  };
+
+
+
+  /// The stress at the end of a quasi-static load step and its derivative.
+  template <int dim>
+  struct StressTangent
+  {
+    /// First Piola-Kirchhoff stress seen from the start of the step, row by
+    /// row, Pa; with small strain the Cauchy stress.
+    std::array<double, dim * dim> stress;
+    /// Its derivative by the displacement gradient H of the step, Pa.
+    std::array<std::array<double, dim * dim>, dim * dim> tangent;
+  };
+
+
+
   /// A constitutive law with the parameters of one material. Laws work on
   /// batches of points, [begin, end) in the sorted order; they see points and
   /// never a weight or a node.
@@ -53,6 +76,32 @@ namespace talus
                   unsigned int begin,
                   unsigned int end,
                   double       dt) const = 0;
+
+    // For the search for equilibrium. The points hold the displacement gradient
+    // of a load step in the place of the velocity gradient. Laws whose stress
+    // depends on the rate take the slowest one.
+
+    /// Stress of the points at the end of the load step and its derivative,
+    /// written to answer[p - begin]; the points stay as they are. Returns false
+    /// if a point would be turned inside out.
+    virtual bool
+    linearize(const Points<dim>  &points,
+              unsigned int        begin,
+              unsigned int        end,
+              StrainMeasure       measure,
+              StressTangent<dim> *answer) const = 0;
+
+    /// Make the end of the load step the state of the points: as
+    /// update_stress(); with small strain the deformation gradient stays.
+    virtual void
+    accept(Points<dim>  &points,
+           unsigned int  begin,
+           unsigned int  end,
+           StrainMeasure measure) const = 0;
+
+    /// Shear modulus of the undeformed material, Pa.
+    virtual double
+    shear_modulus() const = 0;
 
     /// Speed of the fastest wave at each point of the batch, m/s, written to
     /// speed[p - begin].

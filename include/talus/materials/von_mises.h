@@ -30,6 +30,25 @@ namespace talus
                   unsigned int end,
                   double       dt) const override;
 
+    bool
+    linearize(const Points<dim>  &points,
+              unsigned int        begin,
+              unsigned int        end,
+              StrainMeasure       measure,
+              StressTangent<dim> *answer) const override;
+
+    void
+    accept(Points<dim>  &points,
+           unsigned int  begin,
+           unsigned int  end,
+           StrainMeasure measure) const override;
+
+    double
+    shear_modulus() const override
+    {
+      return elasticity_.moduli().mu;
+    }
+
     void
     wave_speed(const Points<dim> &points,
                unsigned int       begin,
@@ -53,6 +72,9 @@ namespace talus
     note(double cell_size) const override;
 
   private:
+    auto
+    flow_rule(const Points<dim> &points) const;
+
     Elasticity   elasticity_;
     double       strength_          = 2500.;
     double       hardening_         = 0.;

@@ -48,14 +48,17 @@ namespace talus
     void
     check(double local_damping) const;
 
-    /// Make the folder, write the parameters and all that is due at the start
-    /// of a run to @p end_time, s; in a resumed run go on with all files.
-    /// Throws ExcUser if the folder cannot be written; then no file of an
+    /// Make the folder, write the parameters and begin all files of a run to
+    /// @p end_time, s; in a resumed run go on with them. Throws ExcUser if the folder cannot be written; then no file of an
     /// earlier run was touched.
     void
     begin(const Snapshot<dim> &snapshot,
           double               end_time,
           Beginning            beginning = Beginning::anew);
+
+    /// Write all that is due at the start of the motion, unless that was done.
+    void
+    start(const Snapshot<dim> &snapshot);
 
     /// Add what was written so far to the state of the run.
     void
@@ -80,12 +83,21 @@ namespace talus
     bool
     observe(const Snapshot<dim> &snapshot, bool last);
 
+    /// Write the points with a displacement, m, dim numbers for each, to
+    /// NAME.pvd and its files (or .xdmf): a mechanism of failure. Collective.
+    void
+    write_mechanism(const Snapshot<dim>       &snapshot,
+                    const std::string         &name,
+                    const std::vector<double> &displacement) const;
+
     /// Write the points as they are, after an error that ends the run, to
     /// last-state.vtu. Returns the path, for the message.
     std::string
     write_last_state(const Snapshot<dim> &snapshot) const;
 
   private:
+    FieldFormat
+    format() const;
     void
     write_row(const Snapshot<dim> &snapshot);
     void
@@ -110,6 +122,7 @@ namespace talus
     LogFile           log_;
     OutputTimes       row_times_;
     OutputTimes       field_times_;
+    bool              has_started_         = false;
     unsigned long     step_of_last_row_    = 0;
     unsigned long     step_of_last_fields_ = 0;
   };

@@ -35,15 +35,17 @@ namespace talus
           MPI_Comm                     communicator,
           bool                         boxes_as_cells,
           FieldFormat                  format    = FieldFormat::vtu,
-          Beginning                    beginning = Beginning::anew);
+          Beginning                    beginning = Beginning::anew,
+          const std::string           &name      = "points");
 
     void
     list_state(StateList &list);
 
-    /// Write the files of one output time; collective. Throws ExcUser if that
-    /// fails.
+    /// Write the files of one output time, with these fields besides
+    /// point_fields(); collective. Throws ExcUser if that fails.
     void
-    write(const Snapshot<dim> &snapshot);
+    write(const Snapshot<dim>      &snapshot,
+          const std::vector<Field> &further_fields = {});
 
     /// Bring all files written so far to the disk.
     void

@@ -54,13 +54,16 @@ namespace talus
       has_runout_ = show;
     }
 
-    /// Start the file and the energy budget, and write the first row; in a
-    /// resumed run only go on with the file. Throws ExcUser if the file cannot
-    /// be written.
+    /// Start the file; in a resumed run go on with it. Throws ExcUser if it
+    /// cannot be written.
     void
     begin(const std::filesystem::path &folder,
           const Snapshot<dim>         &snapshot,
           Beginning                    beginning = Beginning::anew);
+
+    /// Count energies from here, and write the row of the start. Collective.
+    void
+    add_first_row(const Snapshot<dim> &snapshot);
 
     /// Append a row; collective, the file belongs to the first rank.
     void

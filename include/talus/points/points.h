@@ -260,6 +260,12 @@ namespace talus
       return workspace_[dim * i + j].data();
     }
 
+    const double *
+    velocity_gradient(const unsigned int i, const unsigned int j) const
+    {
+      return workspace_[dim * i + j].data();
+    }
+
     /// Shift of the mean stress by the anti-locking mean, Pa.
     double *
     mean_stress_shift()
@@ -329,7 +335,7 @@ namespace talus
   /// Read the velocity gradient at point(s) p, which have the workspace.
   template <int dim, typename Number>
   inline Matrix<dim, Number>
-  load_velocity_gradient(Points<dim> &points, const unsigned int p)
+  load_velocity_gradient(const Points<dim> &points, const unsigned int p)
   {
     const unsigned int  k = p - points.workspace_begin();
     Matrix<dim, Number> L;

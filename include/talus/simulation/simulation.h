@@ -6,6 +6,7 @@
 #include <talus/adaptivity/splitter.h>
 #include <talus/boundaries/boundaries.h>
 #include <talus/boundaries/damping.h>
+#include <talus/equilibrium/equilibrium.h>
 #include <talus/grid/grid.h>
 #include <talus/grid/nodal_fields.h>
 #include <talus/materials/materials.h>
@@ -17,6 +18,7 @@
 #include <talus/simulation/interrupt.h>
 #include <talus/simulation/loading.h>
 #include <talus/simulation/preview.h>
+#include <talus/simulation/stages.h>
 #include <talus/simulation/time_step.h>
 #include <talus/transfer/relocation.h>
 #include <talus/transfer/transfer.h>
@@ -62,6 +64,12 @@ namespace talus
     /// wall time; then resume() can go on.
     bool
     run();
+
+    /// The stages before the dynamics. run() does this; to be called once
+    /// before advance() by who does not call run(). Returns false if the run
+    /// was stopped between two of them.
+    bool
+    run_static_stages();
 
     /// One step of the scheme.
     void
@@ -122,7 +130,35 @@ namespace talus
     void
     relocate();
 
+    // Static stages
+    /// What a load step is told of.
+    struct StepNote
+    {
+      unsigned int        step = 0;
+      double              load = 0;
+      std::vector<double> residuals;
+      unsigned int        n_linear_iterations = 0;
+    };
+    Soil<dim>
+    soil();
+    void
+    find_equilibrium();
+    void
+    reduce_strength();
+    [[noreturn]] void
+    throw_no_equilibrium();
+    void
+    observe(const EquilibriumProgress &progress, double factor, StepNote &note);
+    void
+    tell(const StepNote &note);
+    void
+    say_and_note(const std::string &sentence);
+
     // Checkpoints
+    bool
+    is_finished() const;
+    double
+    end_of_run() const;
     void
     restore_partition(Hdf5File &file);
     StateList
@@ -155,14 +191,17 @@ namespace talus
     Materials<dim>                          materials_;
     Boundaries<dim>                         boundaries_;
     Damping<dim>                            damping_;
+    Equilibrium<dim>                        equilibrium_;
     Splitter<dim>                           splitter_;
     LoadBalance<dim>                        load_balance_;
     MeshTracking<dim>                       mesh_tracking_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     Loading<dim>                            loading_;
     TimeStep<dim>                           time_step_;
+    Stages                                  stages_;
     PhaseTimer                              timer_;
     Output<dim>                             output_;
+    NewtonTable                             newton_table_;
     Checkpoint<dim>                         checkpoint_;
 
     // State besides points

@@ -32,6 +32,12 @@ namespace talus
       cell_mean_of_body_ = of_body;
     }
 
+    bool
+    uses_cell_mean(const unsigned int body) const
+    {
+      return cell_mean_of_body_[body];
+    }
+
     // The points of the batch must have the workspace.
 
     /// First half of the anti-locking pair: store at each point the difference

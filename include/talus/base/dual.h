@@ -1,0 +1,136 @@
+#ifndef talus_base_dual_h
+#define talus_base_dual_h
+
+#include <array>
+#include <cmath>
+
+namespace talus
+{
+  /// A number with its derivatives by n variables: forward algorithmic
+  /// differentiation. A formula that is a template on Number, called with Dual,
+  /// gives its own derivative, exact to round-off.
+  ///
+  /// Trilinos' Sacado does the same, but its operators return expressions that
+  /// refer to temporaries, which `auto` and `? :` in our formulas do not bear.
+  template <unsigned int n>
+  struct Dual
+  {
+    double                value = 0.;
+    std::array<double, n> derivative{};
+
+    Dual() = default;
+
+    Dual(const double v)
+      : value(v)
+    {}
+
+    /// Apply a function with this value and slope.
+    Dual
+    chain(const double v, const double slope) const
+    {
+      Dual result(v);
+      for (unsigned int i = 0; i < n; ++i)
+        result.derivative[i] = slope * derivative[i];
+      return result;
+    }
+
+    Dual &
+    operator+=(const Dual &b)
+    {
+      value += b.value;
+      for (unsigned int i = 0; i < n; ++i)
+        derivative[i] += b.derivative[i];
+      return *this;
+    }
+
+    Dual &
+    operator-=(const Dual &b)
+    {
+      return *this += -b;
+    }
+
+    Dual &
+    operator*=(const Dual &b)
+    {
+      for (unsigned int i = 0; i < n; ++i)
+        derivative[i] = derivative[i] * b.value + value * b.derivative[i];
+      value *= b.value;
+      return *this;
+    }
+
+    Dual &
+    operator/=(const Dual &b)
+    {
+      value /= b.value;
+      for (unsigned int i = 0; i < n; ++i)
+        derivative[i] = (derivative[i] - value * b.derivative[i]) / b.value;
+      return *this;
+    }
+
+    friend Dual
+    operator-(const Dual &a)
+    {
+      return a.chain(-a.value, -1.);
+    }
+
+    friend Dual
+    operator+(Dual a, const Dual &b)
+    {
+      return a += b;
+    }
+
+    friend Dual
+    operator-(Dual a, const Dual &b)
+    {
+      return a -= b;
+    }
+
+    friend Dual
+    operator*(Dual a, const Dual &b)
+    {
+      return a *= b;
+    }
+
+    friend Dual
+    operator/(Dual a, const Dual &b)
+    {
+      return a /= b;
+    }
+
+    friend bool
+    operator<(const Dual &a, const Dual &b)
+    {
+      return a.value < b.value;
+    }
+
+    friend bool
+    operator>(const Dual &a, const Dual &b)
+    {
+      return a.value > b.value;
+    }
+
+    /// At zero the slope is infinite; there it is taken as zero, which is right
+    /// for lengths of vectors that the rest of a formula multiplies by zero.
+    friend Dual
+    square_root(const Dual &a)
+    {
+      const double root = std::sqrt(a.value);
+      return a.chain(root, root > 0. ? 0.5 / root : 0.);
+    }
+
+    friend Dual
+    logarithm(const Dual &a)
+    {
+      return a.chain(std::log(a.value), 1. / a.value);
+    }
+
+    friend Dual
+    exponential(const Dual &a)
+    {
+      const double v = std::exp(a.value);
+      return a.chain(v, v);
+    }
+  };
+} // namespace talus
+
+#endif

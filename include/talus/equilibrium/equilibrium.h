@@ -1,0 +1,120 @@
+#ifndef talus_equilibrium_equilibrium_h
+#define talus_equilibrium_equilibrium_h
+
+#include <talus/equilibrium/newton.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <functional>
+#include <string>
+
+namespace talus
+{
+  /// What the search for equilibrium says of each iteration.
+  struct EquilibriumProgress
+  {
+    unsigned int    load_step; ///< from 1
+    double          load;      ///< share of the load after the step
+    NewtonIteration iteration;
+  };
+
+
+
+  /// Brings soil into balance with its weight and all other loads without going
+  /// through time: the load comes on in steps, each solved by Newton's method
+  /// and cut where that fails; further steps without load then let go of the
+  /// stabilization.
+  template <int dim>
+  class Equilibrium : public dealii::ParameterAcceptor
+  {
+  public:
+    using Observer = std::function<void(const EquilibriumProgress &)>;
+
+    Equilibrium();
+
+    StrainMeasure
+    measure() const
+    {
+      return measure_ == "small" ? StrainMeasure::small : StrainMeasure::large;
+    }
+
+    /// Throw ExcUser if a law of the bodies cannot take the strain measure.
+    void
+    check(const Materials<dim>           &materials,
+          const std::vector<std::string> &names_of_bodies) const;
+
+    /// No load is on yet, whatever was before.
+    void
+    begin(StrainMeasure measure);
+
+    /// Take one load step. Afterwards, with large strain, points may be in other
+    /// cells. Returns false if no step, however small, succeeds or the balance
+    /// is not found in the largest number of steps: then failure() says why.
+    /// Collective.
+    bool
+    advance(Soil<dim> &soil, const Observer &observe);
+
+    /// Whether all load is on and what is out of balance is within tolerance.
+    bool
+    is_found() const
+    {
+      return is_found_;
+    }
+
+    const std::string &
+    failure() const
+    {
+      return failure_;
+    }
+
+    /// Share of the load that is on.
+    double
+    load() const
+    {
+      return load_;
+    }
+
+    unsigned int
+    n_steps() const
+    {
+      return n_steps_;
+    }
+
+    /// Force out of balance, of the reference force; see Newton.
+    double
+    imbalance() const
+    {
+      return imbalance_;
+    }
+
+    const Newton<dim> &
+    newton() const
+    {
+      return newton_;
+    }
+
+  private:
+    bool
+    take_step(Soil<dim> &soil, const Observer &observe);
+
+    // Parameters
+    std::string                      measure_           = "small";
+    unsigned int                     n_load_steps_      = 1;
+    double                           smallest_step_     = 1e-3;
+    unsigned int                     largest_settling_  = 100;
+    double                           allowed_imbalance_ = 1e-6;
+    typename Newton<dim>::Parameters newton_parameters_;
+    LinearSolver                     linear_solver_;
+
+    Newton<dim>  newton_;
+    double       load_       = 0;
+    double       step_       = 1;
+    unsigned int n_steps_    = 0;
+    unsigned int n_settling_ = 0; ///< steps without load so far
+    double       imbalance_  = 0;
+    bool         is_found_   = false;
+    std::string  failure_;
+  };
+} // namespace talus
+
+#endif

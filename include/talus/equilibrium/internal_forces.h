@@ -1,0 +1,90 @@
+#ifndef talus_equilibrium_internal_forces_h
+#define talus_equilibrium_internal_forces_h
+
+#include <talus/equilibrium/kept_weights.h>
+#include <talus/equilibrium/soil.h>
+
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// Nodal forces of the stress at the end of a load step, as functions of the
+  /// nodal displacements of the step, and their derivative.
+  ///
+  /// The anti-locking mean is taken as in the dynamics: the volume change of a
+  /// point becomes the mean over its cell, theta_c, which is linear in the
+  /// displacements; what does work on that is the stress whose own mean is
+  /// taken. Forces and matrix are the first and second derivative of the same
+  /// work, so that an elastic matrix is symmetric.
+  /// With volumes V of the start of the step and gradients there, the nominal
+  /// stress P does the work V P : H on the displacement gradient H.
+  template <int dim>
+  class InternalForces
+  {
+  public:
+    InternalForces(const StrainMeasure measure)
+      : measure_(measure)
+    {}
+
+    /// Set the displacement gradients that the points hold, to those of the
+    /// displacements @p u, m, after the mean; the points get the workspace.
+    void
+    set_gradients(Soil<dim>                 &soil,
+                  const KeptWeights<dim>    &weights,
+                  const std::vector<double> &u) const;
+
+    /// Evaluate stresses and their derivatives, and add to @p forces, N, those
+    /// of this rank's points. Returns false, with nothing added, if a point
+    /// of this rank would be turned inside out.
+    bool
+    evaluate(Soil<dim>                 &soil,
+             const KeptWeights<dim>    &weights,
+             const std::vector<double> &u,
+             std::vector<double>       &forces);
+
+    /// Add the derivative found by the last evaluate() to @p matrix.
+    void
+    add_tangent(const Soil<dim>                        &soil,
+                const KeptWeights<dim>                 &weights,
+                const Unknowns<dim>                    &unknowns,
+                dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+
+  private:
+    static constexpr unsigned int n_gradients = dim * dim;
+
+    struct Scratch
+    {
+      std::vector<dealii::Tensor<1, dim>>          mean_gradient;
+      std::vector<double>                          strain;   // B, row by row
+      std::vector<double>                          stressed; // V A B
+      dealii::FullMatrix<double>                   matrix;
+      std::vector<dealii::types::global_dof_index> unknowns;
+    };
+
+    void
+    add_forces_of_segment(const Segment          &segment,
+                          unsigned int            s,
+                          bool                    uses_mean,
+                          const KeptWeights<dim> &weights,
+                          std::vector<double>    &forces) const;
+    void
+    fill_strain(const typename KeptWeights<dim>::Weight *weight,
+                unsigned int                             n_nodes,
+                bool                                     uses_mean,
+                Scratch                                 &scratch) const;
+    void
+    add_point(double                    volume,
+              const StressTangent<dim> &answer,
+              unsigned int              n,
+              Scratch                  &scratch) const;
+
+    StrainMeasure                   measure_;
+    std::vector<StressTangent<dim>> answers_;
+    std::vector<double>             volumes_; ///< at the start of the step
+  };
+} // namespace talus
+
+#endif

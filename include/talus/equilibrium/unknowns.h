@@ -1,0 +1,171 @@
+#ifndef talus_equilibrium_unknowns_h
+#define talus_equilibrium_unknowns_h
+
+#include <talus/grid/nodal_exchange.h>
+#include <talus/grid/nodal_fields.h>
+
+#include <deal.II/base/index_set.h>
+
+#include <deal.II/lac/affine_constraints.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// The displacements to be found: dim for each node that soil touches. All
+  /// other nodes are none, so that the matrix has no empty rows; nor are hanging
+  /// nodes, whose share goes to their masters.
+  ///
+  /// Unknowns are numbered over all ranks, those of a rank one after the other
+  /// in the order of its nodes. Fields at the nodes are arrays with dim doubles
+  /// for each node of the grid, ghosts included.
+  template <int dim>
+  class Unknowns
+  {
+  public:
+    /// The nodes with more than @p least_mass, as the owners see them.
+    /// Collective.
+    void
+    number(const NodalFields<dim> &nodes,
+           const Grid<dim>        &grid,
+           double                  least_mass);
+
+    /// Nothing is known of the held components of the owned nodes but that they
+    /// do not move: bit d of held[k] holds component d of active_nodes()[k].
+    /// Collective.
+    void
+    hold(const std::vector<unsigned char> &held);
+
+    /// Owned nodes with unknowns, ascending.
+    const std::vector<unsigned int> &
+    active_nodes() const
+    {
+      return active_nodes_;
+    }
+
+    /// Whether the node, owned or ghost, has unknowns.
+    bool
+    is_active(const unsigned int node) const
+    {
+      return records_[width * std::size_t(node)] >= 0.;
+    }
+
+    /// The first of its unknowns.
+    dealii::types::global_dof_index
+    first(const unsigned int node) const
+    {
+      return static_cast<dealii::types::global_dof_index>(
+        records_[width * std::size_t(node)]);
+    }
+
+    /// Whether component @p d of an owned or ghost node is held.
+    bool
+    is_held(const unsigned int node, const unsigned int d) const
+    {
+      return (static_cast<unsigned int>(
+                records_[width * std::size_t(node) + 1]) >>
+              d) &
+             1u;
+    }
+
+    /// Mass of an owned or ghost node, kg, and volume of the soil near it in its
+    /// reference density, m^dim.
+    double
+    mass(const unsigned int node) const
+    {
+      return records_[width * std::size_t(node) + 2];
+    }
+
+    double
+    volume(const unsigned int node) const
+    {
+      return records_[width * std::size_t(node) + 3];
+    }
+
+    const dealii::AffineConstraints<double> &
+    constraints() const
+    {
+      return constraints_;
+    }
+
+    const dealii::IndexSet &
+    owned() const
+    {
+      return owned_;
+    }
+
+    const dealii::IndexSet &
+    relevant() const
+    {
+      return relevant_;
+    }
+
+    dealii::types::global_dof_index
+    n_global() const
+    {
+      return owned_.size();
+    }
+
+    MPI_Comm
+    communicator() const
+    {
+      return communicator_;
+    }
+
+    /// A field that is zero.
+    std::vector<double>
+    field() const
+    {
+      return std::vector<double>(dim * std::size_t(n_nodes_), 0.);
+    }
+
+    /// Add what a field holds at ghosts to its owners. Collective.
+    void
+    add_to_owners(std::vector<double> &field)
+    {
+      exchange_of_fields_.add_to_owners(field.data());
+    }
+
+    /// Copy a field from the owners to the ghosts. Collective.
+    void
+    copy_to_ghosts(std::vector<double> &field)
+    {
+      exchange_of_fields_.copy_to_ghosts(field.data());
+    }
+
+    /// Call action(node, component) for all unknowns of this rank that are not
+    /// held.
+    template <typename Action>
+    void
+    for_free(const Action &action) const
+    {
+      for (const unsigned int node : active_nodes_)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (!is_held(node, d))
+            action(node, d);
+    }
+
+    /// Euclidean norm of a field over all free unknowns. Collective.
+    double
+    norm(const std::vector<double> &field) const;
+
+    /// Sum of the products of two fields over all free unknowns. Collective.
+    double
+    product(const std::vector<double> &a, const std::vector<double> &b) const;
+
+  private:
+    // First unknown (-1: none), mask of held components, mass, volume.
+    static constexpr unsigned int width = 4;
+
+    MPI_Comm                          communicator_ = MPI_COMM_WORLD;
+    unsigned int                      n_nodes_      = 0;
+    std::vector<unsigned int>         active_nodes_;
+    std::vector<double>               records_;
+    dealii::IndexSet                  owned_, relevant_;
+    dealii::AffineConstraints<double> constraints_;
+    NodalExchange<dim>                exchange_of_records_;
+    NodalExchange<dim>                exchange_of_fields_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,19 @@
+#ifndef talus_grid_node_places_h
+#define talus_grid_node_places_h
+
+#include <talus/grid/grid.h>
+
+#include <deal.II/base/point.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// Places of the nodes this rank owns, m: counted on the lattice, and so the
+  /// same on any number of ranks.
+  template <int dim>
+  std::vector<dealii::Point<dim>>
+  places_of_owned_nodes(const Grid<dim> &grid);
+} // namespace talus
+
+#endif

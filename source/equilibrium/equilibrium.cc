@@ -1,0 +1,173 @@
+#include <talus/base/errors.h>
+#include <talus/equilibrium/equilibrium.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Equilibrium<dim>::Equilibrium()
+    : ParameterAcceptor("/Equilibrium")
+    , newton_(linear_solver_)
+  {
+    add_parameter("Strain",
+                  measure_,
+                  "'small': strain is the symmetric displacement gradient, and "
+                  "points, volumes and boxes stay as they are: the soil starts "
+                  "with the stress only. 'large': that of the dynamics; the "
+                  "soil deforms under the load.",
+                  this->prm,
+                  Patterns::Selection("small|large"));
+    add_parameter("Load steps",
+                  n_load_steps_,
+                  "Number of equal steps in which the load comes on; they are "
+                  "halved where Newton's method fails, and grow again.",
+                  this->prm,
+                  Patterns::Integer(1));
+    add_parameter("Smallest load step",
+                  smallest_step_,
+                  "Share of the load below which a step is not halved but the "
+                  "search given up [-].",
+                  this->prm,
+                  Patterns::Double(0., 1.));
+    add_parameter(
+      "Allowed imbalance",
+      allowed_imbalance_,
+      "Force out of balance over the force of the loads (Euclidean "
+      "norms over the nodes) with which the soil counts as balanced "
+      "[-].",
+      this->prm,
+      Patterns::Double(0.));
+    add_parameter("Largest number of settling steps",
+                  largest_settling_,
+                  "Steps without further load after which the search is given "
+                  "up if the soil is not in balance.",
+                  this->prm,
+                  Patterns::Integer(1));
+    add_parameter("Newton tolerance",
+                  newton_parameters_.tolerance,
+                  "Residual of Newton's method over the force of the loads "
+                  "[-].",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("Newton iterations",
+                  newton_parameters_.largest_iterations,
+                  "Largest number of iterations of Newton's method in a load "
+                  "step.",
+                  this->prm,
+                  Patterns::Integer(1));
+    add_parameter("Ghost penalty",
+                  newton_parameters_.ghost_penalty,
+                  "Stiffness that holds nodes with hardly any soil to their "
+                  "neighbours, over the shear modulus [-].",
+                  this->prm,
+                  Patterns::Double(0.));
+  }
+
+
+
+  template <int dim>
+  void
+  Equilibrium<dim>::check(const Materials<dim>           &materials,
+                          const std::vector<std::string> &names_of_bodies) const
+  {
+    if (measure() == StrainMeasure::large)
+      return;
+    for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
+      AssertThrow(!materials.of_body(b).is_hyperelastic(),
+                  ExcUser(text("'Equilibrium/Strain' is small, but the stress "
+                               "of the body '",
+                               names_of_bodies[b],
+                               "' follows from its deformation, which then "
+                               "stays as it is. Set it to large, or choose a "
+                               "law in rate form ('linear elastic', 'von "
+                               "Mises').")));
+  }
+
+
+
+  template <int dim>
+  void
+  Equilibrium<dim>::begin(const StrainMeasure measure)
+  {
+    newton_parameters_.measure = measure;
+    load_                      = 0;
+    step_                      = 1. / n_load_steps_;
+    n_steps_ = n_settling_ = 0;
+    imbalance_             = 0;
+    is_found_              = false;
+    failure_.clear();
+  }
+
+
+
+  template <int dim>
+  bool
+  Equilibrium<dim>::advance(Soil<dim> &soil, const Observer &observe)
+  {
+    newton_.begin(soil, newton_parameters_);
+    imbalance_ = newton_.imbalance();
+    if (load_ >= 1. && imbalance_ <= allowed_imbalance_)
+      {
+        is_found_ = true;
+        return true;
+      }
+    if (n_settling_ == largest_settling_)
+      {
+        const auto [largest, place] = newton_.largest_imbalance();
+        failure_                    = text("After ",
+                        n_settling_,
+                        " steps without further load the force out of balance "
+                                           "is ",
+                        imbalance_,
+                        " of that of the loads, where ",
+                        allowed_imbalance_,
+                        " is allowed; the largest one of a node is ",
+                        largest,
+                        " N, at ",
+                        place);
+        return false;
+      }
+    return take_step(soil, observe);
+  }
+
+
+
+  /// One step, as large as it succeeds.
+  template <int dim>
+  bool
+  Equilibrium<dim>::take_step(Soil<dim> &soil, const Observer &observe)
+  {
+    const double rest = 1. - load_;
+    const bool   all  = !(rest > 1.0001 * step_);
+    for (double cut = 1.; cut * step_ >= smallest_step_; cut *= 0.5)
+      {
+        // Of what is out of balance now; the last step takes all of it.
+        const double share = cut * (all ? 1. : step_ / rest);
+        const double after = (all && cut == 1. ? 1. : load_ + share * rest);
+        const auto   outcome =
+          newton_.solve(soil, share, [&](const NewtonIteration &iteration) {
+            observe({n_steps_ + 1, after, iteration});
+          });
+        if (!outcome.converged)
+          {
+            failure_ = outcome.failure;
+            continue;
+          }
+        newton_.accept(soil);
+        n_settling_ += all;
+        load_ = after;
+        step_ = std::min(1.5 * cut * step_, 1. / n_load_steps_);
+        ++n_steps_;
+        return true;
+      }
+    return false;
+  }
+
+
+
+  template class Equilibrium<2>;
+  template class Equilibrium<3>;
+} // namespace talus

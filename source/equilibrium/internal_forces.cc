@@ -1,0 +1,232 @@
+#include <talus/equilibrium/internal_forces.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  InternalForces<dim>::set_gradients(Soil<dim>                 &soil,
+                                     const KeptWeights<dim>    &weights,
+                                     const std::vector<double> &u) const
+  {
+    Points<dim> &points = soil.points;
+    points.lend_workspace(0, points.size());
+    for (unsigned int s = 0; s < points.segments().size(); ++s)
+      {
+        const Segment &segment = points.segments()[s];
+        const auto     patch   = weights.patch(s);
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          {
+            const auto    *weight = weights.of_point(s, p - segment.begin);
+            Tensor<2, dim> H;
+            for (unsigned int a = 0; a < patch.n_nodes; ++a)
+              for (unsigned int i = 0; i < dim; ++i)
+                H[i] += u[dim * patch.nodes[a] + i] * weight[a].gradient;
+            for (unsigned int i = 0; i < dim; ++i)
+              for (unsigned int j = 0; j < dim; ++j)
+                points.velocity_gradient(i, j)[p] = H[i][j];
+          }
+      }
+    soil.transfer.average_dilatation(points, points.all());
+  }
+
+
+
+  template <int dim>
+  bool
+  InternalForces<dim>::evaluate(Soil<dim>                 &soil,
+                                const KeptWeights<dim>    &weights,
+                                const std::vector<double> &u,
+                                std::vector<double>       &forces)
+  {
+    Points<dim> &points = soil.points;
+    set_gradients(soil, weights, u);
+    answers_.resize(points.size());
+    volumes_.resize(points.size());
+    bool sound = true;
+    soil.materials.for_runs(points,
+                            points.all(),
+                            [&](const MaterialModel<dim> &model,
+                                const unsigned int        begin,
+                                const unsigned int        end) {
+                              sound = sound &&
+                                      model.linearize(points,
+                                                      begin,
+                                                      end,
+                                                      measure_,
+                                                      answers_.data() + begin);
+                            });
+    if (!sound)
+      return false;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      volumes_[p] =
+        points.data(points.reference_volume)[p] *
+        determinant(
+          load_matrix<dim, double>(points, points.deformation_gradient, p));
+    for (unsigned int s = 0; s < points.segments().size(); ++s)
+      add_forces_of_segment(points.segments()[s],
+                            s,
+                            soil.transfer.uses_cell_mean(
+                              points.segments()[s].body),
+                            weights,
+                            forces);
+    return true;
+  }
+
+
+
+  template <int dim>
+  void
+  InternalForces<dim>::add_forces_of_segment(const Segment          &segment,
+                                             const unsigned int      s,
+                                             const bool              uses_mean,
+                                             const KeptWeights<dim> &weights,
+                                             std::vector<double> &forces) const
+  {
+    const auto q = [this](const unsigned int p) {
+      double sum = 0;
+      for (unsigned int i = 0; i < dim; ++i)
+        sum += answers_[p].stress[(dim + 1) * i];
+      return sum / dim;
+    };
+    double mean = 0, volume = 0;
+    if (uses_mean)
+      {
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          {
+            mean += volumes_[p] * q(p);
+            volume += volumes_[p];
+          }
+        mean /= volume;
+      }
+    const auto patch = weights.patch(s);
+    for (unsigned int p = segment.begin; p < segment.end; ++p)
+      {
+        const auto  *weight = weights.of_point(s, p - segment.begin);
+        const double shift  = (uses_mean ? mean - q(p) : 0.);
+        for (unsigned int a = 0; a < patch.n_nodes; ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            {
+              double sum = shift * weight[a].gradient[i];
+              for (unsigned int j = 0; j < dim; ++j)
+                sum += answers_[p].stress[dim * i + j] * weight[a].gradient[j];
+              forces[dim * patch.nodes[a] + i] += volumes_[p] * sum;
+            }
+      }
+  }
+
+
+
+  /// Row k of B: displacement gradient k of a point, after the mean, as a linear
+  /// form of the displacements of the patch.
+  template <int dim>
+  void
+  InternalForces<dim>::fill_strain(
+    const typename KeptWeights<dim>::Weight *weight,
+    const unsigned int                       n_nodes,
+    const bool                               uses_mean,
+    Scratch                                 &scratch) const
+  {
+    const unsigned int n = dim * n_nodes;
+    scratch.strain.assign(n_gradients * n, 0.);
+    for (unsigned int a = 0; a < n_nodes; ++a)
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          for (unsigned int j = 0; j < dim; ++j)
+            scratch.strain[(dim * i + j) * n + dim * a + i] =
+              weight[a].gradient[j];
+          if (uses_mean)
+            for (unsigned int k = 0; k < dim; ++k)
+              scratch.strain[(dim + 1) * k * n + dim * a + i] +=
+                (scratch.mean_gradient[a][i] - weight[a].gradient[i]) / dim;
+        }
+  }
+
+
+
+  /// B^T V A B of one point.
+  template <int dim>
+  void
+  InternalForces<dim>::add_point(const double              volume,
+                                 const StressTangent<dim> &answer,
+                                 const unsigned int        n,
+                                 Scratch                  &scratch) const
+  {
+    scratch.stressed.assign(n_gradients * n, 0.);
+    for (unsigned int k = 0; k < n_gradients; ++k)
+      for (unsigned int l = 0; l < n_gradients; ++l)
+        {
+          const double  A    = volume * answer.tangent[k][l];
+          const double *from = &scratch.strain[l * n];
+          double       *to   = &scratch.stressed[k * n];
+          for (unsigned int b = 0; b < n; ++b)
+            to[b] += A * from[b];
+        }
+    for (unsigned int k = 0; k < n_gradients; ++k)
+      for (unsigned int a = 0; a < n; ++a)
+        {
+          const double B = scratch.strain[k * n + a];
+          if (B == 0.)
+            continue;
+          const double *from = &scratch.stressed[k * n];
+          double       *to   = &scratch.matrix(a, 0);
+          for (unsigned int b = 0; b < n; ++b)
+            to[b] += B * from[b];
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  InternalForces<dim>::add_tangent(const Soil<dim>                &soil,
+                                   const KeptWeights<dim>         &weights,
+                                   const Unknowns<dim>            &unknowns,
+                                   TrilinosWrappers::SparseMatrix &matrix) const
+  {
+    Scratch     scratch;
+    const auto &segments = soil.points.segments();
+    for (unsigned int s = 0; s < segments.size(); ++s)
+      {
+        const Segment &segment   = segments[s];
+        const bool     uses_mean = soil.transfer.uses_cell_mean(segment.body);
+        const auto     patch     = weights.patch(s);
+        const unsigned int n     = dim * patch.n_nodes;
+        scratch.mean_gradient.assign(patch.n_nodes, Tensor<1, dim>());
+        double volume = 0;
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          {
+            volume += volumes_[p];
+            for (unsigned int a = 0; a < patch.n_nodes; ++a)
+              scratch.mean_gradient[a] +=
+                volumes_[p] *
+                weights.of_point(s, p - segment.begin)[a].gradient;
+          }
+        for (auto &gradient : scratch.mean_gradient)
+          gradient /= volume;
+
+        scratch.matrix.reinit(n, n);
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          {
+            fill_strain(weights.of_point(s, p - segment.begin),
+                        patch.n_nodes,
+                        uses_mean,
+                        scratch);
+            add_point(volumes_[p], answers_[p], n, scratch);
+          }
+        scratch.unknowns.clear();
+        for (unsigned int a = 0; a < patch.n_nodes; ++a)
+          for (unsigned int i = 0; i < dim; ++i)
+            scratch.unknowns.push_back(unknowns.first(patch.nodes[a]) + i);
+        unknowns.constraints().distribute_local_to_global(scratch.matrix,
+                                                          scratch.unknowns,
+                                                          matrix);
+      }
+  }
+
+
+
+  template class InternalForces<2>;
+  template class InternalForces<3>;
+} // namespace talus

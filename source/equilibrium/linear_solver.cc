@@ -1,0 +1,131 @@
+#include <talus/equilibrium/linear_solver.h>
+
+#include <deal.II/lac/trilinos_precondition.h>
+#include <deal.II/lac/trilinos_solver.h>
+
+#include <Teuchos_ParameterList.hpp>
+#include <ml_MultiLevelPreconditioner.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  LinearSolver::LinearSolver()
+    : ParameterAcceptor("/Linear solver")
+  {
+    add_parameter(
+      "Type",
+      type_,
+      "Of the linear systems of the static stages: 'direct' (Trilinos' "
+      "Amesos), 'CG' or 'GMRES' with algebraic multigrid (Trilinos' ML); CG "
+      "is for symmetric matrices, those of small strain. 'auto': direct up "
+      "to 100 000 unknowns in 2-D and 10 000 in 3-D, else CG with small and "
+      "GMRES with large strain.",
+      this->prm,
+      Patterns::Selection("auto|direct|CG|GMRES"));
+    add_parameter("Tolerance",
+                  tolerance_,
+                  "Residual over right-hand side at which CG and GMRES end "
+                  "[-].",
+                  this->prm,
+                  Patterns::Double(1e-15, 1.));
+    add_parameter("Largest number of iterations",
+                  largest_iterations_,
+                  "Of CG and GMRES.",
+                  this->prm,
+                  Patterns::Integer(1));
+  }
+
+
+
+  std::string
+  LinearSolver::choice(const unsigned long n_unknowns,
+                       const unsigned int  dim,
+                       const bool          symmetric) const
+  {
+    if (type_ != "auto")
+      return type_;
+    if (n_unknowns <= (dim == 2 ? 100000 : 10000))
+      return "direct";
+    return symmetric ? "CG" : "GMRES";
+  }
+
+
+
+  namespace
+  {
+    /// Smoothed aggregation for @p dim unknowns per node with all rigid
+    /// motions @cite vanek1996. The modes must live until ML has copied them.
+    Teuchos::ParameterList
+    multigrid_parameters(const unsigned int   dim,
+                         std::vector<double> &modes,
+                         const unsigned int   n_modes)
+    {
+      Teuchos::ParameterList list;
+      ML_Epetra::SetDefaults("SA", list);
+      list.set("ML output", 0);
+      list.set("PDE equations", static_cast<int>(dim));
+      list.set("null space: type", "pre-computed");
+      list.set("null space: dimension", static_cast<int>(n_modes));
+      list.set("null space: vectors", modes.data());
+      list.set("aggregation: type", "Uncoupled");
+      list.set("aggregation: threshold", 0.);
+      list.set("smoother: type", "Chebyshev");
+      list.set("smoother: sweeps", 3);
+      list.set("coarse: type", "Amesos-KLU");
+      list.set("coarse: max size", 500);
+      return list;
+    }
+  } // namespace
+
+
+
+  unsigned int
+  LinearSolver::solve(const TrilinosWrappers::SparseMatrix &matrix,
+                      TrilinosWrappers::MPI::Vector        &x,
+                      const TrilinosWrappers::MPI::Vector  &rhs,
+                      const RigidModes                     &modes,
+                      const unsigned int                    dim,
+                      const bool                            symmetric,
+                      bool                                 &found) const
+  {
+    const std::string type = choice(matrix.m(), dim, symmetric);
+    found                  = true;
+    x                      = 0.;
+    SolverControl control(largest_iterations_, tolerance_ * rhs.l2_norm());
+    if (type == "direct")
+      {
+        TrilinosWrappers::SolverDirect solver(control);
+        try
+          {
+            solver.solve(matrix, x, rhs);
+          }
+        catch (const ExceptionBase &)
+          {
+            found = false; // singular
+          }
+        return 0;
+      }
+
+    std::vector<double> all_modes;
+    for (const auto &mode : modes)
+      all_modes.insert(all_modes.end(), mode.begin(), mode.end());
+    TrilinosWrappers::PreconditionAMG multigrid;
+    multigrid.initialize(matrix,
+                         multigrid_parameters(dim, all_modes, modes.size()));
+    try
+      {
+        if (type == "CG")
+          TrilinosWrappers::SolverCG(control).solve(matrix, x, rhs, multigrid);
+        else
+          TrilinosWrappers::SolverGMRES(
+            control, TrilinosWrappers::SolverGMRES::AdditionalData(false, 100))
+            .solve(matrix, x, rhs, multigrid);
+      }
+    catch (const ExceptionBase &)
+      {
+        found = false; // not within the largest number of iterations
+      }
+    return control.last_step();
+  }
+} // namespace talus

@@ -1,0 +1,430 @@
+#include <talus/base/errors.h>
+#include <talus/equilibrium/newton.h>
+#include <talus/grid/node_places.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Largest shear modulus of the bodies, Pa.
+    template <int dim>
+    double
+    largest_shear_modulus(const Soil<dim> &soil)
+    {
+      double result = 0;
+      for (const Segment &segment : soil.points.segments())
+        result = std::max(result,
+                          soil.materials.of_body(segment.body).shear_modulus());
+      return Utilities::MPI::max(result, soil.grid.communicator());
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Newton<dim>::begin(Soil<dim> &soil, const Parameters &parameters)
+  {
+    parameters_      = parameters;
+    internal_forces_ = InternalForces<dim>(parameters.measure);
+    places_          = places_of_owned_nodes(soil.grid);
+    extent_ = soil.grid.domain().lower.distance(soil.grid.domain().upper);
+    sum_forces(soil);
+    unknowns_.number(soil.nodes, soil.grid, soil.least_mass);
+    weights_.compute(soil.points,
+                     soil.grid,
+                     soil.transfer.box_shape(),
+                     unknowns_);
+    ghost_.find_faces(soil.grid,
+                      unknowns_,
+                      parameters.ghost_penalty,
+                      largest_shear_modulus(soil));
+    contact_.begin(soil, unknowns_);
+    unknowns_.hold(contact_.held(soil, unknowns_));
+    make_pattern(soil);
+    make_rigid_modes(soil.grid);
+
+    u_          = unknowns_.field();
+    internal_   = unknowns_.field();
+    unbalanced_ = unknowns_.field();
+    internal_forces_.evaluate(soil, weights_, u_, internal_);
+    unknowns_.add_to_owners(internal_);
+    double external = 0, internal = 0;
+    for (const unsigned int node : unknowns_.active_nodes())
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const unsigned int i = dim * node + d;
+          unbalanced_[i]       = soil.nodes.sum(node)[NodalSum<dim>::force + d];
+          internal += internal_[i] * internal_[i];
+          external += std::pow(unbalanced_[i] + internal_[i], 2);
+        }
+    reference_ = std::sqrt(
+      std::max(Utilities::MPI::sum(internal, soil.grid.communicator()),
+               Utilities::MPI::sum(external, soil.grid.communicator())));
+  }
+
+
+
+  template <int dim>
+  void
+  Newton<dim>::make_pattern(const Soil<dim> &soil)
+  {
+    DynamicSparsityPattern               pattern(unknowns_.n_global(),
+                                   unknowns_.n_global(),
+                                   unknowns_.relevant());
+    std::vector<types::global_dof_index> indices;
+    for (unsigned int s = 0; s < soil.points.segments().size(); ++s)
+      {
+        const auto patch = weights_.patch(s);
+        indices.clear();
+        for (unsigned int a = 0; a < patch.n_nodes; ++a)
+          for (unsigned int d = 0; d < dim; ++d)
+            indices.push_back(unknowns_.first(patch.nodes[a]) + d);
+        unknowns_.constraints().add_entries_local_to_global(indices,
+                                                            pattern,
+                                                            true);
+      }
+    ghost_.add_to_pattern(unknowns_, pattern);
+    SparsityTools::distribute_sparsity_pattern(pattern,
+                                               unknowns_.owned(),
+                                               unknowns_.communicator(),
+                                               unknowns_.relevant());
+    matrix_.reinit(unknowns_.owned(),
+                   unknowns_.owned(),
+                   pattern,
+                   unknowns_.communicator());
+  }
+
+
+
+  /// Translations and rotations about the axes, seen from the lower corner.
+  template <int dim>
+  void
+  Newton<dim>::make_rigid_modes(const Grid<dim> &grid)
+  {
+    modes_.assign(dim == 2 ? 3 : 6, {});
+    for (const unsigned int node : unknowns_.active_nodes())
+      {
+        const Tensor<1, dim> x = places_[node] - grid.domain().lower;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            for (unsigned int e = 0; e < dim; ++e)
+              modes_[e].push_back(d == e ? 1. : 0.);
+            // In the plane of axes a and b.
+            unsigned int mode = dim;
+            for (unsigned int a = 0; a < dim; ++a)
+              for (unsigned int b = a + 1; b < dim; ++b)
+                modes_[mode++].push_back(d == a ? -x[b] : d == b ? x[a] : 0.);
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  Newton<dim>::imbalance() const
+  {
+    std::vector<double> force = unbalanced_;
+    contact_.add_friction(force);
+    const double norm = unknowns_.norm(force);
+    return norm == 0. ? 0. : norm / reference_;
+  }
+
+
+
+  template <int dim>
+  std::string
+  Newton<dim>::where_largest(const std::vector<double> &force,
+                             double                    &largest) const
+  {
+    double     own = 0;
+    Point<dim> place;
+    unknowns_.for_free([&](const unsigned int node, const unsigned int d) {
+      // Not a number counts as large.
+      if (!(std::abs(force[dim * node + d]) <= own))
+        {
+          own   = std::abs(force[dim * node + d]);
+          place = places_[node];
+        }
+    });
+    const MPI_Comm communicator = unknowns_.communicator();
+    largest                     = Utilities::MPI::max(own, communicator);
+    const unsigned int n_ranks  = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
+    const unsigned int owner =
+      Utilities::MPI::min(own == largest ? rank : n_ranks, communicator);
+    return Utilities::MPI::broadcast(communicator,
+                                     text('(', place, ") m"),
+                                     owner == n_ranks ? 0 : owner);
+  }
+
+
+
+  template <int dim>
+  std::pair<double, std::string>
+  Newton<dim>::largest_imbalance() const
+  {
+    std::vector<double> force = unbalanced_;
+    contact_.add_friction(force);
+    std::pair<double, std::string> result;
+    result.second = where_largest(force, result.first);
+    return result;
+  }
+
+
+
+  /// Set the residual at the displacements @p u. Returns false if a point of any
+  /// rank would be turned inside out.
+  template <int dim>
+  bool
+  Newton<dim>::evaluate(Soil<dim> &soil, const std::vector<double> &u)
+  {
+    std::vector<double> forces = unknowns_.field();
+    const bool sound = internal_forces_.evaluate(soil, weights_, u, forces);
+    if (!Utilities::MPI::logical_or(!sound, unknowns_.communicator()))
+      {
+        ghost_.add_forces(u, forces);
+        unknowns_.add_to_owners(forces);
+        residual_ = target_;
+        contact_.add_friction(residual_);
+        for (std::size_t i = 0; i < residual_.size(); ++i)
+          residual_[i] -= forces[i];
+        return true;
+      }
+    return false;
+  }
+
+
+
+  template <int dim>
+  typename Newton<dim>::Outcome
+  Newton<dim>::failure(const std::string &reason) const
+  {
+    double            largest;
+    const std::string place = where_largest(residual_, largest);
+    return {false,
+            text(reason,
+                 "; the largest residual force of a node is ",
+                 largest,
+                 " N, at ",
+                 place)};
+  }
+
+
+
+  template <int dim>
+  typename Newton<dim>::Outcome
+  Newton<dim>::solve(Soil<dim>      &soil,
+                     const double    share,
+                     const Observer &observe)
+  {
+    target_ = internal_;
+    for (std::size_t i = 0; i < target_.size(); ++i)
+      target_[i] += share * unbalanced_[i];
+    u_ = unknowns_.field();
+    // A node of the seabed may change its mind some times.
+    for (unsigned int trial = 0; trial < 50; ++trial)
+      {
+        unknowns_.hold(contact_.held(soil, unknowns_));
+        const Outcome outcome = iterate(soil, observe);
+        if (!outcome.converged)
+          return outcome;
+        std::vector<double> reaction = residual_;
+        for (double &force : reaction)
+          force = -force;
+        if (contact_.revise(soil, unknowns_, reaction, u_) == 0)
+          return outcome;
+        unknowns_.copy_to_ghosts(u_);
+      }
+    return failure("The contact with the seabed does not come to rest");
+  }
+
+
+
+  template <int dim>
+  typename Newton<dim>::Outcome
+  Newton<dim>::iterate(Soil<dim> &soil, const Observer &observe)
+  {
+    if (!evaluate(soil, u_))
+      return failure("A point would be turned inside out");
+    for (unsigned int i = 0;; ++i)
+      {
+        const double    norm = unknowns_.norm(residual_);
+        NewtonIteration iteration{
+          i, norm == 0. ? 0. : norm / reference_, 0, 0., 0.};
+        const bool converged = (iteration.residual <= parameters_.tolerance);
+        if (converged || i == parameters_.largest_iterations ||
+            !std::isfinite(norm))
+          {
+            observe(iteration);
+            return converged ? Outcome{true, ""}
+                             : failure(text("Newton's method has not converged "
+                                            "in ",
+                                            i,
+                                            " iterations: the residual is ",
+                                            iteration.residual,
+                                            " of the forces, where ",
+                                            parameters_.tolerance,
+                                            " was asked for"));
+          }
+        const bool corrected = correct(soil, iteration);
+        observe(iteration);
+        if (!corrected)
+          return failure("The linear system of Newton's method has no solution "
+                         "of reasonable size: part of the soil can move "
+                         "freely");
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  Newton<dim>::correct(Soil<dim> &soil, NewtonIteration &iteration)
+  {
+    const auto start = std::chrono::steady_clock::now();
+    matrix_          = 0.;
+    internal_forces_.add_tangent(soil, weights_, unknowns_, matrix_);
+    ghost_.add_to_matrix(unknowns_, matrix_);
+    matrix_.compress(VectorOperation::add);
+
+    TrilinosWrappers::MPI::Vector rhs(unknowns_.owned(),
+                                      unknowns_.communicator());
+    TrilinosWrappers::MPI::Vector solution(rhs);
+    unknowns_.for_free([&](const unsigned int node, const unsigned int d) {
+      rhs(unknowns_.first(node) + d) = residual_[dim * node + d];
+    });
+    rhs.compress(VectorOperation::insert);
+    RigidModes free_modes = modes_;
+    for (auto &mode : free_modes)
+      {
+        unsigned int i = 0;
+        for (const unsigned int node : unknowns_.active_nodes())
+          for (unsigned int d = 0; d < dim; ++d, ++i)
+            if (unknowns_.is_held(node, d))
+              mode[i] = 0.;
+      }
+    bool found;
+    iteration.n_linear_iterations = linear_solver_.solve(
+      matrix_, solution, rhs, free_modes, dim, is_symmetric(), found);
+
+    std::vector<double> direction = unknowns_.field();
+    double              largest   = 0;
+    unknowns_.for_free([&](const unsigned int node, const unsigned int d) {
+      const double x            = solution(unknowns_.first(node) + d);
+      direction[dim * node + d] = x;
+      largest = (std::abs(x) <= largest ? largest : std::abs(x));
+    });
+    largest = Utilities::MPI::max(largest, unknowns_.communicator());
+    if (!found || !(largest < 10. * extent_))
+      return false;
+    unknowns_.copy_to_ghosts(direction);
+    iteration.length = search_along(soil, direction);
+    iteration.seconds =
+      std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
+        .count();
+    return iteration.length > 0.;
+  }
+
+
+
+  /// Go along @p direction until the work of the residual on it is small, and
+  /// set displacements and residual. Returns how far, in units of the
+  /// direction; 0 if no point along it is sound.
+  template <int dim>
+  double
+  Newton<dim>::search_along(Soil<dim>                 &soil,
+                            const std::vector<double> &direction)
+  {
+    const double        work_before = unknowns_.product(direction, residual_);
+    const double        norm_before = unknowns_.norm(residual_);
+    std::vector<double> u           = u_;
+    double              length      = 1.;
+    for (unsigned int trial = 0; trial < 12; ++trial)
+      {
+        for (std::size_t i = 0; i < u.size(); ++i)
+          u[i] = u_[i] + length * direction[i];
+        if (!evaluate(soil, u))
+          {
+            length *= 0.5;
+            continue;
+          }
+        const double work = unknowns_.product(direction, residual_);
+        if (std::abs(work) <= 0.8 * std::abs(work_before) ||
+            unknowns_.norm(residual_) < norm_before || trial >= 6)
+          {
+            u_ = u;
+            return length;
+          }
+        const double factor = work_before / (work_before - work);
+        length *= std::clamp(std::isfinite(factor) ? factor : 0.1, 0.1, 0.5);
+      }
+    return 0.;
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Newton<dim>::displacement_of_points(const Points<dim> &points) const
+  {
+    std::vector<double> result(dim * std::size_t(points.size()), 0.);
+    for (unsigned int s = 0; s < points.segments().size(); ++s)
+      {
+        const Segment &segment = points.segments()[s];
+        const auto     patch   = weights_.patch(s);
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          {
+            const auto *weight = weights_.of_point(s, p - segment.begin);
+            for (unsigned int a = 0; a < patch.n_nodes; ++a)
+              for (unsigned int d = 0; d < dim; ++d)
+                result[dim * p + d] +=
+                  weight[a].value * u_[dim * patch.nodes[a] + d];
+          }
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  Newton<dim>::accept(Soil<dim> &soil)
+  {
+    Points<dim> &points = soil.points;
+    internal_forces_.set_gradients(soil, weights_, u_);
+    soil.materials.for_runs(points,
+                            points.all(),
+                            [&](const MaterialModel<dim> &model,
+                                const unsigned int        begin,
+                                const unsigned int        end) {
+                              model.accept(points,
+                                           begin,
+                                           end,
+                                           parameters_.measure);
+                            });
+    if (parameters_.measure == StrainMeasure::small)
+      return;
+    const std::vector<double> u = displacement_of_points(points);
+    for (unsigned int p = 0; p < points.size(); ++p)
+      for (unsigned int d = 0; d < dim; ++d)
+        points.data(points.position, d)[p] += u[dim * p + d];
+    update_stretch(
+      points, 0, points.size(), soil.transfer.box_shape().rule, /*dt=*/1.);
+  }
+
+
+
+  template class Newton<2>;
+  template class Newton<3>;
+} // namespace talus

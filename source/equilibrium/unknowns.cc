@@ -1,0 +1,107 @@
+#include <talus/equilibrium/unknowns.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  void
+  Unknowns<dim>::number(const NodalFields<dim> &nodes,
+                        const Grid<dim>        &grid,
+                        const double            least_mass)
+  {
+    communicator_ = grid.communicator();
+    n_nodes_      = grid.n_nodes();
+    exchange_of_records_.prepare(grid, width);
+    exchange_of_fields_.prepare(grid, dim);
+    active_nodes_ = nodes.active_nodes();
+    std::sort(active_nodes_.begin(), active_nodes_.end());
+    active_nodes_.erase(std::remove_if(active_nodes_.begin(),
+                                       active_nodes_.end(),
+                                       [&](const unsigned int node) {
+                                         return !(nodes.mass(node) >
+                                                  least_mass);
+                                       }),
+                        active_nodes_.end());
+
+    const unsigned long n_own = dim * active_nodes_.size();
+    const auto counts        = Utilities::MPI::all_gather(communicator_, n_own);
+    const unsigned int rank  = Utilities::MPI::this_mpi_process(communicator_);
+    unsigned long      begin = 0, n_all = 0;
+    for (unsigned int r = 0; r < counts.size(); ++r)
+      {
+        begin += (r < rank ? counts[r] : 0);
+        n_all += counts[r];
+      }
+    records_.assign(width * std::size_t(n_nodes_), 0.);
+    for (unsigned int node = 0; node < n_nodes_; ++node)
+      records_[width * std::size_t(node)] = -1.;
+    for (unsigned int k = 0; k < active_nodes_.size(); ++k)
+      {
+        double *record = &records_[width * std::size_t(active_nodes_[k])];
+        record[0]      = begin + dim * k;
+        record[2]      = nodes.mass(active_nodes_[k]);
+        record[3]      = nodes.sum(active_nodes_[k])[NodalSum<dim>::volume];
+      }
+    exchange_of_records_.copy_to_ghosts(records_.data());
+
+    owned_ = IndexSet(n_all);
+    owned_.add_range(begin, begin + n_own);
+    relevant_ = owned_;
+    for (unsigned int node = grid.n_owned_nodes(); node < n_nodes_; ++node)
+      if (is_active(node))
+        relevant_.add_range(first(node), first(node) + dim);
+    relevant_.compress();
+  }
+
+
+
+  template <int dim>
+  void
+  Unknowns<dim>::hold(const std::vector<unsigned char> &held)
+  {
+    AssertDimension(held.size(), active_nodes_.size());
+    for (unsigned int k = 0; k < active_nodes_.size(); ++k)
+      records_[width * std::size_t(active_nodes_[k]) + 1] = held[k];
+    exchange_of_records_.copy_to_ghosts(records_.data());
+    constraints_.reinit(relevant_);
+    for (unsigned int node = 0; node < n_nodes_; ++node)
+      if (is_active(node))
+        for (unsigned int d = 0; d < dim; ++d)
+          if (is_held(node, d))
+            constraints_.add_line(first(node) + d);
+    constraints_.close();
+  }
+
+
+
+  template <int dim>
+  double
+  Unknowns<dim>::norm(const std::vector<double> &field) const
+  {
+    return std::sqrt(product(field, field));
+  }
+
+
+
+  template <int dim>
+  double
+  Unknowns<dim>::product(const std::vector<double> &a,
+                         const std::vector<double> &b) const
+  {
+    double sum = 0;
+    for_free([&](const unsigned int node, const unsigned int d) {
+      sum += a[dim * node + d] * b[dim * node + d];
+    });
+    return Utilities::MPI::sum(sum, communicator_);
+  }
+
+
+
+  template class Unknowns<2>;
+  template class Unknowns<3>;
+} // namespace talus

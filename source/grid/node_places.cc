@@ -1,0 +1,40 @@
+#include <talus/grid/node_places.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  std::vector<Point<dim>>
+  places_of_owned_nodes(const Grid<dim> &grid)
+  {
+    std::vector<Point<dim>> places(grid.n_owned_nodes());
+    // Each owned node is the corner of an owned cell.
+    for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+      {
+        const Cell<dim> &cell  = grid.cells()[c];
+        const auto       place = grid.place_of_cell(c);
+        for (unsigned int v = 0; v < power(2, dim); ++v)
+          {
+            Point<dim>   x;
+            unsigned int at = 0;
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const unsigned int side = (v >> d) & 1;
+                at += (1 + side) * power(4, d);
+                x[d] = grid.domain().lower[d] + (place[d] + side) * cell.size;
+              }
+            if (cell.patch[at] < grid.n_owned_nodes())
+              places[cell.patch[at]] = x;
+          }
+      }
+    return places;
+  }
+
+
+
+  template std::vector<Point<2>>
+  places_of_owned_nodes(const Grid<2> &);
+  template std::vector<Point<3>>
+  places_of_owned_nodes(const Grid<3> &);
+} // namespace talus

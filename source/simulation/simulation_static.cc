@@ -1,0 +1,197 @@
+// The part of Simulation for the stages in which time stands still.
+
+#include <talus/base/errors.h>
+#include <talus/simulation/simulation.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <iomanip>
+
+namespace talus
+{
+  using namespace dealii;
+
+  /// What is to be brought to equilibrium: all that acts at the time it is now.
+  template <int dim>
+  Soil<dim>
+  Simulation<dim>::soil()
+  {
+    loading_.update(points_, time_);
+    return {points_,
+            grid_,
+            nodes_,
+            transfer_,
+            materials_,
+            boundaries_,
+            loading_.loads(),
+            time_,
+            least_mass_};
+  }
+
+
+
+  /// Returns false if the run was stopped between two stages.
+  template <int dim>
+  bool
+  Simulation<dim>::run_static_stages()
+  {
+    while (stages_.next_is_static())
+      {
+        {
+          PhaseTimer::Scope scope(timer_, "static stages");
+          if (stages_.next() == Stage::equilibrium)
+            find_equilibrium();
+          else
+            reduce_strength();
+          points_.return_workspace();
+        }
+        stages_.count_one();
+        if (!stages_.next_is_static())
+          output_.start(snapshot());
+        const Wish wish =
+          static_cast<Wish>(Utilities::MPI::max(static_cast<int>(own_wish()),
+                                                grid_.communicator()));
+        if (act_on(std::max(wish, Wish::checkpoint)))
+          return false;
+      }
+    return true;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::find_equilibrium()
+  {
+    equilibrium_.begin(equilibrium_.measure());
+    say("Stage 'equilibrium':");
+    while (!equilibrium_.is_found())
+      {
+        StepNote  note;
+        Soil<dim> all = soil();
+        if (!equilibrium_.advance(all, [&](const auto &progress) {
+              observe(progress, 1., note);
+            }))
+          throw_no_equilibrium();
+        if (!note.residuals.empty())
+          tell(note);
+        if (equilibrium_.measure() == StrainMeasure::large)
+          {
+            relocate();
+            adapt_mesh();
+          }
+      }
+    const auto [largest, place] = equilibrium_.newton().largest_imbalance();
+    say_and_note(text("Equilibrium was found in ",
+                      equilibrium_.n_steps(),
+                      " steps with ",
+                      equilibrium_.newton().n_unknowns(),
+                      " unknowns (linear solver: ",
+                      equilibrium_.newton().linear_solver(),
+                      "). The force out of balance is ",
+                      equilibrium_.imbalance(),
+                      " of that of the loads; the largest one of a node is ",
+                      largest,
+                      " N, at ",
+                      place,
+                      "."));
+  }
+
+
+
+  /// Show what moved, and end the run.
+  template <int dim>
+  void
+  Simulation<dim>::throw_no_equilibrium()
+  {
+    output_.write_mechanism(snapshot(),
+                            "no-equilibrium",
+                            equilibrium_.newton().displacement_of_points(
+                              points_));
+    throw ExcUser(
+      text("The stage 'equilibrium' found no balance beyond ",
+           equilibrium_.load(),
+           " of the load. ",
+           equilibrium_.failure(),
+           ". 'no-equilibrium' in the output folder shows where it "
+           "moved. Either the soil cannot bear its weight, and needs "
+           "more strength or support before the trigger; or the "
+           "search needs more 'Equilibrium/Load steps'."));
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::observe(const EquilibriumProgress &progress,
+                           const double               factor,
+                           StepNote                  &note)
+  {
+    if (Utilities::MPI::this_mpi_process(grid_.communicator()) == 0)
+      newton_table_.add(stages_.number(), factor, progress);
+    if (progress.iteration.number == 0)
+      note.residuals.clear(); // after a cut, or a change at the seabed
+    note.step = progress.load_step;
+    note.load = progress.load;
+    note.residuals.push_back(progress.iteration.residual);
+    note.n_linear_iterations += progress.iteration.n_linear_iterations;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::tell(const StepNote &note)
+  {
+    std::string residuals;
+    for (const double residual : note.residuals)
+      residuals +=
+        text(residuals.empty() ? "" : ", ", std::setprecision(2), residual);
+    say_and_note(text("  step ",
+                      note.step,
+                      ", load ",
+                      note.load,
+                      ": residuals ",
+                      residuals,
+                      note.n_linear_iterations > 0
+                        ? text("; ",
+                               note.n_linear_iterations,
+                               " iterations of the linear solver")
+                        : std::string()));
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::say_and_note(const std::string &sentence)
+  {
+    say(sentence);
+    output_.note(sentence, false);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::reduce_strength()
+  {}
+
+
+
+#define INSTANTIATE(dim)                                                   \
+  template Soil<dim> Simulation<dim>::soil();                              \
+  template bool      Simulation<dim>::run_static_stages();                 \
+  template void      Simulation<dim>::find_equilibrium();                  \
+  template void      Simulation<dim>::reduce_strength();                   \
+  template void      Simulation<dim>::throw_no_equilibrium();              \
+  template void      Simulation<dim>::observe(const EquilibriumProgress &, \
+                                         double,                      \
+                                         StepNote &);                 \
+  template void      Simulation<dim>::tell(const StepNote &);              \
+  template void      Simulation<dim>::say_and_note(const std::string &);
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace talus

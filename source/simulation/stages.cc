@@ -1,0 +1,114 @@
+#include <talus/base/errors.h>
+#include <talus/simulation/stages.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::vector<std::string> names = {"equilibrium",
+                                            "strength reduction",
+                                            "dynamics"};
+  }
+
+
+
+  Stages::Stages()
+    : ParameterAcceptor("/")
+  {
+    add_parameter("Stages",
+                  names_,
+                  "What the run does, in this order, separated by commas: "
+                  "'equilibrium' brings the soil into balance with its weight, "
+                  "standing still; 'strength reduction' finds the factor of "
+                  "safety, and leaves the soil as it was; 'dynamics' lets it "
+                  "go, to the end time.");
+  }
+
+
+
+  void
+  Stages::check()
+  {
+    stages_.clear();
+    for (const std::string &name : names_)
+      {
+        const auto found = std::find(names.begin(), names.end(), name);
+        AssertThrow(found != names.end(),
+                    ExcUser(text("Stages lists '",
+                                 name,
+                                 "', but the stages are 'equilibrium', "
+                                 "'strength reduction' and 'dynamics'.")));
+        const auto stage = static_cast<Stage>(found - names.begin());
+        AssertThrow(stages_.empty() || stages_.back() < stage,
+                    ExcUser(
+                      text("Stages lists '",
+                           name,
+                           "' after '",
+                           names[static_cast<int>(stages_.back())],
+                           "'. Give each stage once at most, in the order "
+                           "equilibrium, strength reduction, "
+                           "dynamics.")));
+        stages_.push_back(stage);
+      }
+    AssertThrow(!stages_.empty(),
+                ExcUser("Stages is empty, so that there is nothing to do. Give "
+                        "'dynamics', or 'equilibrium' before it."));
+  }
+
+
+
+  bool
+  Stages::contain(const Stage stage) const
+  {
+    return std::find(stages_.begin(), stages_.end(), stage) != stages_.end();
+  }
+
+
+
+  void
+  Stages::list_state(StateList &list)
+  {
+    list.add("static stages done", "-", n_done_, Reduction::equal);
+  }
+
+
+
+  void
+  NewtonTable::begin(const std::filesystem::path &folder,
+                     const Beginning              beginning)
+  {
+    file_.open(folder / file_name,
+               {"stage",
+                "strength factor [-]",
+                "load step",
+                "load [-]",
+                "iteration",
+                "residual [-]",
+                "step length [-]",
+                "linear iterations"},
+               beginning);
+  }
+
+
+
+  void
+  NewtonTable::add(const unsigned int         stage,
+                   const double               factor,
+                   const EquilibriumProgress &progress)
+  {
+    const NewtonIteration &iteration = progress.iteration;
+    file_.add_row({1. * stage,
+                   factor,
+                   1. * progress.load_step,
+                   progress.load,
+                   1. * iteration.number,
+                   iteration.residual,
+                   iteration.length,
+                   1. * iteration.n_linear_iterations});
+    file_.flush();
+  }
+} // namespace talus
