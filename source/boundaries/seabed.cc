@@ -44,13 +44,13 @@ namespace talus
     const double mass         = nodes.mass(node);
     const double normal_force = mass * v_n / dt;
 
-    Tensor<1, dim> v_t = trial;
-    v_t[axis]          = 0;
-    const double speed = v_t.norm();
-    const double friction =
-      std::min({mass * speed / dt,
-                friction_coefficient_ * normal_force,
-                maximum_shear_stress_ * contact_area(nodes, grid, face, node)});
+    Tensor<1, dim> v_t    = trial;
+    v_t[axis]             = 0;
+    const double speed    = v_t.norm();
+    const double friction = std::min({mass * speed / dt,
+                                      friction_coefficient_ * normal_force,
+                                      factor_ * maximum_shear_stress_ *
+                                        contact_area(nodes, grid, face, node)});
 
     Tensor<1, dim> normal_impulse;
     normal_impulse[axis] = -outwards * mass * v_n;

@@ -57,6 +57,16 @@ namespace talus
       return conditions_[face];
     }
 
+    bool
+    has_seabed() const;
+
+    /// Let the seabed pass @p factor times its maximum shear stress [-].
+    void
+    scale_seabed_shear_stress(const double factor)
+    {
+      seabed_.scale_maximum_shear_stress(factor);
+    }
+
     /// Axes whose two faces are periodic. Throws ExcUser if only one is.
     std::array<bool, dim>
     periodic_axes() const;

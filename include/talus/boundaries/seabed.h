@@ -29,7 +29,15 @@ namespace talus
           unsigned int      node,
           double            dt) const;
 
+    /// From now on pass @p factor times the maximum shear stress [-].
+    void
+    scale_maximum_shear_stress(const double factor)
+    {
+      factor_ = factor;
+    }
+
   private:
+    double factor_               = 1.; ///< of the maximum shear stress
     double friction_coefficient_ = 10.;
     double maximum_shear_stress_ = 1000.;
   };

@@ -18,6 +18,7 @@
 #include <talus/simulation/loading.h>
 #include <talus/simulation/preview.h>
 #include <talus/simulation/time_step.h>
+#include <talus/simulation/trigger.h>
 #include <talus/transfer/relocation.h>
 #include <talus/transfer/transfer.h>
 
@@ -160,6 +161,7 @@ namespace talus
     MeshTracking<dim>                       mesh_tracking_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     Loading<dim>                            loading_;
+    Trigger<dim>                            trigger_;
     TimeStep<dim>                           time_step_;
     PhaseTimer                              timer_;
     Output<dim>                             output_;
