@@ -9,6 +9,17 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
+  bool
+  Boundaries<dim>::has_seabed() const
+  {
+    return std::count(conditions_.begin(),
+                      conditions_.end(),
+                      FaceCondition::seabed) > 0;
+  }
+
+
+
+  template <int dim>
   void
   Boundaries<dim>::locate_nodes(const Grid<dim> &grid)
   {

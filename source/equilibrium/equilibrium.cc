@@ -90,8 +90,10 @@ namespace talus
 
   template <int dim>
   void
-  Equilibrium<dim>::begin(const StrainMeasure measure)
+  Equilibrium<dim>::begin(const StrainMeasure         measure,
+                          const std::optional<double> smallest_step)
   {
+    least_step_                = smallest_step.value_or(smallest_step_);
     newton_parameters_.measure = measure;
     load_                      = 0;
     step_                      = 1. / n_load_steps_;
@@ -142,7 +144,7 @@ namespace talus
   {
     const double rest = 1. - load_;
     const bool   all  = !(rest > 1.0001 * step_);
-    for (double cut = 1.; cut * step_ >= smallest_step_; cut *= 0.5)
+    for (double cut = 1.; cut * step_ >= least_step_; cut *= 0.5)
       {
         // Of what is out of balance now; the last step takes all of it.
         const double share = cut * (all ? 1. : step_ / rest);

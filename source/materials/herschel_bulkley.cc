@@ -3,6 +3,7 @@
 #include <talus/materials/load_step.h>
 #include <talus/materials/radial_return.h>
 #include <talus/materials/shear_band.h>
+#include <talus/materials/strength_factor.h>
 #include <talus/materials/viscoplastic_return.h>
 
 #include <limits>
@@ -25,7 +26,7 @@ namespace talus
 
     /// One step of point(s) @p p; false if a point was turned inside out or its
     /// plastic strain, then NaN, was not found.
-    template <int dim, typename Number>
+    template <int dim, typename Number, typename Factor>
     inline bool
     update_point(Points<dim>           &points,
                  const unsigned int     p,
@@ -33,7 +34,8 @@ namespace talus
                  const double           dt,
                  const Moduli          &moduli,
                  const Strength        &strength,
-                 const ShearResistance &resistance)
+                 const ShearResistance &resistance,
+                 const Factor           strength_factor)
     {
       const auto motion = advance_deformation<dim, Number>(points, p, dt);
       const auto strain = strain_increment(motion);
@@ -47,13 +49,11 @@ namespace talus
         std::numeric_limits<double>::min());
       double *const xi     = points.data(plastic_shear_strain) + p;
       const Number  old_xi = load<Number>(xi);
-      Number        loss   = broadcast<Number>(strength.loss);
+      Number        loss   = broadcast<Number>(strength.loss) * strength_factor;
       if (resistance.decay > 0.)
         loss *= exponential(-resistance.decay * old_xi);
-      const Number d_xi =
-        plastic_shear<Number>(tau - (strength.remoulded + loss),
-                              loss,
-                              resistance);
+      const Number d_xi = plastic_shear<Number>(
+        tau - (strength.remoulded * strength_factor + loss), loss, resistance);
       store(xi, old_xi + d_xi);
       return_radially<dim, Number>(
         points, p, motion, strain, trial, moduli.mu, moduli.mu * d_xi / tau);
@@ -198,10 +198,19 @@ namespace talus
                                         r < 1. ? 3. / strain_to_remould_ : 0.,
                                         dt};
     bool                  sound      = true;
-    for_lanes(begin, end, [&](const unsigned int p, auto number) {
-      sound &= update_point<dim, decltype(number)>(
-        points, p, plastic_shear_strain_, dt, moduli, strength, resistance);
-    });
+    with_strength_factor(
+      points, this->strength_factor(), [&](const auto &factor) {
+        for_lanes(begin, end, [&](const unsigned int p, auto number) {
+          sound &= update_point<dim, decltype(number)>(points,
+                                                       p,
+                                                       plastic_shear_strain_,
+                                                       dt,
+                                                       moduli,
+                                                       strength,
+                                                       resistance,
+                                                       factor(p, number));
+        });
+      });
     if (!sound)
       {
         throw_inverted_point(points, begin, end);
@@ -218,19 +227,13 @@ namespace talus
   auto
   HerschelBulkley<dim>::slow_flow_rule(const Points<dim> &points) const
   {
-    const double r     = remoulded_ratio_;
-    const double decay = (r < 1. ? 3. / strain_to_remould_ : 0.);
-    return [decay,
-            strength = Strength{r * strength_, (1. - r) * strength_},
-            mu       = elasticity_.moduli().mu,
-            xi       = points.data(plastic_shear_strain_)](const unsigned int p,
-                                                     const auto &deviator) {
+    return [this, &points, mu = elasticity_.moduli().mu](const unsigned int p,
+                                                         const auto &deviator) {
       using Number     = std::decay_t<decltype(deviator[0])>;
       const Number tau = square_root(0.5 * contract<dim>(deviator, deviator) +
                                      std::numeric_limits<double>::min());
-      const double s_u =
-        strength.remoulded + strength.loss * std::exp(-decay * xi[p]);
-      const Number d_xi = max(Number((tau - s_u) / mu), Number{});
+      const Number d_xi =
+        max(Number((tau - shear_strength(points, p)) / mu), Number{});
       return Flow<Number>{mu * d_xi / tau, d_xi};
     };
   }
@@ -282,6 +285,19 @@ namespace talus
                                    double            *speed) const
   {
     elastic_wave_speed(points, begin, end, elasticity_.moduli(), speed);
+  }
+
+
+
+  template <int dim>
+  double
+  HerschelBulkley<dim>::shear_strength(const Points<dim> &points,
+                                       const unsigned int p) const
+  {
+    const double xi = points.data(plastic_shear_strain_)[p];
+    const double r  = remoulded_ratio_;
+    return this->strength_factor(points, p) * strength_ *
+           (r + (1. - r) * std::exp(-3. * xi / strain_to_remould_));
   }
 
 

@@ -1,6 +1,9 @@
 #include <talus/base/errors.h>
 #include <talus/materials/material_model.h>
 
+#include <algorithm>
+#include <limits>
+
 namespace talus
 {
   using dealii::ParameterAcceptor;
@@ -46,6 +49,29 @@ namespace talus
                              ": `Density` is ",
                              density_,
                              " kg/m^3. Give a positive number.")));
+  }
+
+
+
+  template <int dim>
+  void
+  MaterialModel<dim>::initialize(Points<dim>       &points,
+                                 const unsigned int begin,
+                                 const unsigned int end) const
+  {
+    if (strength_factor_ != dealii::numbers::invalid_unsigned_int)
+      std::fill(points.data(strength_factor_) + begin,
+                points.data(strength_factor_) + end,
+                1.);
+  }
+
+
+
+  template <int dim>
+  double
+  MaterialModel<dim>::shear_strength(const Points<dim> &, unsigned int) const
+  {
+    return std::numeric_limits<double>::infinity();
   }
 
 

@@ -88,10 +88,17 @@ namespace talus
 
   template <int dim>
   void
-  Materials<dim>::add_columns(Points<dim> &points)
+  Materials<dim>::add_columns(Points<dim> &points,
+                              const bool   with_strength_factor)
   {
     for (const auto &model : models_)
       model->add_columns(points);
+    if (!with_strength_factor)
+      return;
+    strength_factor_ =
+      points.add_column("strength factor", "-", 1, Inheritance::copied);
+    for (const auto &model : models_)
+      model->use_strength_factor(strength_factor_);
   }
 
 

@@ -2,6 +2,7 @@
 #include <talus/materials/load_step.h>
 #include <talus/materials/radial_return.h>
 #include <talus/materials/shear_band.h>
+#include <talus/materials/strength_factor.h>
 #include <talus/materials/von_mises.h>
 
 #include <limits>
@@ -26,32 +27,37 @@ namespace talus
     /// Equivalent plastic strain that brings the trial stress @p q back to the
     /// yield stress; zero where it is elastic. The yield stress is the larger
     /// of a line and a constant, so what is left of q is the smaller of two
-    /// falling lines, and its root is the smaller of the two roots.
-    template <typename Number>
+    /// falling lines, and its root is the smaller of the two roots. All of it
+    /// is multiplied by @p factor.
+    template <typename Number, typename Factor>
     inline Number
     plastic_increment(const Number       q,
                       const Number       plastic_strain,
                       const double       mu,
-                      const YieldStress &yield)
+                      const YieldStress &yield,
+                      const Factor       factor)
     {
+      const auto   hardening = yield.hardening * factor;
       const Number on_line =
-        (q - yield.initial - yield.hardening * plastic_strain) *
-        (1. / (3. * mu + yield.hardening));
-      const Number on_residual = (q - yield.residual) * (1. / (3. * mu));
+        (q - yield.initial * factor - hardening * plastic_strain) *
+        (1. / (3. * mu + hardening));
+      const Number on_residual =
+        (q - yield.residual * factor) * (1. / (3. * mu));
       return max(min(on_line, on_residual), Number{});
     }
 
 
 
     /// One step of point(s) @p p; false if a point was turned inside out.
-    template <int dim, typename Number>
+    template <int dim, typename Number, typename Factor>
     inline bool
     update_point(Points<dim>       &points,
                  const unsigned int p,
                  const unsigned int plastic_strain,
                  const double       dt,
                  const Moduli      &moduli,
-                 const YieldStress &yield)
+                 const YieldStress &yield,
+                 const Factor       strength_factor)
     {
       const auto motion = advance_deformation<dim, Number>(points, p, dt);
       const auto strain = strain_increment(motion);
@@ -65,7 +71,8 @@ namespace talus
         std::numeric_limits<double>::min());
       double *const ep     = points.data(plastic_strain) + p;
       const Number  old_ep = load<Number>(ep);
-      const Number  d_ep   = plastic_increment(q, old_ep, moduli.mu, yield);
+      const Number  d_ep =
+        plastic_increment(q, old_ep, moduli.mu, yield, strength_factor);
       store(ep, old_ep + d_ep);
       return_radially<dim, Number>(
         points, p, motion, strain, trial, moduli.mu, 3. * moduli.mu * d_ep / q);
@@ -158,10 +165,13 @@ namespace talus
                                 hardening_,
                                 std::sqrt(3.) * residual_strength_};
     bool              sound  = true;
-    for_lanes(begin, end, [&](const unsigned int p, auto number) {
-      sound &= update_point<dim, decltype(number)>(
-        points, p, plastic_strain_, dt, moduli, yield);
-    });
+    with_strength_factor(
+      points, this->strength_factor(), [&](const auto &factor) {
+        for_lanes(begin, end, [&](const unsigned int p, auto number) {
+          sound &= update_point<dim, decltype(number)>(
+            points, p, plastic_strain_, dt, moduli, yield, factor(p, number));
+        });
+      });
     if (!sound)
       throw_inverted_point(points, begin, end);
   }
@@ -178,12 +188,14 @@ namespace talus
                                std::sqrt(3.) * residual_strength_};
     return [yield,
             mu = elasticity_.moduli().mu,
-            ep = points.data(plastic_strain_)](const unsigned int p,
-                                               const auto        &deviator) {
+            ep = points.data(plastic_strain_),
+            this,
+            &points](const unsigned int p, const auto &deviator) {
       using Number      = std::decay_t<decltype(deviator[0])>;
       const Number q    = square_root(1.5 * contract<dim>(deviator, deviator) +
                                    std::numeric_limits<double>::min());
-      const Number d_ep = plastic_increment(q, Number(ep[p]), mu, yield);
+      const Number d_ep = plastic_increment(
+        q, Number(ep[p]), mu, yield, this->strength_factor(points, p));
       return Flow<Number>{3. * mu * d_ep / q, d_ep};
     };
   }
@@ -235,6 +247,19 @@ namespace talus
                             double            *speed) const
   {
     elastic_wave_speed(points, begin, end, elasticity_.moduli(), speed);
+  }
+
+
+
+  template <int dim>
+  double
+  VonMises<dim>::shear_strength(const Points<dim> &points,
+                                const unsigned int p) const
+  {
+    const double on_line =
+      strength_ + hardening_ / std::sqrt(3.) * points.data(plastic_strain_)[p];
+    return this->strength_factor(points, p) *
+           std::max(on_line, residual_strength_);
   }
 
 

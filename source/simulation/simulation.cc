@@ -108,7 +108,11 @@ namespace talus
     materials_.assign(names, materials);
     if (stages_.contain(Stage::equilibrium))
       equilibrium_.check(materials_, names);
-    materials_.add_columns(points_);
+    trigger_.check(names, materials_, boundaries_.has_seabed(), end_time_);
+    materials_.add_columns(points_,
+                           trigger_.changes_strength() ||
+                             stages_.contain(Stage::strength_reduction));
+    trigger_.add_columns(points_);
     loading_.prepare(materials_, bodies_.size(), constants_);
     boundaries_.prepare(constants_);
 
@@ -151,6 +155,7 @@ namespace talus
           send_far_points(points_, grid_);
           break;
         }
+    trigger_.choose_points(points_, constants_, grid_.communicator());
     number_points();
     relocation_.update(points_, grid_);
     nodes_.activate(grid_, relocation_.occupied_cells());
@@ -270,6 +275,8 @@ namespace talus
     }
     {
       PhaseTimer::Scope scope(timer_, "boundaries");
+      boundaries_.scale_seabed_shear_stress(
+        trigger_.seabed_factor(time_ + dt_));
       boundary_work_ +=
         boundaries_.apply(nodes_, grid_, time_, dt_, least_mass_);
     }
@@ -284,6 +291,7 @@ namespace talus
   Simulation<dim>::grid_to_points()
   {
     timer_.start_laps();
+    trigger_.update(points_, materials_.strength_factor(), time_, time_ + dt_);
     const BoxRule rule = transfer_.box_shape().rule;
     points_.for_batches([&](const Batch &batch) {
       points_.lend_workspace(batch.begin, batch.end);

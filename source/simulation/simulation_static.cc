@@ -172,18 +172,99 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// All columns of the points, which stay where they are.
+    template <int dim>
+    std::vector<std::vector<double>>
+    copy_columns(const Points<dim> &points)
+    {
+      std::vector<std::vector<double>> columns;
+      for (unsigned int i = 0; i < points.n_arrays(); ++i)
+        columns.emplace_back(points.data(i), points.data(i) + points.size());
+      return columns;
+    }
+
+
+
+    template <int dim>
+    void
+    restore_columns(const std::vector<std::vector<double>> &columns,
+                    Points<dim>                            &points)
+    {
+      for (unsigned int i = 0; i < points.n_arrays(); ++i)
+        std::copy(columns[i].begin(), columns[i].end(), points.data(i));
+    }
+  } // namespace
+
+
+
+  /// Every trial goes on from the largest factor with which the soil stood.
   template <int dim>
   void
   Simulation<dim>::reduce_strength()
-  {}
+  {
+    say("Stage 'strength reduction':");
+    const auto before = copy_columns(points_);
+    auto       state  = before;
+    strength_reduction_.begin();
+    while (!strength_reduction_.is_done())
+      {
+        const double factor = strength_reduction_.next();
+        const bool   stands = stands_with(factor);
+        strength_reduction_.heed(factor, stands);
+        say_and_note(stands ? text("  strength / ", factor, ": stands")
+                            : text("  strength / ",
+                                   factor,
+                                   ": fails. ",
+                                   equilibrium_.failure()));
+        if (stands)
+          state = copy_columns(points_);
+        else // of all that fail the last one has the smallest factor
+          output_.write_mechanism(snapshot(),
+                                  "mechanism",
+                                  equilibrium_.newton().displacement_of_points(
+                                    points_));
+        restore_columns(state, points_);
+      }
+    restore_columns(before, points_);
+    boundaries_.scale_seabed_strength(1.);
+    say_and_note(strength_reduction_.result());
+  }
+
+
+
+  /// Look for balance with all strengths divided by @p factor.
+  template <int dim>
+  bool
+  Simulation<dim>::stands_with(const double factor)
+  {
+    double *strength_factor = points_.data(materials_.strength_factor());
+    std::fill(strength_factor, strength_factor + points_.size(), 1. / factor);
+    if (strength_reduction_.includes_seabed())
+      boundaries_.scale_seabed_strength(1. / factor);
+    equilibrium_.begin(StrainMeasure::small,
+                       strength_reduction_.smallest_step());
+    while (!equilibrium_.is_found())
+      {
+        StepNote  note;
+        Soil<dim> all = soil();
+        if (!equilibrium_.advance(all, [&](const auto &progress) {
+              observe(progress, factor, note);
+            }))
+          return false;
+      }
+    return true;
+  }
 
 
 
 #define INSTANTIATE(dim)                                                   \
   template Soil<dim> Simulation<dim>::soil();                              \
   template bool      Simulation<dim>::run_static_stages();                 \
-  template void      Simulation<dim>::find_equilibrium();                  \
+  template bool      Simulation<dim>::stands_with(double);                 \
   template void      Simulation<dim>::reduce_strength();                   \
+  template void      Simulation<dim>::find_equilibrium();                  \
   template void      Simulation<dim>::throw_no_equilibrium();              \
   template void      Simulation<dim>::observe(const EquilibriumProgress &, \
                                          double,                      \

@@ -224,6 +224,47 @@ class BadInput(Case):
                 self.refuse_set(["Grid/Refinement boxes=" + boxes],
                                 "Grid/Refinement boxes = " + boxes, *words)
 
+    # What sets it in motion
+
+    CLAY = GOOD.replace("linear elastic", "von Mises")
+
+    def refuse_trigger(self, settings, *words, content=CLAY):
+        self.assert_refused(self.run_file(
+            content, ["Trigger/" + s for s in settings]), *words)
+        self.assert_untouched()
+
+    def test_trigger(self):
+        weaker = "Strength fraction=0.5"
+        for settings, *words in (
+                (["Strength fraction=-0.1"], "'-0.1'", "from 0 to 1"),
+                (["Seabed shear stress fraction=1.5"], "'1.5'", "from 0 to 1"),
+                (["Duration=-1"], "'Duration'", "'-1'", "at least 0"),
+                (["Start time=0.005"], "nothing", "'Trigger/Strength fraction'",
+                 "less than 1"),
+                ([weaker, "Start time=0.01"], "'Trigger/Start time' is 0.01 s",
+                 "ends at 0.01 s", "'End time'"),
+                ([weaker, "Bodies=block, blok"], "'Trigger/Bodies'", "'blok'",
+                 "only: block"),
+                ([weaker, "Region=2*"], "'Trigger/Region'", "'2*'",
+                 "cannot be understood"),
+                ([weaker, "Region=y; x"], "'Trigger/Region'", "1 are needed"),
+                ([weaker, "Region=sqrt(y-1)"], "'Trigger/Region'", "nan",
+                 "finite number"),
+                ([weaker, "Region=-y"], "'Trigger/Region' = '-y'",
+                 "at no point"),
+                (["Seabed shear stress fraction=0.5"], "no face", "seabed"),
+                (["Seabed shear stress fraction=0.5", "Region=y"],
+                 "no face", "seabed")):
+            with self.subTest(settings):
+                self.refuse_trigger(settings, *words)
+
+    def test_trigger_of_a_body_without_strength(self):
+        weaker = "Strength fraction=0.5"
+        self.refuse_trigger([weaker], "/Materials/clay", "no strength",
+                            "'von Mises'", content=GOOD)
+        self.refuse_trigger([weaker, "Bodies=block"], "'block'",
+                            "/Materials/clay", "no strength", content=GOOD)
+
     # Output
 
     def test_output_below_a_file(self):

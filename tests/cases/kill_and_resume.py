@@ -190,6 +190,16 @@ class MeshThatChanges(KillAndResume):
                            "Output/Format=hdf5"]
 
 
+class Triggered(KillAndResume):
+    """Soil and seabed that become weaker while the run is killed."""
+
+    N_KILLS = 8
+    settings = SETTINGS + ["Trigger/Start time=0.2", "Trigger/Duration=1.5",
+                           "Trigger/Strength fraction=0.3",
+                           "Trigger/Region=1-y",
+                           "Trigger/Seabed shear stress fraction=0.5"]
+
+
 class DrivenAndDamped(KillAndResume):
     """Soil that the bottom drives, under growing gravity, with damping, on a
     mesh that changes."""

@@ -57,6 +57,25 @@ namespace talus
       return conditions_[face];
     }
 
+    bool
+    has_seabed() const;
+
+    /// Let the seabed pass @p factor times its maximum shear stress [-].
+    void
+    scale_seabed_shear_stress(const double factor)
+    {
+      seabed_.scale_maximum_shear_stress(factor);
+    }
+
+    /// From now on all that resists sliding on the seabed is @p factor times
+    /// its parameter [-].
+    void
+    scale_seabed_strength(const double factor)
+    {
+      seabed_.scale_maximum_shear_stress(factor);
+      seabed_.scale_friction_coefficient(factor);
+    }
+
     /// Axes whose two faces are periodic. Throws ExcUser if only one is.
     std::array<bool, dim>
     periodic_axes() const;

@@ -36,11 +36,27 @@ namespace talus
     double
     largest_friction(const double normal_force, const double area) const
     {
-      return std::min(friction_coefficient_ * normal_force,
-                      maximum_shear_stress_ * area);
+      return std::min(friction_factor_ * friction_coefficient_ * normal_force,
+                      factor_ * maximum_shear_stress_ * area);
+    }
+
+    /// From now on pass @p factor times the maximum shear stress [-].
+    void
+    scale_maximum_shear_stress(const double factor)
+    {
+      factor_ = factor;
+    }
+
+    /// From now on use @p factor times the friction coefficient [-].
+    void
+    scale_friction_coefficient(const double factor)
+    {
+      friction_factor_ = factor;
     }
 
   private:
+    double friction_factor_      = 1.;
+    double factor_               = 1.; ///< of the maximum shear stress
     double friction_coefficient_ = 10.;
     double maximum_shear_stress_ = 1000.;
   };

@@ -6,6 +6,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <functional>
+#include <optional>
 #include <string>
 
 namespace talus
@@ -43,9 +44,11 @@ namespace talus
     check(const Materials<dim>           &materials,
           const std::vector<std::string> &names_of_bodies) const;
 
-    /// No load is on yet, whatever was before.
+    /// No load is on yet, whatever was before. Soil that stands still takes
+    /// small strain; @p smallest_step is the share of the load below which a
+    /// step is not cut, that of the parameters if none is given.
     void
-    begin(StrainMeasure measure);
+    begin(StrainMeasure measure, std::optional<double> smallest_step = {});
 
     /// Take one load step. Afterwards, with large strain, points may be in other
     /// cells. Returns false if no step, however small, succeeds or the balance
@@ -109,6 +112,7 @@ namespace talus
     Newton<dim>  newton_;
     double       load_       = 0;
     double       step_       = 1;
+    double       least_step_ = 0;
     unsigned int n_steps_    = 0;
     unsigned int n_settling_ = 0; ///< steps without load so far
     double       imbalance_  = 0;

@@ -23,7 +23,8 @@ namespace talus
   /// tau = s_u(xi) + K gdot^n, where gdot = sqrt(2 Dp:Dp) is the plastic shear
   /// rate and xi its integral in time; in simple shear both are those of the
   /// engineering shear. Remoulding:
-  /// s_u(xi) = s_u0 [r + (1 - r) exp(-3 xi/xi_95)] @cite einav2005.
+  /// s_u(xi) = f s_u0 [r + (1 - r) exp(-3 xi/xi_95)] @cite einav2005, with the
+  /// strength factor f of the point, or 1.
   /// Backward Euler, see plastic_shear(). With K = 0 and r = 1 it is von Mises'
   /// law without hardening.
   template <int dim>
@@ -82,6 +83,15 @@ namespace talus
     {
       return true;
     }
+
+    bool
+    has_strength() const override
+    {
+      return true;
+    }
+
+    double
+    shear_strength(const Points<dim> &points, unsigned int p) const override;
 
     std::string
     note(double cell_size) const override;

@@ -57,13 +57,35 @@ namespace talus
     add_columns(Points<dim> & /*points*/)
     {}
 
-    /// Set reference state dependent columns of newly made points: nothing for
-    /// most laws.
+    /// Set reference state dependent columns of newly made points: the
+    /// strength factor, to 1, if there is one. Laws that override it call this
+    /// one.
     virtual void
-    initialize(Points<dim> & /*points*/,
-               unsigned int /*begin*/,
-               unsigned int /*end*/) const
-    {}
+    initialize(Points<dim> &points, unsigned int begin, unsigned int end) const;
+
+    /// True if the law has a strength, that is a yield stress.
+    virtual bool
+    has_strength() const
+    {
+      return false;
+    }
+
+    /// Largest shear stress sqrt(s:s/2) that point @p p bears without viscosity
+    /// in its present state, its strength factor included, Pa; infinite for
+    /// laws without strength.
+    virtual double
+    shear_strength(const Points<dim> &points, unsigned int p) const;
+
+    /// From now on multiply the whole strength (not viscosity) of each point by
+    /// its value in @p column [-], which must be between 0 and 1 where the law
+    /// softens; other laws ignore it. It may change at any time: a stress that
+    /// is then outside the yield surface is returned in the next step, and what
+    /// elastic energy this releases is plastic work.
+    void
+    use_strength_factor(const unsigned int column)
+    {
+      strength_factor_ = column;
+    }
 
     /// Advance deformation gradient, stress, elastic energy, plastic work and
     /// internal variables over one step of @p dt seconds with the velocity
@@ -149,12 +171,30 @@ namespace talus
       return section_;
     }
 
+  protected:
+    /// Column of the strength factor, or invalid_unsigned_int.
+    unsigned int
+    strength_factor() const
+    {
+      return strength_factor_;
+    }
+
+    /// Strength factor of point @p p; 1 if there is none.
+    double
+    strength_factor(const Points<dim> &points, const unsigned int p) const
+    {
+      return strength_factor_ == dealii::numbers::invalid_unsigned_int
+               ? 1.
+               : points.data(strength_factor_)[p];
+    }
+
   private:
     std::string section_;
     double      density_ = 1000.;
     // One number, or none where the user gave nothing.
     std::vector<double> submerged_density_;
     std::string         cell_mean_ = "auto";
+    unsigned int strength_factor_  = dealii::numbers::invalid_unsigned_int;
   };
 
   /// The laws by the name used in the parameter file, in the order listed.

@@ -42,9 +42,21 @@ namespace talus
     std::vector<std::string>
     notes(double cell_size) const;
 
-    /// Declare the internal variables of all laws.
+    /// Declare the internal variables of all laws and, if
+    /// @p with_strength_factor, the column that multiplies the strength of each
+    /// point. It costs memory and time in each step, so only those who change
+    /// it ask for it.
     void
-    add_columns(Points<dim> &points);
+    add_columns(Points<dim> &points, bool with_strength_factor = false);
+
+    /// The column `strength factor` [-], 1 at the start, for those laws that
+    /// have a strength; invalid_unsigned_int if there is none. See
+    /// MaterialModel::use_strength_factor().
+    unsigned int
+    strength_factor() const
+    {
+      return strength_factor_;
+    }
 
     /// Advance deformation and stress of the points, which have the workspace.
     void
@@ -75,6 +87,7 @@ namespace talus
     std::vector<std::string>                         listed_names_;
     std::vector<std::unique_ptr<MaterialModel<dim>>> models_;
     std::vector<unsigned int>                        material_of_body_;
+    unsigned int strength_factor_ = dealii::numbers::invalid_unsigned_int;
   };
 } // namespace talus
 

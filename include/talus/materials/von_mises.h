@@ -10,8 +10,8 @@ namespace talus
   /// the equivalent stress q = sqrt(3/2 s:s) = sigma_y, then plastic at
   /// constant volume; in simple shear the yield stress is the undrained shear
   /// strength, sigma_y = sqrt(3) s_u. Linear in the equivalent plastic strain:
-  /// sigma_y = max(sqrt(3) s_u + H ep, sqrt(3) s_residual), returned exactly
-  /// @cite simo1998, section 3.3.
+  /// sigma_y = f max(sqrt(3) s_u + H ep, sqrt(3) s_residual), returned exactly
+  /// @cite simo1998, section 3.3; f is the strength factor of the point, or 1.
   template <int dim>
   class VonMises : public MaterialModel<dim>
   {
@@ -67,6 +67,15 @@ namespace talus
     {
       return true;
     }
+
+    bool
+    has_strength() const override
+    {
+      return true;
+    }
+
+    double
+    shear_strength(const Points<dim> &points, unsigned int p) const override;
 
     std::string
     note(double cell_size) const override;

@@ -7,6 +7,7 @@
 #include <talus/boundaries/boundaries.h>
 #include <talus/boundaries/damping.h>
 #include <talus/equilibrium/equilibrium.h>
+#include <talus/equilibrium/strength_reduction.h>
 #include <talus/grid/grid.h>
 #include <talus/grid/nodal_fields.h>
 #include <talus/materials/materials.h>
@@ -20,6 +21,7 @@
 #include <talus/simulation/preview.h>
 #include <talus/simulation/stages.h>
 #include <talus/simulation/time_step.h>
+#include <talus/simulation/trigger.h>
 #include <talus/transfer/relocation.h>
 #include <talus/transfer/transfer.h>
 
@@ -145,6 +147,8 @@ namespace talus
     find_equilibrium();
     void
     reduce_strength();
+    bool
+    stands_with(double factor);
     [[noreturn]] void
     throw_no_equilibrium();
     void
@@ -192,11 +196,13 @@ namespace talus
     Boundaries<dim>                         boundaries_;
     Damping<dim>                            damping_;
     Equilibrium<dim>                        equilibrium_;
+    StrengthReduction                       strength_reduction_;
     Splitter<dim>                           splitter_;
     LoadBalance<dim>                        load_balance_;
     MeshTracking<dim>                       mesh_tracking_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     Loading<dim>                            loading_;
+    Trigger<dim>                            trigger_;
     TimeStep<dim>                           time_step_;
     Stages                                  stages_;
     PhaseTimer                              timer_;

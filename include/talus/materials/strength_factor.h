@@ -1,0 +1,43 @@
+#ifndef talus_materials_strength_factor_h
+#define talus_materials_strength_factor_h
+
+#include <talus/points/points.h>
+
+#include <deal.II/base/types.h>
+
+namespace talus
+{
+  /// The strength factor of points that have none: 1, at no cost.
+  struct NoStrengthFactor
+  {};
+
+  template <typename Number>
+  inline Number
+  operator*(const Number &x, NoStrengthFactor)
+  {
+    return x;
+  }
+
+
+
+  /// Call action(factor) once, where factor(p, number) is what the strength of
+  /// point(s) @p p is multiplied with [-]: the value in @p column, or
+  /// NoStrengthFactor if that is invalid_unsigned_int. So the loop over points
+  /// in @p action is compiled for both, and pays for the column only where
+  /// there is one.
+  template <int dim, typename Action>
+  inline void
+  with_strength_factor(const Points<dim> &points,
+                       const unsigned int column,
+                       const Action      &action)
+  {
+    if (column == dealii::numbers::invalid_unsigned_int)
+      action([](unsigned int, auto) { return NoStrengthFactor{}; });
+    else
+      action([factor = points.data(column)](const unsigned int p, auto number) {
+        return load<decltype(number)>(factor + p);
+      });
+  }
+} // namespace talus
+
+#endif
