@@ -37,7 +37,8 @@ namespace talus
       allowed_imbalance_,
       "Force out of balance over the force of the loads (Euclidean "
       "norms over the nodes) with which the soil counts as balanced "
-      "[-].",
+      "[-]; 0 for 1e-6 with small strain and 1e-3 with large, where "
+      "nodes with hardly any soil come to rest slowly.",
       this->prm,
       Patterns::Double(0.));
     add_parameter("Largest number of settling steps",
@@ -94,6 +95,9 @@ namespace talus
                           const std::optional<double> smallest_step)
   {
     least_step_                = smallest_step.value_or(smallest_step_);
+    tolerance_                 = allowed_imbalance_ > 0. ? allowed_imbalance_
+                                 : measure == StrainMeasure::small ? 1e-6
+                                                                   : 1e-3;
     newton_parameters_.measure = measure;
     load_                      = 0;
     step_                      = 1. / n_load_steps_;
@@ -111,7 +115,7 @@ namespace talus
   {
     newton_.begin(soil, newton_parameters_);
     imbalance_ = newton_.imbalance();
-    if (load_ >= 1. && imbalance_ <= allowed_imbalance_)
+    if (load_ >= 1. && imbalance_ <= tolerance_)
       {
         is_found_ = true;
         return true;
@@ -125,7 +129,7 @@ namespace talus
                                            "is ",
                         imbalance_,
                         " of that of the loads, where ",
-                        allowed_imbalance_,
+                        tolerance_,
                         " is allowed; the largest one of a node is ",
                         largest,
                         " N, at ",

@@ -105,7 +105,7 @@ namespace talus
     unsigned int                     n_load_steps_      = 1;
     double                           smallest_step_     = 1e-3;
     unsigned int                     largest_settling_  = 100;
-    double                           allowed_imbalance_ = 1e-6;
+    double                           allowed_imbalance_ = 0.;
     typename Newton<dim>::Parameters newton_parameters_;
     LinearSolver                     linear_solver_;
 
@@ -113,6 +113,7 @@ namespace talus
     double       load_       = 0;
     double       step_       = 1;
     double       least_step_ = 0;
+    double       tolerance_  = 0; ///< of the imbalance
     unsigned int n_steps_    = 0;
     unsigned int n_settling_ = 0; ///< steps without load so far
     double       imbalance_  = 0;

@@ -42,7 +42,7 @@ namespace talus
       StrainMeasure measure            = StrainMeasure::small;
       double        tolerance          = 1e-8; ///< of the residual
       unsigned int  largest_iterations = 30;
-      double        ghost_penalty      = 0.1; ///< gamma
+      double        ghost_penalty      = 0.01; ///< gamma
     };
 
     /// How solve() ended.
