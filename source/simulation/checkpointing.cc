@@ -31,6 +31,7 @@ namespace talus
       "wall impulse", "N s", boundary_work_.wall_impulse, dim, Reduction::sum);
     list.add("mesh changes", "-", n_mesh_changes_, Reduction::equal);
     list.add("repartitions", "-", n_repartitions_, Reduction::equal);
+    loading_.list_state(list);
     splitter_.list_state(list);
     load_balance_.list_state(list);
     output_.list_state(list);

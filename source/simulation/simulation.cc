@@ -41,6 +41,7 @@ namespace talus
     : ParameterAcceptor("/")
     , grid_(MPI_COMM_WORLD)
     , materials_(preview.materials)
+    , loading_(preview.folder)
     , output_(timer_)
   {
     for (const std::string &name : preview.bodies)

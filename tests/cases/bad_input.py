@@ -265,6 +265,56 @@ class BadInput(Case):
         self.refuse_trigger([weaker, "Bodies=block"], "'block'",
                             "/Materials/clay", "no strength", content=GOOD)
 
+    def refuse_table(self, content, *words, settings=()):
+        (self.folder / "record.csv").write_text(content)
+        self.refuse_set(["Ground motion/File=record.csv", *settings],
+                        "record.csv", *words)
+
+    def test_ground_motion(self):
+        a, b = "time [s],horizontal [m/s^2]\n", "0,1\n1,0\n"
+        for content, *words in (
+                ("", "cannot be read or is empty", "existing CSV file"),
+                ("0,1\n1,0\n", "line 1", "'0'", "'time [s]'",
+                 "'gravity factor [-]'"),
+                ("# a comment\ntime [s],x [g]\n" + b, "line 2", "'x [g]'",
+                 "'horizontal [m/s^2]'"),
+                ("horizontal [m/s^2]\n1\n", "line 1", "'time [s]'"),
+                ("time [s]\n0\n1\n", "line 1", "at least one other"),
+                ("time [s],time [s]\n" + b, "line 1", "'time [s]'", "twice"),
+                (a + "0,1\n1;0\n", "line 3", "1 entries", "2 columns"),
+                (a + "0,1\n1,0,0\n", "line 3", "3 entries", "2 columns"),
+                (a + "0,1\n1,\n", "line 3", "''", "finite number"),
+                (a + "0,1\n1,nan\n", "line 3", "'nan'", "finite number"),
+                (a + "0,1\n\n1,1.2x\n", "line 4", "'1.2x'", "finite number"),
+                (a + "0,1\n1,0\n1,0\n", "line 4", "1 s", "must ascend"),
+                (a + "0,1\n", "1 rows", "at least two"),
+                (a + "0.5,1\n1,0\n", "0.5 s", "1 m/s^2", "jump",
+                 "'horizontal [m/s^2]'", "row with zeros"),
+                ("time [s],across [m/s^2]\n" + b, "'across [m/s^2]'",
+                 "two-dimensional")):
+            with self.subTest(content):
+                self.refuse_table(content, *words)
+        self.refuse_table(a + b, "2 s", "jump",
+                          settings=["Ground motion/Start time=2"])
+
+    def test_ground_motion_without_table(self):
+        self.refuse_set(["Ground motion/File=missing.csv"], "missing.csv",
+                        "cannot be read", "folder of the parameter file")
+        self.refuse_set(["Ground motion/File=."], "cannot be read")
+        self.refuse_set(["Ground motion/Factor=2"], "'Ground motion/File'",
+                        "empty")
+
+    def test_ground_motion_lies_beside_the_parameter_file(self):
+        inside = self.folder / "inside"
+        inside.mkdir()
+        (inside / "case.prm").write_text(GOOD)
+        (inside / "record.csv").write_text(
+            "\ufefftime [s], gravity factor [-]\r\n0, 1\r\n1, 2\r\n")
+        result = self.run_talus("--output", "results", "--set",
+                                "Ground motion/File=record.csv",
+                                "inside/case.prm")
+        self.assertEqual(result.returncode, 0, result)
+
     # Output
 
     def test_output_below_a_file(self):
