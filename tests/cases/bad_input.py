@@ -173,6 +173,24 @@ class BadInput(Case):
         self.refuse_set(["Bodies/block/Initial velocity=2*; 0"],
                         "Bodies/block/Initial velocity", "2*")
 
+    def test_K0(self):
+        K0 = "Bodies/block/K0=0.5"
+        for settings, *words in (
+                ([K0, "Bodies/block/Initial stress=0; 0; 0; 0"],
+                 "Bodies/block/K0", "Bodies/block/Initial stress", "one stress",
+                 "Remove"),
+                ([K0, "Materials/clay/Law=Hencky"], "Bodies/block/K0",
+                 "deformation", "rate form"),
+                ([K0, "Bodies/block/Initial displacement=0.1; 0"],
+                 "Bodies/block/K0", "Initial displacement", "Remove"),
+                ([K0, "Gravity/Ramp time=1"], "no gravity at t = 0",
+                 "Gravity/Ramp time"),
+                ([K0, "Gravity/Magnitude=0"], "no gravity at t = 0",
+                 "Gravity/Magnitude"),
+                (["Bodies/block/K0=-1"], "'K0'", "'-1'")):
+            with self.subTest(settings):
+                self.refuse_set(settings, *words)
+
     def test_constants(self):
         for constants, *words in (
                 ("x=1", "'x=1'", "new name", "pi, x, y, z, t"),
@@ -412,6 +430,18 @@ class CommandLine(Case):
         log = (self.results / "log.txt").read_text()
         for words in ("/Materials/clay softens", "on cells of 1 m",
                       "5 m and 2083.33 J/m^2 on cells of 0.5 m"):
+            self.assertIn(words, log)
+
+    def test_stress_beyond_the_strength_is_in_the_log(self):
+        # s_yy = -2000 (2 - y) g; at K0 = 0, plane strain: tau = |s_yy|/sqrt(3),
+        # at the lowest points 0.25 m above the bottom.
+        result = self.run_file(GOOD.replace("linear elastic", "von Mises"),
+                               ["Bodies/block/K0=0", "Gravity/Magnitude=10",
+                                "Materials/clay/Undrained shear strength=7e3"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        log = (self.results / "log.txt").read_text()
+        for words in ("the body 'block' bears at 8 of its points",
+                      "up to 1.44338 times", "'Bodies/block/K0'"):
             self.assertIn(words, log)
 
     def test_no_file(self):

@@ -180,6 +180,8 @@ namespace talus
     Wish            wish_ = Wish::none; // of all ranks, for after this step
     FoundCheckpoint resumed_from_;      // no path in a run from the start
     bool            may_overwrite_ = false;
+
+    std::vector<std::string> start_notes_; // sentences for the log
   };
 } // namespace talus
 
