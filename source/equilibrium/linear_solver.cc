@@ -1,3 +1,4 @@
+#include <talus/base/errors.h>
 #include <talus/equilibrium/linear_solver.h>
 
 #include <deal.II/lac/trilinos_precondition.h>
@@ -80,31 +81,28 @@ namespace talus
 
 
 
-  unsigned int
+  LinearSolution
   LinearSolver::solve(const TrilinosWrappers::SparseMatrix &matrix,
                       TrilinosWrappers::MPI::Vector        &x,
                       const TrilinosWrappers::MPI::Vector  &rhs,
                       const RigidModes                     &modes,
                       const unsigned int                    dim,
-                      const bool                            symmetric,
-                      bool                                 &found) const
+                      const bool                            symmetric) const
   {
     const std::string type = choice(matrix.m(), dim, symmetric);
-    found                  = true;
-    x                      = 0.;
-    SolverControl control(largest_iterations_, tolerance_ * rhs.l2_norm());
+    SolverControl     control(largest_iterations_, tolerance_ * rhs.l2_norm());
+    x = 0.;
     if (type == "direct")
       {
-        TrilinosWrappers::SolverDirect solver(control);
         try
           {
-            solver.solve(matrix, x, rhs);
+            TrilinosWrappers::SolverDirect(control).solve(matrix, x, rhs);
+            return {};
           }
         catch (const ExceptionBase &)
           {
-            found = false; // singular
+            return {0, "the matrix is singular"};
           }
-        return 0;
       }
 
     std::vector<double> all_modes;
@@ -124,8 +122,12 @@ namespace talus
       }
     catch (const ExceptionBase &)
       {
-        found = false; // not within the largest number of iterations
+        return {largest_iterations_,
+                text(type,
+                     " did not solve the linear system in ",
+                     largest_iterations_,
+                     " iterations")};
       }
-    return control.last_step();
+    return {control.last_step(), ""};
   }
 } // namespace talus

@@ -277,19 +277,18 @@ namespace talus
                                             parameters_.tolerance,
                                             " was asked for"));
           }
-        const bool corrected = correct(soil, iteration);
+        const std::string complaint = correct(soil, iteration);
         observe(iteration);
-        if (!corrected)
-          return failure("The linear system of Newton's method has no solution "
-                         "of reasonable size: part of the soil can move "
-                         "freely");
+        if (!complaint.empty())
+          return failure(
+            text("Newton's method has no next iterate, since ", complaint));
       }
   }
 
 
 
   template <int dim>
-  bool
+  std::string
   Newton<dim>::correct(Soil<dim> &soil, NewtonIteration &iteration)
   {
     const auto start = std::chrono::steady_clock::now();
@@ -314,9 +313,11 @@ namespace talus
             if (unknowns_.is_held(node, d))
               mode[i] = 0.;
       }
-    bool found;
-    iteration.n_linear_iterations = linear_solver_.solve(
-      matrix_, solution, rhs, free_modes, dim, is_symmetric(), found);
+    const LinearSolution answer = linear_solver_.solve(
+      matrix_, solution, rhs, free_modes, dim, is_symmetric());
+    iteration.n_linear_iterations = answer.n_iterations;
+    if (!answer.failure.empty())
+      return answer.failure;
 
     std::vector<double> direction = unknowns_.field();
     double              largest   = 0;
@@ -326,14 +327,15 @@ namespace talus
       largest = (std::abs(x) <= largest ? largest : std::abs(x));
     });
     largest = Utilities::MPI::max(largest, unknowns_.communicator());
-    if (!found || !(largest < 10. * extent_))
-      return false;
+    if (!(largest < 10. * extent_))
+      return "the matrix is singular or nearly so: part of the soil can move "
+             "freely";
     unknowns_.copy_to_ghosts(direction);
     iteration.length = search_along(soil, direction);
     iteration.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
         .count();
-    return iteration.length > 0.;
+    return iteration.length > 0. ? "" : "points would be turned inside out";
   }
 
 

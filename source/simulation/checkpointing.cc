@@ -31,6 +31,7 @@ namespace talus
       "wall impulse", "N s", boundary_work_.wall_impulse, dim, Reduction::sum);
     list.add("mesh changes", "-", n_mesh_changes_, Reduction::equal);
     list.add("repartitions", "-", n_repartitions_, Reduction::equal);
+    loading_.list_state(list);
     stages_.list_state(list);
     newton_table_.file().list_state(newton_table_.file_name, list);
     splitter_.list_state(list);

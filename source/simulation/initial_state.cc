@@ -60,6 +60,16 @@ namespace talus
       "Expressions in x, y, (z,) t for the Cauchy stress, tension "
       "positive [Pa]: in 2-D xx; yy; zz; xy, in 3-D xx; yy; zz; xy; "
       "xz; yz. Empty for none. Only for laws in rate form.");
+    add_parameter(
+      "K0",
+      K0_,
+      "Coefficient of earth pressure at rest [-]: start with the stress of "
+      "ground at rest under the weight of all that lies above, along y, with "
+      "stresses along the layer of K0 times that across it and, on a slope, "
+      "the shear stress of an infinite slope. Empty: without. Only for laws in "
+      "rate form.",
+      this->prm,
+      Patterns::List(Patterns::Double(0.), 0, 1));
   }
 
 
@@ -77,8 +87,14 @@ namespace talus
   void
   InitialState<dim>::check(const MaterialModel<dim> &law) const
   {
-    AssertThrow(stress_.empty() || !law.is_hyperelastic(),
+    AssertThrow(stress_.empty() || K0_.empty(),
                 ExcUser(text(path("Initial stress"),
+                             " and ",
+                             path("K0"),
+                             " are given, but a body starts with one stress. "
+                             "Remove one of the two.")));
+    AssertThrow((stress_.empty() && K0_.empty()) || !law.is_hyperelastic(),
+                ExcUser(text(path(K0_.empty() ? "Initial stress" : "K0"),
                              " is given, but the stress of the body's material "
                              "follows from its deformation alone. Remove it, "
                              "prescribe 'Initial displacement', or choose a "

@@ -55,7 +55,18 @@ namespace talus
 
 
   template <int dim>
-  Loading<dim>::Loading() = default;
+  Loading<dim>::Loading(const std::filesystem::path &folder)
+    : ground_motion_(folder)
+  {}
+
+
+
+  template <int dim>
+  double
+  Loading<dim>::slope_angle() const
+  {
+    return gravity_.slope_angle * numbers::PI / 180.;
+  }
 
 
 
@@ -63,7 +74,7 @@ namespace talus
   Tensor<1, dim>
   Loading<dim>::gravity() const
   {
-    const double   angle = gravity_.slope_angle * numbers::PI / 180.;
+    const double   angle = slope_angle();
     Tensor<1, dim> g;
     g[0] = gravity_.magnitude * std::sin(angle);
     g[1] = -gravity_.magnitude * std::cos(angle);
@@ -74,11 +85,13 @@ namespace talus
 
   template <int dim>
   double
-  Loading<dim>::ramp(const double t) const
+  Loading<dim>::share_of_gravity(const double t) const
   {
-    return t < gravity_.ramp_time
-             ? 0.5 * (1. - std::cos(numbers::PI * t / gravity_.ramp_time))
-             : 1.;
+    const double ramp =
+      t < gravity_.ramp_time
+        ? 0.5 * (1. - std::cos(numbers::PI * t / gravity_.ramp_time))
+        : 1.;
+    return ramp * ground_motion_.gravity_factor(t);
   }
 
 
@@ -89,6 +102,7 @@ namespace talus
                         const unsigned int    n_bodies,
                         const Constants      &constants)
   {
+    ground_motion_.prepare();
     full_.clear();
     for (unsigned int b = 0; b < n_bodies; ++b)
       full_.push_back(materials.of_body(b).submerged_density() /
@@ -108,8 +122,11 @@ namespace talus
   void
   Loading<dim>::update(const Points<dim> &points, const double t)
   {
+    // The inertia of the whole mass, not of the submerged one, resists.
+    const Tensor<1, dim> ground = ground_motion_.acceleration(t, slope_angle());
+    const double         share  = share_of_gravity(t);
     for (unsigned int b = 0; b < full_.size(); ++b)
-      loads_.acceleration_of_body[b] = ramp(t) * full_[b];
+      loads_.acceleration_of_body[b] = share * full_[b] - ground;
     if (!loads_.varies)
       return;
     const unsigned int coordinates = body_force_.coordinates == "material"

@@ -107,6 +107,7 @@ namespace talus
     parse_into(prm, /*skip_undefined=*/true);
 
     Preview preview;
+    preview.folder    = std::filesystem::path(file_name_).parent_path();
     preview.dimension = prm.get_integer("Dimension");
     prm.enter_subsection("Bodies");
     preview.bodies = names(prm.get("Names"), "Bodies/Names");

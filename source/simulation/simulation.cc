@@ -1,4 +1,5 @@
 #include <talus/base/errors.h>
+#include <talus/simulation/geostatic.h>
 #include <talus/simulation/simulation.h>
 #include <talus/transfer/far_points.h>
 
@@ -41,6 +42,7 @@ namespace talus
     : ParameterAcceptor("/")
     , grid_(MPI_COMM_WORLD)
     , materials_(preview.materials)
+    , loading_(preview.folder)
     , output_(timer_)
   {
     for (const std::string &name : preview.bodies)
@@ -149,6 +151,12 @@ namespace talus
                        constants_);
         material.initialize(points_, begin, points_.size());
       }
+    start_notes_ =
+      set_geostatic_stress(points_,
+                           bodies_,
+                           materials_,
+                           loading_.share_of_gravity(0.) * loading_.gravity(),
+                           grid_.communicator());
     for (const auto &body : bodies_)
       if (body->initial_state().is_displaced())
         {

@@ -37,6 +37,8 @@ namespace talus
                  true);
     for (const std::string &note : materials_.notes(grid_.cell_size()))
       output_.note(note, true);
+    for (const std::string &note : start_notes_)
+      output_.note(note, true);
     if (!trigger_.note().empty())
       output_.note(trigger_.note(), true);
     note_time_step();

@@ -135,6 +135,7 @@ namespace talus
     note.load = progress.load;
     note.residuals.push_back(progress.iteration.residual);
     note.n_linear_iterations += progress.iteration.n_linear_iterations;
+    note.seconds += progress.iteration.seconds;
   }
 
 
@@ -147,17 +148,18 @@ namespace talus
     for (const double residual : note.residuals)
       residuals +=
         text(residuals.empty() ? "" : ", ", std::setprecision(2), residual);
-    say_and_note(text("  step ",
-                      note.step,
-                      ", load ",
-                      note.load,
-                      ": residuals ",
-                      residuals,
-                      note.n_linear_iterations > 0
-                        ? text("; ",
-                               note.n_linear_iterations,
-                               " iterations of the linear solver")
-                        : std::string()));
+    const std::string sentence =
+      text("  step ",
+           note.step,
+           ", load ",
+           note.load,
+           ": residuals ",
+           residuals,
+           note.n_linear_iterations > 0
+             ? text("; ", note.n_linear_iterations, " linear iterations")
+             : std::string());
+    say(sentence);
+    output_.note(text(sentence, ", ", note.seconds, " s"), false);
   }
 
 

@@ -191,13 +191,21 @@ class MeshThatChanges(KillAndResume):
 
 
 class Triggered(KillAndResume):
-    """Soil and seabed that become weaker while the run is killed."""
+    """Soil and seabed that become weaker in an earthquake, in runs that are
+    killed."""
 
     N_KILLS = 8
     settings = SETTINGS + ["Trigger/Start time=0.2", "Trigger/Duration=1.5",
                            "Trigger/Strength fraction=0.3",
                            "Trigger/Region=1-y",
                            "Trigger/Seabed shear stress fraction=0.5"]
+
+    def setUp(self):
+        super().setUp()
+        record = self.folder / "record.csv"
+        record.write_text("time [s],horizontal [m/s^2]\n"
+                          "0,0\n0.4,2\n0.8,-3\n1.6,1\n")
+        self.settings = [*self.settings, f"Ground motion/File={record}"]
 
 
 class DrivenAndDamped(KillAndResume):

@@ -100,6 +100,17 @@ class ResumeRefused(Case):
             self.refuse([setting], "The parameter '" + setting.split("=")[0],
                         *words)
 
+    def test_table_that_changed(self):
+        record = self.folder / "record.csv"
+        record.write_text("time [s],horizontal [m/s^2]\n0,0\n1,1\n")
+        shutil.rmtree(self.folder / "run")
+        settings = EVERY + [f"Ground motion/File={record}"]
+        self.assert_ends(self.run_talus("run", ["End time=0.1"] + settings))
+        self.before = self.content("run", [])
+        record.write_text("time [s],horizontal [m/s^2]\n0,0\n1,2\n")
+        self.refuse(settings, "The table", "record.csv", "not the one",
+                    "Restore it")
+
     def test_harmless_parameters(self):
         self.assert_ends(self.run_talus(
             "run", ["Title=Another", "End time=3", "Checkpoint/Step interval=7",

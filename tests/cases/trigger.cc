@@ -127,6 +127,43 @@ TEST(Trigger, InterfaceLetsGo)
 
 
 
+// A slope at rest by K0 whose lowest row of cells becomes weak. There all shear
+// takes place, so that the nodes above, which carry the soil from h/2 upwards, go
+// together; the points between them and the bottom follow half as fast.
+TEST(Trigger, WeakLayerLetsGo)
+{
+  constexpr double h = 0.25, s_u = 1000.; // m, Pa
+  const Table      table = run<2>("verification/shear-layer.prm",
+                             "weak-layer",
+                             {"Boundaries/Bottom=fixed",
+                                   "Bodies/layer/Initial stress=",
+                                   "Bodies/layer/K0=0.8",
+                                   "Trigger/Start time=1",
+                                   "Trigger/Strength fraction=0.2",
+                                   "Trigger/Region=0.25-y",
+                                   "End time=2.5"});
+  const double     exact =
+    (weight * (H - h / 2.) - s_u) / (rho * (H - h / 2.)) * (1. - h / 2. / H);
+  Verification gates("Infinite slope whose lowest row of cells becomes weak",
+                     "prm/verification/shear-layer.prm, K0 = 0.8, "
+                     "Trigger/Strength fraction = 0.2",
+                     "a = (g sin - s_u/(rho (H - h/2))) (1 - h/(2 H))");
+  gates.near(
+    "acceleration of the centre of mass [m/s^2]",
+    slope(table["time [s]"], table["centre velocity x [m/s]"], 1.3, 2.5),
+    exact,
+    0.01);
+  gates.at_most("velocity of the centre before [m/s]",
+                std::abs(table.at(0.99, "centre velocity x [m/s]")),
+                1e-12);
+  gates.at_most("|energy remainder| / gravity work",
+                std::abs(table["energy remainder [J]"].back()) /
+                  table["gravity work [J]"].back(),
+                1e-4);
+}
+
+
+
 // Points that become weaker do so with all their daughters, and no others.
 TEST(Trigger, DaughtersFollowTheirMother)
 {

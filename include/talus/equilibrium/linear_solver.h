@@ -18,23 +18,29 @@ namespace talus
 
 
 
+  /// How a linear system was solved, if it was.
+  struct LinearSolution
+  {
+    unsigned int n_iterations = 0; ///< 0 for the direct solver
+    std::string  failure; ///< why there is none, as the end of a sentence
+  };
+
+
+
   /// Solves the linear systems of Newton's method by Trilinos.
   class LinearSolver : public dealii::ParameterAcceptor
   {
   public:
     LinearSolver();
 
-    /// Solve matrix * x = rhs. @p symmetric: also positive definite. Returns the
-    /// number of iterations, 0 for the direct solver, or nothing in @p found if
-    /// there is no solution to be had. Collective.
-    unsigned int
+    /// Solve matrix * x = rhs. @p symmetric: also positive definite. Collective.
+    LinearSolution
     solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
           dealii::TrilinosWrappers::MPI::Vector        &x,
           const dealii::TrilinosWrappers::MPI::Vector  &rhs,
           const RigidModes                             &modes,
           unsigned int                                  dim,
-          bool                                          symmetric,
-          bool                                         &found) const;
+          bool                                          symmetric) const;
 
     /// The name of what solve() takes for @p n_unknowns unknowns.
     std::string

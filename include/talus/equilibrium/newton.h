@@ -114,7 +114,8 @@ namespace talus
     evaluate(Soil<dim> &soil, const std::vector<double> &u);
     Outcome
     iterate(Soil<dim> &soil, const Observer &observe);
-    bool
+    /// Returns why there is no next iterate, as the end of a sentence.
+    std::string
     correct(Soil<dim> &soil, NewtonIteration &iteration);
     double
     search_along(Soil<dim> &soil, const std::vector<double> &direction);

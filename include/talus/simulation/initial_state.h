@@ -8,6 +8,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
+#include <vector>
 
 namespace talus
 {
@@ -20,8 +21,8 @@ namespace talus
     /// @p section is that of the body, for example "/Bodies/slide".
     explicit InitialState(const std::string &section);
 
-    /// Throw ExcUser if a stress is prescribed although that of @p law follows
-    /// from the deformation.
+    /// Throw ExcUser if a stress is prescribed twice, or although that of
+    /// @p law follows from the deformation.
     void
     check(const MaterialModel<dim> &law) const;
 
@@ -29,6 +30,20 @@ namespace talus
     is_displaced() const
     {
       return !displacement_.empty();
+    }
+
+    /// True if it starts with the stress of ground at rest under its weight.
+    bool
+    has_stress_at_rest() const
+    {
+      return !K0_.empty();
+    }
+
+    /// Coefficient of earth pressure at rest [-], if has_stress_at_rest().
+    double
+    K0() const
+    {
+      return K0_.front();
     }
 
     /// Move the points [begin, end) by the displacement at t = 0 and set their
@@ -68,6 +83,8 @@ namespace talus
     std::string displacement_ = "";
     std::string velocity_     = "";
     std::string stress_       = "";
+    // One number, or none where the user gave nothing.
+    std::vector<double> K0_;
   };
 } // namespace talus
 

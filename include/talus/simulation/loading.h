@@ -3,6 +3,7 @@
 
 #include <talus/base/expression.h>
 #include <talus/materials/materials.h>
+#include <talus/simulation/ground_motion.h>
 #include <talus/transfer/loads.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -11,12 +12,14 @@
 
 namespace talus
 {
-  /// Gravity, turned by the slope angle, and a body force by expression.
+  /// Gravity, turned by the slope angle, the motion of the ground, and a body
+  /// force by expression.
   template <int dim>
   class Loading
   {
   public:
-    Loading();
+    /// Paths of tables start in @p folder.
+    explicit Loading(const std::filesystem::path &folder);
 
     /// To be called after parsing: gravity of each of @p n_bodies bodies.
     void
@@ -42,7 +45,13 @@ namespace talus
 
     /// Share of it that acts at time @p t, s.
     double
-    ramp(double t) const;
+    share_of_gravity(double t) const;
+
+    void
+    list_state(StateList &list) const
+    {
+      ground_motion_.list_state(list);
+    }
 
   private:
     struct Gravity : public dealii::ParameterAcceptor
@@ -60,8 +69,12 @@ namespace talus
       std::string coordinates = "spatial";
     };
 
+    double
+    slope_angle() const; // radians
+
     Gravity                          gravity_;
     BodyForce                        body_force_;
+    GroundMotion<dim>                ground_motion_;
     std::unique_ptr<Expression<dim>> expression_;
     Loads<dim>                       loads_;
     /// Full weight divided by mass, for each body, m/s^2.

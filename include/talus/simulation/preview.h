@@ -3,6 +3,7 @@
 
 #include <talus/materials/materials.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,7 @@ namespace talus
     unsigned int              dimension = 2;
     std::vector<std::string>  bodies;
     std::vector<MaterialName> materials;
+    std::filesystem::path     folder; ///< of the parameter file
   };
 } // namespace talus
 

@@ -140,6 +140,7 @@ namespace talus
       double              load = 0;
       std::vector<double> residuals;
       unsigned int        n_linear_iterations = 0;
+      double              seconds             = 0;
     };
     Soil<dim>
     soil();
@@ -223,6 +224,8 @@ namespace talus
     Wish            wish_ = Wish::none; // of all ranks, for after this step
     FoundCheckpoint resumed_from_;      // no path in a run from the start
     bool            may_overwrite_ = false;
+
+    std::vector<std::string> start_notes_; // sentences for the log
   };
 } // namespace talus
 

@@ -1,0 +1,155 @@
+// Ground at rest: stress by K0.
+
+#include "case.h"
+#include "verification.h"
+
+#include <talus/base/errors.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace talus;
+using namespace talus::cases;
+
+namespace
+{
+  /// Kinetic energy of the points over that of free fall, m (g t)^2/2, after
+  /// the end of the run.
+  template <int dim>
+  double
+  motion(Case<dim> &ground, const double g)
+  {
+    while (ground->snapshot().time < 1. - 1e-12)
+      ground->advance();
+    const auto &points = ground.points();
+    double      sum = 0, mass = 0;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const double m = points.data(points.mass)[p];
+        mass += m;
+        for (unsigned int d = 0; d < dim; ++d)
+          sum += m * std::pow(points.data(points.velocity, d)[p], 2);
+      }
+    return sum / (mass * g * g);
+  }
+
+
+
+  /// Largest error of a component of the stress, Pa.
+  template <int dim>
+  double
+  error_of_layers(const Points<dim> &points)
+  {
+    double error = 0;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const double y        = points.data(points.initial_position, 1)[p];
+        const bool   is_upper = (points.data(points.body)[p] == 1.);
+        const double vertical =
+          is_upper ? -6e3 * (3. - y) : -6e3 - 1e4 * (2. - y);
+        const double along = (is_upper ? 0.8 : 0.5) * vertical;
+        for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+          {
+            const double exact = (c == 1 ? vertical : c < 3 ? along : 0.);
+            error =
+              std::max(error,
+                       std::abs(points.data(points.stress, c)[p] - exact));
+          }
+      }
+    return error;
+  }
+
+
+
+  template <int dim>
+  void
+  expect_layers_at_rest(const std::string &what,
+                        const std::string &file,
+                        const Overrides   &overrides,
+                        const double       limit)
+  {
+    Case<dim>    ground(file, overrides);
+    Verification gates("Two layers at rest, " + what,
+                       "tests/cases/" + file,
+                       "s_yy = weight above, s_xx = K0 s_yy, no motion");
+    gates.at_most("stress, largest error / that at the bottom",
+                  error_of_layers(ground.points()) / 26e3,
+                  1e-13);
+    gates.at_most("kinetic energy after 1 s / that of free fall",
+                  motion(ground, 10.),
+                  limit);
+  }
+} // namespace
+
+
+
+TEST(Geostatic, LayersInPlaneStrain)
+{
+  expect_layers_at_rest<2>("2-D", "layers-at-rest.prm", {}, 1e-20);
+}
+
+
+
+TEST(Geostatic, LayersInSpace)
+{
+  expect_layers_at_rest<3>("3-D", "layers-at-rest-3d.prm", {}, 1e-20);
+}
+
+
+
+// Side by side, boxes of two sizes take the product of s_xx and dN/dx, both linear
+// in y, at their centres; the errors do not cancel, so equilibrium is not exact.
+TEST(Geostatic, LayersOnCellsOfTwoSizes)
+{
+  expect_layers_at_rest<2>("cells of two sizes",
+                           "layers-at-rest.prm",
+                           {"Grid/Refinement boxes=0,1; 0.7,2.5; 1",
+                            "Grid/Upper corner=3,4",
+                            "Bodies/lower/Upper corner=3,2",
+                            "Bodies/upper/Upper corner=3,3"},
+                           1e-8);
+}
+
+
+
+// The surface lies within a cell; the points up to it count.
+TEST(Geostatic, InfiniteSlope)
+{
+  const std::string file = "verification/shear-layer.prm";
+  for (const double height : {2., 1.85})
+    {
+      Case<2>      layer(file,
+                    {"Boundaries/Bottom=fixed",
+                          "Bodies/layer/Initial stress=",
+                          "Bodies/layer/K0=0.8",
+                          text("Bodies/layer/Upper corner=0.75,", height)});
+      const auto  &points = layer.points();
+      const double H      = (height == 2. ? 2. : 1.875);
+      const double g_x    = 9.81 * std::sin(M_PI / 36.);
+      const double g_y    = -9.81 * std::cos(M_PI / 36.);
+      double       error  = 0;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          const double mass =
+            1500. * (H - points.data(points.initial_position, 1)[p]);
+          const double exact[4] = {0.8 * g_y * mass,
+                                   g_y * mass,
+                                   0.8 * g_y * mass,
+                                   g_x * mass};
+          for (unsigned int c = 0; c < 4; ++c)
+            error =
+              std::max(error,
+                       std::abs(points.data(points.stress, c)[p] - exact[c]));
+        }
+      Verification gates(text("Infinite slope at rest, ", height, " m"),
+                         "prm/" + file + " with K0 = 0.8 on a fixed bottom",
+                         "s_yy = -rho g cos d, s_xy = rho g sin d, no motion");
+      gates.at_most("stress, largest error / that at the bottom",
+                    error / (1500. * 9.81 * H),
+                    1e-13);
+      gates.at_most("kinetic energy after 1 s / that of free fall",
+                    motion(layer, 9.81),
+                    1e-20);
+    }
+}
