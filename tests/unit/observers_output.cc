@@ -49,6 +49,7 @@ namespace
     s.sort();
     output.set_folder(folder / "a" / "b");
     output.begin(s.snapshot(), 1.25);
+    output.start(s.snapshot());
     for (s.step = 1; s.step <= 12; ++s.step)
       {
         s.time = s.step * 0.1;
@@ -79,6 +80,7 @@ namespace
     s.sort();
     output.set_folder(folder);
     output.begin(s.snapshot(), 1.);
+    output.start(s.snapshot());
     output.note("It begins.", false);
     s.step = 1;
     s.time = 0.1;
@@ -103,6 +105,7 @@ namespace
     s.sort();
     output.set_folder(folder);
     output.begin(s.snapshot(), 1.);
+    output.start(s.snapshot());
     std::string record;
     for (const std::string &line : lines("parameters.prm"))
       record += line + '\n';

@@ -77,6 +77,7 @@ namespace
     s.points.data(s.points.stretch, 1)[1] = 3.;
     s.sort();
     statistics.begin(folder, s.snapshot());
+    statistics.add_first_row(s.snapshot());
 
     s.time                         = 0.5;
     s.step                         = 7;
@@ -129,6 +130,7 @@ namespace
     s.points.data(s.points.elastic_energy)[0] = 5.;
     Statistics<2> statistics;
     statistics.begin(folder, s.snapshot());
+    statistics.add_first_row(s.snapshot());
     EXPECT_EQ(evaluate(statistics, s.snapshot())["energy remainder [J]"], 0.);
 
     s.points.data(s.points.velocity, 1)[0]    = 4.; // 25 J
@@ -183,7 +185,9 @@ namespace
   {
     Scene<2> s("0, 0", "8, 4");
     s.add({1. / 3., 0.5});
-    Statistics<2>().begin(folder, s.snapshot());
+    Statistics<2> statistics;
+    statistics.begin(folder, s.snapshot());
+    statistics.add_first_row(s.snapshot());
     EXPECT_NE(lines("statistics.csv").at(1).find("0.3333333333333333,"),
               std::string::npos);
   }

@@ -1,0 +1,141 @@
+// The part of Newton that sets up the unknowns of a load step.
+
+#include <talus/equilibrium/newton.h>
+#include <talus/grid/node_places.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/sparsity_tools.h>
+
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Largest shear modulus of the bodies, Pa.
+    template <int dim>
+    double
+    largest_shear_modulus(const Soil<dim> &soil)
+    {
+      double result = 0;
+      for (const Segment &segment : soil.points.segments())
+        result = std::max(result,
+                          soil.materials.of_body(segment.body).shear_modulus());
+      return Utilities::MPI::max(result, soil.grid.communicator());
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Newton<dim>::begin(Soil<dim> &soil, const Parameters &parameters)
+  {
+    parameters_      = parameters;
+    internal_forces_ = InternalForces<dim>(parameters.measure);
+    places_          = places_of_owned_nodes(soil.grid);
+    extent_ = soil.grid.domain().lower.distance(soil.grid.domain().upper);
+    sum_forces(soil);
+    unknowns_.number(soil.nodes, soil.grid, soil.least_mass);
+    weights_.compute(soil.points,
+                     soil.grid,
+                     soil.transfer.box_shape(),
+                     unknowns_);
+    ghost_.find_faces(soil.grid,
+                      unknowns_,
+                      parameters.ghost_penalty,
+                      largest_shear_modulus(soil));
+    contact_.begin(soil, unknowns_);
+    unknowns_.hold(contact_.held(soil, unknowns_));
+    make_pattern(soil);
+    make_rigid_modes(soil.grid);
+
+    u_          = unknowns_.field();
+    internal_   = unknowns_.field();
+    unbalanced_ = unknowns_.field();
+    internal_forces_.evaluate(soil, weights_, u_, internal_);
+    unknowns_.add_to_owners(internal_);
+    double external = 0, internal = 0;
+    for (const unsigned int node : unknowns_.active_nodes())
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const unsigned int i = dim * node + d;
+          unbalanced_[i]       = soil.nodes.sum(node)[NodalSum<dim>::force + d];
+          internal += internal_[i] * internal_[i];
+          external += std::pow(unbalanced_[i] + internal_[i], 2);
+        }
+    reference_ = std::sqrt(
+      std::max(Utilities::MPI::sum(internal, soil.grid.communicator()),
+               Utilities::MPI::sum(external, soil.grid.communicator())));
+  }
+
+
+
+  template <int dim>
+  void
+  Newton<dim>::make_pattern(const Soil<dim> &soil)
+  {
+    DynamicSparsityPattern               pattern(unknowns_.n_global(),
+                                   unknowns_.n_global(),
+                                   unknowns_.relevant());
+    std::vector<types::global_dof_index> indices;
+    for (unsigned int s = 0; s < soil.points.segments().size(); ++s)
+      {
+        const auto patch = weights_.patch(s);
+        indices.clear();
+        for (unsigned int a = 0; a < patch.n_nodes; ++a)
+          for (unsigned int d = 0; d < dim; ++d)
+            indices.push_back(unknowns_.first(patch.nodes[a]) + d);
+        unknowns_.constraints().add_entries_local_to_global(indices,
+                                                            pattern,
+                                                            true);
+      }
+    ghost_.add_to_pattern(unknowns_, pattern);
+    SparsityTools::distribute_sparsity_pattern(pattern,
+                                               unknowns_.owned(),
+                                               unknowns_.communicator(),
+                                               unknowns_.relevant());
+    matrix_.reinit(unknowns_.owned(),
+                   unknowns_.owned(),
+                   pattern,
+                   unknowns_.communicator());
+  }
+
+
+
+  /// Translations and rotations about the axes, seen from the lower corner.
+  template <int dim>
+  void
+  Newton<dim>::make_rigid_modes(const Grid<dim> &grid)
+  {
+    modes_.assign(dim == 2 ? 3 : 6, {});
+    for (const unsigned int node : unknowns_.active_nodes())
+      {
+        const Tensor<1, dim> x = places_[node] - grid.domain().lower;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            for (unsigned int e = 0; e < dim; ++e)
+              modes_[e].push_back(d == e ? 1. : 0.);
+            // In the plane of axes a and b.
+            unsigned int mode = dim;
+            for (unsigned int a = 0; a < dim; ++a)
+              for (unsigned int b = a + 1; b < dim; ++b)
+                modes_[mode++].push_back(d == a ? -x[b] : d == b ? x[a] : 0.);
+          }
+      }
+  }
+
+
+
+#define INSTANTIATE(dim)                                             \
+  template void Newton<dim>::begin(Soil<dim> &, const Parameters &); \
+  template void Newton<dim>::make_pattern(const Soil<dim> &);        \
+  template void Newton<dim>::make_rigid_modes(const Grid<dim> &);
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace talus
