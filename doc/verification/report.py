@@ -28,6 +28,7 @@ SECTIONS = [
     ("Seabed and layers",
      ["Block", "ShearLayer", "ViscoplasticLayer", "VerticalCut",
       "VerticalCutBracket"]),
+    ("From rest into motion", ["Geostatic", "Trigger", "GroundMotion"]),
     ("Numerical fracture", ["HangingBlock"]),
     ("The landslide of the paper",
      ["LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",

@@ -10,6 +10,7 @@ import sys
 import unittest
 
 from bad_input_case import Case, DUST, GOOD
+from bad_input_motion import BadInputMotion
 
 
 class BadInput(Case):
@@ -173,24 +174,6 @@ class BadInput(Case):
         self.refuse_set(["Bodies/block/Initial velocity=2*; 0"],
                         "Bodies/block/Initial velocity", "2*")
 
-    def test_K0(self):
-        K0 = "Bodies/block/K0=0.5"
-        for settings, *words in (
-                ([K0, "Bodies/block/Initial stress=0; 0; 0; 0"],
-                 "Bodies/block/K0", "Bodies/block/Initial stress", "one stress",
-                 "Remove"),
-                ([K0, "Materials/clay/Law=Hencky"], "Bodies/block/K0",
-                 "deformation", "rate form"),
-                ([K0, "Bodies/block/Initial displacement=0.1; 0"],
-                 "Bodies/block/K0", "Initial displacement", "Remove"),
-                ([K0, "Gravity/Ramp time=1"], "no gravity at t = 0",
-                 "Gravity/Ramp time"),
-                ([K0, "Gravity/Magnitude=0"], "no gravity at t = 0",
-                 "Gravity/Magnitude"),
-                (["Bodies/block/K0=-1"], "'K0'", "'-1'")):
-            with self.subTest(settings):
-                self.refuse_set(settings, *words)
-
     def test_constants(self):
         for constants, *words in (
                 ("x=1", "'x=1'", "new name", "pi, x, y, z, t"),
@@ -241,97 +224,6 @@ class BadInput(Case):
             with self.subTest(boxes):
                 self.refuse_set(["Grid/Refinement boxes=" + boxes],
                                 "Grid/Refinement boxes = " + boxes, *words)
-
-    # What sets it in motion
-
-    CLAY = GOOD.replace("linear elastic", "von Mises")
-
-    def refuse_trigger(self, settings, *words, content=CLAY):
-        self.assert_refused(self.run_file(
-            content, ["Trigger/" + s for s in settings]), *words)
-        self.assert_untouched()
-
-    def test_trigger(self):
-        weaker = "Strength fraction=0.5"
-        for settings, *words in (
-                (["Strength fraction=-0.1"], "'-0.1'", "from 0 to 1"),
-                (["Seabed shear stress fraction=1.5"], "'1.5'", "from 0 to 1"),
-                (["Duration=-1"], "'Duration'", "'-1'", "at least 0"),
-                (["Start time=0.005"], "nothing", "'Trigger/Strength fraction'",
-                 "less than 1"),
-                ([weaker, "Start time=0.01"], "'Trigger/Start time' is 0.01 s",
-                 "ends at 0.01 s", "'End time'"),
-                ([weaker, "Bodies=block, blok"], "'Trigger/Bodies'", "'blok'",
-                 "only: block"),
-                ([weaker, "Region=2*"], "'Trigger/Region'", "'2*'",
-                 "cannot be understood"),
-                ([weaker, "Region=y; x"], "'Trigger/Region'", "1 are needed"),
-                ([weaker, "Region=sqrt(y-1)"], "'Trigger/Region'", "nan",
-                 "finite number"),
-                ([weaker, "Region=-y"], "'Trigger/Region' = '-y'",
-                 "at no point"),
-                (["Seabed shear stress fraction=0.5"], "no face", "seabed"),
-                (["Seabed shear stress fraction=0.5", "Region=y"],
-                 "no face", "seabed")):
-            with self.subTest(settings):
-                self.refuse_trigger(settings, *words)
-
-    def test_trigger_of_a_body_without_strength(self):
-        weaker = "Strength fraction=0.5"
-        self.refuse_trigger([weaker], "/Materials/clay", "no strength",
-                            "'von Mises'", content=GOOD)
-        self.refuse_trigger([weaker, "Bodies=block"], "'block'",
-                            "/Materials/clay", "no strength", content=GOOD)
-
-    def refuse_table(self, content, *words, settings=()):
-        (self.folder / "record.csv").write_text(content)
-        self.refuse_set(["Ground motion/File=record.csv", *settings],
-                        "record.csv", *words)
-
-    def test_ground_motion(self):
-        a, b = "time [s],horizontal [m/s^2]\n", "0,1\n1,0\n"
-        for content, *words in (
-                ("", "cannot be read or is empty", "existing CSV file"),
-                ("0,1\n1,0\n", "line 1", "'0'", "'time [s]'",
-                 "'gravity factor [-]'"),
-                ("# a comment\ntime [s],x [g]\n" + b, "line 2", "'x [g]'",
-                 "'horizontal [m/s^2]'"),
-                ("horizontal [m/s^2]\n1\n", "line 1", "'time [s]'"),
-                ("time [s]\n0\n1\n", "line 1", "at least one other"),
-                ("time [s],time [s]\n" + b, "line 1", "'time [s]'", "twice"),
-                (a + "0,1\n1;0\n", "line 3", "1 entries", "2 columns"),
-                (a + "0,1\n1,0,0\n", "line 3", "3 entries", "2 columns"),
-                (a + "0,1\n1,\n", "line 3", "''", "finite number"),
-                (a + "0,1\n1,nan\n", "line 3", "'nan'", "finite number"),
-                (a + "0,1\n\n1,1.2x\n", "line 4", "'1.2x'", "finite number"),
-                (a + "0,1\n1,0\n1,0\n", "line 4", "1 s", "must ascend"),
-                (a + "0,1\n", "1 rows", "at least two"),
-                (a + "0.5,1\n1,0\n", "0.5 s", "1 m/s^2", "jump",
-                 "'horizontal [m/s^2]'", "row with zeros"),
-                ("time [s],across [m/s^2]\n" + b, "'across [m/s^2]'",
-                 "two-dimensional")):
-            with self.subTest(content):
-                self.refuse_table(content, *words)
-        self.refuse_table(a + b, "2 s", "jump",
-                          settings=["Ground motion/Start time=2"])
-
-    def test_ground_motion_without_table(self):
-        self.refuse_set(["Ground motion/File=missing.csv"], "missing.csv",
-                        "cannot be read", "folder of the parameter file")
-        self.refuse_set(["Ground motion/File=."], "cannot be read")
-        self.refuse_set(["Ground motion/Factor=2"], "'Ground motion/File'",
-                        "empty")
-
-    def test_ground_motion_lies_beside_the_parameter_file(self):
-        inside = self.folder / "inside"
-        inside.mkdir()
-        (inside / "case.prm").write_text(GOOD)
-        (inside / "record.csv").write_text(
-            "\ufefftime [s], gravity factor [-]\r\n0, 1\r\n1, 2\r\n")
-        result = self.run_talus("--output", "results", "--set",
-                                "Ground motion/File=record.csv",
-                                "inside/case.prm")
-        self.assertEqual(result.returncode, 0, result)
 
     # Output
 
@@ -432,18 +324,6 @@ class CommandLine(Case):
                       "5 m and 2083.33 J/m^2 on cells of 0.5 m"):
             self.assertIn(words, log)
 
-    def test_stress_beyond_the_strength_is_in_the_log(self):
-        # s_yy = -2000 (2 - y) g; at K0 = 0, plane strain: tau = |s_yy|/sqrt(3),
-        # at the lowest points 0.25 m above the bottom.
-        result = self.run_file(GOOD.replace("linear elastic", "von Mises"),
-                               ["Bodies/block/K0=0", "Gravity/Magnitude=10",
-                                "Materials/clay/Undrained shear strength=7e3"])
-        self.assertEqual(result.returncode, 0, result.stderr)
-        log = (self.results / "log.txt").read_text()
-        for words in ("the body 'block' bears at 8 of its points",
-                      "up to 1.44338 times", "'Bodies/block/K0'"):
-            self.assertIn(words, log)
-
     def test_no_file(self):
         self.assert_refused(self.run_talus(), "parameter file", "--help")
 
@@ -501,7 +381,8 @@ class DiskFull(Case):
 
 if __name__ == "__main__":
     print()
-    names = sys.argv[3:] or ["BadInput", "CommandLine", "DiskFull"]
+    tests = [BadInput, BadInputMotion, CommandLine, DiskFull]
+    names = sys.argv[3:] or [test.__name__ for test in tests]
     suite = unittest.TestSuite(
         unittest.defaultTestLoader.loadTestsFromTestCase(globals()[name])
         for name in names)

@@ -103,6 +103,38 @@ TEST(GroundMotion, SeenFromTheGround)
 
 
 
+// On a slope of 30 degrees in 3-D: constant acceleration, seen along the mesh.
+TEST(GroundMotion, AxesInSpace)
+{
+  Case<3> soil("layers-at-rest-3d.prm",
+               {table("constant",
+                      "time [s],across [m/s^2],horizontal [m/s^2],vertical "
+                      "[m/s^2]\n0,3,1,2\n9,3,1,2\n"),
+                "End time=0.1",
+                "Gravity/Magnitude=0",
+                "Gravity/Slope angle=30",
+                "Bodies/lower/K0=",
+                "Bodies/upper/K0=",
+                "Boundaries/Left=free",
+                "Boundaries/Right=free",
+                "Boundaries/Bottom=free",
+                "Boundaries/Back=free",
+                "Boundaries/Front=free",
+                "Grid/Lower corner=-0.5, -0.5, -0.5",
+                "Grid/Upper corner=2, 4, 1.5"});
+  while (soil->snapshot().time < 0.1 - 1e-12)
+    soil->advance();
+  const double c = std::cos(M_PI / 6.), s = std::sin(M_PI / 6.);
+  const double exact[3] = {-0.1 * (c - 2. * s), -0.1 * (s + 2. * c), -0.3};
+  for (unsigned int p = 0; p < soil.points().size(); ++p)
+    for (unsigned int d = 0; d < 3; ++d)
+      EXPECT_NEAR(soil.points().data(soil.points().velocity, d)[p],
+                  exact[d],
+                  1e-4);
+}
+
+
+
 // A rigid block on ground that is accelerated by a > mu g for a time T slides
 // back by d = a T^2 (a - mu g)/(2 mu g) @cite newmark1965. It starts in equilibrium;
 // the stiffer it is, the closer (1 % off with E = 1e8 Pa, 0.4 % with 4e8 Pa).
