@@ -118,7 +118,14 @@ namespace talus
         unknowns_.hold(contact_.held(soil, unknowns_));
         const Outcome outcome = iterate(soil, observe);
         if (!outcome.converged)
-          return outcome;
+          {
+            if (moves_freely_ &&
+                contact_.resist(unknowns_, last_correction_) > 0)
+              continue;
+            mechanism_ = last_correction_;
+            return outcome;
+          }
+        mechanism_                   = u_;
         std::vector<double> reaction = residual_;
         for (double &force : reaction)
           force = -force;
@@ -172,9 +179,14 @@ namespace talus
   Newton<dim>::correct(Soil<dim> &soil, NewtonIteration &iteration)
   {
     const auto start = std::chrono::steady_clock::now();
+    moves_freely_    = false;
     matrix_          = 0.;
     internal_forces_.add_tangent(soil, weights_, unknowns_, matrix_);
     ghost_.add_to_matrix(unknowns_, matrix_);
+    matrix_.compress(VectorOperation::add);
+    // Where soil can move freely the solution is to be large, not infinite.
+    for (const auto i : unknowns_.owned())
+      matrix_.add(i, i, 1e-13 * matrix_.diag_element(i));
     matrix_.compress(VectorOperation::add);
 
     TrilinosWrappers::MPI::Vector rhs(unknowns_.owned(),
@@ -207,10 +219,13 @@ namespace talus
       largest = (std::abs(x) <= largest ? largest : std::abs(x));
     });
     largest = Utilities::MPI::max(largest, unknowns_.communicator());
-    if (!(largest < 10. * extent_))
+    unknowns_.copy_to_ghosts(direction);
+    if (std::isfinite(largest))
+      last_correction_ = direction;
+    moves_freely_ = !(largest < 10. * extent_);
+    if (moves_freely_)
       return "the matrix is singular or nearly so: part of the soil can move "
              "freely";
-    unknowns_.copy_to_ghosts(direction);
     iteration.length = search_along(soil, direction);
     iteration.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
@@ -258,7 +273,8 @@ namespace talus
 
   template <int dim>
   std::vector<double>
-  Newton<dim>::displacement_of_points(const Points<dim> &points) const
+  Newton<dim>::at_points(const Points<dim>         &points,
+                         const std::vector<double> &field) const
   {
     std::vector<double> result(dim * std::size_t(points.size()), 0.);
     for (unsigned int s = 0; s < points.segments().size(); ++s)
@@ -271,9 +287,25 @@ namespace talus
             for (unsigned int a = 0; a < patch.n_nodes; ++a)
               for (unsigned int d = 0; d < dim; ++d)
                 result[dim * p + d] +=
-                  weight[a].value * u_[dim * patch.nodes[a] + d];
+                  weight[a].value * field[dim * patch.nodes[a] + d];
           }
       }
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Newton<dim>::mechanism(const Points<dim> &points) const
+  {
+    std::vector<double> result  = at_points(points, mechanism_);
+    double              largest = 0;
+    for (const double component : result)
+      largest = std::max(largest, std::abs(component));
+    largest = Utilities::MPI::max(largest, unknowns_.communicator());
+    for (double &component : result)
+      component /= (largest > 0. ? largest : 1.);
     return result;
   }
 
@@ -297,7 +329,7 @@ namespace talus
                             });
     if (parameters_.measure == StrainMeasure::small)
       return;
-    const std::vector<double> u = displacement_of_points(points);
+    const std::vector<double> u = at_points(points, u_);
     for (unsigned int p = 0; p < points.size(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         points.data(points.position, d)[p] += u[dim * p + d];

@@ -53,7 +53,8 @@ namespace talus
     make_pattern(soil);
     make_rigid_modes(soil.grid);
 
-    u_          = unknowns_.field();
+    u_ = last_correction_ = unknowns_.field();
+    mechanism_.resize(u_.size(), 0.);
     internal_   = unknowns_.field();
     unbalanced_ = unknowns_.field();
     internal_forces_.evaluate(soil, weights_, u_, internal_);

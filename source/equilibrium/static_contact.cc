@@ -160,6 +160,27 @@ namespace talus
 
 
 
+  template <int dim>
+  unsigned int
+  StaticContact<dim>::resist(const Unknowns<dim>       &unknowns,
+                             const std::vector<double> &direction)
+  {
+    unsigned int n_changes = 0;
+    for (Contact &contact : contacts_)
+      {
+        double power = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          power += contact.friction[d] * direction[dim * contact.node + d];
+        if (contact.state != State::slips || !(power > 0.))
+          continue;
+        contact.state = State::sticks;
+        ++n_changes;
+      }
+    return Utilities::MPI::sum(n_changes, unknowns.communicator());
+  }
+
+
+
   template class StaticContact<2>;
   template class StaticContact<3>;
 } // namespace talus

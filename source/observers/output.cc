@@ -276,7 +276,7 @@ namespace talus
   void
   Output<dim>::write_mechanism(const Snapshot<dim>       &snapshot,
                                const std::string         &name,
-                               const std::vector<double> &displacement) const
+                               const std::vector<double> &mechanism) const
   {
     PointsOutput<dim> output;
     output.begin(folder_,
@@ -286,12 +286,12 @@ namespace talus
                  Beginning::anew,
                  name);
     output.write(snapshot,
-                 {{"displacement of the mechanism [m]",
+                 {{"mechanism [-]",
                    FieldKind::vector,
                    dim,
                    [&](const unsigned int p, float *values) {
                      for (unsigned int d = 0; d < dim; ++d)
-                       values[d] = displacement[dim * p + d];
+                       values[d] = mechanism[dim * p + d];
                    }}});
   }
 

@@ -106,8 +106,7 @@ namespace talus
   {
     output_.write_mechanism(snapshot(),
                             "no-equilibrium",
-                            equilibrium_.newton().displacement_of_points(
-                              points_));
+                            equilibrium_.newton().mechanism(points_));
     throw ExcUser(
       text("The stage 'equilibrium' found no balance beyond ",
            equilibrium_.load(),
@@ -225,8 +224,7 @@ namespace talus
         else // of all that fail the last one has the smallest factor
           output_.write_mechanism(snapshot(),
                                   "mechanism",
-                                  equilibrium_.newton().displacement_of_points(
-                                    points_));
+                                  equilibrium_.newton().mechanism(points_));
         restore_columns(state, points_);
       }
     restore_columns(before, points_);

@@ -80,11 +80,13 @@ namespace talus
     void
     accept(Soil<dim> &soil);
 
-    /// The displacements found or, if the method failed, those of its last
-    /// iteration, at the points, m: dim numbers each. Points must be as in
-    /// begin().
+    /// How the soil moves where it fails, at the points, dim numbers each,
+    /// divided by the largest of all: the displacement of the last load step
+    /// or, where Newton's method failed, its last correction, which shows what a
+    /// nearly singular matrix lets move. Points must be as in begin().
+    /// Collective.
     std::vector<double>
-    displacement_of_points(const Points<dim> &points) const;
+    mechanism(const Points<dim> &points) const;
 
     unsigned long
     n_unknowns() const
@@ -119,6 +121,9 @@ namespace talus
     correct(Soil<dim> &soil, NewtonIteration &iteration);
     double
     search_along(Soil<dim> &soil, const std::vector<double> &direction);
+    std::vector<double>
+    at_points(const Points<dim>         &points,
+              const std::vector<double> &field) const;
     Outcome
     failure(const std::string &reason) const;
     std::string
@@ -138,12 +143,16 @@ namespace talus
     double                                 extent_ = 0; ///< of the mesh, m
 
     // Fields at the nodes
-    std::vector<double> unbalanced_;    ///< f_ext - f_int(0), N
-    std::vector<double> internal_;      ///< f_int(0), N
-    std::vector<double> target_;        ///< what f_int + ghost are to be, N
-    std::vector<double> residual_;      ///< N
-    std::vector<double> u_;             ///< m
-    double              reference_ = 0; ///< N
+    std::vector<double> unbalanced_;      ///< f_ext - f_int(0), N
+    std::vector<double> internal_;        ///< f_int(0), N
+    std::vector<double> target_;          ///< what f_int + ghost are to be, N
+    std::vector<double> residual_;        ///< N
+    std::vector<double> u_;               ///< m
+    std::vector<double> last_correction_; ///< m
+    std::vector<double> mechanism_;       ///< m, of the last solve()
+    double              reference_ = 0;   ///< N
+    /// Whether the last correction was so large that the soil moves freely.
+    bool moves_freely_ = false;
   };
 } // namespace talus
 

@@ -38,6 +38,12 @@ namespace talus
            const std::vector<double> &reaction,
            std::vector<double>       &u);
 
+    /// The soil can move freely along @p direction. Let those slipping nodes
+    /// stick whose friction would push it on: when it moves, friction turns
+    /// against the motion. Returns how many there are. Collective.
+    unsigned int
+    resist(const Unknowns<dim> &unknowns, const std::vector<double> &direction);
+
   private:
     enum class State
     {

@@ -83,12 +83,12 @@ namespace talus
     bool
     observe(const Snapshot<dim> &snapshot, bool last);
 
-    /// Write the points with a displacement, m, dim numbers for each, to
-    /// NAME.pvd and its files (or .xdmf): a mechanism of failure. Collective.
+    /// Write the points with how they move in a mechanism of failure, dim
+    /// numbers for each, to NAME.pvd and its files (or .xdmf). Collective.
     void
     write_mechanism(const Snapshot<dim>       &snapshot,
                     const std::string         &name,
-                    const std::vector<double> &displacement) const;
+                    const std::vector<double> &mechanism) const;
 
     /// Write the points as they are, after an error that ends the run, to
     /// last-state.vtu. Returns the path, for the message.
