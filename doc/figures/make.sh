@@ -36,6 +36,14 @@ run bar prm/bar.prm --set "Output/Boxes as cells=true" \
     --set "Output/Field interval=0.5"
 run bar-unsplit prm/bar.prm --set "Splitting/Enabled=false" \
     --set "Output/Write points=false"
+static='equilibrium, strength reduction'
+run safety-cut prm/verification/vertical-cut.prm --set "Stages=$static" \
+    --set "Gravity/Magnitude=2" --set "Gravity/Ramp time=0" \
+    --set "Damping/Local damping=0" --set "Output/Boxes as cells=false" \
+    --set "Strength reduction/First factor=1.9"
+run safety-landslide prm/landslide-trigger.prm --set "Stages=$static" \
+    --set "Output/Boxes as cells=false" \
+    --set "Strength reduction/First factor=3.7"
 
 # One display for all that ParaView draws.
 export here scratch
@@ -43,7 +51,10 @@ xvfb-run -a sh -eu -c '
   pvbatch $here/bar.py $here/bar.png $scratch/bar $scratch/bar-unsplit
   pvbatch $here/landslide.py $scratch/landslide $here/landslide.png
   pvbatch $here/toe.py $here/toe.png $scratch/landslide-unsplit \
-          $scratch/landslide'
+          $scratch/landslide
+  pvbatch $here/mechanism.py $here/mechanism.png \
+          "$scratch/safety-cut=Vertical cut in clay" \
+          "$scratch/safety-landslide=The landslide before it is let go"'
 /usr/bin/python3 $here/runout.py $here/runout.png \
   "$scratch/landslide=with splitting" \
   "$scratch/landslide-unsplit=without splitting"

@@ -19,7 +19,7 @@ namespace talus
   /// normal derivative is penalised by the energy
   ///   1/2 gamma G h integral over the face of |[du/dn]|^2:
   /// nothing for displacements that are linear in space @cite burman2010,
-  /// @cite coombs2022. It acts on the displacement of a load step only; steps
+  /// @cite coombs2023. It acts on the displacement of a load step only; steps
   /// without further load lead to the equilibrium without it.
   template <int dim>
   class GhostStabilization
