@@ -104,6 +104,7 @@ namespace talus
     n_steps_ = n_settling_ = 0;
     imbalance_             = 0;
     is_found_              = false;
+    imbalances_.clear();
     failure_.clear();
   }
 
@@ -120,7 +121,7 @@ namespace talus
         is_found_ = true;
         return true;
       }
-    if (n_settling_ == largest_settling_)
+    if (!is_settling())
       {
         const auto [largest, place] = newton_.largest_imbalance();
         failure_                    = text("After ",
@@ -137,6 +138,26 @@ namespace talus
         return false;
       }
     return take_step(soil, observe);
+  }
+
+
+
+  /// Whether the soil seems to come to rest now that all load is on: it has
+  /// steps left, and in the last twenty of them the imbalance fell by a tenth.
+  /// Soil that fails flows on and on.
+  template <int dim>
+  bool
+  Equilibrium<dim>::is_settling()
+  {
+    constexpr unsigned int patience = 20;
+    if (load_ < 1.)
+      return true;
+    imbalances_.push_back(imbalance_);
+    if (n_settling_ >= largest_settling_)
+      return false;
+    const std::size_t n = imbalances_.size();
+    return n <= patience ||
+           imbalances_.back() < 0.9 * imbalances_[n - 1 - patience];
   }
 
 

@@ -8,6 +8,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace talus
 {
@@ -98,6 +99,8 @@ namespace talus
 
   private:
     bool
+    is_settling();
+    bool
     take_step(Soil<dim> &soil, const Observer &observe);
 
     // Parameters
@@ -109,16 +112,17 @@ namespace talus
     typename Newton<dim>::Parameters newton_parameters_;
     LinearSolver                     linear_solver_;
 
-    Newton<dim>  newton_;
-    double       load_       = 0;
-    double       step_       = 1;
-    double       least_step_ = 0;
-    double       tolerance_  = 0; ///< of the imbalance
-    unsigned int n_steps_    = 0;
-    unsigned int n_settling_ = 0; ///< steps without load so far
-    double       imbalance_  = 0;
-    bool         is_found_   = false;
-    std::string  failure_;
+    Newton<dim>         newton_;
+    double              load_       = 0;
+    double              step_       = 1;
+    double              least_step_ = 0;
+    double              tolerance_  = 0; ///< of the imbalance
+    unsigned int        n_steps_    = 0;
+    unsigned int        n_settling_ = 0; ///< steps without load so far
+    double              imbalance_  = 0;
+    bool                is_found_   = false;
+    std::string         failure_;
+    std::vector<double> imbalances_; ///< since all load is on
   };
 } // namespace talus
 
