@@ -83,7 +83,8 @@ namespace
   {
     const auto                                           &grid = core.grid;
     std::map<unsigned long, std::array<unsigned long, 2>> own;
-    unsigned long next = *unknowns.owned().begin();
+    unsigned long                                         next =
+      unknowns.owned().n_elements() > 0 ? *unknowns.owned().begin() : 0;
     for (const unsigned int node : unknowns.active_nodes())
       {
         EXPECT_EQ(unknowns.first(node), next);
@@ -101,7 +102,8 @@ namespace
           expected_begin += dim * of_ranks[r].size();
         all.insert(of_ranks[r].begin(), of_ranks[r].end());
       }
-    EXPECT_EQ(*unknowns.owned().begin(), expected_begin);
+    if (!own.empty())
+      EXPECT_EQ(*unknowns.owned().begin(), expected_begin);
     EXPECT_EQ(unknowns.n_global(), dim * all.size());
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
       {
@@ -214,7 +216,7 @@ namespace
     const std::string grip =
       "set Bottom = seabed\n" + in_section("Seabed",
                                            "set Friction coefficient = 10\n"
-                                           "set Maximum shear stress = 1500");
+                                           "set Maximum shear stress = 5000");
     return {{{"block", "linear elastic"}, stiff, small, "direct"},
             {{"block", "linear elastic"}, stiff, small, "CG"},
             {{"block", "linear elastic"}, stiff, small, "GMRES"},
@@ -237,12 +239,12 @@ namespace
 
 
 
-  /// A bank whose end hangs over by a tenth of a cell.
+  /// A bank from x = 1 m to @p end; at 4.1 m a tenth of a cell hangs over.
   template <int dim>
   Result
   solve(const Task        &task,
         const unsigned int kind,
-        const unsigned int seed,
+        const double       end,
         const MPI_Comm     communicator)
   {
     Statics<dim> bank(
@@ -253,7 +255,7 @@ namespace
         in_section("Linear solver",
                    "set Tolerance = 1e-12\nset Type = " + task.solver),
       communicator);
-    make_mesh(bank, kind, seed);
+    make_mesh(bank, kind, 1);
     Point<dim>                    lower, upper;
     std::array<unsigned int, dim> n;
     Tensor<1, dim>                gravity;
@@ -261,8 +263,8 @@ namespace
     for (unsigned int d = 0; d < dim; ++d)
       upper[d] = 2.;
     lower[0]   = 1.;
-    upper[0]   = 4.1;
-    n[0]       = 14;
+    upper[0]   = end;
+    n[0]       = std::lround(4. * (end - 1.) + 1.6);
     gravity[1] = -9.81;
     bank.fill(lower, upper, n);
     bank.transfer.use_cell_mean({true});
@@ -287,36 +289,50 @@ namespace
 
 
 
+  /// The reference is the direct solver's on one rank.
   template <int dim>
   void
-  expect_results_of_one_rank()
+  expect_result_of_one_rank(const Task        &task,
+                            const unsigned int kind,
+                            const double       end = 4.1)
   {
-    for (const Task &task : tasks())
-      for (const unsigned int kind : {0u, 2u})
-        {
-          SCOPED_TRACE(
-            text(dim, "-D, ", task.name.law, ", ", task.solver, ", ", kind));
-          // The reference is the direct solver's.
-          Task direct        = task;
-          direct.solver      = "direct";
-          const Result alone = solve<dim>(direct, kind, 1, MPI_COMM_SELF);
-          const Result found = solve<dim>(task, kind, 1, MPI_COMM_WORLD);
-          EXPECT_EQ(MPI::sum(found.points.size(), MPI_COMM_WORLD),
-                    alone.points.size());
-          EXPECT_EQ(found.n_unknowns, alone.n_unknowns);
-          EXPECT_EQ(found.n_iterations.size(), alone.n_iterations.size());
-          for (const auto &[id, values] : found.points)
-            for (unsigned int i = 0; i < values.size(); ++i)
-              EXPECT_NEAR(values[i], alone.points.at(id)[i], 1e-9)
-                << id << ' ' << i;
-        }
+    SCOPED_TRACE(
+      text(dim, "-D, ", task.name.law, ", ", task.solver, ", mesh ", kind));
+    Task direct        = task;
+    direct.solver      = "direct";
+    const Result alone = solve<dim>(direct, kind, end, MPI_COMM_SELF);
+    const Result found = solve<dim>(task, kind, end, MPI_COMM_WORLD);
+    EXPECT_EQ(MPI::sum(found.points.size(), MPI_COMM_WORLD),
+              alone.points.size());
+    EXPECT_EQ(found.n_unknowns, alone.n_unknowns);
+    EXPECT_EQ(found.n_iterations.size(), alone.n_iterations.size());
+    // Some nodes of the seabed slip in another run of Newton's method.
+    if (contains(task.bottom, "seabed"))
+      EXPECT_GT(found.n_iterations.size(), 1u);
+    for (const auto &[id, values] : found.points)
+      for (unsigned int i = 0; i < values.size(); ++i)
+        EXPECT_NEAR(values[i], alone.points.at(id)[i], 1e-9) << id << ' ' << i;
   }
 
 
 
   TEST(StaticRanks, EquilibriumIsThatOfOneRank)
   {
-    expect_results_of_one_rank<2>();
-    expect_results_of_one_rank<3>();
+    for (const Task &task : tasks())
+      {
+        expect_result_of_one_rank<2>(task, 0);
+        expect_result_of_one_rank<2>(task, 2);
+        expect_result_of_one_rank<3>(task, 1);
+      }
+  }
+
+
+
+  // So little soil that not all ranks have some.
+  TEST(StaticRanks, RanksWithoutSoil)
+  {
+    for (const Task &task : tasks())
+      if (!contains(task.bottom, "seabed"))
+        expect_result_of_one_rank<2>(task, 0, 1.9);
   }
 } // namespace
