@@ -258,8 +258,10 @@ namespace
       file.close();
     }
     const std::string sentence = sentence_of([&]() { find(); });
-    EXPECT_NE(sentence.find("format version 2"), std::string::npos) << sentence;
-    EXPECT_NE(sentence.find("reads version 1"), std::string::npos) << sentence;
+    for (const std::string &part :
+         {text("the format version ", checkpoint_format + 1),
+          text("reads version ", checkpoint_format)})
+      EXPECT_NE(sentence.find(part), std::string::npos) << sentence;
   }
 
 

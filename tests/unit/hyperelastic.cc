@@ -1,6 +1,6 @@
 // Hyperelastic laws at one point.
 
-#include "soil.h"
+#include "specimen.h"
 
 using namespace talus;
 
@@ -29,8 +29,8 @@ namespace
   void
   check_stress_is_derivative(const std::string &name)
   {
-    std::mt19937 random(3);
-    Soil<dim>    soil(name, rubber.parameters());
+    std::mt19937  random(3);
+    Specimen<dim> soil(name, rubber.parameters());
     for (unsigned int sample = 0; sample < 20; ++sample)
       {
         const auto          F   = random_F<dim>(random);
@@ -62,8 +62,8 @@ namespace
   void
   check_rotation_invariance(const std::string &name)
   {
-    std::mt19937 random(4);
-    Soil<dim>    soil(name, rubber.parameters());
+    std::mt19937  random(4);
+    Specimen<dim> soil(name, rubber.parameters());
     for (unsigned int sample = 0; sample < 20; ++sample)
       {
         const auto   F     = random_F<dim>(random);
@@ -84,8 +84,8 @@ namespace
   check_plane_strain(const std::string &name)
   {
     std::mt19937 random(5);
-    Soil<2>      plane(name, rubber.parameters());
-    Soil<3>      space(name, rubber.parameters());
+    Specimen<2>  plane(name, rubber.parameters());
+    Specimen<3>  space(name, rubber.parameters());
     for (unsigned int sample = 0; sample < 20; ++sample)
       {
         const auto F  = random_F<2>(random);
@@ -133,7 +133,7 @@ namespace
   // W(F + e a (F^T n)) by e.
   template <int dim>
   double
-  fastest_wave(Soil<dim> &soil, const Matrix<dim, double> &F)
+  fastest_wave(Specimen<dim> &soil, const Matrix<dim, double> &F)
   {
     const double W       = soil.energy_at(F);
     double       largest = 0.;
@@ -164,8 +164,8 @@ namespace
                    const double       excess,
                    const unsigned int n_samples)
   {
-    std::mt19937 random(6);
-    Soil<dim>    soil(name, rubber.parameters());
+    std::mt19937  random(6);
+    Specimen<dim> soil(name, rubber.parameters());
     for (unsigned int sample = 0; sample < n_samples; ++sample)
       {
         const auto   F    = random_F<dim>(random);
@@ -212,7 +212,7 @@ TEST(Hyperelastic, PlaneStrainInTwoAndThreeDimensions)
 TEST(Hyperelastic, NeoHookeanClosedForm)
 {
   const double L = 1.7;
-  Soil<2>      soil("neo-Hookean", rubber.parameters());
+  Specimen<2>  soil("neo-Hookean", rubber.parameters());
   soil.energy_at({{{{{L, 0.}}, {{0., 1.}}}}});
   const double p = rubber.lambda * std::log(L);
   expect_near(soil.stress(),
@@ -225,8 +225,8 @@ TEST(Hyperelastic, NeoHookeanClosedForm)
 // Equal, nearly equal and very different stretches.
 TEST(Hyperelastic, HenckyPrincipalStretches)
 {
-  Soil<2> plane("Hencky", rubber.parameters());
-  Soil<3> space("Hencky", rubber.parameters());
+  Specimen<2> plane("Hencky", rubber.parameters());
+  Specimen<3> space("Hencky", rubber.parameters());
   for (const auto [a, b] : {std::array<double, 2>{{1., 1.}},
                             {{1.3, 1.3}},
                             {{1.3, 1.3 + 1e-12}},
@@ -258,10 +258,10 @@ TEST(WaveSpeed, IsThatOfTheUndeformedMaterial)
   const double c = std::sqrt((rubber.lambda + 2. * rubber.mu) / 600.);
   for (const std::string &name : material_names<2>())
     {
-      EXPECT_NEAR(Soil<2>(name, rubber.parameters()).wave_speed(),
+      EXPECT_NEAR(Specimen<2>(name, rubber.parameters()).wave_speed(),
                   c,
                   1e-13 * c);
-      EXPECT_NEAR(Soil<3>(name, rubber.parameters()).wave_speed(),
+      EXPECT_NEAR(Specimen<3>(name, rubber.parameters()).wave_speed(),
                   c,
                   1e-13 * c);
     }
@@ -275,7 +275,7 @@ TEST(WaveSpeed, RateLawsSeeTheDensity)
   const double c = std::sqrt((rubber.lambda + 2. * rubber.mu) / 600.);
   for (const std::string name : {"linear elastic", "von Mises"})
     {
-      Soil<2> soil(name, rubber.parameters());
+      Specimen<2> soil(name, rubber.parameters());
       soil.set_F({{{{{0.8, 0.3}}, {{0., 0.8}}}}});
       EXPECT_NEAR(soil.wave_speed(), 0.8 * c, 1e-13 * c);
     }

@@ -2,7 +2,7 @@
 
 #include <talus/base/errors.h>
 
-#include "soil.h"
+#include "specimen.h"
 
 using namespace talus;
 
@@ -18,9 +18,9 @@ namespace
   check_lanes(const std::string &name)
   {
     constexpr unsigned int n = 11;
-    Soil<dim>              batch(name, paper.parameters(), n);
-    Soil<dim>              single(name, paper.parameters(), n);
-    for (Soil<dim> *soil : {&batch, &single})
+    Specimen<dim>          batch(name, paper.parameters(), n);
+    Specimen<dim>          single(name, paper.parameters(), n);
+    for (Specimen<dim> *soil : {&batch, &single})
       {
         std::mt19937 random(2);
         for (unsigned int p = 0; p < n; ++p)
@@ -150,7 +150,7 @@ TEST(Materials, PointsTurnedInsideOutAreReported)
 {
   for (const std::string &name : material_names<2>())
     {
-      Soil<2> soil(name, paper.parameters(), 9);
+      Specimen<2> soil(name, paper.parameters(), 9);
       for (unsigned int p = 0; p < 9; ++p)
         soil.set_increment(Matrix<2, double>{}, p);
       soil.set_increment({{{{{-1.5, 0.}}, {{0., 0.}}}}}, 4);

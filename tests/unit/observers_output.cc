@@ -166,11 +166,13 @@ namespace
               std::string::npos)
       << sentence;
 
-    // A file that is written as a whole is so or not at all.
+    // A file that is written as a whole is so or not at all: beginning leaves
+    // the earlier one alone, and so does starting on a full disk.
     fs::remove(folder / "statistics.csv");
     std::ofstream(folder / "points-0000.vtu") << "earlier result\n";
     fs::create_symlink("/dev/full", folder / "points-0000.vtu.part");
-    sentence = sentence_of([&]() { output.begin(s.snapshot(), 1.); });
+    output.begin(s.snapshot(), 1.);
+    sentence = sentence_of([&]() { output.start(s.snapshot()); });
     EXPECT_NE(sentence.find("points-0000.vtu' could not be written (No space"),
               std::string::npos)
       << sentence;

@@ -1,7 +1,7 @@
 // Motion across the faces of meshes that repeat. The suite works on any number
 // of ranks; ctest runs it on 1, 2 and 3.
 #include "periodic_setup.h"
-#include "soil.h"
+#include "specimen.h"
 
 namespace
 {

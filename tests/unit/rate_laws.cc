@@ -1,6 +1,6 @@
 // Rate laws at one point.
 
-#include "soil.h"
+#include "specimen.h"
 
 using namespace talus;
 
@@ -42,7 +42,7 @@ namespace
   void
   check_simple_shear()
   {
-    Soil<dim>          soil("linear elastic", paper.parameters());
+    Specimen<dim>      soil("linear elastic", paper.parameters());
     const double       dgamma = 0.02;
     const unsigned int n      = 100;
     for (unsigned int step = 0; step < n; ++step)
@@ -70,7 +70,7 @@ namespace
   check_rigid_rotation(const std::string &name, const unsigned int n_steps)
   {
     // Compressible: the round-off of det(I + dt L') comes times K.
-    Soil<dim>           soil(name, Elastic{250e3, 0.3}.parameters());
+    Specimen<dim>       soil(name, Elastic{250e3, 0.3}.parameters());
     Stress<dim, double> start;
     for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
       soil.points.data(soil.points.stress, c)[0] = start[c] =
@@ -102,8 +102,8 @@ namespace
   void
   check_pressure(const std::string &name)
   {
-    std::mt19937 random(1);
-    Soil<dim>    soil(name, paper.parameters());
+    std::mt19937  random(1);
+    Specimen<dim> soil(name, paper.parameters());
     for (unsigned int step = 0; step < 5000; ++step)
       soil.step(random_matrix<dim>(random, step % 50 == 0 ? 0.05 : 2e-3));
     const double log_J = std::log(determinant(soil.F()));
@@ -123,7 +123,7 @@ namespace
     std::ostringstream more;
     more << strength << "set Hardening modulus = " << hardening
          << "\nset Residual undrained shear strength = " << residual;
-    Soil<2> soil("von Mises", paper.parameters(more.str()));
+    Specimen<2> soil("von Mises", paper.parameters(more.str()));
 
     const double g_end = 5. * s_u / (2. * paper.mu);
     for (unsigned int step = 1; step <= n_steps; ++step)
@@ -153,7 +153,7 @@ namespace
   /// Advance a point in plane-strain compression by the axial strain -strain,
   /// with the lateral strain that leaves sigma_xx = 0.
   void
-  compress(Soil<2> &soil, const double strain)
+  compress(Specimen<2> &soil, const double strain)
   {
     // Try on point 1, secant method.
     const auto lateral_stress = [&](const double lateral) {
@@ -213,8 +213,8 @@ TEST(RateLaws, VolumetricWorkIsStored)
 {
   for (const double strain : {1e-3, 5e-4})
     {
-      Soil<3> soil("linear elastic", paper.parameters());
-      auto    H = identity<3, double>();
+      Specimen<3> soil("linear elastic", paper.parameters());
+      auto        H = identity<3, double>();
       for (unsigned int i = 0; i < 3; ++i)
         H[i][i] = -strain;
       for (unsigned int step = 0; step < 0.1 / strain; ++step)
@@ -235,7 +235,7 @@ TEST(VonMises, YieldsInSimpleShear)
 {
   const Elastic stiff{2.5e9, 0.49};
   const double  yield_strain = s_u / stiff.mu;
-  Soil<3>       soil("von Mises", stiff.parameters(strength));
+  Specimen<3>   soil("von Mises", stiff.parameters(strength));
   for (unsigned int step = 1; step <= 3000; ++step)
     {
       soil.step(simple_shear<3>(yield_strain / 1000.));
@@ -261,7 +261,7 @@ TEST(VonMises, YieldsInSimpleShear)
 TEST(VonMises, SteadyShear)
 {
   const double dgamma = 1e-3;
-  Soil<2>      soil("von Mises", paper.parameters(strength));
+  Specimen<2>  soil("von Mises", paper.parameters(strength));
   double       work = 0.;
   for (unsigned int step = 0; step < 2000; ++step)
     {
@@ -289,7 +289,7 @@ TEST(VonMises, SteadyShear)
 
 TEST(VonMises, PlaneStrainCompression)
 {
-  Soil<2> soil("von Mises", paper.parameters(strength), 3);
+  Specimen<2> soil("von Mises", paper.parameters(strength), 3);
   // Elastic: sigma_zz = nu sigma_yy.
   const double first_yield =
     sigma_y / std::sqrt(1. - paper.nu + paper.nu * paper.nu);
@@ -338,8 +338,8 @@ TEST(VonMises, HardensAndSoftens)
 TEST(VonMises, PlasticWork)
 {
   const double hardening = 50e3;
-  Soil<2>      soil("von Mises",
-               paper.parameters(strength + "set Hardening modulus = 50e3"));
+  Specimen<2>  soil("von Mises",
+                   paper.parameters(strength + "set Hardening modulus = 50e3"));
   const double g = s_u / (2. * paper.mu) / 100.;
   for (unsigned int step = 0; step < 300; ++step)
     soil.step(pure_shear(g));

@@ -1,6 +1,6 @@
 // The strength factor of the points, a column, in the laws that have a strength.
 
-#include "soil.h"
+#include "specimen.h"
 
 using namespace talus;
 
@@ -33,7 +33,7 @@ namespace
   /// Add the column to @p soil.
   template <int dim>
   double *
-  add_factor(Soil<dim> &soil)
+  add_factor(Specimen<dim> &soil)
   {
     const unsigned int column =
       soil.points.add_column("strength factor", "-", 1, Inheritance::copied);
@@ -46,7 +46,7 @@ namespace
 
   template <int dim>
   double
-  stored_by_shear(const Soil<dim> &soil, const unsigned int p = 0)
+  stored_by_shear(const Specimen<dim> &soil, const unsigned int p = 0)
   {
     return soil.volume * soil.deviator_squared(p) / (4. * clay.mu);
   }
@@ -62,8 +62,8 @@ TEST(StrengthFactor, WhoHasAStrength)
 {
   for (const std::string &name : material_names<2>())
     {
-      Soil<2>    soil(name, clay.parameters());
-      const bool has_strength =
+      Specimen<2> soil(name, clay.parameters());
+      const bool  has_strength =
         name == "von Mises" || name == "Bingham" || name == "Herschel-Bulkley";
       EXPECT_EQ(soil.law->has_strength(), has_strength) << name;
       if (!has_strength)
@@ -86,10 +86,10 @@ TEST(StrengthFactor, MultipliesTheStrength)
   constexpr unsigned int n = 11;
   for (const std::string &name : laws)
     {
-      Soil<3>       plain(name, parameters(name, 1.), n);
-      Soil<3>       one(name, parameters(name, 1.), n);
-      Soil<3>       half(name, parameters(name, 0.5), n);
-      Soil<3>       mixed(name, parameters(name, 1.), n);
+      Specimen<3>   plain(name, parameters(name, 1.), n);
+      Specimen<3>   one(name, parameters(name, 1.), n);
+      Specimen<3>   half(name, parameters(name, 0.5), n);
+      Specimen<3>   mixed(name, parameters(name, 1.), n);
       double *const factor_of_one   = add_factor(one);
       double *const factor_of_mixed = add_factor(mixed);
       for (unsigned int p = 0; p < n; p += 2)
@@ -101,15 +101,15 @@ TEST(StrengthFactor, MultipliesTheStrength)
           for (unsigned int p = 0; p < n; ++p)
             {
               const auto H = random_matrix<3>(random, 0.02);
-              for (Soil<3> *soil : {&plain, &one, &half, &mixed})
+              for (Specimen<3> *soil : {&plain, &one, &half, &mixed})
                 soil->set_increment(H, p);
             }
-          for (Soil<3> *soil : {&plain, &one, &half, &mixed})
+          for (Specimen<3> *soil : {&plain, &one, &half, &mixed})
             soil->law->update_stress(soil->points, 0, n, soil->dt);
         }
       for (unsigned int p = 0; p < n; ++p)
         {
-          const Soil<3> &same = (p % 2 == 0 ? half : plain);
+          const Specimen<3> &same = (p % 2 == 0 ? half : plain);
           expect_near(mixed.stress(p), same.stress(p), 1e-12 * clay.bulk);
           EXPECT_NEAR(mixed.law->shear_strength(mixed.points, p),
                       same.law->shear_strength(same.points, p),
@@ -133,11 +133,11 @@ TEST(StrengthFactor, SuddenDropReleasesWhatWasStored)
     for (const double fraction : {0.4, 0.})
       {
         const bool  is_viscoplastic = (name != "von Mises");
-        Soil<3>     soil(name,
-                     clay.parameters("set Undrained shear strength = 2500\n" +
-                                     std::string(is_viscoplastic
-                                                   ? "set Consistency = 0"
-                                                   : "")));
+        Specimen<3> soil(name,
+                         clay.parameters(
+                           "set Undrained shear strength = 2500\n" +
+                           std::string(is_viscoplastic ? "set Consistency = 0"
+                                                       : "")));
         const auto &points = soil.points;
         double     *factor = add_factor(soil);
         // Loaded up to the yield stress, with rotation.
@@ -175,7 +175,7 @@ TEST(StrengthFactor, WorkIsStoredOrDissipatedWhileItFalls)
 {
   for (const std::string &name : laws)
     {
-      Soil<2>      soil(name, parameters(name, 1.));
+      Specimen<2>  soil(name, parameters(name, 1.));
       double      *factor = add_factor(soil);
       const double g      = 1e-3; // of mid-step: diag(g, -g)
       double       work   = 0.;

@@ -2,7 +2,7 @@
 
 #include <talus/base/errors.h>
 
-#include "soil.h"
+#include "specimen.h"
 
 using namespace talus;
 
@@ -59,7 +59,7 @@ namespace
 
 
   double
-  shear_stress(const Soil<2> &soil, const unsigned int p = 0)
+  shear_stress(const Specimen<2> &soil, const unsigned int p = 0)
   {
     return std::sqrt(0.5 * soil.deviator_squared(p));
   }
@@ -67,7 +67,7 @@ namespace
 
 
   double
-  plastic_shear_strain(const Soil<2> &soil, const unsigned int p = 0)
+  plastic_shear_strain(const Specimen<2> &soil, const unsigned int p = 0)
   {
     return soil.points.data(soil.points.find("plastic shear strain"))[p];
   }
@@ -97,8 +97,8 @@ namespace
 
 TEST(Viscoplastic, NoTimeNoFlow)
 {
-  Soil<2> soil("Herschel-Bulkley",
-               stiff.parameters(herschel_bulkley(10., 0.4)));
+  Specimen<2> soil("Herschel-Bulkley",
+                   stiff.parameters(herschel_bulkley(10., 0.4)));
   soil.points.data(soil.points.stress, 3)[0] = 2. * s_u;
   soil.law->update_stress(soil.points, 0, 1, 0.);
   EXPECT_DOUBLE_EQ(soil.stress()[3], 2. * s_u);
@@ -118,7 +118,7 @@ TEST(Viscoplastic, SteadySimpleShear)
     [](const std::string &name, const std::string &more, const double n) {
       for (const double rate : {0.01, 10.})
         {
-          Soil<2>      soil(name, stiff.parameters(more));
+          Specimen<2>  soil(name, stiff.parameters(more));
           const double dgamma = rate * soil.dt;
           for (unsigned int step = 0; step < 300; ++step)
             soil.step(simple_shear(dgamma));
@@ -143,7 +143,7 @@ TEST(Viscoplastic, Relaxation)
 {
   const Elastic soft{250e3, 0.49};
   const double  K = 5e4, start = 3. * s_u;
-  Soil<2>       linear("Bingham", soft.parameters(lines({{"Viscosity", K}})));
+  Specimen<2>   linear("Bingham", soft.parameters(lines({{"Viscosity", K}})));
   linear.points.data(linear.points.stress, 3)[0] = s_u + start;
   linear.set_increment({});
   for (unsigned int k = 1; k <= 40; ++k)
@@ -157,8 +157,8 @@ TEST(Viscoplastic, Relaxation)
   double error[2];
   for (const unsigned int i : {0, 1})
     {
-      Soil<2> soil("Herschel-Bulkley",
-                   soft.parameters(herschel_bulkley(3e3, 0.5)));
+      Specimen<2> soil("Herschel-Bulkley",
+                       soft.parameters(herschel_bulkley(3e3, 0.5)));
       soil.points.data(soil.points.stress, 3)[0] = s_u + start;
       soil.set_increment({});
       const unsigned int n_steps = (i == 0 ? 1000 : 2000);
@@ -177,9 +177,10 @@ TEST(Viscoplastic, Relaxation)
 TEST(Viscoplastic, AgreesWithVonMises)
 {
   const Elastic clay{250e3, 0.49};
-  Soil<3> flow("Herschel-Bulkley", clay.parameters(herschel_bulkley(0., 0.5)));
-  Soil<3> mises("von Mises", clay.parameters(lines({})));
-  std::mt19937 random(3);
+  Specimen<3>   flow("Herschel-Bulkley",
+                   clay.parameters(herschel_bulkley(0., 0.5)));
+  Specimen<3>   mises("von Mises", clay.parameters(lines({})));
+  std::mt19937  random(3);
   for (unsigned int step = 0; step < 500; ++step)
     {
       const auto H = random_matrix<3>(random, 0.01);
@@ -208,9 +209,9 @@ TEST(Viscoplastic, RemouldsAlongTheCurve)
   const double r = 0.2, xi_95 = 5.;
   for (const double K : {0., 30.})
     {
-      Soil<2>      soil("Bingham",
-                   stiff.parameters(
-                     lines({{"Viscosity", K},
+      Specimen<2>  soil("Bingham",
+                       stiff.parameters(
+                         lines({{"Viscosity", K},
                                  {"Remoulded strength ratio", r},
                                  {"Plastic shear strain to remould", xi_95}})));
       const double dgamma = 0.01;
@@ -244,7 +245,7 @@ TEST(Viscoplastic, WorkIsStoredOrDissipated)
 {
   const Elastic clay{250e3, 0.49};
   const double  K = 2e3, rate = 4.;
-  Soil<2>       soil("Bingham", clay.parameters(lines({{"Viscosity", K}})));
+  Specimen<2>   soil("Bingham", clay.parameters(lines({{"Viscosity", K}})));
   const double  d = rate * soil.dt, ratio = clay.mu * soil.dt / K;
   double        tau = 0., plastic_work = 0.;
   for (unsigned int step = 0; step < 200; ++step)
@@ -271,8 +272,8 @@ TEST(Viscoplastic, WorkIsStoredOrDissipated)
 TEST(Viscoplastic, WorkInRemouldingShear)
 {
   const Elastic clay{250e3, 0.49};
-  Soil<2>       soil("Herschel-Bulkley",
-               clay.parameters(herschel_bulkley(300., 0.5, 0.3)));
+  Specimen<2>   soil("Herschel-Bulkley",
+                   clay.parameters(herschel_bulkley(300., 0.5, 0.3)));
   double        work = 0.;
   for (unsigned int step = 0; step < 3000; ++step)
     {
@@ -295,12 +296,12 @@ TEST(Viscoplastic, LanesEqualScalarsWithRemoulding)
   const Elastic          clay{250e3, 0.49};
   for (const double exponent : {0.4, 1., 2.})
     {
-      Soil<2>      batch("Herschel-Bulkley",
-                    clay.parameters(herschel_bulkley(100., exponent, 0.2)),
-                    n);
-      Soil<2>      single("Herschel-Bulkley",
-                     clay.parameters(herschel_bulkley(100., exponent, 0.2)),
-                     n);
+      Specimen<2>  batch("Herschel-Bulkley",
+                        clay.parameters(herschel_bulkley(100., exponent, 0.2)),
+                        n);
+      Specimen<2>  single("Herschel-Bulkley",
+                         clay.parameters(herschel_bulkley(100., exponent, 0.2)),
+                         n);
       std::mt19937 random(5);
       for (unsigned int step = 0; step < 20; ++step)
         {

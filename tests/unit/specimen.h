@@ -1,5 +1,5 @@
-#ifndef talus_tests_unit_soil_h
-#define talus_tests_unit_soil_h
+#ifndef talus_tests_unit_specimen_h
+#define talus_tests_unit_specimen_h
 
 #include <talus/materials/material_model.h>
 
@@ -39,15 +39,15 @@ namespace talus
 
 
   template <int dim>
-  class Soil
+  class Specimen
   {
   public:
     std::unique_ptr<MaterialModel<dim>> law;
     Points<dim>                         points;
 
-    Soil(const std::string &name,
-         const std::string &parameters,
-         const unsigned int n_points = 1)
+    Specimen(const std::string &name,
+             const std::string &parameters,
+             const unsigned int n_points = 1)
       : law(make_law<dim>(name, parameters))
     {
       law->add_columns(points);

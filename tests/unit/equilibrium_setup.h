@@ -1,0 +1,260 @@
+#ifndef talus_tests_unit_equilibrium_setup_h
+#define talus_tests_unit_equilibrium_setup_h
+
+#include <talus/equilibrium/equilibrium.h>
+
+#include "ranks_setup.h"
+
+namespace
+{
+  /// Parameters of a material.
+  inline std::string
+  material(const std::string &name, const std::string &entries)
+  {
+    return in_section("Materials", in_section(name, entries));
+  }
+
+
+
+  /// All rooms up to the search for equilibrium. Body b is made of the b-th
+  /// material.
+  template <int dim>
+  struct Statics : Core<dim>
+  {
+    using Base = Core<dim>;
+    using Base::boundaries;
+    using Base::grid;
+    using Base::loads;
+    using Base::nodes;
+    using Base::points;
+    using Base::transfer;
+
+    static constexpr double density = 1500.; ///< kg/m^3
+
+    Statics(const std::string               &below,
+            const std::vector<MaterialName> &names,
+            const std::string               &own,
+            const MPI_Comm                   communicator = MPI_COMM_WORLD)
+      : Base(below, {}, communicator)
+      , materials(names)
+    {
+      dealii::ParameterAcceptor::declare_all_parameters();
+      dealii::ParameterAcceptor::prm.parse_input_from_string(own);
+      dealii::ParameterAcceptor::parse_all_parameters();
+      std::vector<std::string> bodies;
+      for (const MaterialName &name : names)
+        bodies.push_back(name.name);
+      materials.assign(bodies, bodies);
+      materials.add_columns(points);
+      boundaries.prepare(Constants());
+    }
+
+    /// The part [@p lower, @p upper] filled with @p n points along each axis
+    /// whose boxes tile it; this rank keeps those in its cells.
+    void
+    fill(const Point<dim>                    &lower,
+         const Point<dim>                    &upper,
+         const std::array<unsigned int, dim> &n,
+         const unsigned int                   body = 0)
+    {
+      unsigned int n_all = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        n_all *= n[d];
+      for (unsigned int k = 0; k < n_all; ++k)
+        {
+          Point<dim>     x;
+          Tensor<1, dim> length;
+          unsigned int   rest   = k;
+          double         volume = 1.;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              length[d] = (upper[d] - lower[d]) / n[d];
+              x[d]      = lower[d] + (rest % n[d] + 0.5) * length[d];
+              rest /= n[d];
+              volume *= length[d];
+            }
+          if (grid.find_cell(x) >= grid.n_owned_cells())
+            continue;
+          const unsigned int p                    = this->add(x, length, body);
+          points.data(points.reference_volume)[p] = volume;
+          points.data(points.mass)[p]             = density * volume;
+          points.data(points.id)[p]               = n_before + k;
+        }
+      n_before += n_all;
+    }
+
+    /// Sort the points in and let weight act.
+    void
+    load(const Tensor<1, dim> &gravity)
+    {
+      boundaries.locate_nodes(grid);
+      for (auto &acceleration : loads.acceleration_of_body)
+        acceleration = gravity;
+      least_mass = transfer.least_mass(density, grid.finest_size());
+      this->sort();
+    }
+
+    Soil<dim>
+    soil()
+    {
+      return {points,
+              grid,
+              nodes,
+              transfer,
+              materials,
+              boundaries,
+              loads,
+              0.,
+              least_mass};
+    }
+
+    /// Search until the end. Returns whether equilibrium is found; residuals by
+    /// run of Newton's method are in @p runs.
+    bool
+    find(const StrainMeasure measure = StrainMeasure::small)
+    {
+      runs.clear();
+      equilibrium.begin(measure);
+      while (!equilibrium.is_found())
+        {
+          Soil<dim> all = soil();
+          if (!equilibrium.advance(all,
+                                   [&](const EquilibriumProgress &progress) {
+                                     if (progress.iteration.number == 0)
+                                       runs.emplace_back();
+                                     runs.back().push_back(progress.iteration);
+                                   }))
+            return false;
+          if (measure == StrainMeasure::large)
+            this->sort();
+        }
+      return true;
+    }
+
+    /// Force out of balance at a node after sum_forces(), N.
+    Tensor<1, dim>
+    force(const unsigned int node) const
+    {
+      Tensor<1, dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = nodes.sum(node)[NodalSum<dim>::force + d];
+      return result;
+    }
+
+    Materials<dim>                            materials;
+    Equilibrium<dim>                          equilibrium;
+    double                                    least_mass = 0.;
+    unsigned int                              n_before   = 0;
+    std::vector<std::vector<NewtonIteration>> runs;
+  };
+
+
+
+  /// Unknowns of the points as they are, none of them held, and what goes with
+  /// them.
+  template <int dim>
+  struct StepParts
+  {
+    Unknowns<dim>       unknowns;
+    KeptWeights<dim>    weights;
+    InternalForces<dim> internal_forces;
+
+    StepParts(Statics<dim>       &statics,
+              const StrainMeasure measure,
+              const double        least_mass = 0.)
+      : internal_forces(measure)
+    {
+      Soil<dim> soil = statics.soil();
+      sum_forces(soil);
+      unknowns.number(statics.nodes, statics.grid, least_mass);
+      weights.compute(statics.points,
+                      statics.grid,
+                      statics.transfer.box_shape(),
+                      unknowns);
+      unknowns.hold(
+        std::vector<unsigned char>(unknowns.active_nodes().size(), 0));
+    }
+
+    /// A field with random components at the nodes with unknowns.
+    std::vector<double>
+    random_field(Statics<dim> &statics, const double size) const
+    {
+      auto field = unknowns.field();
+      for (const unsigned int node : unknowns.active_nodes())
+        for (unsigned int d = 0; d < dim; ++d)
+          field[dim * node + d] = statics.number(-size, size);
+      return field;
+    }
+
+    /// An empty matrix with room for all couplings.
+    void
+    make_full(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+    {
+      const unsigned int             n = unknowns.n_global();
+      dealii::DynamicSparsityPattern pattern(n, n, unknowns.relevant());
+      std::vector<dealii::types::global_dof_index> all(n);
+      for (unsigned int i = 0; i < n; ++i)
+        all[i] = i;
+      for (const auto row : unknowns.relevant())
+        pattern.add_entries(row, all.begin(), all.end(), true);
+      matrix.reinit(unknowns.owned(),
+                    unknowns.owned(),
+                    pattern,
+                    unknowns.communicator());
+    }
+
+    std::vector<double>
+    multiply(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+             const std::vector<double>                    &field) const
+    {
+      dealii::TrilinosWrappers::MPI::Vector x(unknowns.owned(),
+                                              unknowns.communicator());
+      auto                                  y = x;
+      unknowns.for_free([&](const unsigned int node, const unsigned int d) {
+        x(unknowns.first(node) + d) = field[dim * node + d];
+      });
+      x.compress(dealii::VectorOperation::insert);
+      matrix.vmult(y, x);
+      auto result = unknowns.field();
+      unknowns.for_free([&](const unsigned int node, const unsigned int d) {
+        result[dim * node + d] = y(unknowns.first(node) + d);
+      });
+      return result;
+    }
+  };
+
+
+
+  inline double
+  dot(const std::vector<double> &a, const std::vector<double> &b)
+  {
+    double sum = 0.;
+    for (unsigned int i = 0; i < a.size(); ++i)
+      sum += a[i] * b[i];
+    return sum;
+  }
+
+
+
+  inline double
+  largest(const std::vector<double> &a)
+  {
+    double result = 0.;
+    for (const double value : a)
+      result = std::max(result, std::abs(value));
+    return result;
+  }
+
+
+
+  /// a + factor b
+  inline std::vector<double>
+  plus(std::vector<double> a, const double factor, const std::vector<double> &b)
+  {
+    for (unsigned int i = 0; i < a.size(); ++i)
+      a[i] += factor * b[i];
+    return a;
+  }
+} // namespace
+
+#endif

@@ -1,0 +1,155 @@
+#include <talus/equilibrium/linear_solver.h>
+
+#include "equilibrium_setup.h"
+
+namespace
+{
+  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
+  using Vector = dealii::TrilinosWrappers::MPI::Vector;
+
+  const std::string stiff =
+    "set Young's modulus = 1e6\nset Poisson's ratio = 0.3\n";
+
+
+
+  /// An elastic block, held below, under its weight; too many unknowns for the
+  /// coarsest level of multigrid.
+  template <int dim>
+  struct Block : Statics<dim>
+  {
+    Block()
+      : Statics<dim>(dim == 2 ? mesh("0, 0", "4, 4", "0.125")
+                              : mesh("0, 0, 0", "4, 4, 4", "0.5"),
+                     {{"block", "linear elastic"}},
+                     material("block", stiff))
+    {
+      Point<dim>                    lower, upper;
+      std::array<unsigned int, dim> n;
+      n.fill(dim == 2 ? 48 : 12);
+      for (unsigned int d = 0; d < dim; ++d)
+        upper[d] = 3.;
+      this->fill(lower, upper, n);
+      Tensor<1, dim> gravity;
+      gravity[0] = 2.;
+      gravity[1] = -9.81;
+      this->load(gravity);
+      parts.emplace(*this, StrainMeasure::small, this->least_mass);
+      auto                      &unknowns = parts->unknowns;
+      std::vector<unsigned char> held;
+      for (const unsigned int node : unknowns.active_nodes())
+        held.push_back(this->grid.faces_of_node(node) & 4 ? 7 : 0);
+      unknowns.hold(held);
+      assemble();
+    }
+
+    void
+    assemble()
+    {
+      const auto &unknowns = parts->unknowns;
+      auto        soil     = this->soil();
+      auto        forces   = unknowns.field();
+      parts->internal_forces.evaluate(soil,
+                                      parts->weights,
+                                      unknowns.field(),
+                                      forces);
+      parts->make_full(matrix);
+      parts->internal_forces.add_tangent(soil,
+                                         parts->weights,
+                                         unknowns,
+                                         matrix);
+      matrix.compress(dealii::VectorOperation::add);
+      rhs.reinit(unknowns.owned(), unknowns.communicator());
+      unknowns.for_free([&](const unsigned int node, const unsigned int d) {
+        rhs(unknowns.first(node) + d) = this->force(node)[d];
+      });
+      rhs.compress(dealii::VectorOperation::insert);
+      // Translations only: enough for multigrid to work.
+      modes.assign(dim, {});
+      for (const unsigned int node : unknowns.active_nodes())
+        for (unsigned int d = 0; d < dim; ++d)
+          for (unsigned int e = 0; e < dim; ++e)
+            modes[e].push_back(d == e && !unknowns.is_held(node, d) ? 1. : 0.);
+    }
+
+    LinearSolution
+    solve(const std::string &entries, Vector &x)
+    {
+      dealii::ParameterAcceptor::prm.parse_input_from_string(
+        in_section("Linear solver", entries));
+      dealii::ParameterAcceptor::parse_all_parameters();
+      x.reinit(rhs);
+      return solver.solve(matrix, x, rhs, modes, dim, true);
+    }
+
+    // Before the parameters are parsed, which the base class does.
+    LinearSolver                  solver;
+    std::optional<StepParts<dim>> parts;
+    Matrix                        matrix;
+    Vector                        rhs;
+    RigidModes                    modes;
+  };
+
+
+
+  template <int dim>
+  void
+  expect_same_solution()
+  {
+    Block<dim> block;
+    Vector     direct;
+    const auto how = block.solve("set Type = direct", direct);
+    EXPECT_EQ(how.failure, "");
+    EXPECT_EQ(how.n_iterations, 0u);
+    Vector residual(block.rhs);
+    EXPECT_LT(block.matrix.residual(residual, direct, block.rhs),
+              1e-11 * block.rhs.l2_norm());
+    for (const std::string type : {"CG", "GMRES"})
+      {
+        Vector     x;
+        const auto solution = block.solve("set Type = " + type, x);
+        EXPECT_EQ(solution.failure, "");
+        EXPECT_GT(solution.n_iterations, 1u);
+        EXPECT_LT(solution.n_iterations, 100u);
+        x -= direct;
+        EXPECT_LT(x.linfty_norm(), 1e-8 * direct.linfty_norm()) << type;
+      }
+  }
+} // namespace
+
+
+
+TEST(LinearSolver, AllGiveTheSameSolution)
+{
+  expect_same_solution<2>();
+  expect_same_solution<3>();
+}
+
+
+
+TEST(LinearSolver, FailuresAreSentences)
+{
+  Block<2> block;
+  Vector   x;
+  for (const std::string type : {"CG", "GMRES"})
+    EXPECT_EQ(
+      block.solve("set Largest number of iterations = 2\nset Type = " + type, x)
+        .failure,
+      type + " did not solve the linear system in 2 iterations");
+  // One unknown that nothing depends on.
+  block.matrix.clear_row(block.rhs.size() - 1);
+  EXPECT_EQ(block.solve("set Type = direct", x).failure,
+            "the matrix is singular");
+}
+
+
+
+TEST(LinearSolver, ChoosesBySize)
+{
+  Block<2> block;
+  auto    &solver = block.solver;
+  EXPECT_EQ(solver.choice(100000, 2, true), "direct");
+  EXPECT_EQ(solver.choice(100001, 2, true), "CG");
+  EXPECT_EQ(solver.choice(100001, 2, false), "GMRES");
+  EXPECT_EQ(solver.choice(10000, 3, false), "direct");
+  EXPECT_EQ(solver.choice(10001, 3, true), "CG");
+}

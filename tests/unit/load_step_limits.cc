@@ -1,0 +1,237 @@
+// Symmetry, strength and special states of the laws' load steps.
+
+#include "load_step_setup.h"
+
+namespace
+{
+  template <int dim>
+  double
+  asymmetry(const StressTangent<dim> &answer)
+  {
+    double result = 0.;
+    for (unsigned int k = 0; k < dim * dim; ++k)
+      for (unsigned int l = 0; l < k; ++l)
+        result =
+          std::max(result,
+                   std::abs(answer.tangent[k][l] - answer.tangent[l][k]));
+    return result / clay.mu;
+  }
+
+
+
+  /// Of rate laws with small strain and of hyperelastic ones with large.
+  template <int dim>
+  void
+  expect_symmetry()
+  {
+    double of_large_rate_laws = 0.;
+    for_load_steps<dim>([&](const auto &load_case, auto sample, auto measure) {
+      LoadStep<dim> step(load_case, sample);
+      const auto    answer = step.answer(step.H, measure);
+      if ((measure == StrainMeasure::large) == load_case.hyperelastic)
+        EXPECT_LT(asymmetry(answer), 1e-13);
+      else
+        of_large_rate_laws = std::max(of_large_rate_laws, asymmetry(answer));
+      if (measure == StrainMeasure::large)
+        return;
+      // Small strain does not see rotations.
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < i; ++j)
+          for (unsigned int k = 0; k < dim * dim; ++k)
+            EXPECT_EQ(answer.tangent[k][dim * i + j],
+                      answer.tangent[k][dim * j + i]);
+    });
+    EXPECT_GT(of_large_rate_laws, 1e-3);
+  }
+
+
+
+  /// lambda delta_ij delta_kl + mu (delta_ik delta_jl + delta_il delta_jk)
+  template <int dim>
+  void
+  expect_hooke(const StressTangent<dim> &answer)
+  {
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        for (unsigned int k = 0; k < dim; ++k)
+          for (unsigned int l = 0; l < dim; ++l)
+            EXPECT_NEAR(answer.tangent[dim * i + j][dim * k + l],
+                        clay.lambda * (i == j) * (k == l) +
+                          clay.mu * ((i == k) * (j == l) + (i == l) * (j == k)),
+                        1e-13 * clay.bulk);
+  }
+
+
+
+  /// At no stress and no deformation every law is Hooke's.
+  template <int dim>
+  void
+  expect_hooke_at_rest()
+  {
+    for (const LoadCase &load_case : load_cases())
+      {
+        SCOPED_TRACE(load_case.name);
+        LoadStep<dim> step(load_case, 1);
+        step.set_F(identity<dim, double>());
+        for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+          step.points.data(step.points.stress, c)[0] = 0.;
+        const auto answer =
+          step.answer(Matrix<dim, double>{}, StrainMeasure::large);
+        for (const double stress : answer.stress)
+          EXPECT_EQ(stress, 0.);
+        expect_hooke(answer);
+        EXPECT_NEAR(step.law->shear_modulus(), clay.mu, 1e-14 * clay.mu);
+      }
+  }
+
+
+
+  /// sqrt(s:s/2) after the step is the strength: for von Mises that of the
+  /// state after, for slow flow that of the state before.
+  template <int dim>
+  void
+  expect_strength()
+  {
+    for_load_steps<dim>([](const auto &load_case, auto sample, auto measure) {
+      if (!load_case.flows)
+        return;
+      LoadStep<dim> step(load_case, sample);
+      const double  xi = step.plastic_variable();
+      const double  factor =
+        load_case.strength_factor > 0. ? load_case.strength_factor : 1.;
+      step.law->accept(step.points, 0, 1, measure);
+      const double tau = std::sqrt(0.5 * step.deviator_squared());
+      const double strength =
+        load_case.law == "von Mises"
+          ? step.law->shear_strength(step.points, 0)
+          : factor * s_u * (0.3 + 0.7 * std::exp(-3. * xi / 2.));
+      EXPECT_NEAR(tau, strength, 1e-12 * s_u);
+    });
+  }
+
+
+
+  /// Stretches of Hencky material whose directions are not unique.
+  std::vector<Matrix<3, double>>
+  equal_stretches()
+  {
+    std::vector<Matrix<3, double>> result;
+    for (const std::array<double, 3> &stretch :
+         std::vector<std::array<double, 3>>{{{1., 1., 1.}},
+                                            {{1.3, 1., 1.}},
+                                            {{1., 0.7, 1.}},
+                                            {{1.2, 1.2, 1.2}},
+                                            {{1.2, 1.2, 0.9}},
+                                            {{1.1, 1.1 + 1e-9, 1.1 + 3e-9}},
+                                            {{1.1, 1.1 + 1e-6, 0.8}},
+                                            {{1. + 1e-12, 1., 1. - 1e-13}}})
+      for (const double angle : {0., 0.6})
+        {
+          Matrix<3, double> U{};
+          for (unsigned int d = 0; d < 3; ++d)
+            U[d][d] = stretch[d];
+          const auto R = rotation<3>(angle);
+          result.push_back(product(product(R, U), transpose(R)));
+        }
+    return result;
+  }
+} // namespace
+
+
+
+TEST(LoadStep, TangentsAreSymmetricWhereTheyMustBe)
+{
+  expect_symmetry<2>();
+  expect_symmetry<3>();
+}
+
+
+
+TEST(LoadStep, HookesLawAtRest)
+{
+  expect_hooke_at_rest<2>();
+  expect_hooke_at_rest<3>();
+}
+
+
+
+TEST(LoadStep, EndsAtTheStrength)
+{
+  expect_strength<2>();
+  expect_strength<3>();
+}
+
+
+
+TEST(LoadStep, HenckyWithEqualStretches)
+{
+  for (const auto &F : equal_stretches())
+    for (const double size : {0., 1e-10, 0.02})
+      {
+        LoadStep<3> step(load_cases()[12], 1);
+        ASSERT_EQ(step.law->is_hyperelastic(), true);
+        std::mt19937 random(7);
+        step.set_F(F);
+        step.H = random_matrix<3>(random, size);
+        EXPECT_LT(error_of_tangent(step, StrainMeasure::large), 1e-8);
+        EXPECT_LT(asymmetry(step.answer(step.H, StrainMeasure::large)), 1e-13);
+      }
+}
+
+
+
+// In the plane with the third direction unstretched: the 2-D law.
+TEST(LoadStep, PlaneStrainIsThatOfSpace)
+{
+  for (const LoadCase &load_case : load_cases())
+    for (const auto measure : {StrainMeasure::small, StrainMeasure::large})
+      {
+        if (load_case.hyperelastic && measure == StrainMeasure::small)
+          continue;
+        SCOPED_TRACE(load_case.name);
+        LoadStep<2> plane(load_case, 3);
+        LoadStep<3> space(load_case, 3);
+        auto        F = identity<3, double>();
+        space.H       = {};
+        for (unsigned int i = 0; i < 2; ++i)
+          for (unsigned int j = 0; j < 2; ++j)
+            {
+              F[i][j]       = plane.F()[i][j];
+              space.H[i][j] = plane.H[i][j];
+            }
+        space.set_F(F);
+        for (unsigned int c = 0; c < 6; ++c)
+          space.points.data(space.points.stress, c)[0] =
+            c < 4 ? plane.stress()[c] : 0.;
+        const auto a = plane.answer(plane.H, measure);
+        const auto b = space.answer(space.H, measure);
+        for (unsigned int k = 0; k < 4; ++k)
+          {
+            const unsigned int K = 3 * (k / 2) + k % 2;
+            EXPECT_NEAR(a.stress[k], b.stress[K], 1e-13 * clay.bulk);
+            for (unsigned int l = 0; l < 4; ++l)
+              EXPECT_NEAR(a.tangent[k][l],
+                          b.tangent[K][3 * (l / 2) + l % 2],
+                          1e-12 * clay.bulk);
+          }
+      }
+}
+
+
+
+TEST(LoadStep, PointsThatAreTurnedInsideOutAreTold)
+{
+  for (const LoadCase &load_case : load_cases())
+    {
+      LoadStep<2>      step(load_case, 1);
+      StressTangent<2> answer;
+      step.set_gradient({{{{{-1.5, 0.}}, {{0., 0.}}}}});
+      const bool sound =
+        step.law->linearize(step.points, 0, 1, StrainMeasure::large, &answer);
+      EXPECT_FALSE(sound) << load_case.name;
+      // Small strain does not turn anything.
+      if (!load_case.hyperelastic)
+        EXPECT_TRUE(step.law->linearize(
+          step.points, 0, 1, StrainMeasure::small, &answer));
+    }
+}

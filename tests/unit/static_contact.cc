@@ -1,0 +1,306 @@
+#include <talus/equilibrium/static_contact.h>
+
+#include "equilibrium_setup.h"
+
+namespace
+{
+  using Force = Tensor<1, 2>; // or another vector
+
+  constexpr double g = 10.;
+
+  const std::string stiff =
+    "set Young's modulus = 1e6\nset Poisson's ratio = 0.3\n";
+
+  /// Parameters of the seabed at the bottom.
+  std::string
+  seabed(const double       friction,
+         const double       largest_stress,
+         const std::string &other_faces = "")
+  {
+    return in_section("Boundaries",
+                      other_faces + "set Bottom = seabed\n" +
+                        in_section("Seabed",
+                                   text("set Friction coefficient = ",
+                                        friction,
+                                        "\nset Maximum shear stress = ",
+                                        largest_stress)));
+  }
+
+
+
+  /// An elastic block from @p begin to x = 4 m, 1 m high, under @p gravity.
+  struct Block : Statics<2>
+  {
+    explicit Block(const std::string &below,
+                   const Force       &gravity,
+                   const double       begin = 2.,
+                   const std::string &law   = stiff)
+      : Statics<2>(mesh("0, 0", "6, 3", "0.5") + below,
+                   {{"block", "linear elastic"}},
+                   material("block", law) +
+                     in_section("Equilibrium", "set Newton tolerance = 1e-11"))
+      , weight(density * (4. - begin) * gravity)
+    {
+      fill(Point<2>(begin, 0.),
+           Point<2>(4., 1.),
+           {{unsigned((4. - begin) * 4 + 0.5), 4}});
+      load(gravity);
+    }
+
+    /// Force of the seabed on the soil at each of its nodes, by place; in
+    /// equilibrium that is what the explicit scheme has out of balance there.
+    std::map<double, Force>
+    reactions()
+    {
+      Soil<2> all = soil();
+      sum_forces(all);
+      const auto              places = places_of_nodes(grid);
+      std::map<double, Force> result;
+      for (const unsigned int node : nodes.active_nodes())
+        if (nodes.mass(node) > least_mass && places[node][1] == 0.)
+          result[places[node][0]] = -force(node);
+        else if (nodes.mass(node) > least_mass && places[node][0] > 0.)
+          EXPECT_LT(force(node).norm(), 1e-8 * weight.norm());
+      return result;
+    }
+
+    Force weight; ///< N
+  };
+
+
+
+  Force
+  inclined(const double slope)
+  {
+    const double beta = std::atan(slope);
+    return Point<2>(g * std::sin(beta), -g * std::cos(beta));
+  }
+
+
+
+  Force
+  sum(const std::map<double, Force> &reactions)
+  {
+    Force result;
+    for (const auto &entry : reactions)
+      result += entry.second;
+    return result;
+  }
+} // namespace
+
+
+
+TEST(StaticContactTest, BlockSticksToAnIncline)
+{
+  for (const double slope : {0., 0.2, 0.4})
+    {
+      Block block(seabed(0.5, 1e9), inclined(slope));
+      ASSERT_TRUE(block.find()) << block.equilibrium.failure();
+      const auto reactions = block.reactions();
+      EXPECT_EQ(reactions.size(), 5u);
+      EXPECT_LT((sum(reactions) + block.weight).norm(),
+                1e-8 * block.weight.norm());
+      for (const auto &[x, reaction] : reactions)
+        {
+          EXPECT_GE(reaction[1], -1e-6 * block.weight.norm()) << x;
+          EXPECT_LE(std::abs(reaction[0]),
+                    0.5 * reaction[1] + 1e-5 * block.weight.norm())
+            << x;
+        }
+    }
+}
+
+
+
+TEST(StaticContactTest, BlockSlidesOffWhenFrictionIsTooLittle)
+{
+  // tan(beta) = 0.2; the shear stress to hold it is 1500 g sin(beta) on each
+  // square metre, 2942 Pa.
+  for (const auto &[friction, largest_stress] :
+       {std::pair(0.19, 1e9), {0.5, 2900.}, {0., 1e9}})
+    {
+      Block block(seabed(friction, largest_stress), inclined(0.2));
+      EXPECT_FALSE(block.find());
+      EXPECT_TRUE(contains(block.equilibrium.failure(), "move freely"))
+        << friction << ' ' << largest_stress << ": "
+        << block.equilibrium.failure();
+    }
+  for (const auto &[friction, largest_stress] :
+       {std::pair(0.21, 1e9), {0.5, 3000.}})
+    {
+      Block block(seabed(friction, largest_stress), inclined(0.2));
+      EXPECT_TRUE(block.find()) << block.equilibrium.failure();
+      EXPECT_LT((sum(block.reactions()) + block.weight).norm(),
+                1e-5 * block.weight.norm());
+    }
+}
+
+
+
+TEST(StaticContactTest, BlockUnderUpwardLoadOpens)
+{
+  Block block(seabed(0.5, 1e9, "set Left = fixed\n"),
+              Point<2>(0., 0.1 * g),
+              0.);
+  ASSERT_TRUE(block.find()) << block.equilibrium.failure();
+  for (const auto &[x, reaction] : block.reactions())
+    if (x > 0.)
+      EXPECT_LT(reaction.norm(), 1e-8 * block.weight.norm()) << x;
+}
+
+
+
+// A block that its own weight spreads: friction is at its limit at the ends and
+// holds them back.
+TEST(StaticContactTest, FrictionIsWithinItsLimit)
+{
+  for (const auto &[friction, cap] :
+       {std::pair(10., 600.), {10., 100.}, {0.05, 1e9}, {0., 1e9}})
+    {
+      SCOPED_TRACE(text(friction, ", ", cap));
+      Block block(seabed(friction, cap),
+                  Point<2>(0., -g),
+                  2.,
+                  "set Young's modulus = 1e6\nset Poisson's ratio = 0.45\n");
+      ASSERT_TRUE(block.find()) << block.equilibrium.failure();
+      const auto   reactions = block.reactions();
+      unsigned int n_limited = 0;
+      for (const auto &[x, reaction] : reactions)
+        {
+          const double area  = (x == 2. || x == 4. ? 0.25 : 0.5);
+          const double limit = std::min(friction * reaction[1], cap * area);
+          const double small = 1e-6 * block.weight.norm();
+          EXPECT_LE(std::abs(reaction[0]), limit + small) << x;
+          if (std::abs(reaction[0]) > limit - small)
+            ++n_limited;
+          if (std::abs(reaction[0]) > small)
+            EXPECT_LT(reaction[0] * (x - 3.), 0.) << x;
+          // The block is symmetric.
+          EXPECT_NEAR(reaction[1], reactions.at(6. - x)[1], small);
+          EXPECT_NEAR(reaction[0], -reactions.at(6. - x)[0], small);
+        }
+      EXPECT_GE(n_limited, 2u);
+    }
+}
+
+
+
+namespace
+{
+  /// The state of one node in the middle of the seabed, with made-up reactions
+  /// and displacements; all others are pressed on.
+  struct OneNode : Block
+  {
+    OneNode()
+      : Block(seabed(0.5, 150.), Point<2>(0., -g))
+      , parts(*this, StrainMeasure::small, least_mass)
+    {
+      const auto places = places_of_nodes(grid);
+      for (unsigned int k = 0; k < parts.unknowns.active_nodes().size(); ++k)
+        if (places[parts.unknowns.active_nodes()[k]] == Point<2>(3., 0.))
+          {
+            node  = parts.unknowns.active_nodes()[k];
+            place = k;
+          }
+      const Soil<2> all = soil();
+      contact.begin(all, parts.unknowns);
+    }
+
+    /// Returns the number of changes; displacement becomes what revise() left.
+    unsigned int
+    revise(const Force &reaction, Force &displacement)
+    {
+      auto forces = parts.unknowns.field(), u = forces;
+      for (const unsigned int n : parts.unknowns.active_nodes())
+        forces[2 * n + 1] = 100.;
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          forces[2 * node + d] = reaction[d];
+          u[2 * node + d]      = displacement[d];
+        }
+      const Soil<2>      all = soil();
+      const unsigned int n   = contact.revise(all, parts.unknowns, forces, u);
+      for (unsigned int d = 0; d < 2; ++d)
+        displacement[d] = u[2 * node + d];
+      return n;
+    }
+
+    unsigned int
+    revise(const Force &reaction)
+    {
+      Force none;
+      return revise(reaction, none);
+    }
+
+    unsigned int
+    held()
+    {
+      const Soil<2> all = soil();
+      return contact.held(all, parts.unknowns)[place];
+    }
+
+    double
+    friction() const
+    {
+      auto forces = parts.unknowns.field();
+      contact.add_friction(forces);
+      EXPECT_EQ(forces[2 * node + 1], 0.);
+      return forces[2 * node];
+    }
+
+    StepParts<2>     parts;
+    StaticContact<2> contact;
+    unsigned int     node = 0, place = 0;
+  };
+} // namespace
+
+
+
+TEST(StaticContactTest, SticksUpToTheLimit)
+{
+  OneNode one;
+  EXPECT_EQ(one.held(), 3u);
+  EXPECT_EQ(one.revise(Point<2>(49.9, 100.)), 0u);
+  EXPECT_EQ(one.revise(Point<2>(-49.9, 100.)), 0u);
+  EXPECT_EQ(one.held(), 3u);
+  EXPECT_EQ(one.friction(), 0.);
+  EXPECT_EQ(one.revise(Point<2>(-60., 100.)), 1u);
+  EXPECT_EQ(one.held(), 2u);
+  EXPECT_NEAR(one.friction(), -50., 1e-12);
+  // The limit follows the normal force up to the cap times half a metre.
+  EXPECT_EQ(one.revise(Point<2>(0., 120.)), 1u);
+  EXPECT_NEAR(one.friction(), -60., 1e-12);
+  EXPECT_EQ(one.revise(Point<2>(0., 400.)), 1u);
+  EXPECT_NEAR(one.friction(), -75., 1e-12);
+  EXPECT_EQ(one.revise(Point<2>(0., 500.)), 0u);
+}
+
+
+
+TEST(StaticContactTest, SlipsAgainstTheFrictionOnly)
+{
+  OneNode one;
+  Force   against = Point<2>(1e-4, 0.), along = Point<2>(-1e-4, 0.);
+  one.revise(Point<2>(-60., 100.));
+  EXPECT_EQ(one.revise(Point<2>(0., 100.), against), 0u);
+  EXPECT_EQ(one.held(), 2u);
+  EXPECT_EQ(one.revise(Point<2>(0., 100.), along), 1u);
+  EXPECT_EQ(one.held(), 3u);
+  EXPECT_EQ(one.friction(), 0.);
+}
+
+
+
+TEST(StaticContactTest, LiftsOffAndComesDown)
+{
+  OneNode one;
+  EXPECT_EQ(one.revise(Point<2>(0., -1.)), 1u);
+  EXPECT_EQ(one.held(), 0u);
+  Force up = Point<2>(1e-3, 1e-3), into = Point<2>(1e-3, -1e-3);
+  EXPECT_EQ(one.revise(Point<2>(0., 0.), up), 0u);
+  EXPECT_EQ(one.held(), 0u);
+  EXPECT_EQ(one.revise(Point<2>(0., 0.), into), 1u);
+  EXPECT_EQ(one.held(), 3u);
+  EXPECT_EQ(into[0], 1e-3);
+  EXPECT_EQ(into[1], 0.);
+}

@@ -1,0 +1,177 @@
+#include <talus/equilibrium/strength_reduction.h>
+#include <talus/simulation/stages.h>
+
+#include "core_setup.h"
+
+namespace
+{
+  using namespace talus;
+
+  struct Reduction : FreshParameters, StrengthReduction
+  {
+    explicit Reduction(const std::string &entries = "")
+    {
+      auto &prm = dealii::ParameterAcceptor::prm;
+      dealii::ParameterAcceptor::declare_all_parameters();
+      prm.parse_input_from_string(in_section("Strength reduction", entries));
+      dealii::ParameterAcceptor::parse_all_parameters();
+    }
+
+    /// Search for the factor of soil that stands up to @p factor.
+    void
+    search(const double factor)
+    {
+      begin();
+      for (tried.clear(); !is_done() && tried.size() < 100;)
+        {
+          tried.push_back(next());
+          heed(tried.back(), tried.back() <= factor);
+        }
+    }
+
+    std::vector<double> tried;
+  };
+
+
+
+  void
+  expect_factors(const std::vector<double> &found,
+                 const std::vector<double> &expected)
+  {
+    ASSERT_GE(found.size(), expected.size());
+    for (unsigned int i = 0; i < expected.size(); ++i)
+      EXPECT_DOUBLE_EQ(found[i], expected[i]);
+  }
+
+
+
+  TEST(StrengthReductionTest, FindsTheFactorOfSafety)
+  {
+    Reduction reduction("set Tolerance = 1e-4");
+    for (const double factor : {0.0123, 0.31, 0.999, 1., 1.37, 2.25, 17., 99.9})
+      {
+        reduction.search(factor);
+        ASSERT_TRUE(reduction.is_done()) << factor;
+        EXPECT_LE(reduction.lower(), factor);
+        EXPECT_GT(reduction.upper(), factor);
+        EXPECT_LE(reduction.upper() - reduction.lower(),
+                  1e-4 * reduction.lower());
+        // A bracket of half its factor, halved until it is narrow enough.
+        EXPECT_LE(reduction.tried.size(), 13u + 14u);
+        EXPECT_TRUE(contains(reduction.result(),
+                             text("The factor of safety is ",
+                                  0.5 * (reduction.lower() + reduction.upper()),
+                                  ": the soil stands with its strength divided "
+                                  "by ",
+                                  reduction.lower(),
+                                  " and fails with ",
+                                  reduction.upper())));
+      }
+  }
+
+
+
+  TEST(StrengthReductionTest, FactorsTried)
+  {
+    Reduction reduction("set First factor = 2");
+    reduction.search(4.);
+    expect_factors(reduction.tried, {2., 3., 4.5, 3.75, 4.125});
+    reduction.search(1.);
+    expect_factors(reduction.tried, {2., 2. / 1.5, 2. / 2.25, 10. / 9.});
+  }
+
+
+
+  TEST(StrengthReductionTest, EndsAtTheLimits)
+  {
+    Reduction reduction("set Largest factor = 4\nset Smallest factor = 0.2");
+    reduction.search(1e9);
+    expect_factors(reduction.tried, {1., 1.5, 2.25, 3.375, 4.});
+    EXPECT_EQ(reduction.tried.size(), 5u);
+    EXPECT_EQ(reduction.lower(), 4.);
+    EXPECT_EQ(reduction.upper(), 0.);
+    EXPECT_TRUE(contains(reduction.result(),
+                         "is more than 4, where 'Strength "
+                         "reduction/Largest factor' ends"));
+    reduction.search(0.);
+    EXPECT_EQ(reduction.lower(), 0.);
+    EXPECT_EQ(reduction.upper(), 0.2);
+    EXPECT_EQ(reduction.tried.back(), 0.2);
+    EXPECT_TRUE(contains(reduction.result(),
+                         "is less than 0.2, where 'Strength "
+                         "reduction/Smallest factor' "
+                         "ends"));
+    // What is between the last but one and the limit is found.
+    reduction.search(3.9);
+    EXPECT_TRUE(reduction.lower() <= 3.9 && reduction.upper() > 3.9);
+    reduction.search(0.21);
+    EXPECT_TRUE(reduction.lower() <= 0.21 && reduction.upper() > 0.21);
+  }
+
+
+
+  // ------------------------------------------------------------------ stages
+
+  struct ListedStages : FreshParameters, Stages
+  {
+    explicit ListedStages(const std::string &list)
+    {
+      auto &prm = dealii::ParameterAcceptor::prm;
+      dealii::ParameterAcceptor::declare_all_parameters();
+      prm.parse_input_from_string("set Stages = " + list + "\n");
+      dealii::ParameterAcceptor::parse_all_parameters();
+      check();
+    }
+  };
+
+
+
+  std::string
+  complaint_about(const std::string &list)
+  {
+    return message_of<ExcUser>([&]() { ListedStages stages(list); });
+  }
+
+
+
+  TEST(StagesTest, RunOneAfterTheOther)
+  {
+    ListedStages stages("equilibrium, strength reduction, dynamics");
+    EXPECT_TRUE(stages.have_static());
+    EXPECT_EQ(stages.number(), 1u);
+    EXPECT_EQ(stages.next(), Stage::equilibrium);
+    stages.count_one();
+    EXPECT_TRUE(stages.next_is_static());
+    EXPECT_EQ(stages.next(), Stage::strength_reduction);
+    stages.count_one();
+    EXPECT_FALSE(stages.next_is_static());
+    EXPECT_TRUE(stages.contain(Stage::dynamics));
+  }
+
+
+
+  TEST(StagesTest, StaticOnly)
+  {
+    ListedStages stages("strength reduction");
+    EXPECT_FALSE(stages.contain(Stage::dynamics));
+    EXPECT_FALSE(stages.contain(Stage::equilibrium));
+    stages.count_one();
+    EXPECT_FALSE(stages.next_is_static());
+  }
+
+
+
+  TEST(StagesTest, WrongListsAreRefused)
+  {
+    EXPECT_FALSE(ListedStages("dynamics").have_static());
+    EXPECT_TRUE(contains(complaint_about("equilibrium, rest"),
+                         "Stages lists 'rest', but the stages are "
+                         "'equilibrium', 'strength reduction' and "
+                         "'dynamics'."));
+    EXPECT_TRUE(contains(complaint_about("dynamics, equilibrium"),
+                         "Stages lists 'equilibrium' after 'dynamics'."));
+    EXPECT_TRUE(contains(complaint_about("equilibrium, equilibrium"),
+                         "Give each stage once at most"));
+    EXPECT_TRUE(contains(complaint_about(""), "there is nothing to do"));
+  }
+} // namespace
