@@ -97,7 +97,8 @@ namespace talus
                  "; the largest residual force of a node is ",
                  largest,
                  " N, at ",
-                 place)};
+                 place),
+            true};
   }
 
 
@@ -117,6 +118,9 @@ namespace talus
       {
         unknowns_.hold(contact_.held(soil, unknowns_));
         const Outcome outcome = iterate(soil, observe);
+        if (!outcome.has_correction &&
+            contact_.hold_back(unknowns_, residual_) > 0)
+          continue;
         if (!outcome.converged)
           return outcome;
         std::vector<double> reaction = residual_;
@@ -147,7 +151,7 @@ namespace talus
             !std::isfinite(norm))
           {
             observe(iteration);
-            return converged ? Outcome{true, ""}
+            return converged ? Outcome{true, "", true}
                              : failure(text("Newton's method has not converged "
                                             "in ",
                                             i,
@@ -160,8 +164,12 @@ namespace talus
         const std::string complaint = correct(soil, iteration);
         observe(iteration);
         if (!complaint.empty())
-          return failure(
-            text("Newton's method has no next iterate, since ", complaint));
+          {
+            Outcome outcome = failure(
+              text("Newton's method has no next iterate, since ", complaint));
+            outcome.has_correction = false;
+            return outcome;
+          }
       }
   }
 

@@ -160,6 +160,29 @@ namespace talus
 
 
 
+  template <int dim>
+  unsigned int
+  StaticContact<dim>::hold_back(const Unknowns<dim>       &unknowns,
+                                const std::vector<double> &residual)
+  {
+    Tensor<1, dim> own;
+    unknowns.for_free([&](const unsigned int node, const unsigned int d) {
+      own[d] += residual[dim * node + d];
+    });
+    const Tensor<1, dim> all =
+      Utilities::MPI::sum(own, unknowns.communicator());
+    unsigned int n_changes = 0;
+    for (Contact &contact : contacts_)
+      if (contact.state == State::slips && contact.friction * all > 0.)
+        {
+          contact.state = State::sticks;
+          ++n_changes;
+        }
+    return Utilities::MPI::sum(n_changes, unknowns.communicator());
+  }
+
+
+
   template class StaticContact<2>;
   template class StaticContact<3>;
 } // namespace talus

@@ -41,7 +41,7 @@ namespace
                        "balance before the trigger; afterwards the landslide "
                        "that starts without stress");
 
-    const auto &kinetic = slide["kinetic energy grid [J]"];
+    const auto &kinetic = slide["grid kinetic energy [J]"];
     const auto &work    = slide["gravity work [J]"];
     double      before = 0, remainder = 0;
     for (unsigned int i = 0; i < slide.n_rows(); ++i)
@@ -54,15 +54,17 @@ namespace
     gates.at_most("kinetic energy before the trigger / at the end",
                   before / kinetic.back(),
                   1e-6);
-    const double front = at_once.at(later, "front [m]");
+    const double front = at_once.at(later, "front x [m]");
     gates.near("front [m]",
-               slide.at(trigger + later, "front [m]"),
+               slide.at(trigger + later, "front x [m]"),
                front,
                share);
     gates.at_most("|energy remainder| / final gravity work",
                   remainder / work.back(),
                   0.005);
-    expect_momentum(gates, slide);
+    // Soil at rest pushes all the time on nodes with so little mass that they
+    // do not take part.
+    expect_momentum(gates, slide, 1e-7);
     expect_continuum(gates, slide);
   }
 } // namespace

@@ -49,7 +49,8 @@ namespace talus
     struct Outcome
     {
       bool        converged = false;
-      std::string failure; ///< the sentence, if not
+      std::string failure;               ///< the sentence, if not
+      bool        has_correction = true; ///< or the matrix was singular
     };
 
     using Observer = std::function<void(const NewtonIteration &)>;

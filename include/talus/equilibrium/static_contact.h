@@ -38,6 +38,14 @@ namespace talus
            const std::vector<double> &reaction,
            std::vector<double>       &u);
 
+    /// Nothing holds the soil but friction, and @p residual, N, is out of
+    /// balance: it would move along that. Nodes whose friction points the same
+    /// way, as where soil that settles has spread, cannot go on slipping: they
+    /// stick from now on. Returns how many there are. Collective.
+    unsigned int
+    hold_back(const Unknowns<dim>       &unknowns,
+              const std::vector<double> &residual);
+
   private:
     enum class State
     {
