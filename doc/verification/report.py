@@ -28,7 +28,15 @@ SECTIONS = [
     ("Seabed and layers",
      ["Block", "ShearLayer", "ViscoplasticLayer", "VerticalCut",
       "VerticalCutBracket"]),
-    ("From rest into motion", ["Geostatic", "Trigger", "GroundMotion"]),
+    ("Equilibrium without dynamics",
+     ["ImplicitColumn", "ImplicitElasticaLoads", "ImplicitElastica",
+      "Multigrid"]),
+    ("Factors of safety",
+     ["InfiniteSlope", "StripFooting", "StripFootingFine", "VerticalCutSafety",
+      "VerticalCutSafetyFine"]),
+    ("From rest into motion",
+     ["Geostatic", "Trigger", "GroundMotion", "LandslideFromEquilibrium",
+      "LandslideFromEquilibriumFine"]),
     ("Numerical fracture", ["HangingBlock"]),
     ("The landslide of the paper",
      ["LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
@@ -56,6 +64,13 @@ SUMMARY = [
     ("ViscoplasticLayer", "velocity of the surface"),
     ("VerticalCut", ""),
     ("VerticalCutBracket", ""),
+    ("ImplicitColumn", "mean error"),
+    ("ImplicitElastica", ""),
+    ("InfiniteSlope", "factor of safety"),
+    ("StripFooting", ""),
+    ("VerticalCutSafety", ""),
+    ("VerticalCutSafetyFine", ""),
+    ("LandslideFromEquilibrium", "front"),
     ("HangingBlock", ""),
     ("LandslideFull", "energy lost"),
     ("LandslideFull", "at rest"),
@@ -64,7 +79,9 @@ SUMMARY = [
     ("Landslide3d", "3-D against 2-D, to 4 s: front"),
 ]
 SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
-        "VerticalCutBracket", "ElasticaLoads"}
+        "VerticalCutBracket", "ElasticaLoads", "ImplicitElasticaLoads",
+        "StripFootingFine", "VerticalCutSafetyFine",
+        "LandslideFromEquilibriumFine"}
 
 HEAD = """# Verification
 

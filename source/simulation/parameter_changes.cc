@@ -89,6 +89,19 @@ namespace talus
 
 
 
+    /// Stages that are done may be followed by dynamics. (Strength reduction
+    /// needs a column of the points that others do not have.)
+    bool
+    adds_dynamics(const std::string &path,
+                  const std::string &before,
+                  const std::string &after)
+    {
+      return path == "Stages" &&
+             normal_form(after) == normal_form(before) + "dynamics,";
+    }
+
+
+
     std::string
     value_of(const Values &values, const std::string &path)
     {
@@ -111,7 +124,7 @@ namespace talus
         const std::string before = value_of(saved_values, path);
         const std::string after  = value_of(values, path);
         AssertThrow(normal_form(before) == normal_form(after) ||
-                      is_harmless(path),
+                      is_harmless(path) || adds_dynamics(path, before, after),
                     ExcUser("The parameter '" + path + "' is '" + after +
                             "', but in the run to resume it was '" + before +
                             "'. Give it the value of that run, or start anew "

@@ -108,8 +108,6 @@ namespace talus
         materials.push_back(body->material());
       }
     materials_.assign(names, materials);
-    if (stages_.contain(Stage::equilibrium))
-      equilibrium_.check(materials_, names);
     trigger_.check(names, materials_, boundaries_.has_seabed(), end_time_);
     materials_.add_columns(points_,
                            trigger_.changes_strength() ||
@@ -117,6 +115,7 @@ namespace talus
     trigger_.add_columns(points_);
     loading_.prepare(materials_, bodies_.size(), constants_);
     boundaries_.prepare(constants_);
+    check_static_stages(names);
 
     const auto                  may_move = faces_that_may_move();
     std::array<double, 2 * dim> may_lie_outside;

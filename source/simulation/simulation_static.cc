@@ -11,6 +11,37 @@ namespace talus
 {
   using namespace dealii;
 
+  /// Throw ExcUser if a stage could not do its work; loads have been prepared.
+  template <int dim>
+  void
+  Simulation<dim>::check_static_stages(
+    const std::vector<std::string> &names_of_bodies) const
+  {
+    if (stages_.contain(Stage::equilibrium))
+      equilibrium_.check(materials_, names_of_bodies);
+    AssertThrow(!stages_.have_static() || loading_.share_of_gravity(0.) > 0.,
+                ExcUser("Stages lists a stage before 'dynamics', which takes "
+                        "the loads of t = 0, but there is no gravity at t = 0. "
+                        "Set 'Gravity/Ramp time' to 0: the load comes on in "
+                        "the steps of the stage."));
+    if (!stages_.contain(Stage::strength_reduction))
+      return;
+    bool has_strength =
+      boundaries_.has_seabed() && strength_reduction_.includes_seabed();
+    for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
+      has_strength |= materials_.of_body(b).has_strength();
+    AssertThrow(has_strength,
+                ExcUser("Stages lists 'strength reduction', but nothing has a "
+                        "strength that could be reduced: all bodies are made "
+                        "of materials as that of section " +
+                        materials_.of_body(0).section() +
+                        ". Choose the law 'von Mises', 'Bingham' or "
+                        "'Herschel-Bulkley', let a face be a seabed with "
+                        "'Strength reduction/Seabed', or remove the stage."));
+  }
+
+
+
   /// What is to be brought to equilibrium: all that acts at the time it is now.
   template <int dim>
   Soil<dim>
@@ -260,6 +291,8 @@ namespace talus
 
 
 #define INSTANTIATE(dim)                                                   \
+  template void Simulation<dim>::check_static_stages(                      \
+    const std::vector<std::string> &) const;                               \
   template Soil<dim> Simulation<dim>::soil();                              \
   template bool      Simulation<dim>::run_static_stages();                 \
   template bool      Simulation<dim>::stands_with(double);                 \

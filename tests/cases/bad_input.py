@@ -11,6 +11,7 @@ import unittest
 
 from bad_input_case import Case, DUST, GOOD
 from bad_input_motion import BadInputMotion
+from bad_input_stages import BadInputStages
 
 
 class BadInput(Case):
@@ -381,7 +382,7 @@ class DiskFull(Case):
 
 if __name__ == "__main__":
     print()
-    tests = [BadInput, BadInputMotion, CommandLine, DiskFull]
+    tests = [BadInput, BadInputMotion, BadInputStages, CommandLine, DiskFull]
     names = sys.argv[3:] or [test.__name__ for test in tests]
     suite = unittest.TestSuite(
         unittest.defaultTestLoader.loadTestsFromTestCase(globals()[name])

@@ -6,6 +6,7 @@ with a launcher such as `mpirun -np 2` before each talus.
 
 import os
 import random
+import shutil
 import signal
 import time
 
@@ -227,6 +228,74 @@ class ThreeDimensions(KillAndResume):
     file = "landslide-3d.prm"
     settings = ["Grid/Cell size=0.8", "End time=0.5",
                 "Output/Field interval=0.05", "Output/Statistics interval=0.02"]
+
+
+class StagesAndResume(KillAndResume):
+    """Equilibrium and strength reduction before the dynamics."""
+
+    N_KILLS = 8
+    file = "landslide-trigger.prm"
+    settings = ["Grid/Cell size=0.8", "End time=2.5", "Trigger/Start time=0.5",
+                "Stages=equilibrium, strength reduction, dynamics",
+                "Output/Field interval=0.25", "Output/Statistics interval=0.02"]
+
+    def make_reference(self):
+        # After every static stage there is a checkpoint, asked for or not.
+        self.assert_ends(self.run_talus("reference", NO_CHECKPOINTS))
+
+    def stop_during(self, words, number, options):
+        """Send the signal once the run has said these words; exit status."""
+        process = self.start_talus("run", EVERY, options)
+        for line in process.stdout:
+            if words in line:
+                break
+        process.send_signal(number)
+        process.communicate(timeout=120)
+        return process.returncode
+
+    def test_stopped_during_static_stages(self):
+        self.make_reference()
+        options, stops = [], ["Stage 'equilibrium'",
+                              "Stage 'strength reduction'"]
+        for words in stops:
+            # mpirun hands on this one as it is.
+            number = signal.SIGUSR1 if LAUNCHER else signal.SIGTERM
+            self.assertEqual(self.stop_during(words, number, options), 75)
+            self.assertEqual(self.newest("run"), ["0000000000"])
+            options = ["--resume"]
+        self.assert_ends(self.run_talus("run", EVERY, options))
+        self.assert_as_undisturbed("run")
+        log = (self.folder / "run" / "log.txt").read_text()
+        self.assertEqual(log.count("Stopped at t = 0 s, step 0, after the "
+                                   "signal SIG"), len(stops))
+
+    def test_dynamics_after_all(self):
+        """A run that ended with its equilibrium goes on from there."""
+        for first in ("equilibrium", "equilibrium, strength reduction"):
+            stages = f"Stages={first}, dynamics"
+            for name in ("reference", "run"):
+                shutil.rmtree(self.folder / name, ignore_errors=True)
+            self.assert_ends(self.run_talus("reference",
+                                            [stages, *NO_CHECKPOINTS]))
+            self.assert_ends(self.run_talus("run", [f"Stages={first}"]))
+            again = self.run_talus("run", [f"Stages={first}"], ["--resume"])
+            self.assert_ends(again)
+            self.assertIn("nothing left to do", again.stdout)
+            result = self.run_talus("run", [stages], ["--resume"])
+            self.assert_ends(result)
+            self.assertNotIn("nothing left to do", result.stdout)
+            self.assert_as_undisturbed("run")
+
+    def test_other_stages(self):
+        """Only dynamics can be added."""
+        self.assert_ends(self.run_talus("run", ["Stages=equilibrium"]))
+        for stages in ("dynamics", "equilibrium, strength reduction",
+                       "equilibrium, strength reduction, dynamics"):
+            result = self.run_talus("run", [f"Stages={stages}"], ["--resume"])
+            self.assertEqual(result.returncode, 1, result)
+            for words in ("The parameter 'Stages' is ", stages,
+                          "'equilibrium'"):
+                self.assertIn(words, result.stderr)
 
 
 if __name__ == "__main__":

@@ -61,11 +61,11 @@ namespace talus::cases
 
 
   void
-  expect_momentum(Verification &gates, const Table &table)
+  expect_momentum(Verification &gates, const Table &table, const double limit)
   {
     gates.at_most("momentum: P_x - M g t sin - seabed impulse, relative",
                   momentum_error(table),
-                  1e-8);
+                  limit);
   }
 
 

@@ -1,6 +1,6 @@
 // A soft column under its own weight, prm/verification/self-weight-column.prm.
 
-#include "case.h"
+#include "column.h"
 #include "verification.h"
 
 #include <talus/base/errors.h>
@@ -16,22 +16,14 @@ using namespace talus::cases;
 
 namespace
 {
-  constexpr double  l0 = 50., weight = 80. * 10.; // m, N/m^3
   const std::string file   = "verification/self-weight-column.prm";
   const std::string source = "equilibrium: sigma_yy = -rho0 g (l0 - Y)";
 
 
 
-  /// The column at rest, from the bottom up.
-  struct AtRest
+  struct AtRest : public ColumnAtRest
   {
-    std::vector<double> Y;                // m, where the points were
-    std::vector<double> talus;            // kPa, the stress that they bear
-    std::vector<double> closed_form;      // kPa
-    double              stress_error = 0; // of rho0 g l0, mean of the points
-    double              height       = 0; // m
-    double              unrest       = 0; // kinetic energy of the grid over
-                                          // work of gravity
+    double unrest; // kinetic energy of the grid over work of gravity
   };
 
 
@@ -40,39 +32,12 @@ namespace
   AtRest
   come_to_rest(const unsigned int n, const Overrides &overrides = {})
   {
-    const std::string corner = text(l0 / n, ',', l0);
-    Case<2>           column(file,
-                   Overrides{text("Grid/Cell size=", l0 / n),
-                             "Grid/Upper corner=" + corner,
-                             "Bodies/column/Upper corner=" + corner} +
-                     overrides);
+    Case<2> column(file, column_of(n) + overrides);
     while (column->snapshot().time < 450.)
       column->advance();
-
-    const Points<2> &points = column.points();
-    const double    *Y      = points.data(points.initial_position, 1);
-    const double    *stress = points.data(points.stress, stress_index<2>(1, 1));
-    std::vector<unsigned int> order(points.size()); // all of one volume
-    for (unsigned int p = 0; p < points.size(); ++p)
-      order[p] = p;
-    std::sort(order.begin(), order.end(), [&](const auto p, const auto q) {
-      return Y[p] < Y[q];
-    });
-    AtRest result;
-    for (const unsigned int p : order)
-      {
-        result.Y.push_back(Y[p]);
-        result.talus.push_back(-1e-3 * stress[p]);
-        result.closed_form.push_back(1e-3 * weight * (l0 - Y[p]));
-        result.stress_error +=
-          std::abs(result.talus.back() - result.closed_form.back()) /
-          (1e-3 * weight * l0) / points.size();
-      }
     const auto snapshot = column->snapshot();
-    result.height       = points.data(points.position, 1)[order.back()] +
-                    0.5 * box_length(snapshot, 1, order.back());
-    result.unrest = snapshot.nodes.kinetic_energy() / snapshot.gravity_work;
-    return result;
+    return {measure_column(snapshot),
+            snapshot.nodes.kinetic_energy() / snapshot.gravity_work};
   }
 } // namespace
 
@@ -116,11 +81,7 @@ TEST(SelfWeightColumn, Heights)
   Verification gates("Column under its own weight, 64 cells",
                      "prm/" + file + ", Materials/elastic/Law",
                      "integral of the stretch, see the file");
-  const std::vector<std::pair<std::string, double>> heights = {
-    {"linear elastic", 12.27105},
-    {"neo-Hookean", 16.16959},
-    {"Hencky", 24.05965}};
-  for (const auto &[law, height] : heights)
+  for (const auto &[law, height] : column_heights())
     gates.near("height at rest [m], " + law,
                come_to_rest(64, {"Materials/elastic/Law=" + law}).height,
                height,

@@ -90,6 +90,20 @@ namespace talus
     Snapshot<dim>
     snapshot() const;
 
+    /// The search of the stage 'equilibrium', or of the last trial of the stage
+    /// 'strength reduction'.
+    const Equilibrium<dim> &
+    equilibrium() const
+    {
+      return equilibrium_;
+    }
+
+    const StrengthReduction &
+    strength_reduction() const
+    {
+      return strength_reduction_;
+    }
+
   private:
     void
     set_up_laws();
@@ -133,6 +147,8 @@ namespace talus
     relocate();
 
     // Static stages
+    void
+    check_static_stages(const std::vector<std::string> &names_of_bodies) const;
     /// What a load step is told of.
     struct StepNote
     {

@@ -1,0 +1,155 @@
+// Factors of safety by strength reduction.
+
+#include "static_case.h"
+
+#include <talus/base/errors.h>
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace talus;
+using namespace talus::cases;
+
+// The lowest cell bears the shear stress at its middle, at the depth H - h/2.
+TEST(InfiniteSlope, FactorOfSafety)
+{
+  Verification     gates("Infinite slope of 20 degrees: factor of safety",
+                     "prm/verification/infinite-slope.prm",
+                     "s_u/(gamma H sin) = 1.5");
+  constexpr double H = 5., exact = 1.5; // m, -
+  for (const double h : {0.1, 0.05, 0.025})
+    {
+      const StaticCase<2> slope(
+        "verification/infinite-slope.prm",
+        text("infinite-slope-", h),
+        {text("Grid/Cell size=", h),
+         text("Grid/Upper corner=", 2 * h, ", 5.1"),
+         text("Bodies/layer/Upper corner=", 2 * h, ", 5"),
+         "Strength reduction/Tolerance=1e-4"});
+      const double F = slope.factor_of_safety();
+      if (h < 0.1)
+        gates.near(text("factor of safety, h = ", h, " m"), F, exact, 0.01);
+      gates.near(text("its error over h/(2 H), h = ", h, " m"),
+                 (F / exact - 1.) / (0.5 * h / H),
+                 1.,
+                 0.05);
+    }
+}
+
+
+
+namespace
+{
+  /// q F/s_u at failure, with cells of @p h.
+  double
+  bearing_factor(const double h)
+  {
+    const StaticCase<2> footing("verification/strip-footing.prm",
+                                text("strip-footing-", h),
+                                {text("Grid/Cell size=", h),
+                                 text("Constants=q = 20e3; h = ", h)});
+    return 2. * footing.factor_of_safety();
+  }
+
+
+
+  void
+  hold_footing(Verification &gates, const std::vector<double> &cell_sizes)
+  {
+    double last = INFINITY;
+    for (const double h : cell_sizes)
+      {
+        const double factor = bearing_factor(h);
+        gates.near(text("q F/s_u at failure, h = ", h, " m"),
+                   factor,
+                   2. + M_PI,
+                   0.05);
+        EXPECT_LT(factor, last);
+        last = factor;
+      }
+  }
+
+
+
+  const std::string footing     = "Strip footing, smooth, on weightless clay",
+                    footing_run = "prm/verification/strip-footing.prm",
+                    prandtl     = "Prandtl: q = (2 + pi) s_u";
+} // namespace
+
+
+
+TEST(StripFooting, BearingCapacity)
+{
+  Verification gates(footing, footing_run, prandtl);
+  hold_footing(gates, {0.25, 0.125});
+}
+
+
+
+TEST(StripFootingFine, BearingCapacity)
+{
+  Verification gates(footing, footing_run + " Grid/Cell size=0.0625", prandtl);
+  hold_footing(gates, {0.125, 0.0625});
+}
+
+
+
+namespace
+{
+  const std::string
+    cut        = "Vertical cut in clay: factor of safety",
+    cut_run    = "prm/verification/vertical-cut.prm, Stages = equilibrium, "
+                 "strength reduction, Gravity/Magnitude = 2",
+    cut_source = "limit analysis: 3.776 <= N_c <= 3.83";
+
+
+
+  /// gamma H/s_u at failure, with cells of H / @p cells.
+  double
+  stability_number(const unsigned int cells)
+  {
+    const StaticCase<2> found("verification/vertical-cut.prm",
+                              text("vertical-cut-", cells),
+                              {"Stages=equilibrium, strength reduction",
+                               "Gravity/Ramp time=0",
+                               "Gravity/Magnitude=2",
+                               "Damping/Local damping=0",
+                               text("Grid/Cell size=", 5. / cells)});
+    return 2. * found.factor_of_safety();
+  }
+
+
+
+  std::string
+  name_of(const unsigned int cells)
+  {
+    return text("gamma H F/s_u, cells of H/", cells);
+  }
+} // namespace
+
+
+
+TEST(VerticalCutSafety, CoarseCells)
+{
+  Verification      gates(cut, cut_run, cut_source);
+  const std::string cause =
+    "the slip surface is smeared over some cells, as with finite elements: the "
+    "excess is about as large as with bisection of the load by dynamics, and "
+    "falls by about a half on cells of half the size";
+  const double coarse = stability_number(8), fine = stability_number(16);
+  gates.falls_short(name_of(8), coarse, 1.03 * 3.78, {4.10, cause}, "3.78");
+  gates.falls_short(name_of(16), fine, 1.03 * 3.78, {3.95, cause}, "3.78");
+  EXPECT_LT(fine, coarse);
+  EXPECT_GT(fine, 3.776);
+}
+
+
+
+TEST(VerticalCutSafetyFine, Cells)
+{
+  Verification gates(cut, cut_run, cut_source);
+  const double number = stability_number(32);
+  gates.near(name_of(32), number, 3.78, 0.03);
+  EXPECT_LT(number, stability_number(16));
+}

@@ -1,0 +1,69 @@
+#ifndef talus_tests_cases_static_case_h
+#define talus_tests_cases_static_case_h
+
+#include "case.h"
+#include "verification.h"
+
+#include <string>
+#include <vector>
+
+namespace talus::cases
+{
+  /// A case that has been run to its end in the folder @p name, with the table
+  /// of Newton's method.
+  template <int dim>
+  class StaticCase
+  {
+  public:
+    StaticCase(const std::string &file,
+               const std::string &name,
+               const Overrides   &overrides);
+
+    const Simulation<dim> &
+    operator*() const
+    {
+      return simulation_;
+    }
+
+    const Points<dim> &
+    points() const
+    {
+      return points_;
+    }
+
+    /// Middle of the bracket of the factor of safety.
+    double
+    factor_of_safety() const;
+
+    /// newton.csv
+    const Table &
+    newton() const
+    {
+      return newton_;
+    }
+
+  private:
+    Case<dim>              case_;
+    const Simulation<dim> &simulation_;
+    const Points<dim>     &points_;
+    Table                  newton_;
+  };
+
+
+
+  /// Residuals of Newton's method, one list for each time it was begun.
+  std::vector<std::vector<double>>
+  residuals(const Table &newton);
+
+  /// The largest C in r_{k+1} = C r_k^2 over all steps from a residual below
+  /// @p upper to one that is above @p lower, where round-off does not count
+  /// yet.
+  double
+  quadratic_constant(const Table &newton, double upper, double lower);
+
+  /// The first list that falls from above @p upper to below @p lower, in words.
+  std::string
+  a_sequence(const Table &newton, double upper, double lower);
+} // namespace talus::cases
+
+#endif
