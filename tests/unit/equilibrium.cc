@@ -26,8 +26,8 @@ namespace
 
 
 
-  /// A block of one material on rock, 3 m long (and 2 m wide) and 2 m high, with
-  /// a free slope behind and in front.
+  /// A block of one material on rock, 3 m long, 2 m high (and 2 m wide), with a
+  /// vertical face behind and in front.
   template <int dim>
   struct Bank : Statics<dim>
   {

@@ -264,7 +264,7 @@ namespace
       upper[d] = 2.;
     lower[0]   = 1.;
     upper[0]   = end;
-    n[0]       = std::lround(4. * (end - 1.) + 1.6);
+    n[0]       = std::lround(4. * (end - 1.));
     gravity[1] = -9.81;
     bank.fill(lower, upper, n);
     bank.transfer.use_cell_mean({true});

@@ -95,7 +95,7 @@ TEST(StaticContactTest, BlockSticksToAnIncline)
   for (const double slope : {0., 0.2, 0.4})
     {
       Block block(seabed(0.5, 1e9), inclined(slope));
-      ASSERT_TRUE(block.find()) << block.equilibrium.failure();
+      EXPECT_TRUE(block.find()) << block.equilibrium.failure();
       const auto reactions = block.reactions();
       EXPECT_EQ(reactions.size(), 5u);
       EXPECT_LT((sum(reactions) + block.weight).norm(),
@@ -142,7 +142,7 @@ TEST(StaticContactTest, BlockUnderUpwardLoadOpens)
   Block block(seabed(0.5, 1e9, "set Left = fixed\n"),
               Point<2>(0., 0.1 * g),
               0.);
-  ASSERT_TRUE(block.find()) << block.equilibrium.failure();
+  EXPECT_TRUE(block.find()) << block.equilibrium.failure();
   for (const auto &[x, reaction] : block.reactions())
     if (x > 0.)
       EXPECT_LT(reaction.norm(), 1e-8 * block.weight.norm()) << x;
@@ -162,7 +162,7 @@ TEST(StaticContactTest, FrictionIsWithinItsLimit)
                   Point<2>(0., -g),
                   2.,
                   "set Young's modulus = 1e6\nset Poisson's ratio = 0.45\n");
-      ASSERT_TRUE(block.find()) << block.equilibrium.failure();
+      EXPECT_TRUE(block.find()) << block.equilibrium.failure();
       const auto   reactions = block.reactions();
       unsigned int n_limited = 0;
       for (const auto &[x, reaction] : reactions)
@@ -181,6 +181,28 @@ TEST(StaticContactTest, FrictionIsWithinItsLimit)
         }
       EXPECT_GE(n_limited, 2u);
     }
+}
+
+
+
+// Not so yet: bodies that spread on a flat seabed and are not symmetric. The
+// first guess is that all nodes slip, which would let them go, though nothing
+// pulls at them.
+TEST(StaticContactTest, DISABLED_SpreadingBodiesStay)
+{
+  for (const double begin : {0.75, 1.75, 2.6, 3.3})
+    for (const double cap : {30., 300., 1500., 5000.})
+      {
+        SCOPED_TRACE(text(begin, ", ", cap));
+        Block block(seabed(10., cap), Point<2>(0., -g), begin);
+        EXPECT_TRUE(block.find()) << block.equilibrium.failure();
+        const auto reactions = block.reactions();
+        EXPECT_NEAR(sum(reactions)[0], 0., 1e-5 * block.weight.norm());
+        for (const auto &[x, reaction] : reactions)
+          EXPECT_LE(std::abs(reaction[0]),
+                    0.5 * cap + 1e-6 * block.weight.norm())
+            << x;
+      }
 }
 
 
