@@ -35,8 +35,9 @@ namespace talus
     add_parameter(
       "Allowed imbalance",
       allowed_imbalance_,
-      "Force out of balance over the force of the loads (Euclidean "
-      "norms over the nodes) with which the soil counts as balanced "
+      "Force out of balance over that of the loads or of the stress, "
+      "whichever is larger (Euclidean norms over the nodes), with which the "
+      "soil counts as balanced "
       "[-]; 0 for 1e-6 with small strain and 1e-3 with large, where "
       "nodes with hardly any soil come to rest slowly.",
       this->prm,
