@@ -111,7 +111,20 @@ namespace talus
     target_ = internal_;
     for (std::size_t i = 0; i < target_.size(); ++i)
       target_[i] += share * unbalanced_[i];
-    u_ = unknowns_.field();
+    u_                               = unknowns_.field();
+    const StaticContact<dim> before  = contact_;
+    const Outcome            outcome = seek(soil, observe);
+    if (!outcome.converged)
+      contact_ = before;
+    return outcome;
+  }
+
+
+
+  template <int dim>
+  typename Newton<dim>::Outcome
+  Newton<dim>::seek(Soil<dim> &soil, const Observer &observe)
+  {
     // A node of the seabed may change its mind some times.
     for (unsigned int trial = 0; trial < 50; ++trial)
       {

@@ -235,9 +235,10 @@ class StagesAndResume(KillAndResume):
 
     N_KILLS = 8
     file = "landslide-trigger.prm"
-    settings = ["Grid/Cell size=0.8", "End time=2.5", "Trigger/Start time=0.5",
+    settings = ["Grid/Cell size=0.8", "End time=1", "Trigger/Start time=0.3",
+                "Strength reduction/Tolerance=0.05",
                 "Stages=equilibrium, strength reduction, dynamics",
-                "Output/Field interval=0.25", "Output/Statistics interval=0.02"]
+                "Output/Field interval=0.1", "Output/Statistics interval=0.02"]
 
     def make_reference(self):
         # After every static stage there is a checkpoint, asked for or not.

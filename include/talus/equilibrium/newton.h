@@ -114,6 +114,10 @@ namespace talus
     make_rigid_modes(const Grid<dim> &grid);
     bool
     evaluate(Soil<dim> &soil, const std::vector<double> &u);
+    /// With the state of the seabed's nodes that belongs to it.
+    Outcome
+    seek(Soil<dim> &soil, const Observer &observe);
+    /// With the state that they have.
     Outcome
     iterate(Soil<dim> &soil, const Observer &observe);
     /// Returns why there is no next iterate, as the end of a sentence.
