@@ -66,9 +66,10 @@ namespace talus
 
 
 
-    /// In space by the principal directions n of b - I, found by Jacobi's
-    /// method: accurate for equal eigenvalues, too, and without branches. Off-
-    /// diagonal entries vanish to third order per sweep; five reach round-off.
+    /// The principal directions n of @p A, its columns; A becomes diagonal. By
+    /// Jacobi's method: accurate for equal eigenvalues, too, and without
+    /// branches. Off-diagonal entries vanish to third order per sweep; five
+    /// reach round-off.
     template <typename Number>
     inline Matrix<3, Number>
     principal_directions(Matrix<3, Number> &A)
@@ -85,6 +86,7 @@ namespace talus
 
 
 
+    /// In space by the principal directions of b - I.
     template <typename Number>
     inline Stress<3, Number>
     logarithmic_strain(const DeformationState<3, Number> &state)
