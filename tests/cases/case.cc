@@ -29,6 +29,7 @@ namespace talus::cases
     simulation_ = std::make_unique<Simulation<dim>>(parameters.preview());
     parameters.parse();
     simulation_->set_up();
+    simulation_->allow_overwriting(); // what an earlier run of the test left
   }
 
 
