@@ -185,7 +185,7 @@ namespace talus
             continue;
           }
         newton_.accept(soil);
-        n_settling_ += all;
+        n_settling_ += (load_ >= 1.);
         load_ = after;
         step_ = std::min(1.5 * cut * step_, 1. / n_load_steps_);
         ++n_steps_;

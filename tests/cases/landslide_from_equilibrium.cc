@@ -20,9 +20,11 @@ namespace
 
 
   /// Against the landslide that starts without stress, @p share is the gate of
-  /// the front.
+  /// the front; @p momentum is given where its gate is not met.
   void
-  hold(const double h, const double share)
+  hold(const double                    h,
+       const double                    share,
+       const std::optional<Shortfall> &momentum = {})
   {
     const Overrides cells = {text("Grid/Cell size=", h)};
     const Table     slide =
@@ -62,9 +64,7 @@ namespace
     gates.at_most("|energy remainder| / final gravity work",
                   remainder / work.back(),
                   0.005);
-    // Soil at rest pushes all the time on nodes with so little mass that they
-    // do not take part.
-    expect_momentum(gates, slide, 1e-7);
+    expect_momentum(gates, slide, momentum);
     expect_continuum(gates, slide);
   }
 } // namespace
@@ -73,7 +73,13 @@ namespace
 
 TEST(LandslideFromEquilibrium, Coarse)
 {
-  hold(0.8, 0.01);
+  hold(
+    0.8,
+    0.01,
+    Shortfall{3e-8,
+              "not found; probably soil at rest pushes all the time on nodes "
+              "with so little mass that they do not take part. Cells of half "
+              "the size meet the gate"});
 }
 
 
