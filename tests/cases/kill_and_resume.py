@@ -164,7 +164,7 @@ class StopAndResume(Case):
         self.assert_ends(self.run_talus("run", ["End time=1"]))
         result = self.run_talus("run", ["End time=1"], ["--resume"])
         self.assert_ends(result)
-        self.assertIn("has reached its end time, t = 1 s", result.stdout)
+        self.assertIn("has reached its end, t = 1 s", result.stdout)
         self.make_reference()
         self.assert_ends(self.run_talus("run", [], ["--resume"]))
 
