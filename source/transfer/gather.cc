@@ -192,6 +192,30 @@ namespace talus
 
 
 
+    /// Note point(s) @p p if they left the cell that begins at @p lower; one
+    /// whose position is no number, too.
+    template <int dim, typename Number>
+    inline void
+    note_strays(Points<dim>                   &points,
+                const unsigned int             p,
+                const std::array<Number, dim> &lower,
+                const double                   cell_size)
+    {
+      auto inside = (lower[0] == lower[0]);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const auto x = load<Number>(points.data(points.position, d) + p);
+          inside &= (x >= lower[d]) & (x < lower[d] + cell_size);
+        }
+      if (__builtin_expect(all(inside), 1))
+        return;
+      for (unsigned int i = 0; i < sizeof(Number) / sizeof(double); ++i)
+        if (!is_true(inside, i))
+          points.strays().push_back(p + i);
+    }
+
+
+
     /// Cells whose neighbours differ in size: what one point is told, by the
     /// weights as they are defined.
     template <int dim>
@@ -254,6 +278,13 @@ namespace talus
             work_of_lanes += work_here;
           else
             work += work_here;
+          std::array<Number, dim> lower;
+          for (unsigned int d = 0; d < dim; ++d)
+            lower[d] = load<Number>(&block.cell_lower[d][k]);
+          note_strays<dim, Number>(points,
+                                   block.begin + k,
+                                   lower,
+                                   block.cell_size);
         });
       }
     work += gather_general(nodes, grid, loads, points, batch, dt);
@@ -275,9 +306,13 @@ namespace talus
     std::vector<NodeWeight<dim>> weights;
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
-        const Segment &segment = points.segments()[s];
-        if (grid.cells()[segment.cell].uniform)
+        const Segment   &segment = points.segments()[s];
+        const Cell<dim> &cell    = grid.cells()[segment.cell];
+        if (cell.uniform)
           continue;
+        std::array<double, dim> lower;
+        for (unsigned int d = 0; d < dim; ++d)
+          lower[d] = cell.lower[d];
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
             weights_of_point(
@@ -285,6 +320,7 @@ namespace talus
             const Told<dim> told = interpolate_general(nodes, weights);
             work += move_points<dim, double>(
               points, p, segment.body, &told, loads, flip_fraction_, dt);
+            note_strays<dim, double>(points, p, lower, cell.size);
           }
       }
     return work;
