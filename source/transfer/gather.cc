@@ -94,14 +94,13 @@ namespace talus
 
 
 
-    /// What point @p k of the block is told by its nodes, the first of which is
-    /// @p patch[0].
+    /// What point @p k of the block is told by its nodes.
     inline Told<2>
     interpolate(const Block<2>       &block,
                 const unsigned int    k,
-                const unsigned int   *patch,
                 const NodalFields<2> &nodes)
     {
+      const unsigned int      *patch = block.patch[k] + block.first_node[k];
       Record<2>                motion{};
       std::array<Record<2>, 2> gradient{};
       for (unsigned int j = 0; j < 3; ++j)
@@ -125,9 +124,9 @@ namespace talus
     inline Told<3>
     interpolate(const Block<3>       &block,
                 const unsigned int    k,
-                const unsigned int   *patch,
                 const NodalFields<3> &nodes)
     {
+      const unsigned int      *patch = block.patch[k] + block.first_node[k];
       Record<3>                motion{};
       std::array<Record<3>, 3> gradient{};
       for (unsigned int l = 0; l < 3; ++l)
@@ -254,17 +253,11 @@ namespace talus
     BlockWalk<dim>  walk(points, batch, grid, box_shape_);
     while (walk.next(block))
       {
-        prefetch_nodes(block, grid, [&](const unsigned int node) {
+        prefetch_nodes(block, [&](const unsigned int node) {
           return nodes.motion(node);
         });
-        for (unsigned int i = 0; i < block.n_pieces; ++i)
-          {
-            const Piece &piece = block.pieces[i];
-            const auto  *patch = grid.cells()[piece.cell].patch.data();
-            for (unsigned int k = piece.begin; k < piece.end; ++k)
-              told[k] =
-                interpolate(block, k, patch + block.first_node[k], nodes);
-          }
+        for (unsigned int k = 0; k < block.size; ++k)
+          told[k] = interpolate(block, k, nodes);
         for_lanes(0, block.size, [&](const unsigned int k, auto number) {
           using Number           = decltype(number);
           const Number work_here = move_points<dim, Number>(points,

@@ -52,16 +52,8 @@ namespace talus
     along_y(const double value, const double gradient)
     {
       static_assert(NodalSum<2>::force_by_y == 6);
-      return __builtin_shufflevector(broadcast<Lanes>(value),
-                                     broadcast<Lanes>(gradient),
-                                     0,
-                                     1,
-                                     2,
-                                     3,
-                                     4,
-                                     5,
-                                     14,
-                                     15);
+      constexpr LaneMask by_gradient = {0, 0, 0, 0, 0, 0, -1, -1};
+      return by_gradient ? broadcast<Lanes>(gradient) : broadcast<Lanes>(value);
     }
 
 
@@ -139,17 +131,17 @@ namespace talus
 
 
 
-    /// Add what point @p k of the block gives to its nodes, the first of which
-    /// is @p patch[0]. The gradient along y multiplies entries of their own, so
-    /// that each node takes one fused multiply-add.
+    /// Add what point @p k of the block gives to its nodes. The gradient along y
+    /// multiplies entries of their own, so that each node takes one fused
+    /// multiply-add.
     inline void
     add_point(const Block<2>     &block,
               const unsigned int  k,
               const Contribution &given,
-              const unsigned int *patch,
               double             *sums)
     {
-      Lanes x[3], y[3];
+      const unsigned int *patch = block.patch[k] + block.first_node[k];
+      Lanes               x[3], y[3];
       for (unsigned int i = 0; i < 3; ++i)
         {
           x[i] = block.value[0][i][k] * given.by_weight +
@@ -199,13 +191,13 @@ namespace talus
     add_point(const Block<3>     &block,
               const unsigned int  k,
               const Contribution &given,
-              const unsigned int *patch,
               double             *sums)
     {
-      const Lanes f_x = force_by_gradient<0>(given.flux);
-      const Lanes f_y = force_by_gradient<1>(given.flux);
-      const Lanes f_z = force_by_gradient<2>(given.flux);
-      Lanes       P[3], Q[3], T[3];
+      const unsigned int *patch = block.patch[k] + block.first_node[k];
+      const Lanes         f_x   = force_by_gradient<0>(given.flux);
+      const Lanes         f_y   = force_by_gradient<1>(given.flux);
+      const Lanes         f_z   = force_by_gradient<2>(given.flux);
+      Lanes               P[3], Q[3], T[3];
       for (unsigned int i = 0; i < 3; ++i)
         {
           P[i] = block.value[0][i][k] * given.by_weight +
@@ -284,18 +276,12 @@ namespace talus
     BlockWalk<dim>     walk(points, batch, grid, box_shape_);
     while (walk.next(block))
       {
-        prefetch_nodes(block, grid, [&](const unsigned int node) {
+        prefetch_nodes(block, [&](const unsigned int node) {
           return nodes.sum(node);
         });
         stage(points, block, loads, contributions);
-        for (unsigned int i = 0; i < block.n_pieces; ++i)
-          {
-            const Piece &piece = block.pieces[i];
-            const auto  *patch = grid.cells()[piece.cell].patch.data();
-            for (unsigned int k = piece.begin; k < piece.end; ++k)
-              add_point(
-                block, k, contributions[k], patch + block.first_node[k], sums);
-          }
+        for (unsigned int k = 0; k < block.size; ++k)
+          add_point(block, k, contributions[k], sums);
       }
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       if (const Segment &segment = points.segments()[s];
