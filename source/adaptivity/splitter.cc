@@ -313,6 +313,7 @@ namespace talus
                        const unsigned int axes)
   {
     ledger_.enter(points, p, +1.);
+    points.strays().push_back(p);
     const unsigned int n_daughters = 1u << __builtin_popcount(axes);
 
     // The state of every daughter, in the parent's place.

@@ -122,15 +122,24 @@ namespace talus
   void
   NodalFields<dim>::update_momentum(const double dt, const double least_mass)
   {
-    for (const unsigned int node : active_nodes_)
+    // The list goes from cell to cell, so that the machine does not see which
+    // node will be next: ask for it some nodes before.
+    constexpr std::size_t ahead = 16;
+    const std::size_t     n     = active_nodes_.size();
+    for (std::size_t i = 0; i < n; ++i)
       {
-        const double *s            = sum(node);
-        double       *v            = motion(node);
+        if (i + ahead < n)
+          {
+            __builtin_prefetch(sum(active_nodes_[i + ahead]));
+            __builtin_prefetch(motion(active_nodes_[i + ahead]), 1);
+          }
+        const double *s            = sum(active_nodes_[i]);
+        double       *v            = motion(active_nodes_[i]);
         const double  mass         = s[Sum::mass];
         const double  inverse_mass = (mass > least_mass ? 1. / mass : 0.);
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const double increment   = dt * s[Sum::force + d] * inverse_mass;
+            const double increment = dt * Sum::whole_force(s, d) * inverse_mass;
             v[Motion::increment + d] = increment;
             v[Motion::velocity + d] =
               s[Sum::momentum + d] * inverse_mass + increment;

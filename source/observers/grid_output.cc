@@ -9,7 +9,8 @@ namespace talus
 
   namespace
   {
-    /// The sums of all nodes this rank knows, those of ghosts from their owners.
+    /// The sums of all nodes this rank knows, those of ghosts from their owners;
+    /// the whole force in one place.
     template <int dim>
     AlignedVector<double>
     sums_with_ghosts(const Snapshot<dim> &snapshot)
@@ -20,6 +21,10 @@ namespace talus
       NodalExchange<dim> exchange;
       exchange.prepare(snapshot.grid, n_lanes);
       exchange.copy_to_ghosts(sums.data());
+      using Sum = NodalSum<dim>;
+      for (double *sum = sums.data(); sum != sums.data() + n; sum += n_lanes)
+        for (unsigned int d = 0; d < dim; ++d)
+          sum[Sum::force + d] = Sum::whole_force(sum, d);
       return sums;
     }
 

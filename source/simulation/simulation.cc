@@ -331,7 +331,7 @@ namespace talus
   Simulation<dim>::relocate()
   {
     PhaseTimer::Scope scope(timer_, "relocation");
-    const bool        other_cells = relocation_.update(points_, grid_);
+    const bool        other_cells = relocation_.update_strays(points_, grid_);
     if (other_cells)
       nodes_.activate(grid_, relocation_.occupied_cells());
   }

@@ -108,7 +108,8 @@ namespace talus
           tell(note);
         if (equilibrium_.measure() == StrainMeasure::large)
           {
-            relocate();
+            if (relocation_.update(points_, grid_)) // all may have moved
+              nodes_.activate(grid_, relocation_.occupied_cells());
             adapt_mesh();
           }
       }

@@ -12,12 +12,14 @@ namespace talus
   {
     const Cell<dim>   &cell  = grid_.cells()[segment.cell];
     const unsigned int begin = block.size, end = begin + n;
-    block.pieces[block.n_pieces++] = {segment.cell, begin, end};
+    block.patch_of_cell[block.n_cells++] = cell.patch.data();
     // Whole registers: what goes beyond the end is overwritten by the next
     // piece.
     for (unsigned int d = 0; d < dim; ++d)
       for (unsigned int k = begin; k < end; k += n_lanes)
         store(&block.cell_lower[d][k], broadcast<Lanes>(cell.lower[d]));
+    for (unsigned int k = begin; k < end; ++k)
+      block.patch[k] = cell.patch.data();
     block.size = end;
   }
 
@@ -59,7 +61,7 @@ namespace talus
   BlockWalk<dim>::next(Block<dim> &block)
   {
     block.size           = 0;
-    block.n_pieces       = 0;
+    block.n_cells        = 0;
     const auto &segments = points_.segments();
     for (; segment_ < last_segment_; ++segment_, taken_ = 0)
       {

@@ -50,38 +50,49 @@ namespace talus
 
 
 
+    /// For the rules that know the stretch by the deformation gradient.
     template <int dim, typename Number>
     std::array<Number, dim>
-    stretch_along_axes(const Matrix<dim, Number>     &F,
-                       const Number                   J,
-                       const BoxRule                  rule,
-                       const std::array<Number, dim> &old_stretch,
-                       const std::array<Number, dim> &strain_increment)
+    stretch_along_axes(const Matrix<dim, Number> &F, const BoxRule rule)
     {
-      std::array<Number, dim> stretch;
-      switch (rule)
+      if (rule == BoxRule::deformation_gradient)
         {
-          case BoxRule::right_stretch:
-            return stretch_diagonal(F, J);
-            case BoxRule::left_stretch: {
-              Matrix<dim, Number> transpose;
-              for (unsigned int i = 0; i < dim; ++i)
-                for (unsigned int j = 0; j < dim; ++j)
-                  transpose[i][j] = F[j][i];
-              return stretch_diagonal(transpose, J);
-            }
-          case BoxRule::deformation_gradient:
-            // May pass through zero; the criterion needs it positive.
-            for (unsigned int d = 0; d < dim; ++d)
-              stretch[d] = max(F[d][d], broadcast<Number>(0.01));
-            return stretch;
-          case BoxRule::fixed:
-          default:
-            for (unsigned int d = 0; d < dim; ++d)
-              stretch[d] =
-                old_stretch[d] * exponential_of_step(strain_increment[d]);
-            return stretch;
+          // May pass through zero; the criterion needs it positive.
+          std::array<Number, dim> stretch;
+          for (unsigned int d = 0; d < dim; ++d)
+            stretch[d] = max(F[d][d], broadcast<Number>(0.01));
+          return stretch;
         }
+      const Number J = determinant(F);
+      if (rule == BoxRule::right_stretch)
+        return stretch_diagonal(F, J);
+      Matrix<dim, Number> transpose;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          transpose[i][j] = F[j][i];
+      return stretch_diagonal(transpose, J);
+    }
+
+
+
+    template <int dim>
+    void
+    update_stretch_of_fixed_boxes(Points<dim>       &points,
+                                  const unsigned int begin,
+                                  const unsigned int end,
+                                  const double       dt)
+    {
+      for_lanes(begin, end, [&](const unsigned int p, auto number) {
+        using Number         = decltype(number);
+        const unsigned int k = p - points.workspace_begin();
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            double      *stretch = points.data(points.stretch, d) + p;
+            const Number strain =
+              dt * load<Number>(points.velocity_gradient(d, d) + k);
+            store(stretch, load<Number>(stretch) * exponential_of_step(strain));
+          }
+      });
     }
   } // namespace
 
@@ -95,20 +106,16 @@ namespace talus
                  const BoxRule      rule,
                  const double       dt)
   {
+    if (rule == BoxRule::fixed)
+      {
+        update_stretch_of_fixed_boxes(points, begin, end, dt);
+        return;
+      }
     for_lanes(begin, end, [&](const unsigned int p, auto number) {
       using Number = decltype(number);
       const auto F =
         load_matrix<dim, Number>(points, points.deformation_gradient, p);
-      const Number J = determinant(F);
-      const auto   L = load_velocity_gradient<dim, Number>(points, p);
-      std::array<Number, dim> old_stretch, strain_increment;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          old_stretch[d] = load<Number>(points.data(points.stretch, d) + p);
-          strain_increment[d] = dt * L[d][d];
-        }
-      const auto stretch =
-        stretch_along_axes<dim>(F, J, rule, old_stretch, strain_increment);
+      const auto stretch = stretch_along_axes<dim>(F, rule);
       for (unsigned int d = 0; d < dim; ++d)
         store(points.data(points.stretch, d) + p, stretch[d]);
     });
@@ -129,8 +136,7 @@ namespace talus
       {
         const auto F =
           load_matrix<dim, double>(points, points.deformation_gradient, p);
-        const auto stretch =
-          stretch_along_axes<dim, double>(F, determinant(F), by_state, {}, {});
+        const auto stretch = stretch_along_axes<dim, double>(F, by_state);
         for (unsigned int d = 0; d < dim; ++d)
           points.data(points.stretch, d)[p] =
             points.data(points.creation_stretch, d)[p] = stretch[d];

@@ -94,14 +94,13 @@ namespace talus
 
 
 
-    /// What point @p k of the block is told by its nodes, the first of which is
-    /// @p patch[0].
+    /// What point @p k of the block is told by its nodes.
     inline Told<2>
     interpolate(const Block<2>       &block,
                 const unsigned int    k,
-                const unsigned int   *patch,
                 const NodalFields<2> &nodes)
     {
+      const unsigned int      *patch = block.patch[k] + block.first_node[k];
       Record<2>                motion{};
       std::array<Record<2>, 2> gradient{};
       for (unsigned int j = 0; j < 3; ++j)
@@ -125,9 +124,9 @@ namespace talus
     inline Told<3>
     interpolate(const Block<3>       &block,
                 const unsigned int    k,
-                const unsigned int   *patch,
                 const NodalFields<3> &nodes)
     {
+      const unsigned int      *patch = block.patch[k] + block.first_node[k];
       Record<3>                motion{};
       std::array<Record<3>, 3> gradient{};
       for (unsigned int l = 0; l < 3; ++l)
@@ -192,6 +191,30 @@ namespace talus
 
 
 
+    /// Note point(s) @p p if they left the cell that begins at @p lower; one
+    /// whose position is no number, too.
+    template <int dim, typename Number>
+    inline void
+    note_strays(Points<dim>                   &points,
+                const unsigned int             p,
+                const std::array<Number, dim> &lower,
+                const double                   cell_size)
+    {
+      auto inside = (lower[0] == lower[0]);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const auto x = load<Number>(points.data(points.position, d) + p);
+          inside &= (x >= lower[d]) & (x < lower[d] + cell_size);
+        }
+      if (__builtin_expect(all(inside), 1))
+        return;
+      for (unsigned int i = 0; i < sizeof(Number) / sizeof(double); ++i)
+        if (!is_true(inside, i))
+          points.strays().push_back(p + i);
+    }
+
+
+
     /// Cells whose neighbours differ in size: what one point is told, by the
     /// weights as they are defined.
     template <int dim>
@@ -230,17 +253,11 @@ namespace talus
     BlockWalk<dim>  walk(points, batch, grid, box_shape_);
     while (walk.next(block))
       {
-        prefetch_nodes(block, grid, [&](const unsigned int node) {
+        prefetch_nodes(block, [&](const unsigned int node) {
           return nodes.motion(node);
         });
-        for (unsigned int i = 0; i < block.n_pieces; ++i)
-          {
-            const Piece &piece = block.pieces[i];
-            const auto  *patch = grid.cells()[piece.cell].patch.data();
-            for (unsigned int k = piece.begin; k < piece.end; ++k)
-              told[k] =
-                interpolate(block, k, patch + block.first_node[k], nodes);
-          }
+        for (unsigned int k = 0; k < block.size; ++k)
+          told[k] = interpolate(block, k, nodes);
         for_lanes(0, block.size, [&](const unsigned int k, auto number) {
           using Number           = decltype(number);
           const Number work_here = move_points<dim, Number>(points,
@@ -254,6 +271,13 @@ namespace talus
             work_of_lanes += work_here;
           else
             work += work_here;
+          std::array<Number, dim> lower;
+          for (unsigned int d = 0; d < dim; ++d)
+            lower[d] = load<Number>(&block.cell_lower[d][k]);
+          note_strays<dim, Number>(points,
+                                   block.begin + k,
+                                   lower,
+                                   block.cell_size);
         });
       }
     work += gather_general(nodes, grid, loads, points, batch, dt);
@@ -275,9 +299,13 @@ namespace talus
     std::vector<NodeWeight<dim>> weights;
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
-        const Segment &segment = points.segments()[s];
-        if (grid.cells()[segment.cell].uniform)
+        const Segment   &segment = points.segments()[s];
+        const Cell<dim> &cell    = grid.cells()[segment.cell];
+        if (cell.uniform)
           continue;
+        std::array<double, dim> lower;
+        for (unsigned int d = 0; d < dim; ++d)
+          lower[d] = cell.lower[d];
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
             weights_of_point(
@@ -285,6 +313,7 @@ namespace talus
             const Told<dim> told = interpolate_general(nodes, weights);
             work += move_points<dim, double>(
               points, p, segment.body, &told, loads, flip_fraction_, dt);
+            note_strays<dim, double>(points, p, lower, cell.size);
           }
       }
     return work;

@@ -161,30 +161,54 @@ namespace talus
 
 
 
+  /// Note point @p p of @p segment if it belongs to another cell now.
   template <int dim>
   void
-  Relocation<dim>::find_movers(Points<dim>      &points,
-                               const Grid<dim>  &grid,
-                               const std::size_t first_segment,
-                               const std::size_t last_segment)
+  Relocation<dim>::look_for(Points<dim>       &points,
+                            const Grid<dim>   &grid,
+                            const Segment     &segment,
+                            const unsigned int p)
   {
-    const bool wraps = grid.periodicity().any();
-    for (std::size_t s = first_segment; s < last_segment; ++s)
-      {
-        const Segment   &segment = points.segments()[s];
-        const Cell<dim> &cell    = grid.cells()[segment.cell];
-        if (__builtin_expect(all_inside(points, segment, cell), 1))
-          continue;
+    if (all_inside(points, {0, 0, p, p + 1}, grid.cells()[segment.cell]))
+      return;
+    if (grid.periodicity().any())
+      wrap(points, grid.periodicity(), p);
+    const unsigned int c = locate(points, grid, p, segment.cell);
+    if (c != segment.cell)
+      movers_.push_back({c, segment.body, p});
+  }
+
+
+
+  template <int dim>
+  void
+  Relocation<dim>::find_sorted_movers(Points<dim>     &points,
+                                      const Grid<dim> &grid)
+  {
+    for (const Segment &segment : points.segments())
+      if (!all_inside(points, segment, grid.cells()[segment.cell]))
         for (unsigned int p = segment.begin; p < segment.end; ++p)
-          {
-            if (all_inside(points, {0, 0, p, p + 1}, cell))
-              continue;
-            if (wraps)
-              wrap(points, grid.periodicity(), p);
-            const unsigned int c = locate(points, grid, p, segment.cell);
-            if (c != segment.cell)
-              movers_.push_back({c, segment.body, p});
-          }
+          look_for(points, grid, segment, p);
+  }
+
+
+
+  template <int dim>
+  void
+  Relocation<dim>::find_movers_among_strays(Points<dim>     &points,
+                                            const Grid<dim> &grid)
+  {
+    auto &strays = points.strays();
+    std::sort(strays.begin(), strays.end());
+    strays.erase(std::unique(strays.begin(), strays.end()), strays.end());
+    auto segment = points.segments().begin();
+    for (const unsigned int p : strays)
+      {
+        segment =
+          std::partition_point(segment,
+                               points.segments().end(),
+                               [p](const Segment &s) { return s.end <= p; });
+        look_for(points, grid, *segment, p);
       }
   }
 
@@ -192,10 +216,9 @@ namespace talus
 
   template <int dim>
   void
-  Relocation<dim>::find_movers(Points<dim> &points, const Grid<dim> &grid)
+  Relocation<dim>::find_appended_movers(Points<dim>     &points,
+                                        const Grid<dim> &grid)
   {
-    movers_.clear();
-    find_movers(points, grid, 0, points.segments().size());
     for (unsigned int p = points.n_sorted(); p < points.size(); ++p)
       {
         if (grid.periodicity().any())
@@ -205,6 +228,17 @@ namespace talus
            static_cast<unsigned int>(points.data(points.body)[p]),
            p});
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Relocation<dim>::find_all_movers(Points<dim> &points, const Grid<dim> &grid)
+  {
+    movers_.clear();
+    find_sorted_movers(points, grid);
+    find_appended_movers(points, grid);
   }
 
 
@@ -240,7 +274,29 @@ namespace talus
   bool
   Relocation<dim>::update(Points<dim> &points, const Grid<dim> &grid)
   {
-    find_movers(points, grid);
+    find_all_movers(points, grid);
+    return send_and_sort_in(points, grid);
+  }
+
+
+
+  template <int dim>
+  bool
+  Relocation<dim>::update_strays(Points<dim> &points, const Grid<dim> &grid)
+  {
+    movers_.clear();
+    find_movers_among_strays(points, grid);
+    find_appended_movers(points, grid);
+    return send_and_sort_in(points, grid);
+  }
+
+
+
+  template <int dim>
+  bool
+  Relocation<dim>::send_and_sort_in(Points<dim> &points, const Grid<dim> &grid)
+  {
+    points.strays().clear();
     send_movers(points, grid);
     if (movers_.empty() && travellers_.empty())
       return false;
@@ -300,7 +356,8 @@ namespace talus
   Relocation<dim>::rebuild(Points<dim> &points, const Grid<dim> &grid)
   {
     points.forget_order();
-    find_movers(points, grid);
+    points.strays().clear();
+    find_all_movers(points, grid);
     send_movers(points, grid);
     sort_in(points);
   }

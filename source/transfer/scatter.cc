@@ -10,8 +10,10 @@ namespace talus
   namespace
   {
     /// What a point gives to its nodes. `by_weight` is laid out as a NodalSum
-    /// and multiplied by the weight; `flux` is -V sigma in the order of the
-    /// stress, and its row d is multiplied by component d of the gradient.
+    /// and multiplied by the weight. `flux` belongs to the gradient: in 3-D it is
+    /// -V sigma in the order of the stress, row d of which is multiplied by
+    /// component d; in 2-D row 0 where NodalSum has the force, while row 1 has
+    /// places of its own in `by_weight`.
     struct Contribution
     {
       Lanes by_weight;
@@ -24,36 +26,35 @@ namespace talus
 
 
     /// Row @p d of the flux where NodalSum has the force.
-    template <int dim, int d>
+    template <int d>
     inline Lanes
     force_by_gradient(const Lanes &flux)
     {
+      static_assert(NodalSum<3>::force == 4);
       constexpr int zero = n_lanes;
-      if constexpr (dim == 2)
-        return __builtin_shufflevector(flux,
-                                       Lanes{},
-                                       zero,
-                                       zero,
-                                       zero,
-                                       stress_index<2>(d, 0),
-                                       stress_index<2>(d, 1),
-                                       zero,
-                                       zero,
-                                       zero);
-      else
-        return __builtin_shufflevector(flux,
-                                       Lanes{},
-                                       zero,
-                                       zero,
-                                       zero,
-                                       zero,
-                                       stress_index<3>(d, 0),
-                                       stress_index<3>(d, 1),
-                                       stress_index<3>(d, 2),
-                                       zero);
+      return __builtin_shufflevector(flux,
+                                     Lanes{},
+                                     zero,
+                                     zero,
+                                     zero,
+                                     zero,
+                                     stress_index<3>(d, 0),
+                                     stress_index<3>(d, 1),
+                                     stress_index<3>(d, 2),
+                                     zero);
     }
 
-    static_assert(NodalSum<2>::force == 3 && NodalSum<3>::force == 4);
+
+
+    /// What multiplies an entry of NodalSum<2>: @p value, or @p gradient where
+    /// the part of the force by the gradient along y is.
+    inline Lanes
+    along_y(const double value, const double gradient)
+    {
+      static_assert(NodalSum<2>::force_by_y == 6);
+      constexpr LaneMask by_gradient = {0, 0, 0, 0, 0, 0, -1, -1};
+      return by_gradient ? broadcast<Lanes>(gradient) : broadcast<Lanes>(value);
+    }
 
 
 
@@ -93,7 +94,16 @@ namespace talus
             constexpr auto index = stress_index<dim>;
             const Lanes    sigma =
               load<Lanes>(points.data(points.stress, index(i, j)) + p);
-            flux[index(i, j)] = -volume0 * J * (i == j ? sigma + shift : sigma);
+            const Lanes given = -volume0 * J * (i == j ? sigma + shift : sigma);
+            if constexpr (dim == 3)
+              flux[index(i, j)] = given;
+            else
+              {
+                if (i == 0)
+                  flux[Sum::force + j] = given;
+                if (j == 1)
+                  by_weight[Sum::force_by_y + i] = given;
+              }
           }
     }
 
@@ -121,6 +131,47 @@ namespace talus
 
 
 
+    /// Add what point @p k of the block gives to its nodes. The gradient along y
+    /// multiplies entries of their own, so that each node takes one fused
+    /// multiply-add.
+    inline void
+    add_point(const Block<2>     &block,
+              const unsigned int  k,
+              const Contribution &given,
+              double             *sums)
+    {
+      const unsigned int *patch = block.patch[k] + block.first_node[k];
+      Lanes               x[3], y[3];
+      for (unsigned int i = 0; i < 3; ++i)
+        {
+          x[i] = block.value[0][i][k] * given.by_weight +
+                 block.gradient[0][i][k] * given.flux;
+          y[i] = along_y(block.value[1][i][k], block.gradient[1][i][k]);
+        }
+      for (unsigned int j = 0; j < 3; ++j)
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            double *sum = sums + n_lanes * std::size_t(patch[4 * j + i]);
+            store(sum, load<Lanes>(sum) + x[i] * y[j]);
+          }
+    }
+
+
+
+    inline void
+    add_weighted(const NodeWeight<2> &w,
+                 const Contribution  &given,
+                 double              *sums)
+    {
+      double *sum = sums + n_lanes * std::size_t(w.node);
+      store(sum,
+            load<Lanes>(sum) +
+              along_y(w.value, w.gradient[1]) * given.by_weight +
+              w.gradient[0] * given.flux);
+    }
+
+
+
     inline void
     add(double      *to,
         const Lanes &a,
@@ -136,46 +187,17 @@ namespace talus
 
 
 
-    /// Add what point @p k of the block gives to its nodes, the first of which
-    /// is @p patch[0].
-    inline void
-    add_point(const Block<2>     &block,
-              const unsigned int  k,
-              const Contribution &given,
-              const unsigned int *patch,
-              NodalFields<2>     &nodes)
-    {
-      const Lanes f_x = force_by_gradient<2, 0>(given.flux);
-      const Lanes f_y = force_by_gradient<2, 1>(given.flux);
-      Lanes       P[3], Q[3];
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          P[i] = block.value[0][i][k] * given.by_weight +
-                 block.gradient[0][i][k] * f_x;
-          Q[i] = block.value[0][i][k] * f_y;
-        }
-      for (unsigned int j = 0; j < 3; ++j)
-        for (unsigned int i = 0; i < 3; ++i)
-          add(nodes.sum(patch[4 * j + i]),
-              P[i],
-              block.value[1][j][k],
-              Q[i],
-              block.gradient[1][j][k]);
-    }
-
-
-
     inline void
     add_point(const Block<3>     &block,
               const unsigned int  k,
               const Contribution &given,
-              const unsigned int *patch,
-              NodalFields<3>     &nodes)
+              double             *sums)
     {
-      const Lanes f_x = force_by_gradient<3, 0>(given.flux);
-      const Lanes f_y = force_by_gradient<3, 1>(given.flux);
-      const Lanes f_z = force_by_gradient<3, 2>(given.flux);
-      Lanes       P[3], Q[3], T[3];
+      const unsigned int *patch = block.patch[k] + block.first_node[k];
+      const Lanes         f_x   = force_by_gradient<0>(given.flux);
+      const Lanes         f_y   = force_by_gradient<1>(given.flux);
+      const Lanes         f_z   = force_by_gradient<2>(given.flux);
+      Lanes               P[3], Q[3], T[3];
       for (unsigned int i = 0; i < 3; ++i)
         {
           P[i] = block.value[0][i][k] * given.by_weight +
@@ -190,12 +212,26 @@ namespace talus
               block.value[1][j][k] * P[i] + block.gradient[1][j][k] * Q[i];
             const Lanes B = block.value[1][j][k] * T[i];
             for (unsigned int l = 0; l < 3; ++l)
-              add(nodes.sum(patch[16 * l + 4 * j + i]),
+              add(sums + n_lanes * std::size_t(patch[16 * l + 4 * j + i]),
                   A,
                   block.value[2][l][k],
                   B,
                   block.gradient[2][l][k]);
           }
+    }
+
+
+
+    inline void
+    add_weighted(const NodeWeight<3> &w,
+                 const Contribution  &given,
+                 double              *sums)
+    {
+      double     *sum  = sums + n_lanes * std::size_t(w.node);
+      const Lanes flux = w.gradient[0] * force_by_gradient<0>(given.flux) +
+                         w.gradient[1] * force_by_gradient<1>(given.flux) +
+                         w.gradient[2] * force_by_gradient<2>(given.flux);
+      store(sum, load<Lanes>(sum) + w.value * given.by_weight + flux);
     }
 
 
@@ -218,18 +254,8 @@ namespace talus
           set_contributions(points, p, segment.body, loads, by_weight, flux);
           transpose(by_weight);
           transpose(flux);
-          std::array<Lanes, dim> force;
-          force[0]       = force_by_gradient<dim, 0>(flux[0]);
-          force[1]       = force_by_gradient<dim, 1>(flux[0]);
-          force[dim - 1] = force_by_gradient<dim, dim - 1>(flux[0]);
           for (const auto &w : weights)
-            {
-              Lanes sum =
-                load<Lanes>(nodes.sum(w.node)) + w.value * by_weight[0];
-              for (unsigned int d = 0; d < dim; ++d)
-                sum += w.gradient[d] * force[d];
-              store(nodes.sum(w.node), sum);
-            }
+            add_weighted(w, {by_weight[0], flux[0]}, nodes.sum(0));
         }
     }
   } // namespace
@@ -244,23 +270,18 @@ namespace talus
                          const Loads<dim> &loads,
                          NodalFields<dim> &nodes) const
   {
+    double *const      sums = nodes.sum(0);
     Block<dim>         block;
     Contributions<dim> contributions;
     BlockWalk<dim>     walk(points, batch, grid, box_shape_);
     while (walk.next(block))
       {
-        prefetch_nodes(block, grid, [&](const unsigned int node) {
+        prefetch_nodes(block, [&](const unsigned int node) {
           return nodes.sum(node);
         });
         stage(points, block, loads, contributions);
-        for (unsigned int i = 0; i < block.n_pieces; ++i)
-          {
-            const Piece &piece = block.pieces[i];
-            const auto  *patch = grid.cells()[piece.cell].patch.data();
-            for (unsigned int k = piece.begin; k < piece.end; ++k)
-              add_point(
-                block, k, contributions[k], patch + block.first_node[k], nodes);
-          }
+        for (unsigned int k = 0; k < block.size; ++k)
+          add_point(block, k, contributions[k], sums);
       }
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       if (const Segment &segment = points.segments()[s];

@@ -246,11 +246,12 @@ struct Core : FreshParameters
     return splitter.enforce(points);
   }
 
-  /// The sums at all nodes of the mesh, hanging nodes condensed; from nothing,
-  /// whatever was active before.
+  /// The sums at all nodes of the mesh, hanging nodes condensed, with the whole
+  /// force in one place; from nothing, whatever was active before.
   std::vector<std::array<double, talus::n_lanes>>
   scatter()
   {
+    using Sum = talus::NodalSum<dim>;
     nodes.prepare(grid);
     nodes.activate(grid, relocation.occupied_cells());
     points.lend_workspace(0, points.size());
@@ -259,7 +260,14 @@ struct Core : FreshParameters
     nodes.sum_over_ranks(grid);
     std::vector<std::array<double, talus::n_lanes>> sums(grid.n_nodes());
     for (unsigned int n = 0; n < grid.n_nodes(); ++n)
-      std::copy_n(nodes.sum(n), talus::n_lanes, sums[n].begin());
+      {
+        const double *sum = nodes.sum(n);
+        std::copy_n(sum, talus::n_lanes, sums[n].begin());
+        for (unsigned int d = 0; d < dim; ++d)
+          sums[n][Sum::force + d] = Sum::whole_force(sum, d);
+        for (unsigned int c = Sum::force_by_y; c < talus::n_lanes; ++c)
+          sums[n][c] = 0;
+      }
     return sums;
   }
 

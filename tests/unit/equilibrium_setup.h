@@ -137,7 +137,7 @@ namespace
     {
       Tensor<1, dim> result;
       for (unsigned int d = 0; d < dim; ++d)
-        result[d] = nodes.sum(node)[NodalSum<dim>::force + d];
+        result[d] = NodalSum<dim>::whole_force(nodes.sum(node), d);
       return result;
     }
 

@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "transfer_setup.h"
@@ -270,6 +272,47 @@ namespace
   {
     expect_linear_field<2>();
     expect_linear_field<3>();
+  }
+
+
+
+  /// Those that get no number for a place, too.
+  template <int dim>
+  void
+  expect_strays(Core<dim> &core)
+  {
+    const LinearField<dim> velocity(core), increment(core);
+    set_motion(core, velocity, increment);
+    auto &points                                             = core.points;
+    core.nodes.motion(core.nodes.active_nodes()[0])[dim - 1] = std::nan("");
+    core.gather(0.1);
+    std::vector<unsigned int> left;
+    for (const Segment &segment : points.segments())
+      for (unsigned int p = segment.begin; p < segment.end; ++p)
+        {
+          const Cell<dim> &cell      = core.grid.cells()[segment.cell];
+          bool             is_inside = true;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const double x = points.data(points.position, d)[p];
+              is_inside      = is_inside && x >= cell.lower[d] &&
+                          x < cell.lower[d] + cell.size;
+            }
+          if (!is_inside)
+            left.push_back(p);
+        }
+    EXPECT_GT(left.size(), 10u);
+    EXPECT_LT(left.size(), points.size());
+    std::sort(points.strays().begin(), points.strays().end());
+    EXPECT_EQ(points.strays(), left);
+  }
+
+
+
+  TEST(Transfer, GatherNotesThoseThatLeaveTheirCell)
+  {
+    on_both_meshes<2>("", expect_strays<2>);
+    on_both_meshes<3>("", expect_strays<3>);
   }
 
 

@@ -124,6 +124,23 @@ namespace talus
 
 
 
+  /// Lane @p i of a mask.
+  inline bool
+  is_true(const bool mask, const unsigned int /*i*/)
+  {
+    return mask;
+  }
+
+
+
+  inline bool
+  is_true(const LaneMask mask, const unsigned int i)
+  {
+    return mask[i] != 0;
+  }
+
+
+
   inline double
   square_root(const double x)
   {

@@ -22,7 +22,17 @@ namespace talus
     static constexpr unsigned int force    = 1 + dim; ///< N
     /// Volume of the soil in its reference density, m^dim.
     static constexpr unsigned int volume = 1 + 2 * dim;
-    static_assert(volume < n_lanes);
+    /// In 2-D two entries are free, and take the part of the internal force
+    /// that comes with the gradient along y apart from the rest of the force.
+    static constexpr unsigned int force_by_y = (dim == 2 ? 6 : n_lanes);
+    static_assert(volume < n_lanes && volume < force_by_y);
+
+    /// Component @p d of the whole force in a sum, N.
+    static double
+    whole_force(const double *sum, const unsigned int d)
+    {
+      return dim == 2 ? sum[force + d] + sum[force_by_y + d] : sum[force + d];
+    }
   };
 
   /// 2 dim doubles, padded to whole registers.

@@ -88,6 +88,7 @@ namespace talus
     std::vector<dealii::AlignedVector<double>> workspace_{dim * dim + 3};
     unsigned int                               workspace_begin_ = 0;
     std::vector<Segment>                       segments_;
+    std::vector<unsigned int>                  strays_;
     std::vector<double>                        jumping_; ///< in reorder()
 
   public:
@@ -206,6 +207,16 @@ namespace talus
           batch.last_segment = s;
           action(batch);
         }
+    }
+
+    /// Sorted points that may lie outside the cell of their segment, in any
+    /// order, some perhaps twice. In a step those that move points note them
+    /// here, while the positions are at hand, for
+    /// Relocation::update_strays().
+    std::vector<unsigned int> &
+    strays()
+    {
+      return strays_;
     }
 
     /// Bytes of memory held.

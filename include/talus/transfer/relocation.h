@@ -36,6 +36,11 @@ namespace talus
     bool
     update(Points<dim> &points, const Grid<dim> &grid);
 
+    /// The same if only the points noted in Points::strays() can have left
+    /// their cell.
+    bool
+    update_strays(Points<dim> &points, const Grid<dim> &grid);
+
     /// The same after the mesh changed: nothing is known of the old cells.
     void
     rebuild(Points<dim> &points, const Grid<dim> &grid);
@@ -67,12 +72,20 @@ namespace talus
             const Grid<dim>   &grid,
             unsigned int       p) const;
     void
-    find_movers(Points<dim>     &points,
-                const Grid<dim> &grid,
-                std::size_t      first_segment,
-                std::size_t      last_segment);
+    look_for(Points<dim>     &points,
+             const Grid<dim> &grid,
+             const Segment   &segment,
+             unsigned int     p);
     void
-    find_movers(Points<dim> &points, const Grid<dim> &grid);
+    find_sorted_movers(Points<dim> &points, const Grid<dim> &grid);
+    void
+    find_movers_among_strays(Points<dim> &points, const Grid<dim> &grid);
+    void
+    find_appended_movers(Points<dim> &points, const Grid<dim> &grid);
+    void
+    find_all_movers(Points<dim> &points, const Grid<dim> &grid);
+    bool
+    send_and_sort_in(Points<dim> &points, const Grid<dim> &grid);
     void
     send_movers(Points<dim> &points, const Grid<dim> &grid);
     bool

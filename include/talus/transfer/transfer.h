@@ -55,7 +55,8 @@ namespace talus
             NodalFields<dim> &nodes) const;
 
     /// Update velocity and position of the points from the motion of the nodes
-    /// and store their velocity gradient. Returns the work of the loads, J.
+    /// and store their velocity gradient. Those that left their cell are noted
+    /// in Points::strays(). Returns the work of the loads, J.
     double
     gather(const NodalFields<dim> &nodes,
            const Grid<dim>        &grid,
