@@ -231,7 +231,9 @@ TEST(LoadStep, PointsThatAreTurnedInsideOutAreTold)
       EXPECT_FALSE(sound) << load_case.name;
       // Small strain does not turn anything.
       if (!load_case.hyperelastic)
-        EXPECT_TRUE(step.law->linearize(
-          step.points, 0, 1, StrainMeasure::small, &answer));
+        {
+          EXPECT_TRUE(step.law->linearize(
+            step.points, 0, 1, StrainMeasure::small, &answer));
+        }
     }
 }

@@ -62,7 +62,9 @@ namespace
         if (nodes.mass(node) > least_mass && places[node][1] == 0.)
           result[places[node][0]] = -force(node);
         else if (nodes.mass(node) > least_mass && places[node][0] > 0.)
-          EXPECT_LT(force(node).norm(), 1e-8 * weight.norm());
+          {
+            EXPECT_LT(force(node).norm(), 1e-8 * weight.norm());
+          }
       return result;
     }
 
@@ -147,7 +149,9 @@ TEST(StaticContactTest, BlockUnderUpwardLoadOpens)
   EXPECT_TRUE(block.find()) << block.equilibrium.failure();
   for (const auto &[x, reaction] : block.reactions())
     if (x > 0.)
-      EXPECT_LT(reaction.norm(), 1e-8 * block.weight.norm()) << x;
+      {
+        EXPECT_LT(reaction.norm(), 1e-8 * block.weight.norm()) << x;
+      }
 }
 
 
@@ -176,7 +180,9 @@ TEST(StaticContactTest, FrictionIsWithinItsLimit)
           if (std::abs(reaction[0]) > limit - small)
             ++n_limited;
           if (std::abs(reaction[0]) > small)
-            EXPECT_LT(reaction[0] * (x - 3.), 0.) << x;
+            {
+              EXPECT_LT(reaction[0] * (x - 3.), 0.) << x;
+            }
           // The block is symmetric.
           EXPECT_NEAR(reaction[1], reactions.at(6. - x)[1], small);
           EXPECT_NEAR(reaction[0], -reactions.at(6. - x)[0], small);
