@@ -14,6 +14,7 @@ steps, and prints million point-steps per second as `Mps/s(wall) 35.2`.
 """
 
 import argparse
+import itertools
 import os
 import statistics
 import sys
@@ -85,11 +86,11 @@ def compare_with_yardstick(bench, what, run, n_points, steps, goal):
 
 
 def elastic_block(bench):
-    for n_cells, steps, pages in (
-        (100, 1280, ""), (200, 320, ""), (400, 120, ""),
-        (400, 120, ", pages of 2 MB")
+    """Also with large pages, which the yardstick asks for by itself."""
+    sizes = ((100, 1280), (200, 320), (400, 120))
+    for (n_cells, steps), pages in itertools.product(
+        sizes, ("", ", pages of 2 MB")
     ):
-        # The yardstick asks for large pages itself.
         variables = {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"} if pages else {}
         yield compare_with_yardstick(
             bench,
