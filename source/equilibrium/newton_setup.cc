@@ -64,7 +64,7 @@ namespace talus
       for (unsigned int d = 0; d < dim; ++d)
         {
           const unsigned int i = dim * node + d;
-          unbalanced_[i]       = NodalSum<dim>::whole_force(soil.nodes.sum(node), d);
+          unbalanced_[i] = NodalSum<dim>::whole_force(soil.nodes.sum(node), d);
           internal += internal_[i] * internal_[i];
           external += std::pow(unbalanced_[i] + internal_[i], 2);
         }
