@@ -12,10 +12,8 @@ namespace talus
   {
     n_nodes_       = grid.n_nodes();
     n_owned_nodes_ = grid.n_owned_nodes();
-    sums_.resize(0);
-    sums_.resize(n_lanes * std::size_t(n_nodes_), 0.);
-    motions_.resize(0);
-    motions_.resize(Motion::width * std::size_t(n_nodes_), 0.);
+    sums_.assign(n_lanes * std::size_t(n_nodes_), 0.);
+    motions_.assign(Motion::width * std::size_t(n_nodes_), 0.);
     exchange_of_sums_.prepare(grid, n_lanes);
     exchange_of_motions_.prepare(grid, Motion::width);
     is_active_.assign(n_nodes_, 0);

@@ -21,14 +21,14 @@ namespace talus
     , reference_length(
         add_column("reference length", "m", dim, Inheritance::copied))
     , stretch(add_column("stretch", "-", dim, Inheritance::copied))
-    , creation_stretch(
-        add_column("creation stretch", "-", dim, Inheritance::copied))
-    , initial_position(
-        add_column("initial position", "m", dim, Inheritance::copied))
     , elastic_energy(add_column("elastic energy", "J", 1, Inheritance::divided))
     , plastic_work(add_column("plastic work", "J", 1, Inheritance::divided))
-    , id(add_column("id", "-", 1, Inheritance::copied))
+    , creation_stretch(
+        add_column("creation stretch", "-", dim, Inheritance::copied))
     , generation(add_column("generation", "-", 1, Inheritance::copied))
+    , initial_position(
+        add_column("initial position", "m", dim, Inheritance::copied))
+    , id(add_column("id", "-", 1, Inheritance::copied))
     , body(add_column("body", "-", 1, Inheritance::copied))
   {}
 
@@ -52,8 +52,7 @@ namespace talus
         }
     const unsigned int first = arrays_.size();
     columns_.push_back({name, unit, n_components, inheritance, first});
-    for (unsigned int c = 0; c < n_components; ++c)
-      arrays_.emplace_back(capacity_ + n_lanes, 0.);
+    arrays_.reshape(first + n_components, capacity_ + n_lanes);
     return first;
   }
 
@@ -72,20 +71,6 @@ namespace talus
 
 
 
-  namespace
-  {
-    /// AlignedVector::resize() would take twice the memory when it grows.
-    void
-    enlarge(AlignedVector<double> &array, const unsigned int size)
-    {
-      AlignedVector<double> larger(size, 0.);
-      std::copy(array.begin(), array.end(), larger.begin());
-      array.swap(larger);
-    }
-  } // namespace
-
-
-
   template <int dim>
   void
   Points<dim>::reserve(const unsigned int n)
@@ -95,8 +80,7 @@ namespace talus
     // Little by little, as most of the memory of a run is here. A step over
     // all points costs about as much as making all arrays larger.
     capacity_ = std::max(n, capacity_ + capacity_ / 8);
-    for (auto &array : arrays_)
-      enlarge(array, capacity_ + n_lanes);
+    arrays_.reshape(arrays_.size(), capacity_ + n_lanes);
   }
 
 
@@ -121,8 +105,8 @@ namespace talus
     const unsigned int first = size_;
     reserve(size_ + n);
     size_ += n;
-    for (auto &array : arrays_)
-      std::fill(array.begin() + first, array.begin() + size_, 0.);
+    for (unsigned int a = 0; a < arrays_.size(); ++a)
+      std::fill(arrays_[a] + first, arrays_[a] + size_, 0.);
     return first;
   }
 
@@ -132,30 +116,9 @@ namespace talus
   void
   Points<dim>::copy(const unsigned int from, const unsigned int to)
   {
-    for (auto &array : arrays_)
-      array[to] = array[from];
+    for (unsigned int a = 0; a < arrays_.size(); ++a)
+      arrays_[a][to] = arrays_[a][from];
   }
-
-
-
-  namespace
-  {
-    /// Since the runs keep their order, each lands between its neighbours: those
-    /// that go down, first to last, and then those that go up, last to first,
-    /// never overwrite one that is still to move.
-    void
-    move_runs(double *array, const std::vector<Shift> &shifts)
-    {
-      for (const Shift &s : shifts)
-        if (s.to < s.begin)
-          std::copy(array + s.begin, array + s.end, array + s.to);
-      for (auto s = shifts.rbegin(); s != shifts.rend(); ++s)
-        if (s->to > s->begin)
-          std::copy_backward(array + s->begin,
-                             array + s->end,
-                             array + s->to + (s->end - s->begin));
-    }
-  } // namespace
 
 
 
@@ -165,15 +128,7 @@ namespace talus
                        const std::vector<Jump>  &jumps,
                        std::vector<Segment>     &segments)
   {
-    jumping_.resize(jumps.size());
-    for (auto &array : arrays_)
-      {
-        for (std::size_t i = 0; i < jumps.size(); ++i)
-          jumping_[i] = array[jumps[i].from];
-        move_runs(array.data(), shifts);
-        for (std::size_t i = 0; i < jumps.size(); ++i)
-          array[jumps[i].to] = jumping_[i];
-      }
+    arrays_.move(shifts, jumps);
     segments_.swap(segments);
     Assert(n_sorted() <= size_, ExcInternalError());
     size_ = n_sorted();
@@ -185,9 +140,8 @@ namespace talus
   std::size_t
   Points<dim>::memory_consumption() const
   {
-    return (arrays_.size() * (capacity_ + n_lanes) +
-            workspace_.size() * workspace_[0].size()) *
-             sizeof(double) +
+    return arrays_.memory_consumption() +
+           workspace_.size() * workspace_[0].size() * sizeof(double) +
            segments_.capacity() * sizeof(Segment);
   }
 

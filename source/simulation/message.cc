@@ -4,6 +4,7 @@
 
 #include <boost/program_options/errors.hpp>
 
+#include <new>
 #include <regex>
 #include <sstream>
 
@@ -118,6 +119,10 @@ namespace talus
     if (dynamic_cast<const boost::program_options::error *>(&exception))
       return "On the command line, " + line +
              "; `talus --help` shows what is expected.";
+    if (dynamic_cast<const std::bad_alloc *>(&exception))
+      return "There is not enough memory on this machine; doc/cluster.md says "
+             "what points and cells take. Take fewer of them, or more ranks on "
+             "more machines.";
     if (std::regex_match(line, part, in_command))
       return say_anew(part[1].str() + ": ", part[2]);
     if (std::regex_match(line, part, in_file))

@@ -257,7 +257,10 @@ namespace talus
           return nodes.motion(node);
         });
         for (unsigned int k = 0; k < block.size; ++k)
-          told[k] = interpolate(block, k, nodes);
+          {
+            points.fetch_ahead(block.begin + k, points.initial_position);
+            told[k] = interpolate(block, k, nodes);
+          }
         for_lanes(0, block.size, [&](const unsigned int k, auto number) {
           using Number           = decltype(number);
           const Number work_here = move_points<dim, Number>(points,

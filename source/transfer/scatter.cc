@@ -281,7 +281,10 @@ namespace talus
         });
         stage(points, block, loads, contributions);
         for (unsigned int k = 0; k < block.size; ++k)
-          add_point(block, k, contributions[k], sums);
+          {
+            points.fetch_ahead(block.begin + k, points.elastic_energy);
+            add_point(block, k, contributions[k], sums);
+          }
       }
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       if (const Segment &segment = points.segments()[s];

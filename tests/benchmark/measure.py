@@ -95,13 +95,10 @@ class Bench:
         self.yardstick_program = self.compile_yardstick()
         self.kept = {}
 
-    def talus(
-        self, file, settings, ranks=1, folder="run", state=None, variables=()
-    ):
+    def talus(self, file, settings, ranks=1, folder="run", state=None):
         """Run a parameter file with what --set would set, with results in
-        @p folder and more environment @p variables. With a @p state, the folder
-        of an earlier run, go on from a copy of its last checkpoint. Returns a
-        Run."""
+        @p folder. With a @p state, the folder of an earlier run, go on from a
+        copy of its last checkpoint. Returns a Run."""
         output = os.path.join(self.folder, folder)
         shutil.rmtree(output, ignore_errors=True)
         if state:
@@ -115,7 +112,7 @@ class Bench:
             command.append("--resume")
         for setting in settings:
             command += ["--set", setting]
-        environment = dict(os.environ, **dict(variables))
+        environment = dict(os.environ)
         if ranks > 1:
             command = ["mpirun", "-np", str(ranks)] + command
             # Open MPI wants to be told that root may start it.

@@ -1,8 +1,7 @@
 // What the machine can do at most, on one core: the two lines of the roofline.
 
 #include <talus/base/lanes.h>
-
-#include <deal.II/base/aligned_vector.h>
+#include <talus/base/large_pages.h>
 
 #include <benchmark/benchmark.h>
 
@@ -16,8 +15,8 @@ namespace
   void
   triad(benchmark::State &state)
   {
-    const std::size_t             n = 1 << 24;
-    dealii::AlignedVector<double> a(n), b(n), c(n);
+    const std::size_t       n = 1 << 24;
+    LargePageVector<double> a(n), b(n), c(n);
     for (std::size_t i = 0; i < n; ++i)
       {
         b[i] = 1.;

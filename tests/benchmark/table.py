@@ -14,7 +14,6 @@ steps, and prints million point-steps per second as `Mps/s(wall) 35.2`.
 """
 
 import argparse
-import itertools
 import os
 import statistics
 import sys
@@ -48,9 +47,7 @@ def without_yardstick(what, goal):
     return (what, "", goal[1], "no yardstick")
 
 
-def block(
-    bench, file, n_cells, steps, dim=2, more=(), upper=None, variables=()
-):
+def block(bench, file, n_cells, steps, dim=2, more=(), upper=None):
     """The block of @p n_cells along an axis for about @p steps steps."""
     h = 1 / n_cells
     speed = CLAY_SPEED if "clay" in file else BLOCK_SPEED
@@ -67,7 +64,6 @@ def block(
             f"End time={steps * CFL * h / speed:.12g}",
             *more,
         ],
-        variables=variables,
     )
 
 
@@ -86,19 +82,12 @@ def compare_with_yardstick(bench, what, run, n_points, steps, goal):
 
 
 def elastic_block(bench):
-    """Also with large pages, which the yardstick asks for by itself."""
-    sizes = ((100, 1280), (200, 320), (400, 120))
-    for (n_cells, steps), pages in itertools.product(
-        sizes, ("", ", pages of 2 MB")
-    ):
-        variables = {"GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"} if pages else {}
+    for n_cells, steps in ((100, 1280), (200, 320), (400, 120)):
         yield compare_with_yardstick(
             bench,
-            f"elastic block, {4 * n_cells**2 // 1000}k points{pages}: share of "
-            "the yardstick",
-            lambda: block(
-                bench, "block.prm", n_cells, steps, variables=variables
-            ),
+            f"elastic block, {4 * n_cells**2 // 1000}k points: share of the "
+            "yardstick",
+            lambda: block(bench, "block.prm", n_cells, steps),
             4 * n_cells**2,
             steps,
             at_least(0.5),

@@ -2,6 +2,7 @@
 #define talus_grid_grid_h
 
 #include <talus/base/box.h>
+#include <talus/base/large_pages.h>
 #include <talus/grid/cell.h>
 #include <talus/grid/periodicity.h>
 
@@ -155,7 +156,7 @@ namespace talus
       return adjustment_;
     }
 
-    const std::vector<Cell<dim>> &
+    const LargePageVector<Cell<dim>> &
     cells() const
     {
       return cells_;
@@ -376,7 +377,7 @@ namespace talus
     dealii::DoFHandler<dim>                           dof_handler_;
 
     // The flat cache
-    std::vector<Cell<dim>>                          cells_;
+    LargePageVector<Cell<dim>>                      cells_;
     std::vector<unsigned int>                       level_of_cell_;
     std::vector<unsigned int>                       index_of_active_cell_;
     unsigned int                                    n_owned_cells_ = 0;

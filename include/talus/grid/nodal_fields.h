@@ -2,10 +2,10 @@
 #define talus_grid_nodal_fields_h
 
 #include <talus/base/lanes.h>
+#include <talus/base/large_pages.h>
 #include <talus/grid/grid.h>
 #include <talus/grid/nodal_exchange.h>
 
-#include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/tensor.h>
 
 #include <vector>
@@ -163,17 +163,17 @@ namespace talus
     void
     add_active(const Grid<dim> &grid, unsigned int node);
 
-    unsigned int                  n_owned_nodes_ = 0;
-    unsigned int                  n_nodes_       = 0;
-    dealii::AlignedVector<double> sums_;
-    dealii::AlignedVector<double> motions_;
-    NodalExchange<dim>            exchange_of_sums_;
-    NodalExchange<dim>            exchange_of_motions_;
-    std::vector<unsigned int>     active_nodes_;
-    std::vector<unsigned int>     active_ghosts_;
-    std::vector<unsigned int>     formerly_active_nodes_;
-    std::vector<unsigned int>     active_boundary_nodes_;
-    std::vector<unsigned char>    is_active_;
+    unsigned int               n_owned_nodes_ = 0;
+    unsigned int               n_nodes_       = 0;
+    LargePageVector<double>    sums_;
+    LargePageVector<double>    motions_;
+    NodalExchange<dim>         exchange_of_sums_;
+    NodalExchange<dim>         exchange_of_motions_;
+    std::vector<unsigned int>  active_nodes_;
+    std::vector<unsigned int>  active_ghosts_;
+    std::vector<unsigned int>  formerly_active_nodes_;
+    std::vector<unsigned int>  active_boundary_nodes_;
+    std::vector<unsigned char> is_active_;
   };
 } // namespace talus
 

@@ -2,6 +2,7 @@
 #define talus_points_points_h
 
 #include <talus/base/small_matrix.h>
+#include <talus/points/rows.h>
 
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/point.h>
@@ -40,21 +41,6 @@ namespace talus
     unsigned int end;
   };
 
-  /// Points that a reordering moves as they are: [begin, end) begins at @p to.
-  struct Shift
-  {
-    unsigned int begin;
-    unsigned int end;
-    unsigned int to;
-  };
-
-  /// A single point that changes its place among the others.
-  struct Jump
-  {
-    unsigned int from;
-    unsigned int to;
-  };
-
   /// Consecutive segments: what a phase of the step works on at a time.
   struct Batch
   {
@@ -84,12 +70,11 @@ namespace talus
     unsigned int                               size_     = 0;
     unsigned int                               capacity_ = 0;
     std::vector<Column>                        columns_;
-    std::vector<dealii::AlignedVector<double>> arrays_;
+    Rows                                       arrays_;
     std::vector<dealii::AlignedVector<double>> workspace_{dim * dim + 3};
     unsigned int                               workspace_begin_ = 0;
     std::vector<Segment>                       segments_;
     std::vector<unsigned int>                  strays_;
-    std::vector<double>                        jumping_; ///< in reorder()
 
   public:
     Points();
@@ -123,13 +108,13 @@ namespace talus
     double *
     data(const unsigned int column, const unsigned int component = 0)
     {
-      return arrays_[column + component].data();
+      return arrays_[column + component];
     }
 
     const double *
     data(const unsigned int column, const unsigned int component = 0) const
     {
-      return arrays_[column + component].data();
+      return arrays_[column + component];
     }
 
     unsigned int
@@ -190,6 +175,9 @@ namespace talus
       return {0, static_cast<unsigned int>(segments_.size()), 0, n_sorted()};
     }
 
+    /// Points of a batch, but for what is left of the last cell.
+    static constexpr unsigned int batch_size = 512;
+
     /// Call action(batch) for batches that together hold all sorted points, in
     /// their order. A batch is so small that what one phase of the step writes,
     /// the next one finds in a cache, and so large that the loops over eight
@@ -198,15 +186,29 @@ namespace talus
     void
     for_batches(const Action &action) const
     {
-      constexpr unsigned int enough = 512;
       for (unsigned int s = 0; s < segments_.size();)
         {
           Batch batch = {s, s, segments_[s].begin, segments_[s].begin};
-          while (s < segments_.size() && batch.end - batch.begin < enough)
+          while (s < segments_.size() && batch.end - batch.begin < batch_size)
             batch.end = segments_[s++].end;
           batch.last_segment = s;
           action(batch);
         }
+    }
+
+    /// Between the arithmetic for point @p p and the next one, ask for the first
+    /// @p n_arrays arrays of the points one batch further: else memory would rest
+    /// while a batch is computed, and the arithmetic while it is fetched. A line
+    /// of the cache holds n_lanes points.
+    void
+    fetch_ahead(const unsigned int p, const unsigned int n_arrays) const
+    {
+      constexpr int for_reading = 0, into_second_level_cache = 2;
+      if (p % n_lanes == 0)
+        for (unsigned int a = 0; a < n_arrays; ++a)
+          __builtin_prefetch(arrays_[a] + p + batch_size,
+                             for_reading,
+                             into_second_level_cache);
     }
 
     /// Sorted points that may lie outside the cell of their segment, in any
@@ -224,7 +226,8 @@ namespace talus
     memory_consumption() const;
 
     // The columns every point has: index of the first scalar array of each.
-    // Tensors are stored row by row.
+    // Tensors are stored row by row. First what both sweeps of a step read, then
+    // what the second one reads, then what is read now and then: fetch_ahead().
     const unsigned int position;             ///< dim, m
     const unsigned int velocity;             ///< dim, m/s, at the half step
     const unsigned int deformation_gradient; ///< dim*dim
@@ -233,12 +236,12 @@ namespace talus
     const unsigned int reference_volume; ///< 1, m^dim
     const unsigned int reference_length; ///< dim, m, of the undeformed box
     const unsigned int stretch;          ///< dim, of the box along the axes
-    const unsigned int creation_stretch; ///< dim, stretch when created
-    const unsigned int initial_position; ///< dim, m
     const unsigned int elastic_energy;   ///< 1, J
     const unsigned int plastic_work;     ///< 1, J
-    const unsigned int id;               ///< 1, unique
+    const unsigned int creation_stretch; ///< dim, stretch when created
     const unsigned int generation;       ///< 1, number of splits behind it
+    const unsigned int initial_position; ///< dim, m
+    const unsigned int id;               ///< 1, unique
     const unsigned int body;             ///< 1, index of its body
 
     // The workspace of the points [begin, end), usually a batch: no state, and

@@ -1,0 +1,82 @@
+#ifndef talus_base_large_pages_h
+#define talus_base_large_pages_h
+
+#include <cstddef>
+#include <new>
+#include <vector>
+
+namespace talus
+{
+  // Memory on pages of 2 MB, for what every step passes over. The machine keeps
+  // track of some thousand pages at a time; of 4 kB each, a body of 160 000
+  // points has ten times as many, and a step takes a tenth longer.
+
+  /// Zeroed memory that begins with such a page. Where the system has none,
+  /// small ones take their place. Throws std::bad_alloc.
+  void *
+  map_large_pages(std::size_t bytes);
+
+  /// Return what map_large_pages() gave for as many bytes.
+  void
+  unmap_large_pages(void *memory, std::size_t bytes);
+
+  /// Give back the pages within [begin, end), whose content is no longer needed,
+  /// before the whole is unmapped.
+  void
+  empty_large_pages(void *begin, void *end);
+
+
+
+  /// For containers: as much as fills half a page comes on pages of 2 MB, less
+  /// from the heap.
+  template <typename T>
+  struct LargePageAllocator
+  {
+    using value_type = T;
+
+    LargePageAllocator() = default;
+
+    template <typename U>
+    LargePageAllocator(const LargePageAllocator<U> &)
+    {}
+
+    T *
+    allocate(const std::size_t n)
+    {
+      const std::size_t bytes = n * sizeof(T);
+      return static_cast<T *>(bytes >= enough
+                                ? map_large_pages(bytes)
+                                : ::operator new(bytes, alignment));
+    }
+
+    void
+    deallocate(T *memory, const std::size_t n)
+    {
+      if (n * sizeof(T) >= enough)
+        unmap_large_pages(memory, n * sizeof(T));
+      else
+        ::operator delete(memory, alignment);
+    }
+
+    friend bool
+    operator==(const LargePageAllocator &, const LargePageAllocator &)
+    {
+      return true;
+    }
+
+    friend bool
+    operator!=(const LargePageAllocator &, const LargePageAllocator &)
+    {
+      return false;
+    }
+
+  private:
+    static constexpr std::size_t      enough    = 1 << 18;
+    static constexpr std::align_val_t alignment = std::align_val_t(64);
+  };
+
+  template <typename T>
+  using LargePageVector = std::vector<T, LargePageAllocator<T>>;
+} // namespace talus
+
+#endif

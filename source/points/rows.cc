@@ -1,0 +1,96 @@
+#include <talus/base/large_pages.h>
+#include <talus/points/rows.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace talus
+{
+  namespace
+  {
+    /// Rows begin at different places of a page of 4 kB: those that begin at
+    /// the same one share few places in the caches.
+    std::size_t
+    pitch_of(const std::size_t length)
+    {
+      constexpr std::size_t line = 64 / sizeof(double), page = 64, shift = 19;
+      const std::size_t     lines = (length + line - 1) / line;
+      return line * (lines + (page + shift - lines % page) % page);
+    }
+  } // namespace
+
+
+
+  void
+  Rows::Unmap::operator()(double *memory) const
+  {
+    unmap_large_pages(memory, bytes);
+  }
+
+
+
+  Rows::Rows(const Rows &other)
+  {
+    reshape(other.n_rows_, other.length_);
+    for (unsigned int r = 0; r < n_rows_; ++r)
+      std::copy_n(other[r], length_, (*this)[r]);
+  }
+
+
+
+  void
+  Rows::reshape(const unsigned int n_rows, const std::size_t length)
+  {
+    Rows after;
+    after.n_rows_           = n_rows;
+    after.length_           = length;
+    after.pitch_            = pitch_of(length);
+    const std::size_t bytes = after.memory_consumption();
+    after.memory_           = {static_cast<double *>(map_large_pages(bytes)),
+                               Unmap{bytes}};
+    for (unsigned int i = 0; i < std::min(n_rows, n_rows_); ++i)
+      {
+        std::copy_n((*this)[i], std::min(length, length_), after[i]);
+        empty_large_pages(memory_.get(), (*this)[i + 1]);
+      }
+    *this = std::move(after);
+  }
+
+
+
+  namespace
+  {
+    /// Since the runs keep their order, each lands between its neighbours: those
+    /// that go down, first to last, and then those that go up, last to first,
+    /// never overwrite one that is still to move.
+    void
+    move_runs(double *row, const std::vector<Shift> &shifts)
+    {
+      for (const Shift &s : shifts)
+        if (s.to < s.begin)
+          std::copy(row + s.begin, row + s.end, row + s.to);
+      for (auto s = shifts.rbegin(); s != shifts.rend(); ++s)
+        if (s->to > s->begin)
+          std::copy_backward(row + s->begin,
+                             row + s->end,
+                             row + s->to + (s->end - s->begin));
+    }
+  } // namespace
+
+
+
+  void
+  Rows::move(const std::vector<Shift> &shifts, const std::vector<Jump> &jumps)
+  {
+    jumping_.resize(jumps.size());
+    for (unsigned int r = 0; r < n_rows_; ++r)
+      {
+        double *const row = (*this)[r];
+        for (std::size_t i = 0; i < jumps.size(); ++i)
+          jumping_[i] = row[jumps[i].from];
+        move_runs(row, shifts);
+        for (std::size_t i = 0; i < jumps.size(); ++i)
+          row[jumps[i].to] = jumping_[i];
+      }
+  }
+} // namespace talus
