@@ -140,7 +140,9 @@ TEST(Rows, BeginAtLinesAndApart)
           EXPECT_EQ(address(rows[r]) % 64, 0u);
           ++rows_at[address(rows[r]) / 64 % 64];
           if (r > 0)
-            EXPECT_GE(rows[r], rows[r - 1] + length);
+            {
+              EXPECT_GE(rows[r], rows[r - 1] + length);
+            }
         }
       EXPECT_EQ(*std::max_element(rows_at.begin(), rows_at.end()), 1u)
         << "length " << length;
