@@ -199,8 +199,9 @@ namespace talus
     /// Between the arithmetic for point @p p and the next one, ask for the first
     /// @p n_arrays arrays of the points one batch further: else memory would rest
     /// while a batch is computed, and the arithmetic while it is fetched. A line
-    /// of the cache holds n_lanes points.
-    void
+    /// of the cache holds n_lanes points. (If it is not inlined, GCC sees that
+    /// it changes nothing, and leaves it out.)
+    DEAL_II_ALWAYS_INLINE void
     fetch_ahead(const unsigned int p, const unsigned int n_arrays) const
     {
       constexpr int for_reading = 0, into_second_level_cache = 2;
