@@ -70,7 +70,11 @@ TEST(LargePages, EmptyKeepsWhatSharesAPage)
   const std::size_t     probes[] = {99, page - 1, 2 * page, 3 * page - 1};
   for (const std::size_t i : probes)
     memory[i] = 1;
+  memory[page + 5] = 1;
   empty_large_pages(memory + 100, memory + 2 * page + 1);
+#ifdef __linux__
+  EXPECT_EQ(memory[page + 5], 0);
+#endif
   empty_large_pages(memory + 2 * page + 100, memory + 2 * page + 200);
   for (const std::size_t i : probes)
     EXPECT_EQ(memory[i], 1) << i;

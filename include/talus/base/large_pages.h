@@ -9,7 +9,7 @@ namespace talus
 {
   // Memory on pages of 2 MB, for what every step passes over. The machine keeps
   // track of some thousand pages at a time; of 4 kB each, a body of 160 000
-  // points has ten times as many, and a step takes a tenth longer.
+  // points has several times as many, and a step takes a tenth longer.
 
   /// Zeroed memory that begins with such a page. Where the system has none,
   /// small ones take their place. Throws std::bad_alloc.
@@ -27,8 +27,8 @@ namespace talus
 
 
 
-  /// For containers: as much as fills half a page comes on pages of 2 MB, less
-  /// from the heap.
+  /// For containers: what fills an eighth of a page or more comes on pages of
+  /// 2 MB, less from the heap.
   template <typename T>
   struct LargePageAllocator
   {
