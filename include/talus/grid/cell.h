@@ -2,6 +2,7 @@
 #define talus_grid_cell_h
 
 #include <talus/base/box.h>
+#include <talus/base/large_pages.h>
 
 #include <deal.II/base/point.h>
 
@@ -41,6 +42,11 @@ namespace talus
     /// are the cell's own nodes, valid also where the cell is not uniform.
     std::array<unsigned int, power(4, dim)> patch;
   };
+
+
+
+  template <int dim>
+  using Cells = LargePageVector<Cell<dim>>;
 
 
 

@@ -2,7 +2,6 @@
 #define talus_grid_grid_h
 
 #include <talus/base/box.h>
-#include <talus/base/large_pages.h>
 #include <talus/grid/cell.h>
 #include <talus/grid/periodicity.h>
 
@@ -156,7 +155,7 @@ namespace talus
       return adjustment_;
     }
 
-    const LargePageVector<Cell<dim>> &
+    const Cells<dim> &
     cells() const
     {
       return cells_;
@@ -377,7 +376,7 @@ namespace talus
     dealii::DoFHandler<dim>                           dof_handler_;
 
     // The flat cache
-    LargePageVector<Cell<dim>>                      cells_;
+    Cells<dim>                                      cells_;
     std::vector<unsigned int>                       level_of_cell_;
     std::vector<unsigned int>                       index_of_active_cell_;
     unsigned int                                    n_owned_cells_ = 0;
