@@ -1,9 +1,49 @@
 #include <talus/transfer/block.h>
 
 #include <algorithm>
+#include <cstring>
 
 namespace talus
 {
+  /// Ask for the cell of that segment of the next batch whose turn comes as long
+  /// after its begin as this segment's: the first phase of that batch would else
+  /// wait for each of its cells. (Not inlined, GCC leaves it out.)
+  template <int dim>
+  DEAL_II_ALWAYS_INLINE inline void
+  BlockWalk<dim>::fetch_cell_ahead() const
+  {
+    constexpr int     for_reading = 0, into_second_level_cache = 2;
+    constexpr auto    line     = alignof(Cell<dim>);
+    const auto       &segments = points_.segments();
+    const std::size_t ahead    = std::size_t(segment_) + n_segments_;
+    if (ahead >= segments.size())
+      return;
+    const auto *const cell =
+      reinterpret_cast<const char *>(&grid_.cells()[segments[ahead].cell]);
+    for (std::size_t i = 0; i < sizeof(Cell<dim>); i += line)
+      __builtin_prefetch(cell + i, for_reading, into_second_level_cache);
+  }
+
+
+
+  namespace
+  {
+    /// Let each of eight pointers point @p by entries, a whole number, further.
+    /// As numbers of a register: GCC takes pointers out of it one by one.
+    inline void
+    advance(const unsigned int **pointers, const Lanes &by)
+    {
+      static_assert(sizeof(Lanes) == n_lanes * sizeof(unsigned int *));
+      constexpr LaneMask size    = LaneMask{} + sizeof(unsigned int);
+      LaneMask           address = {};
+      std::memcpy(&address, pointers, sizeof(address));
+      address += size * __builtin_convertvector(by, LaneMask);
+      std::memcpy(pointers, &address, sizeof(address));
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   BlockWalk<dim>::take_piece(Block<dim>        &block,
@@ -12,14 +52,18 @@ namespace talus
   {
     const Cell<dim>   &cell  = grid_.cells()[segment.cell];
     const unsigned int begin = block.size, end = begin + n;
+    fetch_cell_ahead();
     block.patch_of_cell[block.n_cells++] = cell.patch.data();
     // Whole registers: what goes beyond the end is overwritten by the next
-    // piece.
-    for (unsigned int d = 0; d < dim; ++d)
-      for (unsigned int k = begin; k < end; k += n_lanes)
-        store(&block.cell_lower[d][k], broadcast<Lanes>(cell.lower[d]));
-    for (unsigned int k = begin; k < end; ++k)
-      block.patch[k] = cell.patch.data();
+    // piece. One is mostly enough.
+#pragma GCC unroll 1
+    for (unsigned int k = begin; k < end; k += n_lanes)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          store(&block.cell_lower[d][k], broadcast<Lanes>(cell.lower[d]));
+        for (unsigned int i = 0; i < n_lanes; ++i)
+          block.nodes[k + i] = cell.patch.data();
+      }
     block.size = end;
   }
 
@@ -50,7 +94,7 @@ namespace talus
                 store(&block.gradient[d][i][k], w.gradient[i] * inverse_size);
               }
           }
-        store_as_integers(&block.first_node[k], first);
+        advance(&block.nodes[k], first);
       }
   }
 

@@ -100,7 +100,7 @@ namespace talus
                 const unsigned int    k,
                 const NodalFields<2> &nodes)
     {
-      const unsigned int      *patch = block.patch[k] + block.first_node[k];
+      const unsigned int      *patch = block.nodes[k];
       Record<2>                motion{};
       std::array<Record<2>, 2> gradient{};
       for (unsigned int j = 0; j < 3; ++j)
@@ -126,7 +126,7 @@ namespace talus
                 const unsigned int    k,
                 const NodalFields<3> &nodes)
     {
-      const unsigned int      *patch = block.patch[k] + block.first_node[k];
+      const unsigned int      *patch = block.nodes[k];
       Record<3>                motion{};
       std::array<Record<3>, 3> gradient{};
       for (unsigned int l = 0; l < 3; ++l)

@@ -140,7 +140,7 @@ namespace talus
               const Contribution &given,
               double             *sums)
     {
-      const unsigned int *patch = block.patch[k] + block.first_node[k];
+      const unsigned int *patch = block.nodes[k];
       Lanes               x[3], y[3];
       for (unsigned int i = 0; i < 3; ++i)
         {
@@ -193,7 +193,7 @@ namespace talus
               const Contribution &given,
               double             *sums)
     {
-      const unsigned int *patch = block.patch[k] + block.first_node[k];
+      const unsigned int *patch = block.nodes[k];
       const Lanes         f_x   = force_by_gradient<0>(given.flux);
       const Lanes         f_y   = force_by_gradient<1>(given.flux);
       const Lanes         f_z   = force_by_gradient<2>(given.flux);

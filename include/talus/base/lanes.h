@@ -42,17 +42,6 @@ namespace talus
 
 
 
-  /// Store eight numbers without fraction as integers.
-  inline void
-  store_as_integers(int *to, const Lanes &value)
-  {
-    using Integers = int __attribute__((vector_size(sizeof(int) * n_lanes)));
-    const Integers integers = __builtin_convertvector(value, Integers);
-    std::memcpy(to, &integers, sizeof(Integers));
-  }
-
-
-
   template <typename Number>
   inline Number
   broadcast(const double value)

@@ -27,16 +27,15 @@ namespace talus
 
     /// Nodes around each of the cells, see Cell::patch.
     std::array<const unsigned int *, n_points> patch_of_cell;
-    /// Those around the cell of each point.
-    std::array<const unsigned int *, n_points> patch;
 
-    /// Corner of the cell, m. Filled a register at a time, which may go beyond
-    /// the last point.
+    // Filled a register at a time, which may go beyond the last point:
+
+    /// Corner of the cell of each point, m.
     std::array<std::array<double, n_points + n_lanes>, dim> cell_lower;
+    /// The first of the 3^dim nodes of its cell's patch at which a point has
+    /// weights; 4 nodes of the patch are a row.
+    alignas(64) std::array<const unsigned int *, n_points + n_lanes> nodes;
 
-    /// A point has weights at the 3^dim nodes of its cell's patch that begin
-    /// with this one; 4 nodes of the patch are a row.
-    alignas(64) Row<int> first_node;
     alignas(64) std::array<std::array<Row<double>, 3>, dim> value;
     alignas(64) std::array<std::array<Row<double>, 3>, dim> gradient; ///< 1/m
   };
@@ -58,6 +57,7 @@ namespace talus
       , shape_(shape)
       , segment_(batch.first_segment)
       , last_segment_(batch.last_segment)
+      , n_segments_(batch.last_segment - batch.first_segment)
     {}
 
     /// Fill @p block with the next points; false if there are none left.
@@ -65,6 +65,8 @@ namespace talus
     next(Block<dim> &block);
 
   private:
+    void
+    fetch_cell_ahead() const;
     void
     take_piece(Block<dim> &block, const Segment &segment, unsigned int n);
     void
@@ -75,7 +77,8 @@ namespace talus
     const BoxShape    &shape_;
     unsigned int       segment_;
     unsigned int       last_segment_;
-    unsigned int       taken_ = 0; ///< points of the segment
+    unsigned int       n_segments_; ///< of the batch
+    unsigned int       taken_ = 0;  ///< points of the segment
   };
 
 
