@@ -38,8 +38,8 @@ namespace talus
     /// 3-D (EigenvalueRange).
     template <int dim, typename Number>
     inline Number
-    largest_modulus(const DeformationState<dim, Number> &state,
-                    const Moduli                        &moduli)
+    largest_acoustic_modulus(const DeformationState<dim, Number> &state,
+                             const Moduli                        &moduli)
     {
       const EigenvalueRange<dim, Number> b(state.b_minus_1);
       const Number                       longitudinal =
@@ -136,7 +136,7 @@ namespace talus
                         end,
                         speed,
                         [moduli = elasticity_.moduli()](const auto &state) {
-                          return largest_modulus(state, moduli);
+                          return largest_acoustic_modulus(state, moduli);
                         });
   }
 

@@ -20,13 +20,6 @@ namespace talus
       return std::chrono::duration<double>(duration).count() / 60.;
     }
 
-
-
-    bool
-    is_first_rank(const MPI_Comm communicator)
-    {
-      return Utilities::MPI::this_mpi_process(communicator) == 0;
-    }
   } // namespace
 
 

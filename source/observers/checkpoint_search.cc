@@ -14,14 +14,6 @@ namespace talus
 
   namespace
   {
-    bool
-    is_first_rank(const MPI_Comm communicator)
-    {
-      return Utilities::MPI::this_mpi_process(communicator) == 0;
-    }
-
-
-
     /// All ranks must see the same, whatever their file systems show them.
     std::vector<fs::path>
     list_for_all_ranks(const fs::path &output_folder,

@@ -15,7 +15,7 @@ namespace talus
   {
     /// Sums over the points, and what follows from them.
     template <int dim>
-    struct Motion
+    struct PointSums
     {
       double         n_points = 0;
       double         mass     = 0; // kg
@@ -30,10 +30,10 @@ namespace talus
 
 
     template <int dim>
-    Motion<dim>
+    PointSums<dim>
     sum_over_own_points(const Points<dim> &points)
     {
-      Motion<dim> result;
+      PointSums<dim> result;
       result.n_points           = points.size();
       const double *mass        = points.data(points.mass);
       double        top_speed_2 = 0;
@@ -62,18 +62,18 @@ namespace talus
 
 
     template <int dim>
-    Motion<dim>
+    PointSums<dim>
     sum_over_points(const Points<dim> &points, const MPI_Comm communicator)
     {
-      Motion<dim> sum   = sum_over_own_points(points);
-      sum.n_points      = Utilities::MPI::sum(sum.n_points, communicator);
-      sum.mass          = Utilities::MPI::sum(sum.mass, communicator);
-      sum.moment        = Utilities::MPI::sum(sum.moment, communicator);
-      sum.momentum      = Utilities::MPI::sum(sum.momentum, communicator);
-      sum.front         = Utilities::MPI::max(sum.front, communicator);
-      sum.rear          = Utilities::MPI::min(sum.rear, communicator);
-      sum.top           = Utilities::MPI::max(sum.top, communicator);
-      sum.maximum_speed = Utilities::MPI::max(sum.maximum_speed, communicator);
+      PointSums<dim> sum = sum_over_own_points(points);
+      sum.n_points       = Utilities::MPI::sum(sum.n_points, communicator);
+      sum.mass           = Utilities::MPI::sum(sum.mass, communicator);
+      sum.moment         = Utilities::MPI::sum(sum.moment, communicator);
+      sum.momentum       = Utilities::MPI::sum(sum.momentum, communicator);
+      sum.front          = Utilities::MPI::max(sum.front, communicator);
+      sum.rear           = Utilities::MPI::min(sum.rear, communicator);
+      sum.top            = Utilities::MPI::max(sum.top, communicator);
+      sum.maximum_speed  = Utilities::MPI::max(sum.maximum_speed, communicator);
       return sum;
     }
 
@@ -210,9 +210,10 @@ namespace talus
   std::vector<typename Statistics<dim>::Quantity>
   Statistics<dim>::evaluate(const Snapshot<dim> &snapshot) const
   {
-    const MPI_Comm    communicator = snapshot.grid.communicator();
-    const Motion<dim> motion = sum_over_points(snapshot.points, communicator);
-    const double      impulse =
+    const MPI_Comm       communicator = snapshot.grid.communicator();
+    const PointSums<dim> motion =
+      sum_over_points(snapshot.points, communicator);
+    const double impulse =
       Utilities::MPI::sum(snapshot.boundary_work.seabed_impulse[0],
                           communicator);
     const double interval = snapshot.time - previous_time_;

@@ -15,14 +15,14 @@ namespace talus
     /// The undeformed box of a point, by centre and lengths, m, and the density
     /// that gives weight, kg/m^3.
     template <int dim>
-    struct Block
+    struct Brick
     {
       std::array<double, dim> centre, length;
       double                  density;
 
       /// In an order that does not depend on who has it.
       bool
-      operator<(const Block &other) const
+      operator<(const Brick &other) const
       {
         return centre < other.centre;
       }
@@ -31,53 +31,53 @@ namespace talus
 
 
     template <int dim>
-    Block<dim>
-    block_of(const Points<dim>         &points,
+    Brick<dim>
+    brick_of(const Points<dim>         &points,
              const unsigned int         p,
              const std::vector<double> &weight_density)
     {
-      Block<dim> block;
+      Brick<dim> brick;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          block.centre[d] = points.data(points.initial_position, d)[p];
-          block.length[d] = points.data(points.reference_length, d)[p];
+          brick.centre[d] = points.data(points.initial_position, d)[p];
+          brick.length[d] = points.data(points.reference_length, d)[p];
         }
-      block.density = weight_density[points.data(points.body)[p]];
-      return block;
+      brick.density = weight_density[points.data(points.body)[p]];
+      return brick;
     }
 
 
 
     /// Blocks by columns of the width of the widest one, so that what lies above
-    /// a block is in its column or in those beside.
+    /// a brick is in its column or in those beside.
     template <int dim>
     class Columns
     {
     public:
-      explicit Columns(const std::vector<Block<dim>> &blocks)
+      explicit Columns(const std::vector<Brick<dim>> &bricks)
       {
-        for (const auto &block : blocks)
+        for (const auto &brick : bricks)
           for (unsigned int d = 0; d < dim; ++d)
             if (d != 1)
-              width_ = std::max(width_, block.length[d]);
-        for (const auto &block : blocks)
-          columns_[place(block)].push_back(block);
+              width_ = std::max(width_, brick.length[d]);
+        for (const auto &brick : bricks)
+          columns_[place(brick)].push_back(brick);
         for (auto &column : columns_)
           std::sort(column.second.begin(), column.second.end());
       }
 
       double
-      mass_above(const Block<dim> &block) const
+      mass_above(const Brick<dim> &brick) const
       {
         double     mass = 0;
-        const auto at   = place(block);
+        const auto at   = place(brick);
         for (long i = -1; i <= 1; ++i)
           for (long k = (dim == 3 ? -1 : 0); k <= (dim == 3 ? 1 : 0); ++k)
             {
               const auto column = columns_.find({{at[0] + i, at[1] + k}});
               if (column != columns_.end())
                 for (const auto &other : column->second)
-                  mass += mass_above(block, other);
+                  mass += mass_above(brick, other);
             }
         return mass;
       }
@@ -86,39 +86,39 @@ namespace talus
       using Place = std::array<long, 2>;
 
       Place
-      place(const Block<dim> &block) const
+      place(const Brick<dim> &brick) const
       {
         const auto index = [&](const unsigned int d) {
-          return std::lround(std::floor(block.centre[d] / width_));
+          return std::lround(std::floor(brick.centre[d] / width_));
         };
         return {{index(0), dim == 3 ? index(dim - 1) : 0}};
       }
 
-      /// Share of @p other that lies above the centre of @p block, per area of
-      /// @p block, kg/m^2.
+      /// Share of @p other that lies above the centre of @p brick, per area of
+      /// @p brick, kg/m^2.
       static double
-      mass_above(const Block<dim> &block, const Block<dim> &other)
+      mass_above(const Brick<dim> &brick, const Brick<dim> &other)
       {
         const double top  = other.centre[1] + 0.5 * other.length[1];
         double       mass = other.density *
-                      std::clamp(top - block.centre[1], 0., other.length[1]);
+                      std::clamp(top - brick.centre[1], 0., other.length[1]);
         for (unsigned int d = 0; d < dim; ++d)
           if (d != 1)
             {
               const double distance =
-                std::abs(block.centre[d] - other.centre[d]);
+                std::abs(brick.centre[d] - other.centre[d]);
               const double common =
-                0.5 * (block.length[d] + other.length[d]) - distance;
+                0.5 * (brick.length[d] + other.length[d]) - distance;
               mass *= std::clamp(common,
                                  0.,
-                                 std::min(block.length[d], other.length[d])) /
-                      block.length[d];
+                                 std::min(brick.length[d], other.length[d])) /
+                      brick.length[d];
             }
         return mass;
       }
 
       double                                   width_ = 0;
-      std::map<Place, std::vector<Block<dim>>> columns_;
+      std::map<Place, std::vector<Brick<dim>>> columns_;
     };
   } // namespace
 
@@ -133,26 +133,26 @@ namespace talus
     std::vector<double> own;
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        const auto block = block_of(points, p, weight_density);
-        own.insert(own.end(), block.centre.begin(), block.centre.end());
-        own.insert(own.end(), block.length.begin(), block.length.end());
-        own.push_back(block.density);
+        const auto brick = brick_of(points, p, weight_density);
+        own.insert(own.end(), brick.centre.begin(), brick.centre.end());
+        own.insert(own.end(), brick.length.begin(), brick.length.end());
+        own.push_back(brick.density);
       }
-    std::vector<Block<dim>> blocks;
+    std::vector<Brick<dim>> bricks;
     for (const auto &part : Utilities::MPI::all_gather(communicator, own))
       for (auto number = part.begin(); number != part.end();
            number += 2 * dim + 1)
         {
-          Block<dim> block;
-          std::copy_n(number, dim, block.centre.begin());
-          std::copy_n(number + dim, dim, block.length.begin());
-          block.density = number[2 * dim];
-          blocks.push_back(block);
+          Brick<dim> brick;
+          std::copy_n(number, dim, brick.centre.begin());
+          std::copy_n(number + dim, dim, brick.length.begin());
+          brick.density = number[2 * dim];
+          bricks.push_back(brick);
         }
-    const Columns<dim>  columns(blocks);
+    const Columns<dim>  columns(bricks);
     std::vector<double> result(points.size());
     for (unsigned int p = 0; p < points.size(); ++p)
-      result[p] = columns.mass_above(block_of(points, p, weight_density));
+      result[p] = columns.mass_above(brick_of(points, p, weight_density));
     return result;
   }
 

@@ -9,9 +9,9 @@ namespace talus
 
   namespace
   {
-    const std::vector<std::string> names = {"equilibrium",
-                                            "strength reduction",
-                                            "dynamics"};
+    const std::vector<std::string> stage_names = {"equilibrium",
+                                                  "strength reduction",
+                                                  "dynamics"};
   }
 
 
@@ -36,19 +36,20 @@ namespace talus
     stages_.clear();
     for (const std::string &name : names_)
       {
-        const auto found = std::find(names.begin(), names.end(), name);
-        AssertThrow(found != names.end(),
+        const auto found =
+          std::find(stage_names.begin(), stage_names.end(), name);
+        AssertThrow(found != stage_names.end(),
                     ExcUser(text("Stages lists '",
                                  name,
                                  "', but the stages are 'equilibrium', "
                                  "'strength reduction' and 'dynamics'.")));
-        const auto stage = static_cast<Stage>(found - names.begin());
+        const auto stage = static_cast<Stage>(found - stage_names.begin());
         AssertThrow(stages_.empty() || stages_.back() < stage,
                     ExcUser(
                       text("Stages lists '",
                            name,
                            "' after '",
-                           names[static_cast<int>(stages_.back())],
+                           stage_names[static_cast<int>(stages_.back())],
                            "'. Give each stage once at most, in the order "
                            "equilibrium, strength reduction, "
                            "dynamics.")));

@@ -10,13 +10,13 @@ namespace talus
   namespace
   {
     /// All arrays of a point, one after the other.
-    using Record = std::vector<double>;
+    using PackedPoint = std::vector<double>;
 
 
 
     template <int dim>
     bool
-    is_at_home(const Record      &record,
+    is_at_home(const PackedPoint &record,
                const Points<dim> &points,
                const Grid<dim>   &grid)
     {
@@ -40,16 +40,16 @@ namespace talus
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
       return;
 
-    std::vector<Record> here, far;
+    std::vector<PackedPoint> here, far;
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        Record record(points.n_arrays());
+        PackedPoint record(points.n_arrays());
         for (unsigned int array = 0; array < points.n_arrays(); ++array)
           record[array] = points.data(array)[p];
         (is_at_home(record, points, grid) ? here : far).push_back(record);
       }
     for (const auto &records : Utilities::MPI::all_gather(communicator, far))
-      for (const Record &record : records)
+      for (const PackedPoint &record : records)
         if (is_at_home(record, points, grid))
           here.push_back(record);
 

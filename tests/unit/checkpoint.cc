@@ -14,25 +14,6 @@ namespace
   using namespace talus;
   namespace fs = std::filesystem;
 
-  template <typename Action>
-  std::string
-  sentence_of(Action &&action)
-  {
-    try
-      {
-        action();
-      }
-    catch (const ExcUser &error)
-      {
-        std::ostringstream out;
-        error.print_info(out);
-        return out.str();
-      }
-    return "no error";
-  }
-
-
-
   TEST(StateList, NumbersGoThroughADouble)
   {
     StateList             list;
@@ -174,7 +155,7 @@ namespace
     // A law with another internal variable cannot go on from it.
     Points<2> others;
     others.add_column("damage", "-", 1, Inheritance::copied);
-    EXPECT_NE(sentence_of([&]() {
+    EXPECT_NE(sentence_thrown_by([&]() {
                 load_points(file, scene.grid.n_owned_cells(), others);
               }).find("points/damage"),
               std::string::npos);
@@ -237,7 +218,7 @@ namespace
 
     flip_a_bit(newest / "mesh");
     flip_a_bit(previous / "mesh.info");
-    const std::string sentence = sentence_of([&]() { find(); });
+    const std::string sentence = sentence_thrown_by([&]() { find(); });
     EXPECT_NE(sentence.find("no other one"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("mesh"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find(previous.string()), std::string::npos) << sentence;
@@ -248,7 +229,7 @@ namespace
   TEST_F(CheckpointTest, OfAnotherDimensionOrFormat)
   {
     const fs::path path = write(1);
-    EXPECT_NE(sentence_of([&]() { find(3); }).find("Dimension = 2"),
+    EXPECT_NE(sentence_thrown_by([&]() { find(3); }).find("Dimension = 2"),
               std::string::npos);
     {
       Hdf5File file(path / "state.h5",
@@ -257,7 +238,7 @@ namespace
       file.set_attribute("/", "format version", checkpoint_format + 1);
       file.close();
     }
-    const std::string sentence = sentence_of([&]() { find(); });
+    const std::string sentence = sentence_thrown_by([&]() { find(); });
     for (const std::string &part :
          {text("the format version ", checkpoint_format + 1),
           text("reads version ", checkpoint_format)})
@@ -270,7 +251,7 @@ namespace
   {
     check_nothing_unfinished(folder, MPI_COMM_WORLD);
     write(3); // at 0.3 of 1 s
-    EXPECT_NE(sentence_of([&]() {
+    EXPECT_NE(sentence_thrown_by([&]() {
                 check_nothing_unfinished(folder, MPI_COMM_WORLD);
               }).find("--resume"),
               std::string::npos);
@@ -285,7 +266,7 @@ namespace
     // Root may write everywhere, so there is a file where the folder should be.
     fs::remove_all(folder / "checkpoints");
     std::ofstream(folder / "checkpoints") << "a file\n";
-    const std::string sentence = sentence_of([&]() { write(1); });
+    const std::string sentence = sentence_thrown_by([&]() { write(1); });
     EXPECT_NE(sentence.find("A checkpoint could not be written to '" +
                             folder.string()),
               std::string::npos)
@@ -317,7 +298,7 @@ namespace
   {
     std::string now = saved_parameters;
     now.replace(now.find(from), from.size(), to);
-    return sentence_of(
+    return sentence_thrown_by(
       [&]() { check_parameter_changes(saved_parameters, now); });
   }
 

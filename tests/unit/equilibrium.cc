@@ -4,9 +4,6 @@
 
 namespace
 {
-  const std::string stiff =
-    "set Young's modulus = 1e6\nset Poisson's ratio = 0.3\n";
-
   /// No residual is left but round-off.
   const std::string tight =
     in_section("Equilibrium", "set Newton tolerance = 1e-11");

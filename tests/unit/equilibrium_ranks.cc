@@ -195,9 +195,6 @@ namespace
 
   // ------------------------------------------------------------ equilibrium
 
-  const std::string stiff =
-    "set Young's modulus = 1e6\nset Poisson's ratio = 0.3\n";
-
   /// A law, the strain measure and how to solve.
   struct Task
   {

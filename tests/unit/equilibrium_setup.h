@@ -7,6 +7,12 @@
 
 namespace
 {
+  /// Of an elastic material.
+  const std::string stiff =
+    "set Young's modulus = 1e6\nset Poisson's ratio = 0.3\n";
+
+
+
   /// Parameters of a material.
   inline std::string
   material(const std::string &name, const std::string &entries)

@@ -5,7 +5,7 @@
 
 namespace
 {
-  const std::string stiff =
+  const std::string clay_constants =
     "set Young's modulus = 250e3\nset Poisson's ratio = 0.4\n";
   const std::string weak = "set Undrained shear strength = 900\n";
 
@@ -43,11 +43,11 @@ namespace
                               mean));
             Statics<dim> statics(cube<dim>(),
                                  names(measure),
-                                 material("block", stiff) +
-                                   material("clay", stiff + weak) +
+                                 material("block", clay_constants) +
+                                   material("clay", clay_constants + weak) +
                                    (measure == StrainMeasure::small
-                                      ? material("mud", stiff + weak)
-                                      : material("rubber", stiff)));
+                                      ? material("mud", clay_constants + weak)
+                                      : material("rubber", clay_constants)));
             fill_with_points(statics, hanging_nodes);
             statics.transfer.use_cell_mean({mean, false, mean});
             statics.loads.varies = false;
@@ -176,7 +176,9 @@ namespace
       for (const bool mean : {true, false})
         {
           SCOPED_TRACE(text(dim, "-D, ", name.law, hanging_nodes, mean));
-          Statics<dim> statics(cube<dim>(), {name}, material(name.name, stiff));
+          Statics<dim> statics(cube<dim>(),
+                               {name},
+                               material(name.name, clay_constants));
           if (hanging_nodes)
             refine_corner(statics);
           for (unsigned int i = 0; i < 300; ++i)

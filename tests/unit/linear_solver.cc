@@ -4,20 +4,15 @@
 
 namespace
 {
-  using Matrix = dealii::TrilinosWrappers::SparseMatrix;
-  using Vector = dealii::TrilinosWrappers::MPI::Vector;
-
-  const std::string stiff =
-    "set Young's modulus = 1e6\nset Poisson's ratio = 0.3\n";
-
-
+  using SystemMatrix = dealii::TrilinosWrappers::SparseMatrix;
+  using Vector       = dealii::TrilinosWrappers::MPI::Vector;
 
   /// An elastic block, held below, under its weight; too many unknowns for the
   /// coarsest level of multigrid.
   template <int dim>
-  struct Block : Statics<dim>
+  struct HeldBlock : Statics<dim>
   {
-    Block()
+    HeldBlock()
       : Statics<dim>(dim == 2 ? mesh("0, 0", "4, 4", "0.125")
                               : mesh("0, 0, 0", "4, 4, 4", "0.5"),
                      {{"block", "linear elastic"}},
@@ -84,7 +79,7 @@ namespace
     // Before the parameters are parsed, which the base class does.
     LinearSolver                  solver;
     std::optional<StepParts<dim>> parts;
-    Matrix                        matrix;
+    SystemMatrix                  matrix;
     Vector                        rhs;
     RigidModes                    modes;
   };
@@ -95,9 +90,9 @@ namespace
   void
   expect_same_solution()
   {
-    Block<dim> block;
-    Vector     direct;
-    const auto how = block.solve("set Type = direct", direct);
+    HeldBlock<dim> block;
+    Vector         direct;
+    const auto     how = block.solve("set Type = direct", direct);
     EXPECT_EQ(how.failure, "");
     EXPECT_EQ(how.n_iterations, 0u);
     Vector residual(block.rhs);
@@ -128,8 +123,8 @@ TEST(LinearSolver, AllGiveTheSameSolution)
 
 TEST(LinearSolver, FailuresAreSentences)
 {
-  Block<2> block;
-  Vector   x;
+  HeldBlock<2> block;
+  Vector       x;
   for (const std::string type : {"CG", "GMRES"})
     EXPECT_EQ(
       block.solve("set Largest number of iterations = 2\nset Type = " + type, x)
@@ -145,8 +140,8 @@ TEST(LinearSolver, FailuresAreSentences)
 
 TEST(LinearSolver, ChoosesBySize)
 {
-  Block<2> block;
-  auto    &solver = block.solver;
+  HeldBlock<2> block;
+  auto        &solver = block.solver;
   EXPECT_EQ(solver.choice(100000, 2, true), "direct");
   EXPECT_EQ(solver.choice(100001, 2, true), "CG");
   EXPECT_EQ(solver.choice(100001, 2, false), "GMRES");

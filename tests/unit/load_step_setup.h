@@ -11,8 +11,7 @@ namespace
 {
   using namespace talus;
 
-  const Elastic    clay{250e3, 0.3};
-  constexpr double s_u = 2500.; // Pa
+  const Elastic clay{250e3, 0.3};
 
   /// A law, its parameters and where the load step starts and goes.
   struct LoadCase

@@ -8,10 +8,6 @@ using namespace talus;
 
 namespace
 {
-  const Elastic paper{250e3, 0.49};
-
-
-
   /// All columns of 11 points after a step: in one batch, and one by one.
   template <int dim>
   void
@@ -64,7 +60,7 @@ namespace
 
   template <typename Call>
   std::string
-  message_of(const Call &call)
+  sentence_of_failed(const Call &call)
   {
     try
       {
@@ -96,7 +92,7 @@ TEST(Materials, FactoryKnowsItsLaws)
   for (const std::string &name : material_names<3>())
     EXPECT_NE(make_law<3>(name, ""), nullptr);
   const std::string message =
-    message_of([] { make_material<2>("jelly", "/Materials/clay"); });
+    sentence_of_failed([] { make_material<2>("jelly", "/Materials/clay"); });
   for (const std::string part :
        {"jelly", "/Materials/clay", "linear elastic, von Mises, Hencky"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
@@ -106,18 +102,18 @@ TEST(Materials, FactoryKnowsItsLaws)
 
 TEST(Materials, ContradictionsAreRefused)
 {
-  EXPECT_NE(message_of([] {
+  EXPECT_NE(sentence_of_failed([] {
               make_law<2>("von Mises",
                           "set Young's modulus = 1e5\n"
                           "set Poisson's ratio = 0.25\n"
                           "set Hardening modulus = -1.2e5");
             }).find("more than -120000 Pa"),
             std::string::npos);
-  EXPECT_NE(message_of([] {
+  EXPECT_NE(sentence_of_failed([] {
               make_law<2>("Hencky", "set Poisson's ratio = 0.5");
             }).find("0.49"),
             std::string::npos);
-  EXPECT_NE(message_of([] {
+  EXPECT_NE(sentence_of_failed([] {
               make_law<2>("von Mises",
                           "set Residual undrained shear strength = 2501");
             }).find("must not exceed"),

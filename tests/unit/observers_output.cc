@@ -12,25 +12,6 @@ namespace
   using namespace talus;
   namespace fs = std::filesystem;
 
-  template <typename Action>
-  std::string
-  sentence_of(Action &&action)
-  {
-    try
-      {
-        action();
-      }
-    catch (const ExcUser &error)
-      {
-        std::ostringstream out;
-        error.print_info(out);
-        return out.str();
-      }
-    return "no error";
-  }
-
-
-
   // ----------------------------------------------------------------- output
 
   class OutputTest : public ObserversTest
@@ -139,7 +120,7 @@ namespace
         s.sort();
         output.set_folder(path);
         const std::string sentence =
-          sentence_of([&]() { output.begin(s.snapshot(), 1.); });
+          sentence_thrown_by([&]() { output.begin(s.snapshot(), 1.); });
         EXPECT_NE(sentence.find("The output folder '" + path.string()),
                   std::string::npos)
           << sentence;
@@ -159,7 +140,7 @@ namespace
     output.set_folder(folder);
     fs::create_symlink("/dev/full", folder / "statistics.csv");
     std::string sentence =
-      sentence_of([&]() { output.begin(s.snapshot(), 1.); });
+      sentence_thrown_by([&]() { output.begin(s.snapshot(), 1.); });
     EXPECT_NE(sentence.find("The file '" +
                             (folder / "statistics.csv").string() +
                             "' could not be written (No space left on device"),
@@ -172,7 +153,7 @@ namespace
     std::ofstream(folder / "points-0000.vtu") << "earlier result\n";
     fs::create_symlink("/dev/full", folder / "points-0000.vtu.part");
     output.begin(s.snapshot(), 1.);
-    sentence = sentence_of([&]() { output.start(s.snapshot()); });
+    sentence = sentence_thrown_by([&]() { output.start(s.snapshot()); });
     EXPECT_NE(sentence.find("points-0000.vtu' could not be written (No space"),
               std::string::npos)
       << sentence;

@@ -1,6 +1,7 @@
 #ifndef observers_setup_h
 #define observers_setup_h
 
+#include <talus/base/errors.h>
 #include <talus/observers/snapshot.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -9,10 +10,31 @@
 
 #include <filesystem>
 #include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include <unistd.h>
+
+/// What is said to the user when @p action fails.
+template <typename Action>
+std::string
+sentence_thrown_by(Action &&action)
+{
+  try
+    {
+      action();
+    }
+  catch (const talus::ExcUser &error)
+    {
+      std::ostringstream out;
+      error.print_info(out);
+      return out.str();
+    }
+  return "no error";
+}
+
+
 
 /// A mesh of cells of 1 m, some points, and all else an observer looks at.
 template <int dim>

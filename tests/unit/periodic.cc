@@ -6,7 +6,7 @@
 
 namespace
 {
-  constexpr double dt = 1e-3;
+  constexpr double step_length = 1e-3;
 
   /// The copies in the middle have two cells of others around them.
   unsigned int
@@ -81,9 +81,9 @@ namespace
   move(Core<dim> &core)
   {
     core.scatter();
-    core.nodes.update_momentum(dt, 1e-9);
+    core.nodes.update_momentum(step_length, 1e-9);
     core.nodes.share_with_ghosts(core.grid);
-    core.gather(dt);
+    core.gather(step_length);
   }
 
 

@@ -216,7 +216,7 @@ namespace
 
   /// What a step leaves behind: sums at owned nodes, motions at all nodes whose
   /// motions count on this rank, and state of the points by id.
-  struct Record
+  struct StepRecord
   {
     Values sums, motions, points;
   };
@@ -253,7 +253,7 @@ namespace
 
   /// As Simulation::advance() does it, without materials.
   template <int dim>
-  Record
+  StepRecord
   step(Core<dim> &core)
   {
     auto        &grid   = core.grid;
@@ -267,7 +267,7 @@ namespace
     core.transfer.scatter(points, points.all(), grid, core.loads, nodes);
     nodes.sum_over_ranks(grid);
 
-    Record record;
+    StepRecord record;
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
       if (node < grid.n_owned_nodes())
         record.sums[number_of_node(grid, node)].assign(nodes.sum(node),
@@ -301,7 +301,7 @@ namespace
 
 
   template <int dim>
-  std::vector<Record>
+  std::vector<StepRecord>
   some_steps(Core<dim> &core)
   {
     core.transfer.use_cell_mean({true, false, true});
@@ -309,7 +309,7 @@ namespace
     core.loads.acceleration_of_body[1][1] = -9.81;
     add_shared(core, 400, 3, [&]() { return core.place(0.1); });
     core.sort();
-    std::vector<Record> records;
+    std::vector<StepRecord> records;
     for (unsigned int i = 0; i < 4; ++i)
       records.push_back(step(core));
     return records;
@@ -347,16 +347,16 @@ namespace
     on_all_meshes<dim>(
       "",
       some_steps<dim>,
-      [](Core<dim> &core, const std::vector<Record> &alone) {
+      [](Core<dim> &core, const std::vector<StepRecord> &alone) {
         const auto records = some_steps(core);
         for (unsigned int i = 0; i < records.size(); ++i)
           {
             SCOPED_TRACE(text("step ", i));
-            for (const auto member : {&Record::sums, &Record::points})
+            for (const auto member : {&StepRecord::sums, &StepRecord::points})
               EXPECT_EQ(MPI::sum((records[i].*member).size(), MPI_COMM_WORLD),
                         (alone[i].*member).size());
             for (const auto member :
-                 {&Record::sums, &Record::motions, &Record::points})
+                 {&StepRecord::sums, &StepRecord::motions, &StepRecord::points})
               expect_values(records[i].*member, alone[i].*member);
           }
       });

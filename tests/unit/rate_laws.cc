@@ -6,32 +6,9 @@ using namespace talus;
 
 namespace
 {
-  const Elastic    paper{250e3, 0.49};
-  constexpr double s_u     = 2500.;
-  const double     sigma_y = std::sqrt(3.) * s_u;
+  const double sigma_y = std::sqrt(3.) * s_u;
 
   const std::string strength = "set Undrained shear strength = 2500\n";
-
-
-
-  /// dt L' whose mid-point strain is exactly diag(g, -g) and whose determinant
-  /// is exactly one: pure shear with q = 2 sqrt(3) mu (sum of g) if elastic.
-  Matrix<2, double>
-  pure_shear(const double g)
-  {
-    return {{{{{g / (1. - g / 2.), 0.}}, {{0., -g / (1. + g / 2.)}}}}};
-  }
-
-
-
-  template <int dim>
-  Matrix<dim, double>
-  simple_shear(const double gamma)
-  {
-    Matrix<dim, double> H{};
-    H[0][1] = gamma;
-    return H;
-  }
 
 
 

@@ -265,6 +265,33 @@ namespace talus
     for (unsigned int c = 0; c < n; ++c)
       EXPECT_NEAR(a[c], b[c], tolerance) << "component " << c;
   }
+
+
+
+  /// The soil of the paper, Pa.
+  const Elastic    paper{250e3, 0.49};
+  constexpr double s_u = 2500.;
+
+
+
+  /// dt L' whose mid-point strain is exactly diag(g, -g) and whose determinant
+  /// is exactly one: pure shear with q = 2 sqrt(3) mu (sum of g) if elastic.
+  inline Matrix<2, double>
+  pure_shear(const double g)
+  {
+    return {{{{{g / (1. - g / 2.), 0.}}, {{0., -g / (1. + g / 2.)}}}}};
+  }
+
+
+
+  template <int dim>
+  Matrix<dim, double>
+  simple_shear(const double gamma)
+  {
+    Matrix<dim, double> H{};
+    H[0][1] = gamma;
+    return H;
+  }
 } // namespace talus
 
 #endif

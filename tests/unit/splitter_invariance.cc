@@ -6,17 +6,6 @@ namespace
   using dealii::Point;
   using dealii::Tensor;
 
-  std::string
-  splitting(const std::string &directions)
-  {
-    return in_section("Splitting",
-                      "set Minimum length = 0\nset Threshold = 1.5"
-                      "\nset Directions = " +
-                        directions);
-  }
-
-
-
   /// A point in a random state, to be split along x at least, whose box nothing
   /// clips before the split and after: its length is between 0.41 and 1 of its
   /// cell, and where there are smaller and larger cells around, at most half of

@@ -6,17 +6,6 @@ namespace
   using dealii::Point;
   using dealii::Tensor;
 
-  std::string
-  splitting(const std::string &directions)
-  {
-    return in_section("Splitting",
-                      "set Minimum length = 0\nset Threshold = 1.5"
-                      "\nset Directions = " +
-                        directions);
-  }
-
-
-
   // ------------------------------------------------------------ rigid motion
 
   const std::array<std::pair<BoxRule, std::string>, 4> rules{

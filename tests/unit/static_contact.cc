@@ -8,9 +8,6 @@ namespace
 
   constexpr double g = 10.;
 
-  const std::string stiff =
-    "set Young's modulus = 1e6\nset Poisson's ratio = 0.3\n";
-
   /// Parameters of the seabed at the bottom.
   std::string
   seabed(const double       friction,
@@ -29,12 +26,12 @@ namespace
 
 
   /// An elastic block from @p begin to x = 4 m, 1 m high, under @p gravity.
-  struct Block : Statics<2>
+  struct BlockOnSeabed : Statics<2>
   {
-    explicit Block(const std::string &below,
-                   const Force       &gravity,
-                   const double       begin = 2.,
-                   const std::string &law   = stiff)
+    explicit BlockOnSeabed(const std::string &below,
+                           const Force       &gravity,
+                           const double       begin = 2.,
+                           const std::string &law   = stiff)
       : Statics<2>(mesh("0, 0", "6, 3", "0.5") + below,
                    {{"block", "linear elastic"}},
                    material("block", law) +
@@ -98,7 +95,7 @@ TEST(StaticContactTest, BlockSticksToAnIncline)
 {
   for (const double slope : {0., 0.2, 0.4})
     {
-      Block block(seabed(0.5, 1e9), inclined(slope));
+      BlockOnSeabed block(seabed(0.5, 1e9), inclined(slope));
       EXPECT_TRUE(block.find()) << block.equilibrium.failure();
       const auto reactions = block.reactions();
       EXPECT_EQ(reactions.size(), 5u);
@@ -123,7 +120,7 @@ TEST(StaticContactTest, BlockSlidesOffWhenFrictionIsTooLittle)
   for (const auto &[friction, largest_stress] :
        {std::pair(0.19, 1e9), {0.5, 2900.}, {0., 1e9}})
     {
-      Block block(seabed(friction, largest_stress), inclined(0.2));
+      BlockOnSeabed block(seabed(friction, largest_stress), inclined(0.2));
       EXPECT_FALSE(block.find());
       EXPECT_TRUE(contains(block.equilibrium.failure(), "move freely"))
         << friction << ' ' << largest_stress << ": "
@@ -132,7 +129,7 @@ TEST(StaticContactTest, BlockSlidesOffWhenFrictionIsTooLittle)
   for (const auto &[friction, largest_stress] :
        {std::pair(0.21, 1e9), {0.5, 3000.}})
     {
-      Block block(seabed(friction, largest_stress), inclined(0.2));
+      BlockOnSeabed block(seabed(friction, largest_stress), inclined(0.2));
       EXPECT_TRUE(block.find()) << block.equilibrium.failure();
       EXPECT_LT((sum(block.reactions()) + block.weight).norm(),
                 1e-5 * block.weight.norm());
@@ -143,9 +140,9 @@ TEST(StaticContactTest, BlockSlidesOffWhenFrictionIsTooLittle)
 
 TEST(StaticContactTest, BlockUnderUpwardLoadOpens)
 {
-  Block block(seabed(0.5, 1e9, "set Left = fixed\n"),
-              Point<2>(0., 0.1 * g),
-              0.);
+  BlockOnSeabed block(seabed(0.5, 1e9, "set Left = fixed\n"),
+                      Point<2>(0., 0.1 * g),
+                      0.);
   EXPECT_TRUE(block.find()) << block.equilibrium.failure();
   for (const auto &[x, reaction] : block.reactions())
     if (x > 0.)
@@ -164,10 +161,11 @@ TEST(StaticContactTest, FrictionIsWithinItsLimit)
        {std::pair(10., 600.), {10., 100.}, {0.05, 1e9}, {0., 1e9}})
     {
       SCOPED_TRACE(text(friction, ", ", cap));
-      Block block(seabed(friction, cap),
-                  Point<2>(0., -g),
-                  2.,
-                  "set Young's modulus = 1e6\nset Poisson's ratio = 0.45\n");
+      BlockOnSeabed block(
+        seabed(friction, cap),
+        Point<2>(0., -g),
+        2.,
+        "set Young's modulus = 1e6\nset Poisson's ratio = 0.45\n");
       EXPECT_TRUE(block.find()) << block.equilibrium.failure();
       const auto   reactions = block.reactions();
       unsigned int n_limited = 0;
@@ -201,7 +199,7 @@ TEST(StaticContactTest, SpreadingBodiesStay)
     for (const double cap : {30., 300., 1500., 5000.})
       {
         SCOPED_TRACE(text(begin, ", ", cap));
-        Block block(seabed(10., cap), Point<2>(0., -g), begin);
+        BlockOnSeabed block(seabed(10., cap), Point<2>(0., -g), begin);
         EXPECT_TRUE(block.find()) << block.equilibrium.failure();
         const auto reactions = block.reactions();
         EXPECT_NEAR(sum(reactions)[0], 0., 1e-5 * block.weight.norm());
@@ -218,10 +216,10 @@ namespace
 {
   /// The state of one node in the middle of the seabed, with made-up reactions
   /// and displacements; all others are pressed on.
-  struct OneNode : Block
+  struct NodeOnSeabed : BlockOnSeabed
   {
-    OneNode()
-      : Block(seabed(0.5, 150.), Point<2>(0., -g))
+    NodeOnSeabed()
+      : BlockOnSeabed(seabed(0.5, 150.), Point<2>(0., -g))
       , parts(*this, StrainMeasure::small, least_mass)
     {
       const auto places = places_of_nodes(grid);
@@ -287,7 +285,7 @@ namespace
 
 TEST(StaticContactTest, SticksUpToTheLimit)
 {
-  OneNode one;
+  NodeOnSeabed one;
   EXPECT_EQ(one.held(), 3u);
   EXPECT_EQ(one.revise(Point<2>(49.9, 100.)), 0u);
   EXPECT_EQ(one.revise(Point<2>(-49.9, 100.)), 0u);
@@ -308,8 +306,8 @@ TEST(StaticContactTest, SticksUpToTheLimit)
 
 TEST(StaticContactTest, SlipsAgainstTheFrictionOnly)
 {
-  OneNode one;
-  Force   against = Point<2>(1e-4, 0.), along = Point<2>(-1e-4, 0.);
+  NodeOnSeabed one;
+  Force        against = Point<2>(1e-4, 0.), along = Point<2>(-1e-4, 0.);
   one.revise(Point<2>(-60., 100.));
   EXPECT_EQ(one.revise(Point<2>(0., 100.), against), 0u);
   EXPECT_EQ(one.held(), 2u);
@@ -322,7 +320,7 @@ TEST(StaticContactTest, SlipsAgainstTheFrictionOnly)
 
 TEST(StaticContactTest, LiftsOffAndComesDown)
 {
-  OneNode one;
+  NodeOnSeabed one;
   EXPECT_EQ(one.revise(Point<2>(0., -1.)), 1u);
   EXPECT_EQ(one.held(), 0u);
   Force up = Point<2>(1e-3, 1e-3), into = Point<2>(1e-3, -1e-3);

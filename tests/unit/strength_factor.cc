@@ -6,11 +6,6 @@ using namespace talus;
 
 namespace
 {
-  constexpr double s_u = 2500.;
-  const Elastic    clay{250e3, 0.49};
-
-
-
   /// Of von Mises' law or of Bingham's, both softening, with all strengths
   /// times @p f.
   std::string
@@ -20,12 +15,12 @@ namespace
     out.precision(17);
     out << "set Undrained shear strength = " << f * s_u << '\n';
     if (name == "von Mises")
-      out << "set Hardening modulus = " << -0.01 * f * clay.E
+      out << "set Hardening modulus = " << -0.01 * f * paper.E
           << "\nset Residual undrained shear strength = " << 0.4 * f * s_u;
     else
       out << "set Viscosity = 300\nset Remoulded strength ratio = 0.3\n"
           << "set Plastic shear strain to remould = 2";
-    return clay.parameters(out.str());
+    return paper.parameters(out.str());
   }
 
 
@@ -48,12 +43,12 @@ namespace
   double
   stored_by_shear(const Specimen<dim> &soil, const unsigned int p = 0)
   {
-    return soil.volume * soil.deviator_squared(p) / (4. * clay.mu);
+    return soil.volume * soil.deviator_squared(p) / (4. * paper.mu);
   }
 
 
 
-  const std::vector<std::string> laws = {"von Mises", "Bingham"};
+  const std::vector<std::string> laws_with_strength = {"von Mises", "Bingham"};
 } // namespace
 
 
@@ -62,7 +57,7 @@ TEST(StrengthFactor, WhoHasAStrength)
 {
   for (const std::string &name : material_names<2>())
     {
-      Specimen<2> soil(name, clay.parameters());
+      Specimen<2> soil(name, paper.parameters());
       const bool  has_strength =
         name == "von Mises" || name == "Bingham" || name == "Herschel-Bulkley";
       EXPECT_EQ(soil.law->has_strength(), has_strength) << name;
@@ -84,7 +79,7 @@ TEST(StrengthFactor, WhoHasAStrength)
 TEST(StrengthFactor, MultipliesTheStrength)
 {
   constexpr unsigned int n = 11;
-  for (const std::string &name : laws)
+  for (const std::string &name : laws_with_strength)
     {
       Specimen<3>   plain(name, parameters(name, 1.), n);
       Specimen<3>   one(name, parameters(name, 1.), n);
@@ -110,14 +105,14 @@ TEST(StrengthFactor, MultipliesTheStrength)
       for (unsigned int p = 0; p < n; ++p)
         {
           const Specimen<3> &same = (p % 2 == 0 ? half : plain);
-          expect_near(mixed.stress(p), same.stress(p), 1e-12 * clay.bulk);
+          expect_near(mixed.stress(p), same.stress(p), 1e-12 * paper.bulk);
           EXPECT_NEAR(mixed.law->shear_strength(mixed.points, p),
                       same.law->shear_strength(same.points, p),
                       1e-12 * s_u);
           EXPECT_LT(mixed.law->shear_strength(mixed.points, p),
                     0.99 * (p % 2 == 0 ? 0.5 : 1.) * s_u)
             << "The test does not soften.";
-          expect_near(one.stress(p), plain.stress(p), 1e-12 * clay.bulk);
+          expect_near(one.stress(p), plain.stress(p), 1e-12 * paper.bulk);
         }
     }
 }
@@ -134,7 +129,7 @@ TEST(StrengthFactor, SuddenDropReleasesWhatWasStored)
       {
         const bool  is_viscoplastic = (name != "von Mises");
         Specimen<3> soil(name,
-                         clay.parameters(
+                         paper.parameters(
                            "set Undrained shear strength = 2500\n" +
                            std::string(is_viscoplastic ? "set Consistency = 0"
                                                        : "")));
@@ -157,7 +152,7 @@ TEST(StrengthFactor, SuddenDropReleasesWhatWasStored)
         const double tau = std::sqrt(0.5 * soil.deviator_squared());
         EXPECT_NEAR(tau, fraction * s_u, 1e-11 * s_u);
         EXPECT_NEAR(tau, soil.law->shear_strength(points, 0), 1e-11 * s_u);
-        EXPECT_NEAR(soil.mean_stress(), mean, 1e-12 * clay.bulk);
+        EXPECT_NEAR(soil.mean_stress(), mean, 1e-12 * paper.bulk);
         const double released = volume * (stored - stored_by_shear(soil));
         EXPECT_NEAR(released,
                     volume * (1. - fraction * fraction) * stored,
@@ -173,7 +168,7 @@ TEST(StrengthFactor, SuddenDropReleasesWhatWasStored)
 // rotation: stored is V s:s/(4 mu) at any time, the rest of the work is plastic.
 TEST(StrengthFactor, WorkIsStoredOrDissipatedWhileItFalls)
 {
-  for (const std::string &name : laws)
+  for (const std::string &name : laws_with_strength)
     {
       Specimen<2>  soil(name, parameters(name, 1.));
       double      *factor = add_factor(soil);

@@ -8,9 +8,8 @@ using namespace talus;
 
 namespace
 {
-  constexpr double s_u = 2500.;
   /// So stiff that the Jaumann rate's normal stresses do not show.
-  const Elastic stiff{2.5e9, 0.49};
+  const Elastic stiff_soil{2.5e9, 0.49};
 
 
 
@@ -34,26 +33,6 @@ namespace
     return lines({{"Consistency", K},
                   {"Flow exponent", n},
                   {"Remoulded strength ratio", r}});
-  }
-
-
-
-  Matrix<2, double>
-  simple_shear(const double gamma)
-  {
-    Matrix<2, double> H{};
-    H[0][1] = gamma;
-    return H;
-  }
-
-
-
-  /// dt L' whose mid-point strain is exactly diag(g, -g) and whose determinant
-  /// is exactly one: the shear strain is 2 g.
-  Matrix<2, double>
-  pure_shear(const double g)
-  {
-    return {{{{{g / (1. - g / 2.), 0.}}, {{0., -g / (1. + g / 2.)}}}}};
   }
 
 
@@ -98,7 +77,7 @@ namespace
 TEST(Viscoplastic, NoTimeNoFlow)
 {
   Specimen<2> soil("Herschel-Bulkley",
-                   stiff.parameters(herschel_bulkley(10., 0.4)));
+                   stiff_soil.parameters(herschel_bulkley(10., 0.4)));
   soil.points.data(soil.points.stress, 3)[0] = 2. * s_u;
   soil.law->update_stress(soil.points, 0, 1, 0.);
   EXPECT_DOUBLE_EQ(soil.stress()[3], 2. * s_u);
@@ -118,10 +97,10 @@ TEST(Viscoplastic, SteadySimpleShear)
     [](const std::string &name, const std::string &more, const double n) {
       for (const double rate : {0.01, 10.})
         {
-          Specimen<2>  soil(name, stiff.parameters(more));
+          Specimen<2>  soil(name, stiff_soil.parameters(more));
           const double dgamma = rate * soil.dt;
           for (unsigned int step = 0; step < 300; ++step)
-            soil.step(simple_shear(dgamma));
+            soil.step(simple_shear<2>(dgamma));
           const double R = shear_stress(soil), a = 2. * std::atan(dgamma / 4.);
           const double D = dgamma * soil.stress()[3] / R / std::cos(a);
           EXPECT_NEAR(R, s_u + 80. * std::pow(D / soil.dt, n), 1e-10 * R);
@@ -210,7 +189,7 @@ TEST(Viscoplastic, RemouldsAlongTheCurve)
   for (const double K : {0., 30.})
     {
       Specimen<2>  soil("Bingham",
-                       stiff.parameters(
+                       stiff_soil.parameters(
                          lines({{"Viscosity", K},
                                  {"Remoulded strength ratio", r},
                                  {"Plastic shear strain to remould", xi_95}})));
@@ -225,7 +204,7 @@ TEST(Viscoplastic, RemouldsAlongTheCurve)
           const double s   = s_u * (r + (1. - r) * std::exp(-3. * xi / xi_95));
           const double tau = s + K * (xi - before) / soil.dt;
           EXPECT_NEAR(shear_stress(soil), tau, 1e-10 * s_u);
-          EXPECT_NEAR(xi, gamma - tau / stiff.mu, 1e-11);
+          EXPECT_NEAR(xi, gamma - tau / stiff_soil.mu, 1e-11);
           if (std::abs(gamma - xi_95) < 1e-9 && K == 0.)
             {
               EXPECT_NEAR(tau / s_u, r + (1. - r) * 0.05, 2e-4);
@@ -278,7 +257,7 @@ TEST(Viscoplastic, WorkInRemouldingShear)
   for (unsigned int step = 0; step < 3000; ++step)
     {
       const double before = soil.stress()[3];
-      soil.step(simple_shear(1e-3));
+      soil.step(simple_shear<2>(1e-3));
       work += 0.5 * (before + soil.stress()[3]) * 1e-3 * soil.volume;
     }
   EXPECT_GT(soil.plastic_work(), 0.9 * work);

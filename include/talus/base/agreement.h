@@ -7,6 +7,14 @@
 
 namespace talus
 {
+  inline bool
+  is_first_rank(const MPI_Comm communicator)
+  {
+    return dealii::Utilities::MPI::this_mpi_process(communicator) == 0;
+  }
+
+
+
   /// The sentence of the first rank that has one, on all ranks; empty if none
   /// has. Collective: what went wrong on one rank is to end all of them, with
   /// none left waiting for a message.
