@@ -367,7 +367,7 @@ message_of(const Action &action)
 /// A splitter that splits whatever is longer than 1.5 times its length, along
 /// the axes of @p directions.
 inline std::string
-splitting(const std::string &directions)
+splitting_along(const std::string &directions)
 {
   return in_section("Splitting",
                     "set Minimum length = 0\nset Threshold = 1.5"

@@ -84,7 +84,7 @@ namespace
     for (const std::string directions : {"all", "stretched"})
       for (unsigned int i = 0; i < (dim == 2 ? 12 : 5); ++i)
         {
-          Core<dim> core(cube<dim>() + splitting(directions));
+          Core<dim> core(cube<dim>() + splitting_along(directions));
           core.random.seed(i);
           if (hanging_nodes)
             refine_corner(core);
@@ -148,7 +148,7 @@ namespace
 
   TEST(SplitInvariance, ManyPoints)
   {
-    Core<2> core(cube<2>() + splitting("all"));
+    Core<2> core(cube<2>() + splitting_along("all"));
     refine_corner(core);
     for (unsigned int i = 0; i < 300; ++i)
       add_violating_point(core, core.place(0.1), true);
@@ -163,7 +163,7 @@ namespace
   void
   expect_change_at_literal_offset()
   {
-    Core<dim>  core(cube<dim>() + splitting("all"));
+    Core<dim>  core(cube<dim>() + splitting_along("all"));
     auto      &points = core.points;
     Point<dim> x;
     for (unsigned int d = 0; d < dim; ++d)

@@ -161,7 +161,7 @@ namespace
   void
   expect_closed_ledger(const std::string &directions)
   {
-    Core<dim> core(cube<dim>() + splitting(directions));
+    Core<dim> core(cube<dim>() + splitting_along(directions));
     auto     &points = core.points;
     for (unsigned int i = 0; i < 60; ++i)
       core.randomize(core.add(core.place(0.7), core.vector(0.2, 0.9)));
