@@ -19,7 +19,6 @@ namespace talus
     {
       return std::chrono::duration<double>(duration).count() / 60.;
     }
-
   } // namespace
 
 

@@ -48,7 +48,7 @@ namespace talus
 
 
 
-    /// Blocks by columns of the width of the widest one, so that what lies above
+    /// Bricks by columns of the width of the widest one, so that what lies above
     /// a brick is in its column or in those beside.
     template <int dim>
     class Columns
