@@ -119,14 +119,6 @@ namespace talus
 
 
 
-  bool
-  Hdf5File::is_first_rank() const
-  {
-    return Utilities::MPI::this_mpi_process(communicator_) == 0;
-  }
-
-
-
   void
   Hdf5File::close()
   {
@@ -306,7 +298,7 @@ namespace talus
                          H5Dclose);
     const bool   success =
       dataset >= 0 &&
-      (!is_first_rank() ||
+      (!is_first_rank(communicator_) ||
        H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
     remember(success, "'" + name + "' could not be written");
   }

@@ -100,7 +100,7 @@ namespace talus
                      const Beginning      beginning)
   {
     const MPI_Comm communicator = snapshot.grid.communicator();
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+    if (is_first_rank(communicator))
       {
         make_folder(folder_);
         // First, as it shows whether the folder can be written and replaces
@@ -165,7 +165,7 @@ namespace talus
     const std::filesystem::path    folder       = folder_;
     const std::vector<std::string> columns      = statistics_.names(snapshot);
     std::string                    complaint;
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+    if (is_first_rank(communicator))
       {
         complaint =
           statistics_.file().cannot_resume(folder / statistics_.file_name,

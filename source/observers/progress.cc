@@ -1,3 +1,4 @@
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/observers/progress.h>
 
@@ -53,14 +54,6 @@ namespace talus
 
 
 
-  bool
-  Progress::is_first_rank() const
-  {
-    return Utilities::MPI::this_mpi_process(communicator_) == 0;
-  }
-
-
-
   void
   Progress::begin(const double   time,
                   const double   end_time,
@@ -88,7 +81,7 @@ namespace talus
     const double pace    = elapsed / (now_.time - line_before_.time);
     const double steps   = now_.steps - line_before_.steps;
     line_before_         = now_;
-    if (!is_terminal_ || !is_first_rank() || steps == 0)
+    if (!is_terminal_ || !is_first_rank(communicator_) || steps == 0)
       return;
 
     std::ostringstream line;
@@ -113,7 +106,7 @@ namespace talus
       Utilities::MPI::sum(now_.point_steps, communicator_);
     const unsigned long all_points =
       Utilities::MPI::sum(static_cast<unsigned long>(n_points), communicator_);
-    if (is_first_rank())
+    if (is_first_rank(communicator_))
       out_ << text(std::setprecision(6),
                    static_cast<unsigned long>(now_.steps),
                    " steps to t = ",

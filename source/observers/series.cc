@@ -1,3 +1,4 @@
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/observers/files.h>
 #include <talus/observers/hdf5_output.h>
@@ -93,7 +94,7 @@ namespace talus
       file =
         write_vtu(folder_, base, communicator_, cells, time, step, unsynced_);
     times_and_names_.emplace_back(time, file);
-    if (Utilities::MPI::this_mpi_process(communicator_) == 0)
+    if (is_first_rank(communicator_))
       unsynced_.push_back(write_index());
   }
 

@@ -1,3 +1,4 @@
+#include <talus/base/agreement.h>
 #include <talus/observers/fracture.h>
 #include <talus/observers/statistics.h>
 
@@ -310,7 +311,7 @@ namespace talus
     std::vector<double> values;
     for (const Quantity &quantity : evaluate(snapshot))
       values.push_back(quantity.value);
-    if (Utilities::MPI::this_mpi_process(communicator) == 0)
+    if (is_first_rank(communicator))
       {
         file_.add_row(values);
         file_.flush();

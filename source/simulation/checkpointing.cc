@@ -1,3 +1,4 @@
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/observers/run_record.h>
 #include <talus/simulation/parameter_changes.h>
@@ -148,8 +149,7 @@ namespace talus
     const Beginning beginning =
       is_resumed ? Beginning::resumed : Beginning::anew;
     output_.begin(snapshot(), end_time_, beginning);
-    if (stages_.have_static() &&
-        Utilities::MPI::this_mpi_process(communicator) == 0)
+    if (stages_.have_static() && is_first_rank(communicator))
       newton_table_.begin(output_.folder(), beginning);
     checkpoint_.begin(output_.folder(), communicator, resumed_from_.path);
     remember_signals();

@@ -137,8 +137,6 @@ namespace talus
     /// The same, and agree with the other ranks on whether all is well.
     bool
     conclude(bool success, const std::string &failure);
-    bool
-    is_first_rank() const;
     /// Make an array that only the first rank fills.
     void
     write_by_first_rank(const std::string &name,

@@ -56,9 +56,6 @@ namespace talus
       double            point_steps = 0; // of this rank
     };
 
-    bool
-    is_first_rank() const;
-
     std::ostream &out_;
     const bool    is_terminal_;
     MPI_Comm      communicator_ = MPI_COMM_SELF;
