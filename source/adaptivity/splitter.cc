@@ -1,5 +1,6 @@
 #include <talus/adaptivity/splitter.h>
 #include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
 
 #include <algorithm>
 #include <limits>
@@ -52,23 +53,21 @@ namespace talus
 
   template <int dim>
   template <typename Number>
-  auto
-  Splitter<dim>::violates(const Points<dim> &points,
-                          const unsigned int p,
-                          const unsigned int d,
-                          const double       cell_size) const
+  TALUS_ALWAYS_INLINE auto
+  Splitter<dim>::violates(const PointsView<dim, const double> &points,
+                          const unsigned int                   p,
+                          const unsigned int                   d,
+                          const double cell_size) const
   {
     const Number stretch = load<Number>(points.data(points.stretch, d) + p);
     const Number at_creation =
       load<Number>(points.data(points.creation_stretch, d) + p);
     const Number length =
       stretch * load<Number>(points.data(points.reference_length, d) + p);
-    const auto is_stretched =
-      (stretch > threshold_ * at_creation) &
-      (length > broadcast<Number>(minimum_length_ * cell_size));
+    const auto is_stretched = (stretch > threshold_ * at_creation) &
+                              (length > Number(minimum_length_ * cell_size));
     // Longer than a cell, a box would be clipped and leave gaps.
-    const auto is_too_long =
-      length > broadcast<Number>((1. + 1e-9) * cell_size);
+    const auto is_too_long = length > Number((1. + 1e-9) * cell_size);
     return is_stretched | is_too_long;
   }
 
@@ -82,7 +81,7 @@ namespace talus
   {
     unsigned int axes = 0;
     for (unsigned int d = 0; d < dim; ++d)
-      if (violates<double>(points, p, d, cell_size))
+      if (violates<double>(points.view(), p, d, cell_size))
         axes |= 1u << d;
     return axes;
   }
@@ -103,16 +102,18 @@ namespace talus
         least_size =
           std::min(least_size, cell.size * (cell.uniform ? 1. : 0.5));
       }
-    bool found = false;
-    for_lanes(batch.begin, batch.end, [&](const unsigned int p, auto number) {
-      using Number         = decltype(number);
-      auto may_be_violated = violates<Number>(points, p, 0, least_size);
-      for (unsigned int d = 1; d < dim; ++d)
-        may_be_violated |= violates<Number>(points, p, d, least_size);
-      found |= any(may_be_violated &
-                   (load<Number>(points.data(points.generation) + p) <
-                    broadcast<Number>(maximum_generation_)));
-    });
+    const auto columns = points.view();
+    bool       found   = false;
+    for_each_simd(
+      batch.begin, batch.end, [&](const unsigned int p, auto number) {
+        using Number         = decltype(number);
+        auto may_be_violated = violates<Number>(columns, p, 0, least_size);
+        for (unsigned int d = 1; d < dim; ++d)
+          may_be_violated |= violates<Number>(columns, p, d, least_size);
+        found |= any(may_be_violated &
+                     (load<Number>(columns.data(columns.generation) + p) <
+                      Number(maximum_generation_)));
+      });
     return found;
   }
 
@@ -287,7 +288,8 @@ namespace talus
 
   template <int dim>
   bool
-  Splitter<dim>::enforce(Points<dim> &points)
+  Splitter<dim>::enforce(Points<dim>               &points,
+                         std::vector<unsigned int> &points_out_of_cell)
   {
     if (violations_.empty())
       return false;
@@ -296,7 +298,10 @@ namespace talus
       n_daughters += 1u << __builtin_popcount(violation.axes);
     check_budget(points, points.size() - violations_.size() + n_daughters);
     for (const Violation &violation : violations_)
-      split(points, violation.point, violation.axes);
+      {
+        points_out_of_cell.push_back(violation.point);
+        split(points, violation.point, violation.axes);
+      }
     statistics_.n_splits += violations_.size();
     statistics_.ledger = ledger_.relative_error();
     Assert(statistics_.ledger <= 1e-12, ExcInternalError());
@@ -313,7 +318,6 @@ namespace talus
                        const unsigned int axes)
   {
     ledger_.enter(points, p, +1.);
-    points.strays().push_back(p);
     const unsigned int n_daughters = 1u << __builtin_popcount(axes);
 
     // The state of every daughter, in the parent's place.

@@ -150,19 +150,19 @@ namespace talus
       return;
     for (const unsigned int node : nodes.active_boundary_nodes())
       if (nodes.mass(node) > least_mass)
-        for_faces_with(
-          FaceCondition::traction,
-          grid.faces_of_node(node),
-          [&](const unsigned int face) {
-            const double   area = contact_area(nodes, grid, face, node);
-            Tensor<1, dim> force;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                force[d] = area * tractions_[face]->value(places_[node], t, d);
-                nodes.sum(node)[NodalSum<dim>::force + d] += force[d];
-              }
-            loaded_.emplace_back(node, force);
-          });
+        for_faces_with(FaceCondition::traction,
+                       grid.faces_of_node(node),
+                       [&](const unsigned int face) {
+                         const double area =
+                           contact_area(nodes, grid, face, node);
+                         Tensor<1, dim> force;
+                         for (unsigned int d = 0; d < dim; ++d)
+                           force[d] =
+                             area *
+                             tractions_[face]->value(places_[node], t, d);
+                         nodes.add_force(node, force);
+                         loaded_.emplace_back(node, force);
+                       });
   }
 
 

@@ -1,4 +1,5 @@
 #include <talus/equilibrium/internal_forces.h>
+#include <talus/points/points_kernel.h>
 
 namespace talus
 {
@@ -11,7 +12,7 @@ namespace talus
                                      const std::vector<double> &u) const
   {
     Points<dim> &points = soil.points;
-    points.lend_workspace(0, points.size());
+    soil.workspace.reinit(0, points.size());
     for (unsigned int s = 0; s < points.segments().size(); ++s)
       {
         const Segment &segment = points.segments()[s];
@@ -25,10 +26,10 @@ namespace talus
                 H[i] += u[dim * patch.nodes[a] + i] * weight[a].gradient;
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
-                points.velocity_gradient(i, j)[p] = H[i][j];
+                soil.workspace.velocity_gradient(i, j)[p] = H[i][j];
           }
       }
-    soil.transfer.average_dilatation(points, points.all());
+    soil.transfer.average_dilatation(points, soil.workspace, points.all());
   }
 
 
@@ -52,6 +53,7 @@ namespace talus
                                 const unsigned int        end) {
                               sound = sound &&
                                       model.linearize(points,
+                                                      soil.workspace,
                                                       begin,
                                                       end,
                                                       measure_,

@@ -330,24 +330,26 @@ namespace talus
   {
     Points<dim> &points = soil.points;
     internal_forces_.set_gradients(soil, weights_, u_);
-    soil.materials.for_runs(points,
-                            points.all(),
-                            [&](const MaterialModel<dim> &model,
-                                const unsigned int        begin,
-                                const unsigned int        end) {
-                              model.accept(points,
-                                           begin,
-                                           end,
-                                           parameters_.measure);
-                            });
+    soil.materials.for_runs(
+      points,
+      points.all(),
+      [&](const MaterialModel<dim> &model,
+          const unsigned int        begin,
+          const unsigned int        end) {
+        model.accept(points, soil.workspace, begin, end, parameters_.measure);
+      });
     if (parameters_.measure == StrainMeasure::small)
       return;
     const std::vector<double> u = at_points(points, u_);
     for (unsigned int p = 0; p < points.size(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         points.data(points.position, d)[p] += u[dim * p + d];
-    update_stretch(
-      points, 0, points.size(), soil.transfer.box_shape().rule, /*dt=*/1.);
+    update_stretch(points,
+                   soil.workspace,
+                   0,
+                   points.size(),
+                   soil.transfer.box_shape().rule,
+                   /*dt=*/1.);
   }
 
 

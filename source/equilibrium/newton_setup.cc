@@ -61,13 +61,16 @@ namespace talus
     unknowns_.add_to_owners(internal_);
     double external = 0, internal = 0;
     for (const unsigned int node : unknowns_.active_nodes())
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const unsigned int i = dim * node + d;
-          unbalanced_[i] = NodalSum<dim>::whole_force(soil.nodes.sum(node), d);
-          internal += internal_[i] * internal_[i];
-          external += std::pow(unbalanced_[i] + internal_[i], 2);
-        }
+      {
+        const Tensor<1, dim> force = soil.nodes.force(node);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int i = dim * node + d;
+            unbalanced_[i]       = force[d];
+            internal += internal_[i] * internal_[i];
+            external += std::pow(unbalanced_[i] + internal_[i], 2);
+          }
+      }
     reference_ = std::sqrt(
       std::max(Utilities::MPI::sum(internal, soil.grid.communicator()),
                Utilities::MPI::sum(external, soil.grid.communicator())));

@@ -45,7 +45,7 @@ namespace talus
         double *record = &records_[width * std::size_t(active_nodes_[k])];
         record[0]      = begin + dim * k;
         record[2]      = nodes.mass(active_nodes_[k]);
-        record[3]      = nodes.sum(active_nodes_[k])[NodalSum<dim>::volume];
+        record[3]      = nodes.volume(active_nodes_[k]);
       }
     exchange_of_records_.copy_to_ghosts(records_.data());
 

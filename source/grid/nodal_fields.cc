@@ -12,9 +12,9 @@ namespace talus
   {
     n_nodes_       = grid.n_nodes();
     n_owned_nodes_ = grid.n_owned_nodes();
-    sums_.assign(n_lanes * std::size_t(n_nodes_), 0.);
+    sums_.assign(Sum::width * std::size_t(n_nodes_), 0.);
     motions_.assign(Motion::width * std::size_t(n_nodes_), 0.);
-    exchange_of_sums_.prepare(grid, n_lanes);
+    exchange_of_sums_.prepare(grid, Sum::width);
     exchange_of_motions_.prepare(grid, Motion::width);
     is_active_.assign(n_nodes_, 0);
     active_nodes_.clear();
@@ -79,8 +79,8 @@ namespace talus
     for (const unsigned int node : formerly_active_nodes_)
       if (!is_active_[node])
         {
-          store(sum(node), Lanes{});
-          store(motion(node), typename Motion::Record{});
+          std::fill_n(sum(node), Sum::width, 0.);
+          std::fill_n(motion(node), Motion::width, 0.);
         }
   }
 
@@ -90,11 +90,10 @@ namespace talus
   void
   NodalFields<dim>::clear()
   {
-    const Lanes zero{};
     for (const unsigned int node : active_nodes_)
-      store(sum(node), zero);
+      std::fill_n(sum(node), Sum::width, 0.);
     for (unsigned int node = n_owned_nodes_; node < n_nodes_; ++node)
-      store(sum(node), zero);
+      std::fill_n(sum(node), Sum::width, 0.);
   }
 
 
@@ -106,10 +105,11 @@ namespace talus
     for (const auto &hanging : grid.hanging_nodes())
       if (is_active_[hanging.node])
         {
-          const Lanes value = load<Lanes>(sum(hanging.node));
+          double *const value = sum(hanging.node);
           for (const auto &[node, weight] : hanging.masters)
-            store(sum(node), load<Lanes>(sum(node)) + weight * value);
-          store(sum(hanging.node), Lanes{});
+            for (unsigned int c = 0; c < Sum::n_entries; ++c)
+              sum(node)[c] += weight * value[c];
+          std::fill_n(value, Sum::width, 0.);
         }
     exchange_of_sums_.add_to_owners(sums_.data());
   }
@@ -137,7 +137,8 @@ namespace talus
         const double  inverse_mass = (mass > least_mass ? 1. / mass : 0.);
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const double increment = dt * Sum::whole_force(s, d) * inverse_mass;
+            const double increment =
+              dt * (s[Sum::force + d] + s[Sum::force_by_x + d]) * inverse_mass;
             v[Motion::increment + d] = increment;
             v[Motion::velocity + d] =
               s[Sum::momentum + d] * inverse_mass + increment;
@@ -151,16 +152,101 @@ namespace talus
   void
   NodalFields<dim>::share_with_ghosts(const Grid<dim> &grid)
   {
-    using Record = typename Motion::Record;
     exchange_of_motions_.copy_to_ghosts(motions_.data());
     for (const auto &hanging : grid.hanging_nodes())
       if (is_active_[hanging.node])
         {
-          Record value{};
+          double *const value = motion(hanging.node);
+          std::fill_n(value, Motion::width, 0.);
           for (const auto &[node, weight] : hanging.masters)
-            value += weight * load<Record>(motion(node));
-          store(motion(hanging.node), value);
+            for (unsigned int c = 0; c < Motion::width; ++c)
+              value[c] += weight * motion(node)[c];
         }
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  NodalFields<dim>::momentum(const unsigned int node) const
+  {
+    Tensor<1, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = sum(node)[Sum::momentum + d];
+    return result;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  NodalFields<dim>::force(const unsigned int node) const
+  {
+    const double  *s = sum(node);
+    Tensor<1, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = s[Sum::force + d] + s[Sum::force_by_x + d];
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::add_force(const unsigned int    node,
+                              const Tensor<1, dim> &force)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      sum(node)[Sum::force + d] += force[d];
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::set_sums(const unsigned int    node,
+                             const double          mass,
+                             const double          volume,
+                             const Tensor<1, dim> &momentum,
+                             const Tensor<1, dim> &force)
+  {
+    std::fill_n(sum(node), Sum::width, 0.);
+    add_sums(node, mass, volume, momentum, force);
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::add_sums(const unsigned int    node,
+                             const double          mass,
+                             const double          volume,
+                             const Tensor<1, dim> &momentum,
+                             const Tensor<1, dim> &force)
+  {
+    double *const s = sum(node);
+    s[Sum::mass] += mass;
+    s[Sum::volume] += volume;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        s[Sum::momentum + d] += momentum[d];
+        s[Sum::force + d] += force[d];
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  NodalFields<dim>::set_motion(const unsigned int    node,
+                               const Tensor<1, dim> &velocity,
+                               const Tensor<1, dim> &increment)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        motion(node)[Motion::velocity + d]  = velocity[d];
+        motion(node)[Motion::increment + d] = increment[d];
+      }
   }
 
 
@@ -173,6 +259,18 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       v[d] = motion(node)[Motion::velocity + d];
     return v;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  NodalFields<dim>::increment(const unsigned int node) const
+  {
+    Tensor<1, dim> dv;
+    for (unsigned int d = 0; d < dim; ++d)
+      dv[d] = motion(node)[Motion::increment + d];
+    return dv;
   }
 
 

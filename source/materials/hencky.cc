@@ -1,206 +1,10 @@
 #include <talus/materials/hencky.h>
+#include <talus/materials/hencky_kernel.h>
 #include <talus/materials/hyperelastic.h>
 #include <talus/materials/load_step.h>
 
-#include <limits>
-
 namespace talus
 {
-  namespace
-  {
-    /// ln V, the logarithmic strain.
-    ///
-    /// In the plane b = m I + dev b has the eigenvalues m +- r, r = |dev b|, so
-    /// ln V = (ln b)/2 = (ln J)/2 I + artanh(r/m)/(2 r) dev b. With
-    /// y = 2r/(m-r) = 2r (m+r)/J^2 the factor is ln(1+y)/y (m+r)/(2 J^2): well
-    /// behaved for equal eigenvalues and for any stretch.
-    template <typename Number>
-    inline Stress<2, Number>
-    logarithmic_strain(const DeformationState<2, Number> &state)
-    {
-      const auto                      &b = state.b_minus_1;
-      const EigenvalueRange<2, Number> range(b);
-      const Number m = 1. + range.mean, J = 1. + state.J_minus_1;
-      const Number r      = max(range.distance, broadcast<Number>(1e-100));
-      const Number y      = 2. * r * (m + r) / (J * J);
-      const Number factor = 0.5 * logarithm_1p(y) / y * (m + r) / (J * J);
-
-      const Number mean = 0.5 * state.log_J;
-      const Number d    = factor * 0.5 * (b[0] - b[1]);
-      return {{mean + d, mean - d, Number{}, factor * b[3]}};
-    }
-
-
-
-    /// One Jacobi rotation: turn the axes @p p and @p q so that A_pq vanishes.
-    /// The rows of @p A and the columns of @p n turn along.
-    template <typename Number>
-    inline void
-    rotate_axes(Matrix<3, Number> &A,
-                Matrix<3, Number> &n,
-                const unsigned int p,
-                const unsigned int q)
-    {
-      // The root of t^2 + t (A_qq - A_pp)/A_pq = 1 smaller than one; zero where
-      // nothing is to be done.
-      const Number half = 0.5 * (A[q][q] - A[p][p]);
-      const Number root = square_root(half * half + A[p][q] * A[p][q]) +
-                          std::numeric_limits<double>::min();
-      const Number t = A[p][q] / (half < 0. ? half - root : half + root);
-      const Number c = 1. / square_root(1. + t * t), s = t * c;
-
-      const unsigned int r = 3 - p - q;
-      A[p][p] -= t * A[p][q];
-      A[q][q] += t * A[p][q];
-      A[p][q] = A[q][p] = Number{};
-      const Number A_rp = A[r][p], A_rq = A[r][q];
-      A[r][p] = A[p][r] = c * A_rp - s * A_rq;
-      A[r][q] = A[q][r] = s * A_rp + c * A_rq;
-      for (unsigned int i = 0; i < 3; ++i)
-        {
-          const Number n_p = n[i][p], n_q = n[i][q];
-          n[i][p] = c * n_p - s * n_q;
-          n[i][q] = s * n_p + c * n_q;
-        }
-    }
-
-
-
-    /// The principal directions n of @p A, its columns; A becomes diagonal. By
-    /// Jacobi's method: accurate for equal eigenvalues, too, and without
-    /// branches. Off-diagonal entries vanish to third order per sweep; five
-    /// reach round-off.
-    template <typename Number>
-    inline Matrix<3, Number>
-    principal_directions(Matrix<3, Number> &A)
-    {
-      auto n = identity<3, Number>();
-      for (unsigned int sweep = 0; sweep < 5; ++sweep)
-        {
-          rotate_axes(A, n, 0, 1);
-          rotate_axes(A, n, 0, 2);
-          rotate_axes(A, n, 1, 2);
-        }
-      return n;
-    }
-
-
-
-    /// In space by the principal directions of b - I.
-    template <typename Number>
-    inline Stress<3, Number>
-    logarithmic_strain(const DeformationState<3, Number> &state)
-    {
-      Matrix<3, Number> A;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = i; j < 3; ++j)
-          A[i][j] = A[j][i] = state.b_minus_1[stress_index<3>(i, j)];
-      const auto n = principal_directions(A);
-
-      Stress<3, Number> strain{};
-      for (unsigned int k = 0; k < 3; ++k)
-        {
-          const Number log_l = 0.5 * logarithm_1p(A[k][k]);
-          for (unsigned int i = 0; i < 3; ++i)
-            for (unsigned int j = i; j < 3; ++j)
-              strain[stress_index<3>(i, j)] += log_l * n[i][k] * n[j][k];
-        }
-      return strain;
-    }
-
-
-
-    /// With derivatives. Those of the principal directions are infinite where
-    /// stretches are equal, that of ln b is not: in principal axes component
-    /// (k, l) of db becomes (ln b_k - ln b_l)/(b_k - b_l) times itself, or
-    /// 1/b_k times itself in the limit @cite ogden1984, section 3.4.
-    inline Stress<3, Dual<9>>
-    logarithmic_strain(const DeformationState<3, Dual<9>> &state)
-    {
-      DeformationState<3, double> values;
-      Matrix<3, double>           A;
-      for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int j = i; j < 3; ++j)
-          {
-            const unsigned int c = stress_index<3>(i, j);
-            values.b_minus_1[c]  = state.b_minus_1[c].value;
-            A[i][j] = A[j][i] = values.b_minus_1[c];
-          }
-      const auto         logarithm = logarithmic_strain(values);
-      Stress<3, Dual<9>> strain{};
-      std::copy(logarithm.begin(), logarithm.end(), strain.begin());
-
-      const auto n = principal_directions(A);
-      for (unsigned int k = 0; k < 3; ++k)
-        for (unsigned int l = 0; l < 3; ++l)
-          {
-            const double y = (A[k][k] - A[l][l]) / (1. + A[l][l]);
-            const double factor =
-              0.5 / (1. + A[l][l]) * (y == 0. ? 1. : logarithm_1p(y) / y);
-            Dual<9> b_kl;
-            for (unsigned int i = 0; i < 3; ++i)
-              for (unsigned int j = 0; j < 3; ++j)
-                b_kl +=
-                  n[i][k] * n[j][l] *
-                  state
-                    .b_minus_1[stress_index<3>(std::min(i, j), std::max(i, j))];
-            for (unsigned int i = 0; i < 3; ++i)
-              for (unsigned int j = i; j < 3; ++j)
-                {
-                  auto &component = strain[stress_index<3>(i, j)];
-                  for (unsigned int q = 0; q < 9; ++q)
-                    component.derivative[q] +=
-                      factor * n[i][k] * n[j][l] * b_kl.derivative[q];
-                }
-          }
-      return strain;
-    }
-
-
-
-    template <int dim, typename Number>
-    inline StateResponse<dim, Number>
-    hencky(const DeformationState<dim, Number> &state, const Moduli &moduli)
-    {
-      const auto deviator =
-        add_mean(logarithmic_strain(state), Number(-state.log_J * (1. / 3.)));
-      const Number mean = moduli.bulk * state.log_J;
-
-      StateResponse<dim, Number> answer;
-      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-        answer.kirchhoff[c] = 2. * moduli.mu * deviator[c];
-      answer.kirchhoff = add_mean(answer.kirchhoff, mean);
-      answer.energy    = 0.5 * mean * state.log_J +
-                      moduli.mu * contract<dim>(deviator, deviator);
-      return answer;
-    }
-
-
-
-    /// J times an upper bound of the acoustic tensor's eigenvalues, which is
-    /// lambda + 2 mu in the undeformed state. For direction n and polarisation
-    /// a, with tau = tau_min I + tau', the spatial tangent and the stress give
-    ///   (lambda + mu - tau_min) (n.a)^2 + mu + n.tau'.n
-    /// at most, where tau_min = lambda ln J + 2 mu ln l_min and
-    /// n.tau'.n <= 2 mu ln(l_max/l_min). In 2-D waves run in the plane and see
-    /// the stretches l in the plane only.
-    template <int dim, typename Number>
-    inline Number
-    largest_modulus(const DeformationState<dim, Number> &state,
-                    const Moduli                        &moduli)
-    {
-      const EigenvalueRange<dim, Number> strain(logarithmic_strain(state));
-      const Number log_l_max = strain.mean + strain.distance;
-      const Number log_l_min = strain.mean - strain.distance;
-      const Number longitudinal =
-        moduli.lambda * (1. - state.log_J) + moduli.mu * (1. - 2. * log_l_min);
-      return max(longitudinal, Number{}) +
-             moduli.mu * (1. + 2. * (log_l_max - log_l_min));
-    }
-  } // namespace
-
-
-
   template <int dim>
   Hencky<dim>::Hencky(const std::string &section)
     : MaterialModel<dim>(section)
@@ -222,12 +26,14 @@ namespace talus
 
   template <int dim>
   void
-  Hencky<dim>::update_stress(Points<dim>       &points,
-                             const unsigned int begin,
-                             const unsigned int end,
-                             const double       dt) const
+  Hencky<dim>::update_stress(Points<dim>              &points,
+                             const StepWorkspace<dim> &workspace,
+                             const unsigned int        begin,
+                             const unsigned int        end,
+                             const double              dt) const
   {
     update_by_state(points,
+                    workspace,
                     begin,
                     end,
                     dt,
@@ -240,15 +46,17 @@ namespace talus
 
   template <int dim>
   bool
-  Hencky<dim>::linearize(const Points<dim>  &points,
-                         const unsigned int  begin,
-                         const unsigned int  end,
-                         const StrainMeasure measure,
-                         StressTangent<dim> *answer) const
+  Hencky<dim>::linearize(const Points<dim>        &points,
+                         const StepWorkspace<dim> &workspace,
+                         const unsigned int        begin,
+                         const unsigned int        end,
+                         const StrainMeasure       measure,
+                         StressTangent<dim>       *answer) const
   {
     Assert(measure == StrainMeasure::large, dealii::ExcInternalError());
     (void)measure;
     return linearize_by_state(points,
+                              workspace,
                               begin,
                               end,
                               answer,
@@ -262,14 +70,15 @@ namespace talus
 
   template <int dim>
   void
-  Hencky<dim>::accept(Points<dim>        &points,
-                      const unsigned int  begin,
-                      const unsigned int  end,
-                      const StrainMeasure measure) const
+  Hencky<dim>::accept(Points<dim>              &points,
+                      const StepWorkspace<dim> &workspace,
+                      const unsigned int        begin,
+                      const unsigned int        end,
+                      const StrainMeasure       measure) const
   {
     Assert(measure == StrainMeasure::large, dealii::ExcInternalError());
     (void)measure;
-    update_stress(points, begin, end, /*dt=*/1.);
+    update_stress(points, workspace, begin, end, /*dt=*/1.);
   }
 
 

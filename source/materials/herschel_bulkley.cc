@@ -1,10 +1,11 @@
 #include <talus/base/errors.h>
+#include <talus/materials/elastic_wave_speed.h>
 #include <talus/materials/herschel_bulkley.h>
+#include <talus/materials/herschel_bulkley_kernel.h>
+#include <talus/materials/inverted_point.h>
 #include <talus/materials/load_step.h>
-#include <talus/materials/radial_return.h>
 #include <talus/materials/shear_band.h>
 #include <talus/materials/strength_factor.h>
-#include <talus/materials/viscoplastic_return.h>
 
 #include <limits>
 
@@ -15,53 +16,6 @@ namespace talus
 
   namespace
   {
-    /// Strength at rest, Pa: what remoulding leaves, and what it takes away.
-    struct Strength
-    {
-      double remoulded;
-      double loss;
-    };
-
-
-
-    /// One step of point(s) @p p; false if a point was turned inside out or its
-    /// plastic strain, then NaN, was not found.
-    template <int dim, typename Number, typename Factor>
-    inline bool
-    update_point(Points<dim>           &points,
-                 const unsigned int     p,
-                 const unsigned int     plastic_shear_strain,
-                 const double           dt,
-                 const Moduli          &moduli,
-                 const Strength        &strength,
-                 const ShearResistance &resistance,
-                 const Factor           strength_factor)
-    {
-      const auto motion = advance_deformation<dim, Number>(points, p, dt);
-      const auto strain = strain_increment(motion);
-      const auto trial =
-        elastic_trial<dim, Number>(load_stress<dim, Number>(points, p),
-                                   strain,
-                                   moduli);
-
-      const Number tau = square_root(
-        0.5 * contract<dim>(trial.deviator_after, trial.deviator_after) +
-        std::numeric_limits<double>::min());
-      double *const xi     = points.data(plastic_shear_strain) + p;
-      const Number  old_xi = load<Number>(xi);
-      Number        loss   = broadcast<Number>(strength.loss) * strength_factor;
-      if (resistance.decay > 0.)
-        loss *= exponential(-resistance.decay * old_xi);
-      const Number d_xi = plastic_shear<Number>(
-        tau - (strength.remoulded * strength_factor + loss), loss, resistance);
-      store(xi, old_xi + d_xi);
-      return_radially<dim, Number>(
-        points, p, motion, strain, trial, moduli.mu, moduli.mu * d_xi / tau);
-      return all(motion.J_after > 0.) && all(d_xi >= 0.);
-    }
-
-
-
     /// Throw ExcPoint for the first point of [@p begin, @p end) whose plastic
     /// shear strain was not found.
     template <int dim>
@@ -182,10 +136,11 @@ namespace talus
 
   template <int dim>
   void
-  HerschelBulkley<dim>::update_stress(Points<dim>       &points,
-                                      const unsigned int begin,
-                                      const unsigned int end,
-                                      const double       dt) const
+  HerschelBulkley<dim>::update_stress(Points<dim>              &points,
+                                      const StepWorkspace<dim> &workspace,
+                                      const unsigned int        begin,
+                                      const unsigned int        end,
+                                      const double              dt) const
   {
     Assert(plastic_shear_strain_ != dealii::numbers::invalid_unsigned_int,
            dealii::ExcMessage("add_columns() was not called."));
@@ -197,18 +152,22 @@ namespace talus
                                         exponent_,
                                         r < 1. ? 3. / strain_to_remould_ : 0.,
                                         dt};
+    const auto            columns    = points.view();
+    const auto            work       = workspace.view(begin, end);
     bool                  sound      = true;
     with_strength_factor(
       points, this->strength_factor(), [&](const auto &factor) {
-        for_lanes(begin, end, [&](const unsigned int p, auto number) {
-          sound &= update_point<dim, decltype(number)>(points,
-                                                       p,
-                                                       plastic_shear_strain_,
-                                                       dt,
-                                                       moduli,
-                                                       strength,
-                                                       resistance,
-                                                       factor(p, number));
+        for_each_simd(begin, end, [&](const unsigned int p, auto number) {
+          sound &= update_herschel_bulkley_point<dim, decltype(number)>(
+            columns,
+            work,
+            p,
+            plastic_shear_strain_,
+            dt,
+            moduli,
+            strength,
+            resistance,
+            factor(p, number));
         });
       });
     if (!sound)
@@ -230,8 +189,8 @@ namespace talus
     return [this, &points, mu = elasticity_.moduli().mu](const unsigned int p,
                                                          const auto &deviator) {
       using Number     = std::decay_t<decltype(deviator[0])>;
-      const Number tau = square_root(0.5 * contract<dim>(deviator, deviator) +
-                                     std::numeric_limits<double>::min());
+      const Number tau = sqrt(0.5 * contract<dim>(deviator, deviator) +
+                              std::numeric_limits<double>::min());
       const Number d_xi =
         max(Number((tau - shear_strength(points, p)) / mu), Number{});
       return Flow<Number>{mu * d_xi / tau, d_xi};
@@ -242,13 +201,15 @@ namespace talus
 
   template <int dim>
   bool
-  HerschelBulkley<dim>::linearize(const Points<dim>  &points,
-                                  const unsigned int  begin,
-                                  const unsigned int  end,
-                                  const StrainMeasure measure,
-                                  StressTangent<dim> *answer) const
+  HerschelBulkley<dim>::linearize(const Points<dim>        &points,
+                                  const StepWorkspace<dim> &workspace,
+                                  const unsigned int        begin,
+                                  const unsigned int        end,
+                                  const StrainMeasure       measure,
+                                  StressTangent<dim>       *answer) const
   {
     return linearize_rate_law(points,
+                              workspace,
                               begin,
                               end,
                               measure,
@@ -261,12 +222,14 @@ namespace talus
 
   template <int dim>
   void
-  HerschelBulkley<dim>::accept(Points<dim>        &points,
-                               const unsigned int  begin,
-                               const unsigned int  end,
-                               const StrainMeasure measure) const
+  HerschelBulkley<dim>::accept(Points<dim>              &points,
+                               const StepWorkspace<dim> &workspace,
+                               const unsigned int        begin,
+                               const unsigned int        end,
+                               const StrainMeasure       measure) const
   {
     accept_rate_law(points,
+                    workspace,
                     begin,
                     end,
                     measure,

@@ -105,16 +105,17 @@ namespace talus
 
   template <int dim>
   void
-  Materials<dim>::update_stress(Points<dim> &points,
-                                const Batch &batch,
-                                const double dt) const
+  Materials<dim>::update_stress(Points<dim>              &points,
+                                const StepWorkspace<dim> &workspace,
+                                const Batch              &batch,
+                                const double              dt) const
   {
     for_runs(points,
              batch,
              [&](const MaterialModel<dim> &model,
                  const unsigned int        begin,
                  const unsigned int        end) {
-               model.update_stress(points, begin, end, dt);
+               model.update_stress(points, workspace, begin, end, dt);
              });
   }
 

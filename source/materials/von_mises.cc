@@ -1,9 +1,11 @@
 #include <talus/base/errors.h>
+#include <talus/materials/elastic_wave_speed.h>
+#include <talus/materials/inverted_point.h>
 #include <talus/materials/load_step.h>
-#include <talus/materials/radial_return.h>
 #include <talus/materials/shear_band.h>
 #include <talus/materials/strength_factor.h>
 #include <talus/materials/von_mises.h>
+#include <talus/materials/von_mises_kernel.h>
 
 #include <limits>
 
@@ -11,76 +13,6 @@ namespace talus
 {
   using dealii::ParameterAcceptor;
   using dealii::Patterns::Double;
-
-  namespace
-  {
-    /// Yield stress as a function of the equivalent plastic strain, Pa.
-    struct YieldStress
-    {
-      double initial;
-      double hardening;
-      double residual;
-    };
-
-
-
-    /// Equivalent plastic strain that brings the trial stress @p q back to the
-    /// yield stress; zero where it is elastic. The yield stress is the larger
-    /// of a line and a constant, so what is left of q is the smaller of two
-    /// falling lines, and its root is the smaller of the two roots. All of it
-    /// is multiplied by @p factor.
-    template <typename Number, typename Factor>
-    inline Number
-    plastic_increment(const Number       q,
-                      const Number       plastic_strain,
-                      const double       mu,
-                      const YieldStress &yield,
-                      const Factor       factor)
-    {
-      const auto   hardening = yield.hardening * factor;
-      const Number on_line =
-        (q - yield.initial * factor - hardening * plastic_strain) *
-        (1. / (3. * mu + hardening));
-      const Number on_residual =
-        (q - yield.residual * factor) * (1. / (3. * mu));
-      return max(min(on_line, on_residual), Number{});
-    }
-
-
-
-    /// One step of point(s) @p p; false if a point was turned inside out.
-    template <int dim, typename Number, typename Factor>
-    inline bool
-    update_point(Points<dim>       &points,
-                 const unsigned int p,
-                 const unsigned int plastic_strain,
-                 const double       dt,
-                 const Moduli      &moduli,
-                 const YieldStress &yield,
-                 const Factor       strength_factor)
-    {
-      const auto motion = advance_deformation<dim, Number>(points, p, dt);
-      const auto strain = strain_increment(motion);
-      const auto trial =
-        elastic_trial<dim, Number>(load_stress<dim, Number>(points, p),
-                                   strain,
-                                   moduli);
-
-      const Number q = square_root(
-        1.5 * contract<dim>(trial.deviator_after, trial.deviator_after) +
-        std::numeric_limits<double>::min());
-      double *const ep     = points.data(plastic_strain) + p;
-      const Number  old_ep = load<Number>(ep);
-      const Number  d_ep =
-        plastic_increment(q, old_ep, moduli.mu, yield, strength_factor);
-      store(ep, old_ep + d_ep);
-      return_radially<dim, Number>(
-        points, p, motion, strain, trial, moduli.mu, 3. * moduli.mu * d_ep / q);
-      return all(motion.J_after > 0.);
-    }
-  } // namespace
-
-
 
   template <int dim>
   VonMises<dim>::VonMises(const std::string &section)
@@ -153,23 +85,33 @@ namespace talus
 
   template <int dim>
   void
-  VonMises<dim>::update_stress(Points<dim>       &points,
-                               const unsigned int begin,
-                               const unsigned int end,
-                               const double       dt) const
+  VonMises<dim>::update_stress(Points<dim>              &points,
+                               const StepWorkspace<dim> &workspace,
+                               const unsigned int        begin,
+                               const unsigned int        end,
+                               const double              dt) const
   {
     Assert(plastic_strain_ != dealii::numbers::invalid_unsigned_int,
            dealii::ExcMessage("add_columns() was not called."));
-    const Moduli      moduli = elasticity_.moduli();
-    const YieldStress yield  = {std::sqrt(3.) * strength_,
-                                hardening_,
-                                std::sqrt(3.) * residual_strength_};
-    bool              sound  = true;
+    const Moduli      moduli  = elasticity_.moduli();
+    const YieldStress yield   = {std::sqrt(3.) * strength_,
+                                 hardening_,
+                                 std::sqrt(3.) * residual_strength_};
+    const auto        columns = points.view();
+    const auto        work    = workspace.view(begin, end);
+    bool              sound   = true;
     with_strength_factor(
       points, this->strength_factor(), [&](const auto &factor) {
-        for_lanes(begin, end, [&](const unsigned int p, auto number) {
-          sound &= update_point<dim, decltype(number)>(
-            points, p, plastic_strain_, dt, moduli, yield, factor(p, number));
+        for_each_simd(begin, end, [&](const unsigned int p, auto number) {
+          sound &=
+            update_von_mises_point<dim, decltype(number)>(columns,
+                                                          work,
+                                                          p,
+                                                          plastic_strain_,
+                                                          dt,
+                                                          moduli,
+                                                          yield,
+                                                          factor(p, number));
         });
       });
     if (!sound)
@@ -192,8 +134,8 @@ namespace talus
             this,
             &points](const unsigned int p, const auto &deviator) {
       using Number      = std::decay_t<decltype(deviator[0])>;
-      const Number q    = square_root(1.5 * contract<dim>(deviator, deviator) +
-                                   std::numeric_limits<double>::min());
+      const Number q    = sqrt(1.5 * contract<dim>(deviator, deviator) +
+                            std::numeric_limits<double>::min());
       const Number d_ep = plastic_increment(
         q, Number(ep[p]), mu, yield, this->strength_factor(points, p));
       return Flow<Number>{3. * mu * d_ep / q, d_ep};
@@ -204,13 +146,15 @@ namespace talus
 
   template <int dim>
   bool
-  VonMises<dim>::linearize(const Points<dim>  &points,
-                           const unsigned int  begin,
-                           const unsigned int  end,
-                           const StrainMeasure measure,
-                           StressTangent<dim> *answer) const
+  VonMises<dim>::linearize(const Points<dim>        &points,
+                           const StepWorkspace<dim> &workspace,
+                           const unsigned int        begin,
+                           const unsigned int        end,
+                           const StrainMeasure       measure,
+                           StressTangent<dim>       *answer) const
   {
     return linearize_rate_law(points,
+                              workspace,
                               begin,
                               end,
                               measure,
@@ -223,12 +167,14 @@ namespace talus
 
   template <int dim>
   void
-  VonMises<dim>::accept(Points<dim>        &points,
-                        const unsigned int  begin,
-                        const unsigned int  end,
-                        const StrainMeasure measure) const
+  VonMises<dim>::accept(Points<dim>              &points,
+                        const StepWorkspace<dim> &workspace,
+                        const unsigned int        begin,
+                        const unsigned int        end,
+                        const StrainMeasure       measure) const
   {
     accept_rate_law(points,
+                    workspace,
                     begin,
                     end,
                     measure,

@@ -9,23 +9,31 @@ namespace talus
 
   namespace
   {
-    /// The sums of all nodes this rank knows, those of ghosts from their owners;
-    /// the whole force in one place.
+    /// Mass and force of a node, as they are sent to other ranks: 1 + dim.
+    template <int dim>
+    constexpr unsigned int n_sent = 1 + dim;
+
+
+
+    /// Of all nodes this rank knows, those of ghosts from their owners.
     template <int dim>
     AlignedVector<double>
-    sums_with_ghosts(const Snapshot<dim> &snapshot)
+    mass_and_force(const Snapshot<dim> &snapshot)
     {
-      const std::size_t     n = n_lanes * std::size_t(snapshot.grid.n_nodes());
-      AlignedVector<double> sums(n);
-      std::copy_n(snapshot.nodes.sum(0), n, sums.begin());
+      AlignedVector<double> values(n_sent<dim> *
+                                   std::size_t(snapshot.grid.n_nodes()));
+      for (unsigned int node = 0; node < snapshot.grid.n_nodes(); ++node)
+        {
+          double *const        to    = &values[n_sent<dim> * std::size_t(node)];
+          const Tensor<1, dim> force = snapshot.nodes.force(node);
+          to[0]                      = snapshot.nodes.mass(node);
+          for (unsigned int d = 0; d < dim; ++d)
+            to[1 + d] = force[d];
+        }
       NodalExchange<dim> exchange;
-      exchange.prepare(snapshot.grid, n_lanes);
-      exchange.copy_to_ghosts(sums.data());
-      using Sum = NodalSum<dim>;
-      for (double *sum = sums.data(); sum != sums.data() + n; sum += n_lanes)
-        for (unsigned int d = 0; d < dim; ++d)
-          sum[Sum::force + d] = Sum::whole_force(sum, d);
-      return sums;
+      exchange.prepare(snapshot.grid, n_sent<dim>);
+      exchange.copy_to_ghosts(values.data());
+      return values;
     }
 
 
@@ -35,7 +43,6 @@ namespace talus
     node_fields(const NodalFields<dim>      &nodes,
                 const AlignedVector<double> &sums)
     {
-      using Sum = NodalSum<dim>;
       const auto add =
         [](const std::string &name, const unsigned int n, const auto &source) {
           return Field{name,
@@ -50,15 +57,15 @@ namespace talus
       return {add("mass [kg]",
                   1,
                   [first](const unsigned int node) {
-                    return first + n_lanes * std::size_t(node) + Sum::mass;
+                    return first + n_sent<dim> * std::size_t(node);
                   }),
               add("velocity [m/s]",
                   dim,
                   [&nodes](const unsigned int node) {
-                    return nodes.motion(node) + NodalMotion<dim>::velocity;
+                    return nodes.velocity(node);
                   }),
               add("force [N]", dim, [first](const unsigned int node) {
-                return first + n_lanes * std::size_t(node) + Sum::force;
+                return first + n_sent<dim> * std::size_t(node) + 1;
               })};
     }
 
@@ -120,7 +127,7 @@ namespace talus
   void
   GridOutput<dim>::write(const Snapshot<dim> &snapshot)
   {
-    const AlignedVector<double> sums = sums_with_ghosts(snapshot);
+    const AlignedVector<double> sums = mass_and_force(snapshot);
     OutputCells<dim, dim>       cells(node_fields(snapshot.nodes, sums),
                                 ItemsAt::vertices);
 

@@ -9,28 +9,37 @@ namespace talus
 
   template <int dim>
   Points<dim>::Points()
-    : position(add_column("position", "m", dim, Inheritance::copied))
-    , velocity(add_column("velocity", "m/s", dim, Inheritance::copied))
-    , deformation_gradient(
-        add_column("deformation gradient", "-", dim * dim, Inheritance::copied))
-    , stress(add_column(
-        "stress", "Pa", n_stress_components<dim>, Inheritance::copied))
-    , mass(add_column("mass", "kg", 1, Inheritance::divided))
-    , reference_volume(
-        add_column("reference volume", "m^dim", 1, Inheritance::divided))
-    , reference_length(
-        add_column("reference length", "m", dim, Inheritance::copied))
-    , stretch(add_column("stretch", "-", dim, Inheritance::copied))
-    , elastic_energy(add_column("elastic energy", "J", 1, Inheritance::divided))
-    , plastic_work(add_column("plastic work", "J", 1, Inheritance::divided))
-    , creation_stretch(
-        add_column("creation stretch", "-", dim, Inheritance::copied))
-    , generation(add_column("generation", "-", 1, Inheritance::copied))
-    , initial_position(
-        add_column("initial position", "m", dim, Inheritance::copied))
-    , id(add_column("id", "-", 1, Inheritance::copied))
-    , body(add_column("body", "-", 1, Inheritance::copied))
-  {}
+  {
+    const auto add = [this](const unsigned int expected,
+                            const std::string &name,
+                            const std::string &unit,
+                            const unsigned int n_components,
+                            const Inheritance  inheritance) {
+      const unsigned int first =
+        add_column(name, unit, n_components, inheritance);
+      AssertDimension(first, expected);
+      (void)first;
+      (void)expected;
+    };
+    constexpr auto copied = Inheritance::copied, divided = Inheritance::divided;
+    using C = PointColumns<dim>;
+    add(C::position, "position", "m", dim, copied);
+    add(C::velocity, "velocity", "m/s", dim, copied);
+    add(
+      C::deformation_gradient, "deformation gradient", "-", dim * dim, copied);
+    add(C::stress, "stress", "Pa", n_stress_components<dim>, copied);
+    add(C::mass, "mass", "kg", 1, divided);
+    add(C::reference_volume, "reference volume", "m^dim", 1, divided);
+    add(C::reference_length, "reference length", "m", dim, copied);
+    add(C::stretch, "stretch", "-", dim, copied);
+    add(C::elastic_energy, "elastic energy", "J", 1, divided);
+    add(C::plastic_work, "plastic work", "J", 1, divided);
+    add(C::creation_stretch, "creation stretch", "-", dim, copied);
+    add(C::generation, "generation", "-", 1, copied);
+    add(C::initial_position, "initial position", "m", dim, copied);
+    add(C::id, "id", "-", 1, copied);
+    add(C::body, "body", "-", 1, copied);
+  }
 
 
 
@@ -52,7 +61,7 @@ namespace talus
         }
     const unsigned int first = arrays_.size();
     columns_.push_back({name, unit, n_components, inheritance, first});
-    arrays_.reshape(first + n_components, capacity_ + n_lanes);
+    arrays_.reshape(first + n_components, capacity_ + n_spare);
     return first;
   }
 
@@ -80,20 +89,7 @@ namespace talus
     // Little by little, as most of the memory of a run is here. A step over
     // all points costs about as much as making all arrays larger.
     capacity_ = std::max(n, capacity_ + capacity_ / 8);
-    arrays_.reshape(arrays_.size(), capacity_ + n_lanes);
-  }
-
-
-
-  template <int dim>
-  void
-  Points<dim>::lend_workspace(const unsigned int begin, const unsigned int end)
-  {
-    workspace_begin_    = begin;
-    const std::size_t n = end - begin + n_lanes;
-    if (workspace_[0].size() < n)
-      for (auto &row : workspace_)
-        row.resize(n, 0.);
+    arrays_.reshape(arrays_.size(), capacity_ + n_spare);
   }
 
 
@@ -141,7 +137,6 @@ namespace talus
   Points<dim>::memory_consumption() const
   {
     return arrays_.memory_consumption() +
-           workspace_.size() * workspace_[0].size() * sizeof(double) +
            segments_.capacity() * sizeof(Segment);
   }
 

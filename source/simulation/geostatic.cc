@@ -1,4 +1,5 @@
 #include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
 #include <talus/simulation/geostatic.h>
 
 #include <algorithm>

@@ -1,4 +1,5 @@
 #include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
 #include <talus/simulation/initial_state.h>
 
 #include <array>
@@ -181,12 +182,12 @@ namespace talus
     initialize_stretch(points, begin, end, rule);
     if (!law.is_hyperelastic())
       return;
-    points.lend_workspace(begin, end);
+    StepWorkspace<dim> workspace;
+    workspace.reinit(begin, end);
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
-        std::fill_n(points.velocity_gradient(i, j), end - begin, 0.);
-    law.update_stress(points, begin, end, /*dt=*/0.);
-    points.return_workspace();
+        std::fill_n(workspace.velocity_gradient(i, j), end - begin, 0.);
+    law.update_stress(points, workspace, begin, end, /*dt=*/0.);
   }
 
 

@@ -133,7 +133,7 @@ namespace talus
                                        ? points.initial_position
                                        : points.position;
     for (auto &row : loads_.acceleration_of_point)
-      row.resize(points.size() + n_lanes);
+      row.resize(points.size() + Points<dim>::n_spare);
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         const Point<dim> x = load_place(points, coordinates, p);

@@ -231,11 +231,12 @@ namespace talus
     timer_.lap(PhaseTimer::points_to_grid);
     time_step_.begin();
     points_.for_batches([this](const Batch &batch) {
-      points_.lend_workspace(batch.begin, batch.end);
+      workspace_.reinit(batch.begin, batch.end);
       time_step_.heed(points_, batch, grid_, materials_, transfer_.box_shape());
       timer_.lap(PhaseTimer::time_step);
-      transfer_.average_mean_stress(points_, batch);
-      transfer_.scatter(points_, batch, grid_, loading_.loads(), nodes_);
+      transfer_.average_mean_stress(points_, workspace_, batch);
+      transfer_.scatter(
+        points_, workspace_, batch, grid_, loading_.loads(), nodes_);
       timer_.lap(PhaseTimer::points_to_grid);
     });
   }
@@ -301,13 +302,13 @@ namespace talus
     trigger_.update(points_, materials_.strength_factor(), time_, time_ + dt_);
     const BoxRule rule = transfer_.box_shape().rule;
     points_.for_batches([&](const Batch &batch) {
-      points_.lend_workspace(batch.begin, batch.end);
-      gravity_work_ +=
-        transfer_.gather(nodes_, grid_, loading_.loads(), points_, batch, dt_);
-      transfer_.average_dilatation(points_, batch);
+      workspace_.reinit(batch.begin, batch.end);
+      gravity_work_ += transfer_.gather(
+        nodes_, grid_, loading_.loads(), points_, workspace_, batch, dt_);
+      transfer_.average_dilatation(points_, workspace_, batch);
       timer_.lap(PhaseTimer::grid_to_points);
-      materials_.update_stress(points_, batch, dt_);
-      update_stretch(points_, batch.begin, batch.end, rule, dt_);
+      materials_.update_stress(points_, workspace_, batch, dt_);
+      update_stretch(points_, workspace_, batch.begin, batch.end, rule, dt_);
       timer_.lap(PhaseTimer::stress_update);
       splitter_.find(points_, batch, grid_);
       timer_.lap(PhaseTimer::splitting);
@@ -321,7 +322,7 @@ namespace talus
   Simulation<dim>::split()
   {
     PhaseTimer::Scope scope(timer_, "splitting");
-    splitter_.enforce(points_);
+    splitter_.enforce(points_, workspace_.points_out_of_cell());
   }
 
 
@@ -331,7 +332,10 @@ namespace talus
   Simulation<dim>::relocate()
   {
     PhaseTimer::Scope scope(timer_, "relocation");
-    const bool        other_cells = relocation_.update_strays(points_, grid_);
+    const bool        other_cells =
+      relocation_.update_points_out_of_cell(points_,
+                                            grid_,
+                                            workspace_.points_out_of_cell());
     if (other_cells)
       nodes_.activate(grid_, relocation_.occupied_cells());
   }

@@ -49,6 +49,7 @@ namespace talus
   {
     loading_.update(points_, time_);
     return {points_,
+            workspace_,
             grid_,
             nodes_,
             transfer_,
@@ -74,7 +75,7 @@ namespace talus
             find_equilibrium();
           else
             reduce_strength();
-          points_.return_workspace();
+          workspace_.clear();
         }
         stages_.count_one();
         if (!stages_.next_is_static())

@@ -1,5 +1,6 @@
 #include <talus/base/errors.h>
 #include <talus/simulation/time_step.h>
+#include <talus/transfer/weights_kernel.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -14,10 +15,10 @@ namespace talus
   {
     /// The larger one; what is not a number is taken, and then stays.
     template <typename Number>
-    inline Number
-    larger_or_none(const Number a, const Number b)
+    TALUS_ALWAYS_INLINE Number
+    larger_or_none(const Number &a, const Number &b)
     {
-      return ((a < b) | (b != b)) ? b : a;
+      return select((a < b) | (b != b), b, a);
     }
   } // namespace
 
@@ -51,16 +52,16 @@ namespace talus
 
   template <int dim>
   template <typename Number>
-  std::array<Number, 2>
-  TimeStep<dim>::inverse_bounds(const Points<dim> &points,
-                                const BoxShape    &shape,
-                                const unsigned int p,
-                                const Number       wave_speed,
-                                const Number       inverse_cell_size) const
+  TALUS_ALWAYS_INLINE std::array<Number, 2>
+  TimeStep<dim>::inverse_bounds(const PointsView<dim, const double> &points,
+                                const BoxShape                      &shape,
+                                const unsigned int                   p,
+                                const Number                        &wave_speed,
+                                const Number &inverse_cell_size) const
   {
     // The sum of the inverse half lengths with a single division, which are
     // what this takes its time for.
-    Number speed_square{}, numerator{}, product = broadcast<Number>(1.);
+    Number speed_square(0.), numerator(0.), product(1.);
     for (unsigned int d = 0; d < dim; ++d)
       {
         const Number v = load<Number>(points.data(points.velocity, d) + p);
@@ -72,9 +73,8 @@ namespace talus
       }
     const double by_cfl = 1. / cfl_number_, by_box = 0.5 / box_safety_factor_;
     return {
-      {(wave_speed + square_root(speed_square)) * (inverse_cell_size * by_cfl),
-       wave_speed * square_root(numerator / product) *
-         (inverse_cell_size * by_box)}};
+      {(wave_speed + sqrt(speed_square)) * (inverse_cell_size * by_cfl),
+       wave_speed * sqrt(numerator / product) * (inverse_cell_size * by_box)}};
   }
 
 
@@ -112,10 +112,10 @@ namespace talus
                       const BoxShape       &shape)
   {
     const unsigned int n = batch.end - batch.begin;
-    if (wave_speed_.size() < n + n_lanes)
+    if (wave_speed_.size() < n + Points<dim>::n_spare)
       {
-        wave_speed_.resize(n + n_lanes);
-        inverse_cell_size_.resize(n + n_lanes);
+        wave_speed_.resize(n + Points<dim>::n_spare);
+        inverse_cell_size_.resize(n + Points<dim>::n_spare);
       }
     materials.for_runs(points,
                        batch,
@@ -130,30 +130,35 @@ namespace talus
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
         // Whole registers; the next segment overwrites what is too much.
-        const Segment &segment = points.segments()[s];
-        const Lanes    inverse_size =
-          broadcast<Lanes>(1. / grid.cells()[segment.cell].size);
-        for (unsigned int p = segment.begin; p < segment.end; p += n_lanes)
+        using Number                = Simd<simd_width>;
+        const Segment &segment      = points.segments()[s];
+        const Number   inverse_size = 1. / grid.cells()[segment.cell].size;
+        for (unsigned int p = segment.begin; p < segment.end; p += simd_width)
           store(&inverse_cell_size_[p - batch.begin], inverse_size);
       }
 
-    Lanes largest = largest_;
-    for_lanes(batch.begin, batch.end, [&](const unsigned int p, auto number) {
-      using Number         = decltype(number);
-      const unsigned int k = p - batch.begin;
-      const auto         bounds =
-        inverse_bounds<Number>(points,
-                               shape,
-                               p,
-                               load<Number>(&wave_speed_[k]),
-                               load<Number>(&inverse_cell_size_[k]));
-      for (const Number &bound : bounds)
-        if constexpr (std::is_same_v<Number, Lanes>)
-          largest = larger_or_none(largest, bound);
-        else
-          largest[0] = larger_or_none(largest[0], bound);
-    });
-    largest_ = largest;
+    const auto       columns = points.view();
+    Simd<simd_width> largest(largest_);
+    Simd<1>          largest_of_rest(largest_);
+    for_each_simd(
+      batch.begin, batch.end, [&](const unsigned int p, auto number) {
+        using Number         = decltype(number);
+        const unsigned int k = p - batch.begin;
+        const auto         bounds =
+          inverse_bounds<Number>(columns,
+                                 shape,
+                                 p,
+                                 load<Number>(&wave_speed_[k]),
+                                 load<Number>(&inverse_cell_size_[k]));
+        for (const Number &bound : bounds)
+          if constexpr (std::is_same_v<Number, Simd<simd_width>>)
+            largest = larger_or_none(largest, bound);
+          else
+            largest_of_rest = larger_or_none(largest_of_rest, bound);
+      });
+    largest_ = largest_of_rest[0];
+    for (unsigned int i = 0; i < simd_width; ++i)
+      largest_ = larger_or_none(largest_, largest[i]);
   }
 
 
@@ -178,12 +183,8 @@ namespace talus
   TimeStep<dim>::of_heeded(const Points<dim>    &points,
                            const Materials<dim> &materials) const
   {
-    double largest = 0;
-    for (unsigned int i = 0; i < n_lanes; ++i)
-      largest = larger_or_none(largest, largest_[i]);
-
     // Infinite where there are no points.
-    const double dt = 1. / largest;
+    const double dt = 1. / largest_;
     AssertThrow((std::isfinite(dt) || points.size() == 0) && dt > 0,
                 ExcPoint(text("No time step can be chosen (it would be ",
                               dt,
@@ -211,7 +212,7 @@ namespace talus
           double c;
           materials.of_body(segment.body).wave_speed(points, p, p + 1, &c);
           const auto bounds = inverse_bounds<double>(
-            points, shape, p, c, 1. / grid.cells()[segment.cell].size);
+            points.view(), shape, p, c, 1. / grid.cells()[segment.cell].size);
           const unsigned int which = (bounds[0] >= bounds[1] ? 0 : 1);
           if (bounds[which] <= largest)
             continue;

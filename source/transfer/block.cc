@@ -1,4 +1,5 @@
 #include <talus/transfer/block.h>
+#include <talus/transfer/weights_kernel.h>
 
 #include <algorithm>
 #include <cstring>
@@ -28,16 +29,22 @@ namespace talus
 
   namespace
   {
-    /// Let each of eight pointers point @p by entries, a whole number, further.
-    /// As numbers of a register: GCC takes pointers out of it one by one.
-    inline void
-    advance(const unsigned int **pointers, const Lanes &by)
+    using Number = Simd<simd_width>;
+
+    /// Let pointer i, a number of a register, point by entries further where
+    /// entry i of @p which is false.
+    template <typename Mask>
+    TALUS_ALWAYS_INLINE void
+    advance_unless(const unsigned int **pointers,
+                   const Mask          &which,
+                   const unsigned int   by)
     {
-      static_assert(sizeof(Lanes) == n_lanes * sizeof(unsigned int *));
-      constexpr LaneMask size    = LaneMask{} + sizeof(unsigned int);
-      LaneMask           address = {};
+      static_assert(sizeof(Mask) == simd_width * sizeof(unsigned int *));
+      using Addresses       = typename Mask::Register;
+      const Addresses bytes = Addresses{} + by * sizeof(unsigned int);
+      Addresses       address;
       std::memcpy(&address, pointers, sizeof(address));
-      address += size * __builtin_convertvector(by, LaneMask);
+      address += ~which.value & bytes;
       std::memcpy(pointers, &address, sizeof(address));
     }
   } // namespace
@@ -57,11 +64,11 @@ namespace talus
     // Whole registers: what goes beyond the end is overwritten by the next
     // piece. One is mostly enough.
 #pragma GCC unroll 1
-    for (unsigned int k = begin; k < end; k += n_lanes)
+    for (unsigned int k = begin; k < end; k += simd_width)
       {
         for (unsigned int d = 0; d < dim; ++d)
-          store(&block.cell_lower[d][k], broadcast<Lanes>(cell.lower[d]));
-        for (unsigned int i = 0; i < n_lanes; ++i)
+          store(&block.cell_lower[d][k], Number(cell.lower[d]));
+        for (unsigned int i = 0; i < simd_width; ++i)
           block.nodes[k + i] = cell.patch.data();
       }
     block.size = end;
@@ -73,28 +80,27 @@ namespace talus
   void
   BlockWalk<dim>::compute_weights(Block<dim> &block) const
   {
-    const double inverse_size = 1. / block.cell_size;
-    // Whole lanes: what lies behind the last point of the block is computed,
-    // too, from whatever is there, and never used.
-    for (unsigned int k = 0; k < block.size; k += n_lanes)
+    const auto   points       = points_.view();
+    const Number inverse_size = 1. / block.cell_size;
+    // Whole registers: what lies behind the last point of the block is
+    // computed, too, from whatever is there, and never used.
+    for (unsigned int k = 0; k < block.size; k += simd_width)
       {
         const unsigned int p = block.begin + k;
-        Lanes              first{};
         for (unsigned int d = 0; d < dim; ++d)
           {
-            const Lanes x = load<Lanes>(points_.data(points_.position, d) + p);
-            const Lanes lower = load<Lanes>(&block.cell_lower[d][k]);
-            const Lanes half  = half_length_in_cells<dim>(
-              points_, shape_, d, p, broadcast<Lanes>(inverse_size));
+            const auto x = load<Number>(points.data(points.position, d) + p);
+            const auto lower = load<Number>(&block.cell_lower[d][k]);
+            const auto half =
+              half_length_in_cells<dim>(points, shape_, d, p, inverse_size);
             const auto w = axis_weights((x - lower) * inverse_size, half);
-            first += w.first * static_cast<double>(power(4, d));
+            advance_unless(&block.nodes[k], w.begins_below, power(4, d));
             for (unsigned int i = 0; i < 3; ++i)
               {
                 store(&block.value[d][i][k], w.value[i]);
                 store(&block.gradient[d][i][k], w.gradient[i] * inverse_size);
               }
           }
-        advance(&block.nodes[k], first);
       }
   }
 

@@ -1,3 +1,5 @@
+#include <talus/base/series.h>
+#include <talus/points/points_kernel.h>
 #include <talus/transfer/box_rule.h>
 
 namespace talus
@@ -9,12 +11,12 @@ namespace talus
     /// Diagonal of the symmetric factor of F = R U, or of F^T = R V.
     /// In 2-D U = (C + J I)/sqrt(tr C + 2 J), C = F^T F, @cite hoger1984.
     template <typename Number>
-    std::array<Number, 2>
+    TALUS_ALWAYS_INLINE std::array<Number, 2>
     stretch_diagonal(const Matrix<2, Number> &F, const Number J)
     {
       const Number C_00  = F[0][0] * F[0][0] + F[1][0] * F[1][0];
       const Number C_11  = F[0][1] * F[0][1] + F[1][1] * F[1][1];
-      const Number scale = 1. / square_root(C_00 + C_11 + 2. * J);
+      const Number scale = 1. / sqrt(C_00 + C_11 + 2. * J);
       return {{(C_00 + J) * scale, (C_11 + J) * scale}};
     }
 
@@ -23,7 +25,7 @@ namespace talus
     /// In 3-D the rotation comes from Newton's iteration R <- (R + R^-T)/2,
     /// which converges quadratically from R = F, @cite higham1986.
     template <typename Number>
-    std::array<Number, 3>
+    TALUS_ALWAYS_INLINE std::array<Number, 3>
     stretch_diagonal(const Matrix<3, Number> &F, const Number /*J*/)
     {
       Matrix<3, Number> R = F;
@@ -39,7 +41,7 @@ namespace talus
                 change += step * step;
               }
           // The next iterate differs by the square of this change.
-          if (!any(change > broadcast<Number>(1e-16)))
+          if (!any(change > Number(1e-16)))
             break;
         }
       std::array<Number, 3> diagonal;
@@ -52,7 +54,7 @@ namespace talus
 
     /// For the rules that know the stretch by the deformation gradient.
     template <int dim, typename Number>
-    std::array<Number, dim>
+    TALUS_ALWAYS_INLINE std::array<Number, dim>
     stretch_along_axes(const Matrix<dim, Number> &F, const BoxRule rule)
     {
       if (rule == BoxRule::deformation_gradient)
@@ -60,7 +62,7 @@ namespace talus
           // May pass through zero; the criterion needs it positive.
           std::array<Number, dim> stretch;
           for (unsigned int d = 0; d < dim; ++d)
-            stretch[d] = max(F[d][d], broadcast<Number>(0.01));
+            stretch[d] = max(F[d][d], Number(0.01));
           return stretch;
         }
       const Number J = determinant(F);
@@ -77,20 +79,20 @@ namespace talus
 
     template <int dim>
     void
-    update_stretch_of_fixed_boxes(Points<dim>       &points,
-                                  const unsigned int begin,
-                                  const unsigned int end,
-                                  const double       dt)
+    update_stretch_of_fixed_boxes(const PointsView<dim>    &points,
+                                  const WorkspaceView<dim> &workspace,
+                                  const unsigned int        begin,
+                                  const unsigned int        end,
+                                  const double              dt)
     {
-      for_lanes(begin, end, [&](const unsigned int p, auto number) {
-        using Number         = decltype(number);
-        const unsigned int k = p - points.workspace_begin();
+      for_each_simd(begin, end, [&](const unsigned int p, auto number) {
+        using Number = decltype(number);
         for (unsigned int d = 0; d < dim; ++d)
           {
             double      *stretch = points.data(points.stretch, d) + p;
             const Number strain =
-              dt * load<Number>(points.velocity_gradient(d, d) + k);
-            store(stretch, load<Number>(stretch) * exponential_of_step(strain));
+              dt * load<Number>(workspace.velocity_gradient(d, d) + p);
+            store(stretch, load<Number>(stretch) * exp_by_series(strain));
           }
       });
     }
@@ -100,24 +102,27 @@ namespace talus
 
   template <int dim>
   void
-  update_stretch(Points<dim>       &points,
-                 const unsigned int begin,
-                 const unsigned int end,
-                 const BoxRule      rule,
-                 const double       dt)
+  update_stretch(Points<dim>              &points,
+                 const StepWorkspace<dim> &workspace,
+                 const unsigned int        begin,
+                 const unsigned int        end,
+                 const BoxRule             rule,
+                 const double              dt)
   {
+    const auto columns = points.view();
     if (rule == BoxRule::fixed)
       {
-        update_stretch_of_fixed_boxes(points, begin, end, dt);
+        update_stretch_of_fixed_boxes(
+          columns, workspace.view(begin, end), begin, end, dt);
         return;
       }
-    for_lanes(begin, end, [&](const unsigned int p, auto number) {
+    for_each_simd(begin, end, [&](const unsigned int p, auto number) {
       using Number = decltype(number);
       const auto F =
-        load_matrix<dim, Number>(points, points.deformation_gradient, p);
+        load_matrix<dim, Number>(columns, columns.deformation_gradient, p);
       const auto stretch = stretch_along_axes<dim>(F, rule);
       for (unsigned int d = 0; d < dim; ++d)
-        store(points.data(points.stretch, d) + p, stretch[d]);
+        store(columns.data(columns.stretch, d) + p, stretch[d]);
     });
   }
 
@@ -172,9 +177,19 @@ namespace talus
 
 
   template void
-  update_stretch(Points<2> &, unsigned int, unsigned int, BoxRule, double);
+  update_stretch(Points<2> &,
+                 const StepWorkspace<2> &,
+                 unsigned int,
+                 unsigned int,
+                 BoxRule,
+                 double);
   template void
-  update_stretch(Points<3> &, unsigned int, unsigned int, BoxRule, double);
+  update_stretch(Points<3> &,
+                 const StepWorkspace<3> &,
+                 unsigned int,
+                 unsigned int,
+                 BoxRule,
+                 double);
   template void
   initialize_stretch(Points<2> &, unsigned int, unsigned int, BoxRule);
   template void

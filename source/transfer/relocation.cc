@@ -32,28 +32,22 @@ namespace talus
 
 
     /// Whether the centres of all these points are in the cell; false if one is
-    /// no number. Lanes beyond the last point do not count.
+    /// no number.
     template <int dim>
     bool
     all_inside(const Points<dim> &points,
                const Segment     &segment,
                const Cell<dim>   &cell)
     {
-      Lanes lane;
-      for (unsigned int i = 0; i < n_lanes; ++i)
-        lane[i] = i;
-      LaneMask inside = (lane == lane);
-      for (unsigned int p = segment.begin; p < segment.end; p += n_lanes)
+      bool inside = true;
+      for (unsigned int d = 0; d < dim; ++d)
         {
-          LaneMask here = (lane == lane);
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              const auto x = load<Lanes>(points.data(points.position, d) + p);
-              here &= (x >= cell.lower[d]) & (x < cell.lower[d] + cell.size);
-            }
-          inside &= here | (lane >= static_cast<double>(segment.end - p));
+          const double *const x     = points.data(points.position, d);
+          const double        lower = cell.lower[d];
+          for (unsigned int p = segment.begin; p < segment.end; ++p)
+            inside = inside && x[p] >= lower && x[p] < lower + cell.size;
         }
-      return all(inside);
+      return inside;
     }
   } // namespace
 
@@ -195,14 +189,16 @@ namespace talus
 
   template <int dim>
   void
-  Relocation<dim>::find_movers_among_strays(Points<dim>     &points,
-                                            const Grid<dim> &grid)
+  Relocation<dim>::find_movers_out_of_cell(
+    Points<dim>               &points,
+    const Grid<dim>           &grid,
+    std::vector<unsigned int> &out_of_cell)
   {
-    auto &strays = points.strays();
-    std::sort(strays.begin(), strays.end());
-    strays.erase(std::unique(strays.begin(), strays.end()), strays.end());
+    std::sort(out_of_cell.begin(), out_of_cell.end());
+    out_of_cell.erase(std::unique(out_of_cell.begin(), out_of_cell.end()),
+                      out_of_cell.end());
     auto segment = points.segments().begin();
-    for (const unsigned int p : strays)
+    for (const unsigned int p : out_of_cell)
       {
         segment =
           std::partition_point(segment,
@@ -282,10 +278,14 @@ namespace talus
 
   template <int dim>
   bool
-  Relocation<dim>::update_strays(Points<dim> &points, const Grid<dim> &grid)
+  Relocation<dim>::update_points_out_of_cell(
+    Points<dim>               &points,
+    const Grid<dim>           &grid,
+    std::vector<unsigned int> &out_of_cell)
   {
     movers_.clear();
-    find_movers_among_strays(points, grid);
+    find_movers_out_of_cell(points, grid, out_of_cell);
+    out_of_cell.clear();
     find_appended_movers(points, grid);
     return send_and_sort_in(points, grid);
   }
@@ -296,7 +296,6 @@ namespace talus
   bool
   Relocation<dim>::send_and_sort_in(Points<dim> &points, const Grid<dim> &grid)
   {
-    points.strays().clear();
     send_movers(points, grid);
     if (movers_.empty() && travellers_.empty())
       return false;
@@ -356,7 +355,6 @@ namespace talus
   Relocation<dim>::rebuild(Points<dim> &points, const Grid<dim> &grid)
   {
     points.forget_order();
-    points.strays().clear();
     find_all_movers(points, grid);
     send_movers(points, grid);
     sort_in(points);

@@ -1,4 +1,5 @@
 #include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
 #include <talus/transfer/transfer.h>
 
 #include <cmath>
@@ -84,22 +85,6 @@ namespace talus
 
 
 
-  namespace
-  {
-    /// Volumes of point(s) @p p, m^dim.
-    template <int dim, typename Number>
-    inline Number
-    volume_of_points(const Points<dim> &points, const unsigned int p)
-    {
-      return load<Number>(points.data(points.reference_volume) + p) *
-             determinant(load_matrix<dim, Number>(points,
-                                                  points.deformation_gradient,
-                                                  p));
-    }
-  } // namespace
-
-
-
   template <int dim>
   bool
   Transfer<dim>::takes_cell_mean(const Points<dim> &points,
@@ -150,25 +135,28 @@ namespace talus
 
   template <int dim>
   void
-  Transfer<dim>::average_mean_stress(Points<dim> &points,
-                                     const Batch &batch) const
+  Transfer<dim>::average_mean_stress(const Points<dim>  &points,
+                                     StepWorkspace<dim> &workspace,
+                                     const Batch        &batch) const
   {
-    double *const shift  = points.mean_stress_shift();
-    double *const volume = points.scratch(0);
+    double *const shift  = workspace.mean_stress_shift();
+    double *const volume = workspace.scratch(0);
     if (!takes_cell_mean(points, batch))
       {
         std::fill_n(shift, batch.end - batch.begin, 0.);
         return;
       }
-    for_lanes(batch.begin, batch.end, [&](const unsigned int p, auto number) {
-      using Number = decltype(number);
-      Number q{};
-      for (unsigned int d = 0; d < dim; ++d)
-        q += load<Number>(points.data(points.stress, d) + p);
-      const unsigned int k = p - batch.begin;
-      store(shift + k, q * (1. / dim));
-      store(volume + k, volume_of_points<dim, Number>(points, p));
-    });
+    const auto columns = points.view();
+    for_each_simd(
+      batch.begin, batch.end, [&](const unsigned int p, auto number) {
+        using Number = decltype(number);
+        Number q(0.);
+        for (unsigned int d = 0; d < dim; ++d)
+          q += load<Number>(columns.data(columns.stress, d) + p);
+        const unsigned int k = p - batch.begin;
+        store(shift + k, q * (1. / dim));
+        store(volume + k, volume_of_points<dim, Number>(columns, p));
+      });
     subtract_from_mean(points, batch, volume, shift);
   }
 
@@ -176,23 +164,30 @@ namespace talus
 
   template <int dim>
   void
-  Transfer<dim>::average_dilatation(Points<dim> &points,
-                                    const Batch &batch) const
+  Transfer<dim>::average_dilatation(const Points<dim>  &points,
+                                    StepWorkspace<dim> &workspace,
+                                    const Batch        &batch) const
   {
     if (!takes_cell_mean(points, batch))
       return;
-    double *const volume = points.scratch(0);
-    double *const rate   = points.scratch(1);
-    for_lanes(batch.begin, batch.end, [&](const unsigned int p, auto number) {
-      using Number         = decltype(number);
-      const unsigned int k = p - batch.begin;
-      store(rate + k, trace(load_velocity_gradient<dim, Number>(points, p)));
-      store(volume + k, volume_of_points<dim, Number>(points, p));
-    });
+    const auto    columns = points.view();
+    const auto    work    = workspace.view(batch.begin, batch.end);
+    double *const volume  = workspace.scratch(0);
+    double *const rate    = workspace.scratch(1);
+    for_each_simd(
+      batch.begin, batch.end, [&](const unsigned int p, auto number) {
+        using Number         = decltype(number);
+        const unsigned int k = p - batch.begin;
+        store(rate + k, trace(load_velocity_gradient<dim, Number>(work, p)));
+        store(volume + k, volume_of_points<dim, Number>(columns, p));
+      });
     subtract_from_mean(points, batch, volume, rate);
     for (unsigned int d = 0; d < dim; ++d)
-      for (unsigned int k = 0; k < batch.end - batch.begin; ++k)
-        points.velocity_gradient(d, d)[k] += rate[k] * (1. / dim);
+      {
+        double *const L_dd = workspace.velocity_gradient(d, d);
+        for (unsigned int k = 0; k < batch.end - batch.begin; ++k)
+          L_dd[k] += rate[k] * (1. / dim);
+      }
   }
 
 
@@ -208,11 +203,19 @@ namespace talus
   template double
   Transfer<3>::least_mass(double, double) const;
   template void
-  Transfer<2>::average_mean_stress(Points<2> &, const Batch &) const;
+  Transfer<2>::average_mean_stress(const Points<2> &,
+                                   StepWorkspace<2> &,
+                                   const Batch &) const;
   template void
-  Transfer<3>::average_mean_stress(Points<3> &, const Batch &) const;
+  Transfer<3>::average_mean_stress(const Points<3> &,
+                                   StepWorkspace<3> &,
+                                   const Batch &) const;
   template void
-  Transfer<2>::average_dilatation(Points<2> &, const Batch &) const;
+  Transfer<2>::average_dilatation(const Points<2> &,
+                                  StepWorkspace<2> &,
+                                  const Batch &) const;
   template void
-  Transfer<3>::average_dilatation(Points<3> &, const Batch &) const;
+  Transfer<3>::average_dilatation(const Points<3> &,
+                                  StepWorkspace<3> &,
+                                  const Batch &) const;
 } // namespace talus

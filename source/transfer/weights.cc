@@ -1,4 +1,5 @@
 #include <talus/transfer/weights.h>
+#include <talus/transfer/weights_kernel.h>
 
 #include <algorithm>
 #include <cmath>

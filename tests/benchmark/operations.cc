@@ -2,7 +2,7 @@
 // a number that counts. Not a measurement of time: the counter "operations" is
 // what matters.
 
-#include <talus/materials/radial_return.h>
+#include <talus/materials/radial_return_kernel.h>
 #include <talus/transfer/weights.h>
 
 #include <benchmark/benchmark.h>
@@ -74,19 +74,19 @@ namespace talus
 
   template <>
   inline Counted
-  broadcast<Counted>(const double value)
+  Counted(const double value)
   {
     return {value};
   }
 
   inline Counted
-  square_root(const Counted x)
+  sqrt(const Counted x)
   {
     return counted(std::sqrt(x.value));
   }
 
   inline Counted
-  logarithm(const Counted x)
+  log(const Counted x)
   {
     return counted(std::log(x.value));
   }
@@ -181,7 +181,7 @@ namespace
   {
     Begun<dim>    step;
     const auto   &trial = step.trial.deviator_after;
-    const Counted q = square_root(1.5 * contract<dim>(trial, trial) + 1e-300);
+    const Counted q = sqrt(1.5 * contract<dim>(trial, trial) + 1e-300);
     // Yield stress on a line and a residual one, the smaller return, no
     // negative one; the new plastic strain.
     Counted       plastic_strain{0.};

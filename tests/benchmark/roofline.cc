@@ -1,6 +1,6 @@
 // What the machine can do at most, on one core: the two lines of the roofline.
 
-#include <talus/base/lanes.h>
+#include <talus/base/simd.h>
 #include <talus/base/large_pages.h>
 
 #include <benchmark/benchmark.h>
@@ -44,8 +44,8 @@ namespace
   {
     constexpr unsigned int n_chains = 16, n_rounds = 1000;
     Lanes                  sum[n_chains] = {};
-    Lanes                  factor        = broadcast<Lanes>(0.999);
-    Lanes                  increment     = broadcast<Lanes>(1e-3);
+    Lanes                  factor        = Lanes(0.999);
+    Lanes                  increment     = Lanes(1e-3);
     benchmark::DoNotOptimize(factor);
     benchmark::DoNotOptimize(increment);
     for (auto _ : state)

@@ -87,10 +87,10 @@ TEST(Dual, Functions)
 {
   const double u = 1.75;
   const auto   x = variables(u, 0.).first;
-  expect(square_root(x), std::sqrt(u), 0.5 / std::sqrt(u), 0.);
-  expect(logarithm(x), std::log(u), 1. / u, 0.);
-  expect(exponential(x), std::exp(u), std::exp(u), 0.);
-  expect(square_root(0. * x), 0., 0., 0.);
+  expect(sqrt(x), std::sqrt(u), 0.5 / std::sqrt(u), 0.);
+  expect(log(x), std::log(u), 1. / u, 0.);
+  expect(exp(x), std::exp(u), std::exp(u), 0.);
+  expect(sqrt(0. * x), 0., 0., 0.);
 }
 
 
@@ -102,7 +102,7 @@ TEST(Dual, Chained)
     {
       const auto [x, y] = variables(u, v);
       const Number f =
-        square_root(x * y + logarithm(x) / y) * exponential(-x / y) - y / x;
+        sqrt(x * y + log(x) / y) * exp(-x / y) - y / x;
       const double s = std::sqrt(u * v + std::log(u) / v), e = std::exp(-u / v);
       const double s_u = 0.5 / s * (v + 1. / (u * v));
       const double s_v = 0.5 / s * (u - std::log(u) / (v * v));

@@ -1,6 +1,6 @@
 // The plastic shear of viscoplastic material in one step.
 
-#include <talus/materials/viscoplastic_return.h>
+#include <talus/materials/viscoplastic_return_kernel.h>
 
 #include <boost/math/tools/toms748_solve.hpp>
 

@@ -35,10 +35,10 @@ namespace talus
 
     /// Split the points that find() noted, once. Daughters may lie outside
     /// their parent's cell: they wait for Relocation::update(). The first one
-    /// takes the parent's place, the others are appended. Returns whether any
-    /// point was split. Throws ExcPoint if this rank would have too many points.
+    /// takes the parent's place, and is added to those that may be out of their
+    /// cell; the others are appended. Returns whether any point was split. Throws ExcPoint if this rank would have too many points.
     bool
-    enforce(Points<dim> &points);
+    enforce(Points<dim> &points, std::vector<unsigned int> &points_out_of_cell);
 
     /// Throw ExcPoint if there are more points than allowed, over all ranks.
     void
@@ -80,12 +80,12 @@ namespace talus
     /// Whether axis @p d of point(s) @p p is too long in cells of this size.
     template <typename Number>
     auto
-    violates(const Points<dim> &points,
-             unsigned int       p,
-             unsigned int       d,
-             double             cell_size) const;
+    violates(const PointsView<dim, const double> &points,
+             unsigned int                         p,
+             unsigned int                         d,
+             double                               cell_size) const;
     /// False if no point of the batch violates the criterion: nearly always,
-    /// and known from a look at eight points at a time.
+    /// and known from a look at several points at a time.
     bool
     may_violate(const Points<dim> &points,
                 const Batch       &batch,

@@ -112,20 +112,20 @@ namespace talus
     /// At zero the slope is infinite; there it is taken as zero, which is right
     /// for lengths of vectors that the rest of a formula multiplies by zero.
     friend Dual
-    square_root(const Dual &a)
+    sqrt(const Dual &a)
     {
       const double root = std::sqrt(a.value);
       return a.chain(root, root > 0. ? 0.5 / root : 0.);
     }
 
     friend Dual
-    logarithm(const Dual &a)
+    log(const Dual &a)
     {
       return a.chain(std::log(a.value), 1. / a.value);
     }
 
     friend Dual
-    exponential(const Dual &a)
+    exp(const Dual &a)
     {
       const double v = std::exp(a.value);
       return a.chain(v, v);

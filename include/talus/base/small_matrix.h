@@ -1,13 +1,13 @@
 #ifndef talus_base_small_matrix_h
 #define talus_base_small_matrix_h
 
-#include <talus/base/lanes.h>
+#include <talus/base/always_inline.h>
 
 #include <array>
 
 namespace talus
 {
-  /// dim x dim matrix of doubles or Lanes, A[row][column].
+  /// dim x dim matrix of numbers, A[row][column].
   template <int dim, typename Number>
   struct Matrix
   {
@@ -49,20 +49,20 @@ namespace talus
 
 
   template <int dim, typename Number>
-  inline Matrix<dim, Number>
-  identity()
+  TALUS_ALWAYS_INLINE Matrix<dim, Number>
+                      identity()
   {
     Matrix<dim, Number> I;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
-        I[i][j] = broadcast<Number>(i == j ? 1. : 0.);
+        I[i][j] = Number(i == j ? 1. : 0.);
     return I;
   }
 
 
 
   template <int dim, typename Number>
-  inline Matrix<dim, Number>
+  TALUS_ALWAYS_INLINE Matrix<dim, Number>
   product(const Matrix<dim, Number> &A, const Matrix<dim, Number> &B)
   {
     Matrix<dim, Number> C;
@@ -79,7 +79,7 @@ namespace talus
 
 
   template <int dim, typename Number>
-  inline Number
+  TALUS_ALWAYS_INLINE Number
   trace(const Matrix<dim, Number> &A)
   {
     Number sum = A[0][0];
@@ -91,7 +91,7 @@ namespace talus
 
 
   template <int dim, typename Number>
-  inline Number
+  TALUS_ALWAYS_INLINE Number
   determinant(const Matrix<dim, Number> &A)
   {
     if constexpr (dim == 2)
@@ -107,7 +107,7 @@ namespace talus
   /// det(I + A) - 1, without the cancellation that taking the determinant
   /// first would bring for small A.
   template <int dim, typename Number>
-  inline Number
+  TALUS_ALWAYS_INLINE Number
   determinant_increment(const Matrix<dim, Number> &A)
   {
     if constexpr (dim == 2)
@@ -124,8 +124,8 @@ namespace talus
 
 
   template <int dim, typename Number>
-  inline Matrix<dim, Number>
-  inverse(const Matrix<dim, Number> &A)
+  TALUS_ALWAYS_INLINE Matrix<dim, Number>
+                      inverse(const Matrix<dim, Number> &A)
   {
     Matrix<dim, Number> B;
     const Number        scale = 1. / determinant(A);

@@ -17,9 +17,8 @@ namespace talus
                const unsigned int      face,
                const unsigned int      node)
   {
-    const auto  &share  = grid.face_share(face, node);
-    const double volume = nodes.sum(node)[NodalSum<dim>::volume];
-    return share.area * std::min(1., volume / share.volume);
+    const auto &share = grid.face_share(face, node);
+    return share.area * std::min(1., nodes.volume(node) / share.volume);
   }
 } // namespace talus
 

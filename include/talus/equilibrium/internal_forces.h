@@ -30,7 +30,7 @@ namespace talus
     {}
 
     /// Set the displacement gradients that the points hold, to those of the
-    /// displacements @p u, m, after the mean; the points get the workspace.
+    /// displacements @p u, m, after the mean, in the workspace.
     void
     set_gradients(Soil<dim>                 &soil,
                   const KeptWeights<dim>    &weights,

@@ -15,6 +15,7 @@ namespace talus
   struct Soil
   {
     Points<dim>          &points;
+    StepWorkspace<dim>   &workspace;
     const Grid<dim>      &grid;
     NodalFields<dim>     &nodes;
     const Transfer<dim>  &transfer;
@@ -36,10 +37,10 @@ namespace talus
   {
     soil.nodes.clear();
     soil.points.for_batches([&](const Batch &batch) {
-      soil.points.lend_workspace(batch.begin, batch.end);
-      soil.transfer.average_mean_stress(soil.points, batch);
+      soil.workspace.reinit(batch.begin, batch.end);
+      soil.transfer.average_mean_stress(soil.points, soil.workspace, batch);
       soil.transfer.scatter(
-        soil.points, batch, soil.grid, soil.loads, soil.nodes);
+        soil.points, soil.workspace, batch, soil.grid, soil.loads, soil.nodes);
     });
     soil.nodes.sum_over_ranks(soil.grid);
     soil.boundaries.add_tractions(soil.nodes,

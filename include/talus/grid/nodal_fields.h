@@ -1,10 +1,10 @@
 #ifndef talus_grid_nodal_fields_h
 #define talus_grid_nodal_fields_h
 
-#include <talus/base/lanes.h>
 #include <talus/base/large_pages.h>
 #include <talus/grid/grid.h>
 #include <talus/grid/nodal_exchange.h>
+#include <talus/grid/nodal_record.h>
 
 #include <deal.II/base/tensor.h>
 
@@ -12,55 +12,6 @@
 
 namespace talus
 {
-  /// What the points send to a node: one register wide, so that one fused
-  /// multiply-add adds a point's share of everything.
-  template <int dim>
-  struct NodalSum
-  {
-    static constexpr unsigned int mass     = 0;       ///< kg
-    static constexpr unsigned int momentum = 1;       ///< kg m/s
-    static constexpr unsigned int force    = 1 + dim; ///< N
-    /// Volume of the soil in its reference density, m^dim.
-    static constexpr unsigned int volume = 1 + 2 * dim;
-    /// In 2-D two entries are free, and take the part of the internal force
-    /// that comes with the gradient along y apart from the rest of the force.
-    static constexpr unsigned int force_by_y = (dim == 2 ? 6 : n_lanes);
-    static_assert(volume < n_lanes && volume < force_by_y);
-
-    /// Component @p d of the whole force in a sum, N.
-    static double
-    whole_force(const double *sum, const unsigned int d)
-    {
-      return dim == 2 ? sum[force + d] + sum[force_by_y + d] : sum[force + d];
-    }
-  };
-
-  /// 2 dim doubles, padded to whole registers.
-  template <int dim>
-  struct MotionRecord;
-
-  template <>
-  struct MotionRecord<2>
-  {
-    using type = double __attribute__((vector_size(8 * 4)));
-  };
-
-  template <>
-  struct MotionRecord<3>
-  {
-    using type = double __attribute__((vector_size(8 * 8)));
-  };
-
-  /// What a node sends back: new velocity and its increment.
-  template <int dim>
-  struct NodalMotion
-  {
-    using Record                            = typename MotionRecord<dim>::type;
-    static constexpr unsigned int width     = sizeof(Record) / sizeof(double);
-    static constexpr unsigned int velocity  = 0;   ///< m/s
-    static constexpr unsigned int increment = dim; ///< m/s
-  };
-
   /// The nodal values of one step on the background grid. Only nodes near soil
   /// are active; nothing here loops over the others.
   template <int dim>
@@ -112,16 +63,85 @@ namespace talus
       return active_boundary_nodes_;
     }
 
+    double
+    mass(const unsigned int node) const
+    {
+      return sum(node)[Sum::mass];
+    }
+
+    /// Volume of the soil in its reference density, m^dim.
+    double
+    volume(const unsigned int node) const
+    {
+      return sum(node)[Sum::volume];
+    }
+
+    /// Momentum before the step, kg m/s.
+    dealii::Tensor<1, dim>
+    momentum(unsigned int node) const;
+
+    /// Force on the node, N.
+    dealii::Tensor<1, dim>
+    force(unsigned int node) const;
+
+    void
+    add_force(unsigned int node, const dealii::Tensor<1, dim> &force);
+
+    /// Add what a point sends to a node.
+    void
+    add_sums(unsigned int                  node,
+             double                        mass,
+             double                        volume,
+             const dealii::Tensor<1, dim> &momentum,
+             const dealii::Tensor<1, dim> &force);
+
+    /// Give a node these sums in place of what the points sent.
+    void
+    set_sums(unsigned int                  node,
+             double                        mass,
+             double                        volume,
+             const dealii::Tensor<1, dim> &momentum,
+             const dealii::Tensor<1, dim> &force);
+
+    dealii::Tensor<1, dim>
+    velocity(const unsigned int node) const;
+
+    /// What the step added to the velocity of a node, m/s.
+    dealii::Tensor<1, dim>
+    increment(const unsigned int node) const;
+
+    /// Set the new velocity of a node and its increment accordingly. Returns
+    /// the impulse that this takes, N s.
+    dealii::Tensor<1, dim>
+    set_velocity(unsigned int node, const dealii::Tensor<1, dim> &velocity);
+
+    /// Mean of the velocities before and after the step: what a force's work
+    /// over the step is to be taken with.
+    dealii::Tensor<1, dim>
+    mean_velocity(const unsigned int node) const;
+
+    /// Set velocity and increment of a node, in place of those of the step.
+    void
+    set_motion(unsigned int                  node,
+               const dealii::Tensor<1, dim> &velocity,
+               const dealii::Tensor<1, dim> &increment);
+
+    /// Kinetic energy of the nodes of this rank, J.
+    double
+    kinetic_energy() const;
+
+    // The records of a node, for the kernels of the transfer.
+
     double *
     sum(const unsigned int node)
     {
-      return sums_.data() + n_lanes * std::size_t(node);
+      return sums_.data() + Sum::width * std::size_t(node);
     }
 
     const double *
     sum(const unsigned int node) const
     {
-      return sums_.data() + n_lanes * std::size_t(node);
+      return sums_.data() + Sum::width * std::size_t(node);
     }
 
     double *
@@ -135,29 +155,6 @@ namespace talus
     {
       return motions_.data() + Motion::width * std::size_t(node);
     }
-
-    double
-    mass(const unsigned int node) const
-    {
-      return sum(node)[Sum::mass];
-    }
-
-    dealii::Tensor<1, dim>
-    velocity(const unsigned int node) const;
-
-    /// Set the new velocity of a node and its increment accordingly. Returns
-    /// the impulse that this takes, N s.
-    dealii::Tensor<1, dim>
-    set_velocity(unsigned int node, const dealii::Tensor<1, dim> &velocity);
-
-    /// Mean of the velocities before and after the step: what a force's work
-    /// over the step is to be taken with.
-    dealii::Tensor<1, dim>
-    mean_velocity(const unsigned int node) const;
-
-    /// Kinetic energy of the nodes of this rank, J.
-    double
-    kinetic_energy() const;
 
   private:
     void

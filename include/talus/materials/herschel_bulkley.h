@@ -41,23 +41,26 @@ namespace talus
 
     /// With @p dt = 0 viscous material (K > 0) does not flow.
     void
-    update_stress(Points<dim> &points,
-                  unsigned int begin,
-                  unsigned int end,
-                  double       dt) const override;
+    update_stress(Points<dim>              &points,
+                  const StepWorkspace<dim> &workspace,
+                  unsigned int              begin,
+                  unsigned int              end,
+                  double                    dt) const override;
 
     bool
-    linearize(const Points<dim>  &points,
-              unsigned int        begin,
-              unsigned int        end,
-              StrainMeasure       measure,
-              StressTangent<dim> *answer) const override;
+    linearize(const Points<dim>        &points,
+              const StepWorkspace<dim> &workspace,
+              unsigned int              begin,
+              unsigned int              end,
+              StrainMeasure             measure,
+              StressTangent<dim>       *answer) const override;
 
     void
-    accept(Points<dim>  &points,
-           unsigned int  begin,
-           unsigned int  end,
-           StrainMeasure measure) const override;
+    accept(Points<dim>              &points,
+           const StepWorkspace<dim> &workspace,
+           unsigned int              begin,
+           unsigned int              end,
+           StrainMeasure             measure) const override;
 
     double
     shear_modulus() const override

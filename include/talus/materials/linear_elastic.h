@@ -20,23 +20,26 @@ namespace talus
     check() const override;
 
     void
-    update_stress(Points<dim> &points,
-                  unsigned int begin,
-                  unsigned int end,
-                  double       dt) const override;
+    update_stress(Points<dim>              &points,
+                  const StepWorkspace<dim> &workspace,
+                  unsigned int              begin,
+                  unsigned int              end,
+                  double                    dt) const override;
 
     bool
-    linearize(const Points<dim>  &points,
-              unsigned int        begin,
-              unsigned int        end,
-              StrainMeasure       measure,
-              StressTangent<dim> *answer) const override;
+    linearize(const Points<dim>        &points,
+              const StepWorkspace<dim> &workspace,
+              unsigned int              begin,
+              unsigned int              end,
+              StrainMeasure             measure,
+              StressTangent<dim>       *answer) const override;
 
     void
-    accept(Points<dim>  &points,
-           unsigned int  begin,
-           unsigned int  end,
-           StrainMeasure measure) const override;
+    accept(Points<dim>              &points,
+           const StepWorkspace<dim> &workspace,
+           unsigned int              begin,
+           unsigned int              end,
+           StrainMeasure             measure) const override;
 
     double
     shear_modulus() const override

@@ -2,9 +2,9 @@
 #define talus_materials_load_step_h
 
 #include <talus/base/dual.h>
-#include <talus/materials/hyperelastic.h>
+#include <talus/materials/hyperelastic_kernel.h>
 #include <talus/materials/material_model.h>
-#include <talus/materials/radial_return.h>
+#include <talus/materials/radial_return_kernel.h>
 
 // One step of a quasi-static load with the same formulas as one of the
 // dynamics, and their derivative: what a law says to the search for equilibrium.
@@ -12,12 +12,13 @@
 namespace talus
 {
   /// Displacement gradient H of the step with its derivatives by itself, at the
-  /// point @p p, which has the workspace.
+  /// point @p p.
   template <int dim>
   inline Matrix<dim, Dual<dim * dim>>
-  load_independent_gradient(const Points<dim> &points, const unsigned int p)
+  load_independent_gradient(const WorkspaceView<dim> &workspace,
+                            const unsigned int        p)
   {
-    const auto H = load_velocity_gradient<dim, double>(points, p);
+    const auto H = load_velocity_gradient<dim, double>(workspace, p);
     Matrix<dim, Dual<dim * dim>> result;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
@@ -116,18 +117,20 @@ namespace talus
   /// out.
   template <int dim, typename FlowRule>
   inline bool
-  linearize_rate_law(const Points<dim>  &points,
-                     const unsigned int  begin,
-                     const unsigned int  end,
-                     const StrainMeasure measure,
-                     const Moduli       &moduli,
-                     StressTangent<dim> *answer,
-                     const FlowRule     &flow)
+  linearize_rate_law(const Points<dim>        &points,
+                     const StepWorkspace<dim> &workspace,
+                     const unsigned int        begin,
+                     const unsigned int        end,
+                     const StrainMeasure       measure,
+                     const Moduli             &moduli,
+                     StressTangent<dim>       *answer,
+                     const FlowRule           &flow)
   {
-    using Number = Dual<dim * dim>;
+    using Number    = Dual<dim * dim>;
+    const auto work = workspace.view(begin, end);
     for (unsigned int p = begin; p < end; ++p)
       {
-        const auto   H          = load_independent_gradient(points, p);
+        const auto   H          = load_independent_gradient(work, p);
         const Number dilatation = determinant_increment(H);
         if (measure == StrainMeasure::large && !(dilatation.value > -1.))
           return false;
@@ -157,22 +160,25 @@ namespace talus
   /// the plastic variable, or invalid_unsigned_int.
   template <int dim, typename FlowRule>
   inline void
-  accept_rate_law(Points<dim>        &points,
-                  const unsigned int  begin,
-                  const unsigned int  end,
-                  const StrainMeasure measure,
-                  const Moduli       &moduli,
-                  const unsigned int  plastic,
-                  const FlowRule     &flow)
+  accept_rate_law(Points<dim>              &points,
+                  const StepWorkspace<dim> &workspace,
+                  const unsigned int        begin,
+                  const unsigned int        end,
+                  const StrainMeasure       measure,
+                  const Moduli             &moduli,
+                  const unsigned int        plastic,
+                  const FlowRule           &flow)
   {
+    const auto columns = points.view();
+    const auto work    = workspace.view(begin, end);
     for (unsigned int p = begin; p < end; ++p)
       {
         Motion<dim, double> motion;
         if (measure == StrainMeasure::large)
-          motion = advance_deformation<dim, double>(points, p, 1.);
+          motion = advance_deformation<dim, double>(columns, work, p, 1.);
         else
           {
-            motion.increment = load_velocity_gradient<dim, double>(points, p);
+            motion.increment = load_velocity_gradient<dim, double>(work, p);
             motion.J_before = motion.J_after = determinant(
               load_matrix<dim, double>(points, points.deformation_gradient, p));
           }
@@ -185,7 +191,7 @@ namespace talus
         if (plastic != dealii::numbers::invalid_unsigned_int)
           points.data(plastic)[p] += plastic_flow.increment;
         return_radially<dim, double>(
-          points, p, motion, strain, trial, moduli.mu, plastic_flow.removed);
+          columns, p, motion, strain, trial, moduli.mu, plastic_flow.removed);
       }
   }
 
@@ -195,16 +201,18 @@ namespace talus
   /// update_by_state().
   template <int dim, typename Response>
   inline bool
-  linearize_by_state(const Points<dim>  &points,
-                     const unsigned int  begin,
-                     const unsigned int  end,
-                     StressTangent<dim> *answer,
-                     const Response     &response)
+  linearize_by_state(const Points<dim>        &points,
+                     const StepWorkspace<dim> &workspace,
+                     const unsigned int        begin,
+                     const unsigned int        end,
+                     StressTangent<dim>       *answer,
+                     const Response           &response)
   {
-    using Number = Dual<dim * dim>;
+    using Number    = Dual<dim * dim>;
+    const auto work = workspace.view(begin, end);
     for (unsigned int p = begin; p < end; ++p)
       {
-        const auto H = load_independent_gradient(points, p);
+        const auto H = load_independent_gradient(work, p);
         if (!(determinant_increment(H).value > -1.))
           return false;
         const auto before =

@@ -2,6 +2,7 @@
 #define talus_materials_material_model_h
 
 #include <talus/points/points.h>
+#include <talus/points/step_workspace.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -89,37 +90,40 @@ namespace talus
 
     /// Advance deformation gradient, stress, elastic energy, plastic work and
     /// internal variables over one step of @p dt seconds with the velocity
-    /// gradient that the points hold. Throws ExcPoint if a point is turned
+    /// gradient in the workspace. Throws ExcPoint if a point is turned
     /// inside out. With @p dt = 0 and any finite velocity gradient, a
     /// hyperelastic law sets stress and energy to those of the deformation
     /// gradient.
     virtual void
-    update_stress(Points<dim> &points,
-                  unsigned int begin,
-                  unsigned int end,
-                  double       dt) const = 0;
+    update_stress(Points<dim>              &points,
+                  const StepWorkspace<dim> &workspace,
+                  unsigned int              begin,
+                  unsigned int              end,
+                  double                    dt) const = 0;
 
-    // For the search for equilibrium. The points hold the displacement gradient
-    // of a load step in the place of the velocity gradient. Laws whose stress
+    // For the search for equilibrium. The workspace holds the displacement
+    // gradient of a load step in the place of the velocity gradient. Laws whose stress
     // depends on the rate take the slowest one.
 
     /// Stress of the points at the end of the load step and its derivative,
     /// written to answer[p - begin]; the points stay as they are. Returns false
     /// if a point would be turned inside out.
     virtual bool
-    linearize(const Points<dim>  &points,
-              unsigned int        begin,
-              unsigned int        end,
-              StrainMeasure       measure,
-              StressTangent<dim> *answer) const = 0;
+    linearize(const Points<dim>        &points,
+              const StepWorkspace<dim> &workspace,
+              unsigned int              begin,
+              unsigned int              end,
+              StrainMeasure             measure,
+              StressTangent<dim>       *answer) const = 0;
 
     /// Make the end of the load step the state of the points: as
     /// update_stress(); with small strain the deformation gradient stays.
     virtual void
-    accept(Points<dim>  &points,
-           unsigned int  begin,
-           unsigned int  end,
-           StrainMeasure measure) const = 0;
+    accept(Points<dim>              &points,
+           const StepWorkspace<dim> &workspace,
+           unsigned int              begin,
+           unsigned int              end,
+           StrainMeasure             measure) const = 0;
 
     /// Shear modulus of the undeformed material, Pa.
     virtual double

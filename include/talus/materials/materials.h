@@ -58,9 +58,12 @@ namespace talus
       return strength_factor_;
     }
 
-    /// Advance deformation and stress of the points, which have the workspace.
+    /// Advance deformation and stress of the points, whose workspace it is.
     void
-    update_stress(Points<dim> &points, const Batch &batch, double dt) const;
+    update_stress(Points<dim>              &points,
+                  const StepWorkspace<dim> &workspace,
+                  const Batch              &batch,
+                  double                    dt) const;
 
     /// Call action(model, begin, end) for each run of points of the same
     /// material.

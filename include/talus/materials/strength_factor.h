@@ -1,6 +1,7 @@
 #ifndef talus_materials_strength_factor_h
 #define talus_materials_strength_factor_h
 
+#include <talus/base/simd.h>
 #include <talus/points/points.h>
 
 #include <deal.II/base/types.h>

@@ -1,10 +1,9 @@
 #ifndef talus_points_points_h
 #define talus_points_points_h
 
-#include <talus/base/small_matrix.h>
+#include <talus/points/points_view.h>
 #include <talus/points/rows.h>
 
-#include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/point.h>
 
 #include <string>
@@ -61,22 +60,14 @@ namespace talus
   /// their order is part of the state. Points beyond n_sorted() were appended
   /// and wait for Relocation::update() to sort them in.
   ///
-  /// Arrays have at least n_lanes spare entries behind the last point, so that
-  /// a load of Lanes at any point is allowed.
+  /// Arrays have n_spare entries behind the last point, so that as many points
+  /// as a register of any machine holds may be read at any point.
   template <int dim>
-  class Points
+  class Points : public PointColumns<dim>
   {
-    // Before the public column indices, whose initialisation fills them.
-    unsigned int                               size_     = 0;
-    unsigned int                               capacity_ = 0;
-    std::vector<Column>                        columns_;
-    Rows                                       arrays_;
-    std::vector<dealii::AlignedVector<double>> workspace_{dim * dim + 3};
-    unsigned int                               workspace_begin_ = 0;
-    std::vector<Segment>                       segments_;
-    std::vector<unsigned int>                  strays_;
-
   public:
+    static constexpr unsigned int n_spare = 8;
+
     Points();
 
     /// Add a column, filled with zero, or return the one of that name. Throws
@@ -115,6 +106,19 @@ namespace talus
     data(const unsigned int column, const unsigned int component = 0) const
     {
       return arrays_[column + component];
+    }
+
+    /// What functions of one point take; valid until points are added.
+    PointsView<dim>
+    view()
+    {
+      return {{}, arrays_[0], arrays_.pitch()};
+    }
+
+    PointsView<dim, const double>
+    view() const
+    {
+      return {{}, arrays_[0], arrays_.pitch()};
     }
 
     unsigned int
@@ -180,7 +184,7 @@ namespace talus
 
     /// Call action(batch) for batches that together hold all sorted points, in
     /// their order. A batch is so small that what one phase of the step writes,
-    /// the next one finds in a cache, and so large that the loops over eight
+    /// the next one finds in a cache, and so large that the loops over several
     /// points at a time have few rests.
     template <typename Action>
     void
@@ -199,105 +203,32 @@ namespace talus
     /// Between the arithmetic for point @p p and the next one, ask for the first
     /// @p n_arrays arrays of the points one batch further: else memory would rest
     /// while a batch is computed, and the arithmetic while it is fetched. A line
-    /// of the cache holds n_lanes points. (If it is not inlined, GCC sees that
+    /// of the cache holds 8 points. (If it is not inlined, GCC sees that
     /// it changes nothing, and leaves it out.)
-    DEAL_II_ALWAYS_INLINE void
+    TALUS_ALWAYS_INLINE void
     fetch_ahead(const unsigned int p, const unsigned int n_arrays) const
     {
       constexpr int for_reading = 0, into_second_level_cache = 2;
-      if (p % n_lanes == 0)
+      if (p % 8 == 0)
         for (unsigned int a = 0; a < n_arrays; ++a)
           __builtin_prefetch(arrays_[a] + p + batch_size,
                              for_reading,
                              into_second_level_cache);
     }
 
-    /// Sorted points that may lie outside the cell of their segment, in any
-    /// order, some perhaps twice. In a step those that move points note them
-    /// here, while the positions are at hand, for
-    /// Relocation::update_strays().
-    std::vector<unsigned int> &
-    strays()
-    {
-      return strays_;
-    }
-
     /// Bytes of memory held.
     std::size_t
     memory_consumption() const;
 
-    // The columns every point has: index of the first scalar array of each.
-    // Tensors are stored row by row. First what both sweeps of a step read, then
-    // what the second one reads, then what is read now and then: fetch_ahead().
-    const unsigned int position;             ///< dim, m
-    const unsigned int velocity;             ///< dim, m/s, at the half step
-    const unsigned int deformation_gradient; ///< dim*dim
-    const unsigned int stress;           ///< Cauchy, n_stress_components, Pa
-    const unsigned int mass;             ///< 1, kg
-    const unsigned int reference_volume; ///< 1, m^dim
-    const unsigned int reference_length; ///< dim, m, of the undeformed box
-    const unsigned int stretch;          ///< dim, of the box along the axes
-    const unsigned int elastic_energy;   ///< 1, J
-    const unsigned int plastic_work;     ///< 1, J
-    const unsigned int creation_stretch; ///< dim, stretch when created
-    const unsigned int generation;       ///< 1, number of splits behind it
-    const unsigned int initial_position; ///< dim, m
-    const unsigned int id;               ///< 1, unique
-    const unsigned int body;             ///< 1, index of its body
-
-    // The workspace of the points [begin, end), usually a batch: no state, and
-    // undefined once it was lent to other points. Rows are indexed by
-    // p - workspace_begin().
-
-    /// Lend the workspace to these points. Its content is lost.
-    void
-    lend_workspace(unsigned int begin, unsigned int end);
-
-    /// Give its memory back.
-    void
-    return_workspace()
-    {
-      for (auto &row : workspace_)
-        row.clear();
-    }
-
-    unsigned int
-    workspace_begin() const
-    {
-      return workspace_begin_;
-    }
-
-    /// Velocity gradient after the anti-locking mean, dim*dim, 1/s: written by
-    /// the gather, read by the stress update of the same step.
-    double *
-    velocity_gradient(const unsigned int i, const unsigned int j)
-    {
-      return workspace_[dim * i + j].data();
-    }
-
-    const double *
-    velocity_gradient(const unsigned int i, const unsigned int j) const
-    {
-      return workspace_[dim * i + j].data();
-    }
-
-    /// Shift of the mean stress by the anti-locking mean, Pa.
-    double *
-    mean_stress_shift()
-    {
-      return workspace_[dim * dim].data();
-    }
-
-    /// Two rows for what a phase needs within itself.
-    double *
-    scratch(const unsigned int i)
-    {
-      return workspace_[dim * dim + 1 + i].data();
-    }
-
   private:
     void
     reserve(unsigned int n);
+
+    unsigned int         size_     = 0;
+    unsigned int         capacity_ = 0;
+    std::vector<Column>  columns_;
+    Rows                 arrays_;
+    std::vector<Segment> segments_;
   };
 
 
@@ -313,75 +244,6 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       x[d] = points.data(column, d)[p];
     return x;
-  }
-
-
-
-  /// Read a dim x dim tensor column at point(s) p.
-  template <int dim, typename Number>
-  inline Matrix<dim, Number>
-  load_matrix(const Points<dim> &points,
-              const unsigned int column,
-              const unsigned int p)
-  {
-    Matrix<dim, Number> A;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        A[i][j] = load<Number>(points.data(column, dim * i + j) + p);
-    return A;
-  }
-
-
-
-  template <int dim, typename Number>
-  inline void
-  store_matrix(Points<dim>               &points,
-               const unsigned int         column,
-               const unsigned int         p,
-               const Matrix<dim, Number> &A)
-  {
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        store(points.data(column, dim * i + j) + p, A[i][j]);
-  }
-
-
-
-  /// Read the velocity gradient at point(s) p, which have the workspace.
-  template <int dim, typename Number>
-  inline Matrix<dim, Number>
-  load_velocity_gradient(const Points<dim> &points, const unsigned int p)
-  {
-    const unsigned int  k = p - points.workspace_begin();
-    Matrix<dim, Number> L;
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        L[i][j] = load<Number>(points.velocity_gradient(i, j) + k);
-    return L;
-  }
-
-
-
-  template <int dim, typename Number>
-  inline Stress<dim, Number>
-  load_stress(const Points<dim> &points, const unsigned int p)
-  {
-    Stress<dim, Number> sigma;
-    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-      sigma[c] = load<Number>(points.data(points.stress, c) + p);
-    return sigma;
-  }
-
-
-
-  template <int dim, typename Number>
-  inline void
-  store_stress(Points<dim>               &points,
-               const unsigned int         p,
-               const Stress<dim, Number> &sigma)
-  {
-    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-      store(points.data(points.stress, c) + p, sigma[c]);
   }
 } // namespace talus
 

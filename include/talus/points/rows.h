@@ -61,6 +61,13 @@ namespace talus
       return memory_.get() + i * pitch_;
     }
 
+    /// From the beginning of a row to the next.
+    std::size_t
+    pitch() const
+    {
+      return pitch_;
+    }
+
     std::size_t
     memory_consumption() const
     {
@@ -78,8 +85,8 @@ namespace talus
     std::unique_ptr<double, Unmap> memory_;
     unsigned int                   n_rows_ = 0;
     std::size_t                    length_ = 0;
-    std::size_t         pitch_ = 0; ///< from the beginning of a row to the next
-    std::vector<double> jumping_;   ///< in move()
+    std::size_t                    pitch_  = 0;
+    std::vector<double>            jumping_; ///< in move()
   };
 } // namespace talus
 

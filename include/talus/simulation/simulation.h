@@ -205,6 +205,7 @@ namespace talus
     // Floor by floor
     Constants                               constants_;
     Points<dim>                             points_;
+    StepWorkspace<dim>                      workspace_;
     Grid<dim>                               grid_;
     NodalFields<dim>                        nodes_;
     Transfer<dim>                           transfer_;

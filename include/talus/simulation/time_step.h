@@ -28,7 +28,7 @@ namespace talus
     void
     begin()
     {
-      largest_ = Lanes{};
+      largest_ = 0;
     }
 
     /// Take the points of a batch into account.
@@ -63,11 +63,11 @@ namespace talus
     /// Inverse of both bounds at point(s) p.
     template <typename Number>
     std::array<Number, 2>
-    inverse_bounds(const Points<dim> &points,
-                   const BoxShape    &shape,
-                   unsigned int       p,
-                   Number             wave_speed,
-                   Number             inverse_cell_size) const;
+    inverse_bounds(const PointsView<dim, const double> &points,
+                   const BoxShape                      &shape,
+                   unsigned int                         p,
+                   const Number                        &wave_speed,
+                   const Number &inverse_cell_size) const;
 
     /// Name and place of the first point whose speed is not finite.
     std::string
@@ -78,8 +78,8 @@ namespace talus
     double box_safety_factor_ = 0.9;
     double maximum_           = 0.;
 
-    /// The largest inverse bound so far, lane by lane, 1/s.
-    Lanes largest_{};
+    /// The largest inverse bound so far, 1/s.
+    double largest_ = 0;
 
     // Of a batch.
     std::vector<double> wave_speed_;

@@ -4,7 +4,6 @@
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
 #include <talus/transfer/box_rule.h>
-#include <talus/transfer/weights.h>
 
 namespace talus
 {
@@ -16,8 +15,10 @@ namespace talus
   struct Block
   {
     static constexpr unsigned int n_points = 64;
-    template <typename Number>
-    using Row = std::array<Number, n_points>;
+    /// What is filled a register at a time may go beyond the last point.
+    static constexpr unsigned int n_with_spare =
+      n_points + Points<dim>::n_spare;
+    using Row = std::array<double, n_points>;
 
     unsigned int begin   = 0; ///< first point
     unsigned int size    = 0;
@@ -28,16 +29,14 @@ namespace talus
     /// Nodes around each of the cells, see Cell::patch.
     std::array<const unsigned int *, n_points> patch_of_cell;
 
-    // Filled a register at a time, which may go beyond the last point:
-
     /// Corner of the cell of each point, m.
-    std::array<std::array<double, n_points + n_lanes>, dim> cell_lower;
+    alignas(64) std::array<std::array<double, n_with_spare>, dim> cell_lower;
     /// The first of the 3^dim nodes of its cell's patch at which a point has
     /// weights; 4 nodes of the patch are a row.
-    alignas(64) std::array<const unsigned int *, n_points + n_lanes> nodes;
+    alignas(64) std::array<const unsigned int *, n_with_spare> nodes;
 
-    alignas(64) std::array<std::array<Row<double>, 3>, dim> value;
-    alignas(64) std::array<std::array<Row<double>, 3>, dim> gradient; ///< 1/m
+    alignas(64) std::array<std::array<Row, 3>, dim> value;
+    alignas(64) std::array<std::array<Row, 3>, dim> gradient; ///< 1/m
   };
 
 
@@ -88,12 +87,29 @@ namespace talus
   /// which sees ahead of loops over points, does not see which nodes will be
   /// next: without this a step on 640 000 points takes a quarter longer.
   template <int dim, typename Address>
-  inline void
+  TALUS_ALWAYS_INLINE void
   prefetch_nodes(const Block<dim> &block, const Address &address)
   {
     for (unsigned int c = 0; c < block.n_cells; ++c)
       for (unsigned int i = 0; i < power(4, dim); ++i)
         __builtin_prefetch(address(block.patch_of_cell[c][i]));
+  }
+
+
+
+  /// Call action(begin, end) for the points of the block that follow each other
+  /// and have weights at the same nodes.
+  template <int dim, typename Action>
+  TALUS_ALWAYS_INLINE void
+  for_each_run(const Block<dim> &block, const Action &action)
+  {
+    for (unsigned int begin = 0, end; begin < block.size; begin = end)
+      {
+        end = begin + 1;
+        while (end < block.size && block.nodes[end] == block.nodes[begin])
+          ++end;
+        action(begin, end);
+      }
   }
 } // namespace talus
 

@@ -1,8 +1,6 @@
 #ifndef talus_transfer_loads_h
 #define talus_transfer_loads_h
 
-#include <talus/base/lanes.h>
-
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/tensor.h>
 
@@ -11,6 +9,16 @@
 
 namespace talus
 {
+  /// The loads on the points of one body, as functions of one point take them.
+  template <int dim>
+  struct LoadsView
+  {
+    /// Weight divided by mass, m/s^2.
+    std::array<double, dim> weight;
+    /// What is added at each point, m/s^2; null if nothing is.
+    std::array<const double *, dim> of_point;
+  };
+
   /// Forces on the points that do not come from stress, as accelerations, m/s^2.
   template <int dim>
   struct Loads
@@ -22,16 +30,17 @@ namespace talus
     bool                                           varies = false;
     std::array<dealii::AlignedVector<double>, dim> acceleration_of_point;
 
-    /// Acceleration of point(s) @p p of this body along axis @p d.
-    template <typename Number>
-    Number
-    acceleration(const unsigned int body,
-                 const unsigned int p,
-                 const unsigned int d) const
+    LoadsView<dim>
+    view(const unsigned int body) const
     {
-      const auto constant = broadcast<Number>(acceleration_of_body[body][d]);
-      return varies ? constant + load<Number>(&acceleration_of_point[d][p])
-                    : constant;
+      LoadsView<dim> loads;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          loads.weight[d] = acceleration_of_body[body][d];
+          loads.of_point[d] =
+            varies ? acceleration_of_point[d].data() : nullptr;
+        }
+      return loads;
     }
   };
 } // namespace talus

@@ -36,10 +36,13 @@ namespace talus
     bool
     update(Points<dim> &points, const Grid<dim> &grid);
 
-    /// The same if only the points noted in Points::strays() can have left
-    /// their cell.
+    /// The same if only these points can have left their cell, in any order,
+    /// some perhaps twice; see StepWorkspace::points_out_of_cell(). The list is
+    /// empty afterwards.
     bool
-    update_strays(Points<dim> &points, const Grid<dim> &grid);
+    update_points_out_of_cell(Points<dim>               &points,
+                              const Grid<dim>           &grid,
+                              std::vector<unsigned int> &out_of_cell);
 
     /// The same after the mesh changed: nothing is known of the old cells.
     void
@@ -79,7 +82,9 @@ namespace talus
     void
     find_sorted_movers(Points<dim> &points, const Grid<dim> &grid);
     void
-    find_movers_among_strays(Points<dim> &points, const Grid<dim> &grid);
+    find_movers_out_of_cell(Points<dim>               &points,
+                            const Grid<dim>           &grid,
+                            std::vector<unsigned int> &out_of_cell);
     void
     find_appended_movers(Points<dim> &points, const Grid<dim> &grid);
     void

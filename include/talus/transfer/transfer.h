@@ -3,6 +3,7 @@
 
 #include <talus/grid/nodal_fields.h>
 #include <talus/points/points.h>
+#include <talus/points/step_workspace.h>
 #include <talus/transfer/box_rule.h>
 #include <talus/transfer/loads.h>
 
@@ -38,37 +39,43 @@ namespace talus
       return cell_mean_of_body_[body];
     }
 
-    // The points of the batch must have the workspace.
+    // The workspace must be that of the points of the batch.
 
     /// First half of the anti-locking pair: store at each point the difference
     /// between the mean over its cell of q = tr_dim(sigma)/dim and its own q.
     void
-    average_mean_stress(Points<dim> &points, const Batch &batch) const;
+    average_mean_stress(const Points<dim>  &points,
+                        StepWorkspace<dim> &workspace,
+                        const Batch        &batch) const;
 
     /// Add mass, momentum, internal and external force and reference volume of
     /// the points to their nodes.
     void
-    scatter(Points<dim>      &points,
-            const Batch      &batch,
-            const Grid<dim>  &grid,
-            const Loads<dim> &loads,
-            NodalFields<dim> &nodes) const;
+    scatter(const Points<dim>        &points,
+            const StepWorkspace<dim> &workspace,
+            const Batch              &batch,
+            const Grid<dim>          &grid,
+            const Loads<dim>         &loads,
+            NodalFields<dim>         &nodes) const;
 
     /// Update velocity and position of the points from the motion of the nodes
-    /// and store their velocity gradient. Those that left their cell are noted
-    /// in Points::strays(). Returns the work of the loads, J.
+    /// and put their velocity gradient into the workspace, where those are noted
+    /// that left their cell. Returns the work of the loads, J.
     double
     gather(const NodalFields<dim> &nodes,
            const Grid<dim>        &grid,
            const Loads<dim>       &loads,
            Points<dim>            &points,
+           StepWorkspace<dim>     &workspace,
            const Batch            &batch,
            double                  dt) const;
 
     /// Second half of the anti-locking pair: replace the rate of volume change
     /// by its mean over the cell.
     void
-    average_dilatation(Points<dim> &points, const Batch &batch) const;
+    average_dilatation(const Points<dim>  &points,
+                       StepWorkspace<dim> &workspace,
+                       const Batch        &batch) const;
 
     const BoxShape &
     box_shape() const
@@ -94,15 +101,6 @@ namespace talus
                        const Batch       &batch,
                        const double      *volume,
                        double            *quantity) const;
-
-    /// gather() for cells whose neighbours differ in size.
-    double
-    gather_general(const NodalFields<dim> &nodes,
-                   const Grid<dim>        &grid,
-                   const Loads<dim>       &loads,
-                   Points<dim>            &points,
-                   const Batch            &batch,
-                   double                  dt) const;
 
     double      flip_fraction_ = 1.;
     std::string box_rule_      = "right stretch";

@@ -1,5 +1,6 @@
 #include <talus/base/errors.h>
-#include <talus/materials/kinematics.h>
+#include <talus/materials/inverted_point.h>
+#include <talus/points/points_kernel.h>
 
 namespace talus
 {

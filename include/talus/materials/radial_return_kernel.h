@@ -1,7 +1,7 @@
-#ifndef talus_materials_radial_return_h
-#define talus_materials_radial_return_h
+#ifndef talus_materials_radial_return_kernel_h
+#define talus_materials_radial_return_kernel_h
 
-#include <talus/materials/elastic_trial.h>
+#include <talus/materials/elastic_trial_kernel.h>
 
 namespace talus
 {
@@ -10,14 +10,14 @@ namespace talus
   /// strain. Stores the stress and books the work of the step as plastic and
   /// elastic.
   template <int dim, typename Number>
-  inline void
-  return_radially(Points<dim>                        &points,
+  TALUS_ALWAYS_INLINE void
+  return_radially(const PointsView<dim>              &points,
                   const unsigned int                  p,
                   const Motion<dim, Number>          &motion,
                   const StrainIncrement<dim, Number> &strain,
                   const ElasticTrial<dim, Number>    &trial,
                   const double                        mu,
-                  const Number                        removed)
+                  const Number                       &removed)
   {
     auto deviator = trial.deviator_after;
     for (unsigned int c = 0; c < n_stress_components<dim>; ++c)

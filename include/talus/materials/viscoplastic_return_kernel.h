@@ -1,7 +1,7 @@
-#ifndef talus_materials_viscoplastic_return_h
-#define talus_materials_viscoplastic_return_h
+#ifndef talus_materials_viscoplastic_return_kernel_h
+#define talus_materials_viscoplastic_return_kernel_h
 
-#include <talus/base/lanes.h>
+#include <talus/base/simd_math.h>
 
 #include <limits>
 #include <utility>
@@ -29,7 +29,7 @@ namespace talus
   /// and slope; lanes not in @p active are left alone. NaN in a lane that is
   /// not done after 100 steps (of a million extreme cases none took over 32).
   template <typename Number, typename Mask, typename Function>
-  inline Number
+  TALUS_ALWAYS_INLINE Number
   newton_from_above(Number x, Mask active, const Function &function)
   {
     for (unsigned int i = 0; i < 100 && any(active); ++i)
@@ -38,11 +38,10 @@ namespace talus
         const Number next         = x - value / slope;
         active &= next < x;
         const Mask more = active & (x - next > 1e-8 * x);
-        x               = active ? next : x;
+        x               = select(active, next, x);
         active          = more;
       }
-    return active ? broadcast<Number>(std::numeric_limits<double>::quiet_NaN())
-                  : x;
+    return select(active, Number(std::numeric_limits<double>::quiet_NaN()), x);
   }
 
 
@@ -50,15 +49,15 @@ namespace talus
   /// Shear stress that a plastic shear of @p x takes, less what viscosity takes
   /// of it, Pa, and its slope: @p linear x - loss (1 - exp(-decay x)).
   template <typename Number>
-  inline std::pair<Number, Number>
-  stress_taken(const Number x,
-               const Number loss,
-               const double linear,
-               const double decay)
+  TALUS_ALWAYS_INLINE std::pair<Number, Number>
+                      stress_taken(const Number x,
+                                   const Number loss,
+                                   const double linear,
+                                   const double decay)
   {
     if (decay == 0.)
-      return {linear * x, broadcast<Number>(linear)};
-    const Number change = loss * exponential_minus_1(-decay * x);
+      return {linear * x, Number(linear)};
+    const Number change = loss * expm1(-decay * x);
     return {linear * x + change, linear - decay * (loss + change)};
   }
 
@@ -67,7 +66,7 @@ namespace talus
   /// The shear, not below it, with which stress_taken() is @p excess: the
   /// function is above its tangent at zero and above its asymptote.
   template <typename Number>
-  inline Number
+  TALUS_ALWAYS_INLINE Number
   most_shear(const Number excess,
              const Number loss,
              const double linear,
@@ -81,7 +80,7 @@ namespace talus
 
   /// n > 1, or @p linear resistance only; see plastic_shear().
   template <typename Number, typename Mask>
-  inline Number
+  TALUS_ALWAYS_INLINE Number
   solve_for_shear(const Number           excess,
                   const Number           loss,
                   const Mask             yields,
@@ -91,14 +90,13 @@ namespace talus
     const bool is_power = (r.exponent > 1. && r.consistency > 0.);
     Number     start    = most_shear(excess, loss, linear, r.decay);
     if (is_power)
-      start =
-        min(start, r.dt * real_power(excess / r.consistency, 1. / r.exponent));
+      start = min(start, r.dt * pow(excess / r.consistency, 1. / r.exponent));
     return newton_from_above(start, yields, [&](const Number x) {
       auto [value, slope] = stress_taken(x, loss, linear, r.decay);
       if (is_power)
         {
           const Number viscous =
-            r.consistency * real_power(x * (1. / r.dt), r.exponent);
+            r.consistency * pow(x * (1. / r.dt), r.exponent);
           value += viscous;
           slope += r.exponent * viscous / x;
         }
@@ -110,18 +108,18 @@ namespace talus
 
   /// n < 1: the overstress y is the unknown; see plastic_shear().
   template <typename Number, typename Mask>
-  inline Number
+  TALUS_ALWAYS_INLINE Number
   solve_for_overstress(const Number           excess,
                        const Number           loss,
                        const Mask             yields,
                        const ShearResistance &r)
   {
     const auto shear = [&](const Number y) {
-      return r.dt * real_power(y * (1. / r.consistency), 1. / r.exponent);
+      return r.dt * pow(y * (1. / r.consistency), 1. / r.exponent);
     };
     const Number most = most_shear(excess, loss, r.modulus, r.decay);
     const Number start =
-      min(excess, r.consistency * real_power(most * (1. / r.dt), r.exponent));
+      min(excess, r.consistency * pow(most * (1. / r.dt), r.exponent));
     return shear(newton_from_above(start, yields, [&](const Number y) {
       const Number x            = shear(y);
       const auto [value, slope] = stress_taken(x, loss, r.modulus, r.decay);
@@ -147,7 +145,7 @@ namespace talus
   /// alone would allow, so above the root, and without remoulding less than
   /// twice as large.
   template <typename Number>
-  inline Number
+  TALUS_ALWAYS_INLINE Number
   plastic_shear(const Number           excess,
                 const Number           loss,
                 const ShearResistance &r)
@@ -164,11 +162,11 @@ namespace talus
       return max(excess, Number{}) * (1. / linear);
 
     // In the other lanes any positive number will do.
-    const Number solvable = yields ? excess : broadcast<Number>(r.modulus);
+    const Number solvable = select(yields, excess, Number(r.modulus));
     const Number x        = r.exponent < 1. && is_viscous
                               ? solve_for_overstress(solvable, loss, yields, r)
                               : solve_for_shear(solvable, loss, yields, linear, r);
-    return yields ? x : Number{};
+    return select(yields, x, Number(0.));
   }
 } // namespace talus
 

@@ -1,8 +1,8 @@
-#ifndef talus_materials_elastic_trial_h
-#define talus_materials_elastic_trial_h
+#ifndef talus_materials_elastic_trial_kernel_h
+#define talus_materials_elastic_trial_kernel_h
 
 #include <talus/materials/elasticity.h>
-#include <talus/materials/kinematics.h>
+#include <talus/materials/kinematics_kernel.h>
 
 namespace talus
 {
@@ -26,10 +26,10 @@ namespace talus
   /// section 8.3.
   /// The mean stress follows K ln det(I + H), so that -p = K ln J on any path.
   template <int dim, typename Number>
-  inline ElasticTrial<dim, Number>
-  elastic_trial(const Stress<dim, Number>          &sigma,
-                const StrainIncrement<dim, Number> &strain,
-                const Moduli                       &moduli)
+  TALUS_ALWAYS_INLINE ElasticTrial<dim, Number>
+                      elastic_trial(const Stress<dim, Number>          &sigma,
+                                    const StrainIncrement<dim, Number> &strain,
+                                    const Moduli                       &moduli)
   {
     ElasticTrial<dim, Number> trial;
     trial.mean_before = mean_normal(sigma);
@@ -49,11 +49,11 @@ namespace talus
   /// a deviatoric strain of the step, plastic or not, is multiplied with to
   /// give work. @p deviator is that at the end, seen at mid-step.
   template <int dim, typename Number>
-  inline Stress<dim, Number>
-  deviatoric_force(const Motion<dim, Number>       &motion,
-                   const Number                     reference_volume,
-                   const ElasticTrial<dim, Number> &trial,
-                   const Stress<dim, Number>       &deviator)
+  TALUS_ALWAYS_INLINE Stress<dim, Number>
+                      deviatoric_force(const Motion<dim, Number>       &motion,
+                                       const Number                     reference_volume,
+                                       const ElasticTrial<dim, Number> &trial,
+                                       const Stress<dim, Number>       &deviator)
   {
     const Number        before = 0.5 * reference_volume * motion.J_before;
     const Number        after  = 0.5 * reference_volume * motion.J_after;
@@ -70,9 +70,9 @@ namespace talus
   /// of the plastic strain, is the exact change of V s:s/(4 mu), so that no
   /// elastic energy is made or lost in a cycle.
   template <int dim, typename Number>
-  inline Number
+  TALUS_ALWAYS_INLINE Number
   work_of_step(const Motion<dim, Number>          &motion,
-               const Number                        reference_volume,
+               const Number                       &reference_volume,
                const StrainIncrement<dim, Number> &strain,
                const ElasticTrial<dim, Number>    &trial,
                const Stress<dim, Number>          &force)
@@ -87,8 +87,8 @@ namespace talus
 
   /// Store the stress at the end of the step from its deviator at mid-step.
   template <int dim, typename Number>
-  inline void
-  store_turned_stress(Points<dim>                        &points,
+  TALUS_ALWAYS_INLINE void
+  store_turned_stress(const PointsView<dim>              &points,
                       const unsigned int                  p,
                       const StrainIncrement<dim, Number> &strain,
                       const Stress<dim, Number>          &deviator,
@@ -96,30 +96,6 @@ namespace talus
   {
     store_stress<dim, Number>(
       points, p, add_mean(turn(strain.half_rotation, deviator), mean));
-  }
-
-
-
-  /// sqrt((lambda + 2 mu)/rho) with the current density.
-  template <int dim>
-  inline void
-  elastic_wave_speed(const Points<dim> &points,
-                     const unsigned int begin,
-                     const unsigned int end,
-                     const Moduli      &moduli,
-                     double            *speed)
-  {
-    const double modulus = moduli.lambda + 2. * moduli.mu;
-    for_lanes(begin, end, [&](const unsigned int p, auto number) {
-      using Number   = decltype(number);
-      const Number J = determinant(
-        load_matrix<dim, Number>(points, points.deformation_gradient, p));
-      const Number volume =
-        J * load<Number>(points.data(points.reference_volume) + p);
-      store(speed + (p - begin),
-            square_root(modulus * volume /
-                        load<Number>(points.data(points.mass) + p)));
-    });
   }
 } // namespace talus
 

@@ -1,7 +1,8 @@
-#ifndef talus_materials_kinematics_h
-#define talus_materials_kinematics_h
+#ifndef talus_materials_kinematics_kernel_h
+#define talus_materials_kinematics_kernel_h
 
-#include <talus/points/points.h>
+#include <talus/base/series.h>
+#include <talus/points/points_kernel.h>
 
 namespace talus
 {
@@ -26,13 +27,14 @@ namespace talus
   /// F <- (I + dt L') F, and store it. Exact for the motion that the step
   /// makes: a point moves on a straight line from its old to its new place.
   template <int dim, typename Number>
-  inline Motion<dim, Number>
-  advance_deformation(Points<dim>       &points,
-                      const unsigned int p,
-                      const double       dt)
+  TALUS_ALWAYS_INLINE Motion<dim, Number>
+                      advance_deformation(const PointsView<dim>    &points,
+                                          const WorkspaceView<dim> &workspace,
+                                          const unsigned int        p,
+                                          const double              dt)
   {
     Motion<dim, Number> motion;
-    motion.increment = load_velocity_gradient<dim, Number>(points, p);
+    motion.increment = load_velocity_gradient<dim, Number>(workspace, p);
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
         motion.increment[i][j] *= dt;
@@ -53,19 +55,9 @@ namespace talus
 
 
 
-  /// Throw ExcPoint for the first point of [@p begin, @p end) whose deformation
-  /// gradient has no positive determinant.
-  template <int dim>
-  void
-  throw_inverted_point(const Points<dim> &points,
-                       unsigned int       begin,
-                       unsigned int       end);
-
-
-
   /// A : B of two symmetric 3x3 tensors.
   template <int dim, typename Number>
-  inline Number
+  TALUS_ALWAYS_INLINE Number
   contract(const Stress<dim, Number> &A, const Stress<dim, Number> &B)
   {
     Number sum = A[0] * B[0] + A[1] * B[1] + A[2] * B[2];
@@ -78,7 +70,7 @@ namespace talus
 
   /// Mean of the three normal components.
   template <std::size_t n, typename Number>
-  inline Number
+  TALUS_ALWAYS_INLINE Number
   mean_normal(const std::array<Number, n> &A)
   {
     return (A[0] + A[1] + A[2]) * (1. / 3.);
@@ -88,8 +80,8 @@ namespace talus
 
   /// Add @p mean to the three normal components.
   template <std::size_t n, typename Number>
-  inline std::array<Number, n>
-  add_mean(std::array<Number, n> A, const Number mean)
+  TALUS_ALWAYS_INLINE std::array<Number, n>
+                      add_mean(std::array<Number, n> A, const Number &mean)
   {
     for (unsigned int c = 0; c < 3; ++c)
       A[c] += mean;
@@ -118,8 +110,8 @@ namespace talus
   /// Half of Hughes and Winget's rotation Q = (I - W/2)^-1 (I + W/2) for the
   /// skew part W of @p G; its angle phi has tan(phi/2) = w/2.
   template <typename Number>
-  inline HalfRotation<2, Number>
-  half_rotation(const Matrix<2, Number> &G)
+  TALUS_ALWAYS_INLINE HalfRotation<2, Number>
+                      half_rotation(const Matrix<2, Number> &G)
   {
     const Number t = 0.25 * (G[1][0] - G[0][1]), scale = 1. / (1. + t * t);
     return {(1. - t * t) * scale, 2. * t * scale};
@@ -130,15 +122,15 @@ namespace talus
   /// In 3-D, with w the axial vector of W, c = cos(phi/2) and Rodrigues'
   /// formula, r = I + c W/2 + c^2 W^2 / (4 (1 + c)) and Q = r r.
   template <typename Number>
-  inline HalfRotation<3, Number>
-  half_rotation(const Matrix<3, Number> &G)
+  TALUS_ALWAYS_INLINE HalfRotation<3, Number>
+                      half_rotation(const Matrix<3, Number> &G)
   {
     Matrix<3, Number> W;
     for (unsigned int i = 0; i < 3; ++i)
       for (unsigned int j = 0; j < 3; ++j)
         W[i][j] = 0.5 * (G[i][j] - G[j][i]);
     const Number w2 = W[0][1] * W[0][1] + W[0][2] * W[0][2] + W[1][2] * W[1][2];
-    const Number c2 = 1. / (1. + 0.25 * w2), c = square_root(c2);
+    const Number c2 = 1. / (1. + 0.25 * w2), c = sqrt(c2);
     const Number linear = 0.5 * c, square = 0.25 * c2 / (1. + c);
 
     HalfRotation<3, Number> half{identity<3, Number>()};
@@ -153,7 +145,7 @@ namespace talus
 
   /// The symmetric tensor @p A turned by @p half.
   template <typename Number>
-  inline Stress<2, Number>
+  TALUS_ALWAYS_INLINE Stress<2, Number>
   turn(const HalfRotation<2, Number> &half, const Stress<2, Number> &A)
   {
     const Number m = 0.5 * (A[0] + A[1]), d = 0.5 * (A[0] - A[1]);
@@ -165,7 +157,7 @@ namespace talus
 
 
   template <typename Number>
-  inline Stress<3, Number>
+  TALUS_ALWAYS_INLINE Stress<3, Number>
   turn(const HalfRotation<3, Number> &half, const Stress<3, Number> &A)
   {
     const Matrix<3, Number> S = {
@@ -202,8 +194,8 @@ namespace talus
   /// approximates ln det(I + H) to third order only and is not used: pressure
   /// and volume would drift apart.
   template <int dim, typename Number>
-  inline StrainIncrement<dim, Number>
-  strain_increment(const Motion<dim, Number> &motion)
+  TALUS_ALWAYS_INLINE StrainIncrement<dim, Number>
+                      strain_increment(const Motion<dim, Number> &motion)
   {
     auto mid_step = identity<dim, Number>();
     for (unsigned int i = 0; i < dim; ++i)
@@ -212,7 +204,7 @@ namespace talus
     const auto G = product(motion.increment, inverse(mid_step));
 
     StrainIncrement<dim, Number> strain;
-    strain.volumetric = logarithm_1p(motion.dilatation);
+    strain.volumetric = log1p_by_series(motion.dilatation);
 
     const Number        mean = trace(G) * (1. / 3.);
     Stress<dim, Number> D;

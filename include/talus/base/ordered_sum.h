@@ -1,0 +1,39 @@
+#ifndef talus_base_ordered_sum_h
+#define talus_base_ordered_sum_h
+
+#include <talus/base/simd.h>
+
+#include <array>
+
+namespace talus
+{
+  /// A sum over numbers that follow each other, the same bits however many of
+  /// them are added at a time: the k-th one belongs to the (k mod 8)-th of
+  /// eight sums.
+  class OrderedSum
+  {
+  public:
+    /// Add those of index @p k and following. @p k must be a multiple of their
+    /// number.
+    template <unsigned int n>
+    TALUS_ALWAYS_INLINE void
+    add(const unsigned int k, const Simd<n> &numbers)
+    {
+      static_assert(n <= 8);
+      double *const to = sums_.data() + k % 8;
+      store(to, load<Simd<n>>(to) + numbers);
+    }
+
+    double
+    total() const
+    {
+      const auto &s = sums_;
+      return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
+    }
+
+  private:
+    std::array<double, 8> sums_{};
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,460 @@
+#ifndef talus_base_simd_h
+#define talus_base_simd_h
+
+#include <talus/base/always_inline.h>
+
+#include <cmath>
+#include <type_traits>
+
+#if defined(__SSE2__)
+#  include <immintrin.h>
+#endif
+
+// Several points per instruction, on any processor.
+//
+// A Simd<n> is a vector of the compiler (GCC and clang have the same), so that
+// one source serves all processors; it is as wide as the registers of the
+// target, because GCC turns comparisons, selections and shuffles of a wider one
+// into scalar code through memory. It is a class, so that functions are found
+// by their arguments. The alternatives: std::experimental::simd is of one
+// standard library only, has no transpose, and calls exp and pow entry by entry;
+// Highway's vectors must not be members of a class, so that no formula could
+// be shared with double; deal.II's VectorizedArray is as wide as the registers
+// of the machine that deal.II was built for, one double in Debian's packages.
+// xsimd is what computes exp, log and pow, see simd_math.h.
+
+#ifndef TALUS_SIMD_WIDTH
+#  if defined(__AVX512F__)
+#    define TALUS_SIMD_WIDTH 8
+#  elif defined(__AVX__)
+#    define TALUS_SIMD_WIDTH 4
+#  else
+#    define TALUS_SIMD_WIDTH 2
+#  endif
+#endif
+
+// Everything that depends on the width lives in a namespace that says so: what
+// was compiled for another width does not link, instead of being wrong.
+#define TALUS_SIMD_PASTE(a, b) a##b
+#define TALUS_SIMD_NAME(width) TALUS_SIMD_PASTE(simd_, width)
+#define TALUS_SIMD_NAMESPACE TALUS_SIMD_NAME(TALUS_SIMD_WIDTH)
+
+namespace talus
+{
+  inline namespace TALUS_SIMD_NAMESPACE
+  {
+    /// Number of doubles in a register.
+    constexpr unsigned int simd_width = TALUS_SIMD_WIDTH;
+
+    /// What holds n doubles, and the results of n comparisons. One is a
+    /// double: so the same class serves the points that are left over.
+    template <unsigned int n>
+    struct SimdRegister
+    {
+      typedef double    Doubles __attribute__((vector_size(8 * n)));
+      typedef long long Mask __attribute__((vector_size(8 * n)));
+
+      /// As doubles lie in memory. (GCC 12 forgets the alignment of a vector
+      /// type that depends on n, but not that of a structure.)
+      struct Unaligned
+      {
+        Doubles value;
+      } __attribute__((packed, aligned(8)));
+    };
+
+    template <>
+    struct SimdRegister<1>
+    {
+      using Doubles = double;
+      using Mask    = bool;
+
+      struct Unaligned
+      {
+        double value;
+      };
+    };
+
+
+
+    /// Results of comparisons, one for each of n points.
+    template <unsigned int n>
+    class SimdMask
+    {
+    public:
+      using Register = typename SimdRegister<n>::Mask;
+
+      Register value;
+
+      SimdMask() = default;
+
+      TALUS_ALWAYS_INLINE
+      SimdMask(const Register &value)
+        : value(value)
+      {}
+
+      TALUS_ALWAYS_INLINE bool
+      operator[](const unsigned int i) const
+      {
+        if constexpr (n == 1)
+          return value;
+        else
+          return value[i] != 0;
+      }
+
+      /// Bit i is set if entry i is true.
+      TALUS_ALWAYS_INLINE unsigned int
+      bits() const
+      {
+        if constexpr (n == 1)
+          return value;
+#if defined(__AVX512DQ__)
+        else if constexpr (n == 8)
+          return _mm512_movepi64_mask((__m512i)value);
+#endif
+#if defined(__AVX__)
+        else if constexpr (n == 4)
+          return _mm256_movemask_pd((__m256d)value);
+#endif
+#if defined(__SSE2__)
+        else if constexpr (n == 2)
+          return _mm_movemask_pd((__m128d)value);
+#endif
+        else
+          {
+            unsigned int result = 0;
+            for (unsigned int i = 0; i < n; ++i)
+              result |= (value[i] != 0) << i;
+            return result;
+          }
+      }
+
+      friend TALUS_ALWAYS_INLINE SimdMask
+      operator&(const SimdMask &a, const SimdMask &b)
+      {
+        return Register(a.value & b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE SimdMask
+      operator|(const SimdMask &a, const SimdMask &b)
+      {
+        return Register(a.value | b.value);
+      }
+
+      TALUS_ALWAYS_INLINE SimdMask &
+      operator|=(const SimdMask &b)
+      {
+        value = Register(value | b.value);
+        return *this;
+      }
+
+      TALUS_ALWAYS_INLINE SimdMask &
+      operator&=(const SimdMask &b)
+      {
+        value = Register(value & b.value);
+        return *this;
+      }
+
+      friend TALUS_ALWAYS_INLINE bool
+      any(const SimdMask &mask)
+      {
+        return mask.bits() != 0;
+      }
+
+      friend TALUS_ALWAYS_INLINE bool
+      all(const SimdMask &mask)
+      {
+        return mask.bits() == (1u << n) - 1;
+      }
+    };
+
+
+
+    /// n doubles with the arithmetic of a double: a number at n points.
+    template <unsigned int n>
+    class Simd
+    {
+    public:
+      using Register = typename SimdRegister<n>::Doubles;
+      using Mask     = SimdMask<n>;
+
+      Register value;
+
+      Simd() = default;
+
+      TALUS_ALWAYS_INLINE
+      Simd(const double x)
+      {
+        if constexpr (n == 1)
+          value = x;
+        else
+          value = x - Register{};
+      }
+
+      template <unsigned int m, typename = std::enable_if_t<m == n && (n > 1)>>
+      TALUS_ALWAYS_INLINE
+      Simd(const typename SimdRegister<m>::Doubles &value)
+        : value(value)
+      {}
+
+      static TALUS_ALWAYS_INLINE Simd
+      of(const Register &value)
+      {
+        Simd x;
+        x.value = value;
+        return x;
+      }
+
+      /// n doubles that follow each other. Not by std::memcpy, which the compiler
+      /// takes to change any memory: it would compute all addresses anew.
+      static TALUS_ALWAYS_INLINE Simd
+      load(const double *from)
+      {
+        using Unaligned = typename SimdRegister<n>::Unaligned;
+        return of(reinterpret_cast<const Unaligned *>(from)->value);
+      }
+
+      TALUS_ALWAYS_INLINE void
+      store(double *to) const
+      {
+        using Unaligned = typename SimdRegister<n>::Unaligned;
+        reinterpret_cast<Unaligned *>(to)->value = value;
+      }
+
+      TALUS_ALWAYS_INLINE double
+      operator[](const unsigned int i) const
+      {
+        if constexpr (n == 1)
+          return value;
+        else
+          return value[i];
+      }
+
+      TALUS_ALWAYS_INLINE Simd &
+      operator+=(const Simd &b)
+      {
+        value += b.value;
+        return *this;
+      }
+
+      TALUS_ALWAYS_INLINE Simd &
+      operator-=(const Simd &b)
+      {
+        value -= b.value;
+        return *this;
+      }
+
+      TALUS_ALWAYS_INLINE Simd &
+      operator*=(const Simd &b)
+      {
+        value *= b.value;
+        return *this;
+      }
+
+      TALUS_ALWAYS_INLINE Simd &
+      operator/=(const Simd &b)
+      {
+        value /= b.value;
+        return *this;
+      }
+
+      friend TALUS_ALWAYS_INLINE Simd
+      operator+(const Simd &a, const Simd &b)
+      {
+        return of(a.value + b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Simd
+      operator-(const Simd &a, const Simd &b)
+      {
+        return of(a.value - b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Simd
+      operator*(const Simd &a, const Simd &b)
+      {
+        return of(a.value * b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Simd
+      operator/(const Simd &a, const Simd &b)
+      {
+        return of(a.value / b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Simd
+      operator-(const Simd &a)
+      {
+        return of(-a.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Mask
+      operator<(const Simd &a, const Simd &b)
+      {
+        return Mask(a.value < b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Mask
+      operator>(const Simd &a, const Simd &b)
+      {
+        return Mask(a.value > b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Mask
+      operator<=(const Simd &a, const Simd &b)
+      {
+        return Mask(a.value <= b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Mask
+      operator>=(const Simd &a, const Simd &b)
+      {
+        return Mask(a.value >= b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Mask
+      operator==(const Simd &a, const Simd &b)
+      {
+        return Mask(a.value == b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Mask
+      operator!=(const Simd &a, const Simd &b)
+      {
+        return Mask(a.value != b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Simd
+      select(const Mask &mask, const Simd &a, const Simd &b)
+      {
+        return of(mask.value ? a.value : b.value);
+      }
+
+      friend TALUS_ALWAYS_INLINE Simd
+      sqrt(const Simd &x)
+      {
+        if constexpr (n == 1)
+          return of(std::sqrt(x.value));
+#if defined(__AVX512F__)
+        else if constexpr (n == 8)
+          return of(_mm512_sqrt_pd(x.value));
+#endif
+#if defined(__AVX__)
+        else if constexpr (n == 4)
+          return of(_mm256_sqrt_pd(x.value));
+#endif
+#if defined(__SSE2__)
+        else if constexpr (n == 2)
+          return of(_mm_sqrt_pd(x.value));
+#endif
+        else
+          {
+            Simd root;
+            for (unsigned int i = 0; i < n; ++i)
+              root.value[i] = std::sqrt(x.value[i]);
+            return root;
+          }
+      }
+    };
+  } // namespace TALUS_SIMD_NAMESPACE
+
+
+
+  // One-point formulas are templates on Number: Simd of the target's width for
+  // the bulk of the points, Simd<1> for the rest, double and Dual where there
+  // is one point only. These let double read the same.
+  using std::sqrt;
+
+  template <typename Number>
+  TALUS_ALWAYS_INLINE Number
+  select(const bool mask, const Number &a, const Number &b)
+  {
+    return mask ? a : b;
+  }
+
+
+
+  TALUS_ALWAYS_INLINE bool
+  any(const bool mask)
+  {
+    return mask;
+  }
+
+
+
+  TALUS_ALWAYS_INLINE bool
+  all(const bool mask)
+  {
+    return mask;
+  }
+
+
+
+  template <typename Number>
+  TALUS_ALWAYS_INLINE Number
+  load(const double *from)
+  {
+    if constexpr (std::is_same_v<Number, double>)
+      return *from;
+    else
+      return Number::load(from);
+  }
+
+
+
+  template <typename Number>
+  TALUS_ALWAYS_INLINE void
+  store(double *to, const Number &value)
+  {
+    if constexpr (std::is_same_v<Number, double>)
+      *to = value;
+    else
+      value.store(to);
+  }
+
+
+
+  template <typename Number>
+  TALUS_ALWAYS_INLINE Number
+  max(const Number &a, const Number &b)
+  {
+    return select(a > b, a, b);
+  }
+
+
+
+  template <typename Number>
+  TALUS_ALWAYS_INLINE Number
+  min(const Number &a, const Number &b)
+  {
+    return select(a < b, a, b);
+  }
+
+
+
+  template <typename Number>
+  TALUS_ALWAYS_INLINE Number
+  clamp(const Number &x, const double lower, const double upper)
+  {
+    return min(max(x, Number(lower)), Number(upper));
+  }
+
+
+
+  /// Call @p kernel (with an index and a number to deduce the type from) for all
+  /// points of [begin, end): a register full at a time, then one by one.
+  template <typename Kernel>
+  TALUS_ALWAYS_INLINE void
+  for_each_simd(const unsigned int begin,
+                const unsigned int end,
+                Kernel           &&kernel)
+  {
+    unsigned int p = begin;
+    for (; p + simd_width <= end; p += simd_width)
+      kernel(p, Simd<simd_width>());
+    if constexpr (simd_width > 1)
+      for (; p < end; ++p)
+        kernel(p, Simd<1>());
+  }
+} // namespace talus
+
+#endif

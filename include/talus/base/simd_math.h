@@ -1,0 +1,82 @@
+#ifndef talus_base_simd_math_h
+#define talus_base_simd_math_h
+
+#include <talus/base/simd.h>
+
+#include <xsimd/xsimd.hpp>
+
+namespace talus
+{
+  using std::exp;
+  using std::expm1;
+  using std::log;
+  using std::pow;
+
+  inline namespace TALUS_SIMD_NAMESPACE
+  {
+    /// Apply @p function of xsimd's registers, which compute all entries alike.
+    /// Simd of another width goes through registers of this one, so that a
+    /// point's result does not depend on how many are computed side by side.
+    template <unsigned int n, typename Function>
+    TALUS_ALWAYS_INLINE Simd<n>
+                        by_xsimd(const Simd<n> &x, const Function &function)
+    {
+      using Batch                 = xsimd::batch<double>;
+      constexpr unsigned int size = Batch::size;
+      if constexpr (n == size)
+        return Simd<n>::of(
+          typename Simd<n>::Register(function(Batch(x.value))));
+      else
+        {
+          constexpr unsigned int n_batches = (n + size - 1) / size;
+          double                 values[n_batches * size];
+          for (unsigned int i = 0; i < n_batches * size; ++i)
+            values[i] = x[i < n ? i : 0];
+          for (unsigned int b = 0; b < n_batches; ++b)
+            function(Batch::load_unaligned(values + b * size))
+              .store_unaligned(values + b * size);
+          return Simd<n>::load(values);
+        }
+    }
+
+
+
+    template <unsigned int n>
+    TALUS_ALWAYS_INLINE Simd<n>
+                        exp(const Simd<n> &x)
+    {
+      return by_xsimd(x, [](const auto &v) { return xsimd::exp(v); });
+    }
+
+
+
+    /// exp(x) - 1, exact for small x, too.
+    template <unsigned int n>
+    TALUS_ALWAYS_INLINE Simd<n>
+                        expm1(const Simd<n> &x)
+    {
+      return by_xsimd(x, [](const auto &v) { return xsimd::expm1(v); });
+    }
+
+
+
+    template <unsigned int n>
+    TALUS_ALWAYS_INLINE Simd<n>
+                        log(const Simd<n> &x)
+    {
+      return by_xsimd(x, [](const auto &v) { return xsimd::log(v); });
+    }
+
+
+
+    /// x^exponent for x > 0; relative error up to |ln x^exponent| ulp.
+    template <unsigned int n>
+    TALUS_ALWAYS_INLINE Simd<n>
+                        pow(const Simd<n> &x, const double exponent)
+    {
+      return exp(exponent * log(x));
+    }
+  } // namespace TALUS_SIMD_NAMESPACE
+} // namespace talus
+
+#endif

@@ -1,0 +1,114 @@
+#ifndef talus_materials_hyperelastic_kernel_h
+#define talus_materials_hyperelastic_kernel_h
+
+#include <talus/materials/kinematics_kernel.h>
+
+namespace talus
+{
+  /// State of deformation, written so that small strains keep all digits.
+  template <int dim, typename Number>
+  struct DeformationState
+  {
+    Matrix<dim, Number> A;         ///< F - I
+    Stress<dim, Number> b_minus_1; ///< F F^T - I
+    Number              J_minus_1; ///< det F - 1
+    Number              log_J;     ///< ln det F
+  };
+
+
+
+  /// What a hyperelastic law answers, per volume of the undeformed body.
+  template <int dim, typename Number>
+  struct StateResponse
+  {
+    Stress<dim, Number> kirchhoff; ///< Kirchhoff stress tau = J sigma, Pa
+    Number              energy;    ///< J/m^dim
+  };
+
+
+
+  template <int dim, typename Number>
+  TALUS_ALWAYS_INLINE DeformationState<dim, Number>
+                      deformation_state(const Matrix<dim, Number> &F)
+  {
+    DeformationState<dim, Number> state;
+    auto                         &A = state.A;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        A[i][j] = F[i][j] - (i == j ? 1. : 0.);
+    state.J_minus_1 = determinant_increment(A);
+    state.log_J     = log1p_by_series(state.J_minus_1);
+
+    auto &b = state.b_minus_1;
+    b[2]    = Number{};
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = i; j < dim; ++j)
+        {
+          Number sum = A[i][j] + A[j][i];
+          for (unsigned int k = 0; k < dim; ++k)
+            sum += A[i][k] * A[j][k];
+          b[stress_index<dim>(i, j)] = sum;
+        }
+    return state;
+  }
+
+
+
+  /// One step of point(s) @p p of a hyperelastic law; @p response maps a
+  /// DeformationState to a StateResponse. False if a point was turned inside
+  /// out.
+  template <int dim, typename Number, typename Response>
+  TALUS_ALWAYS_INLINE bool
+  update_point_by_state(const PointsView<dim>    &points,
+                        const WorkspaceView<dim> &workspace,
+                        const unsigned int        p,
+                        const double              dt,
+                        const Response           &response)
+  {
+    const auto motion =
+      advance_deformation<dim, Number>(points, workspace, p, dt);
+    const auto state = deformation_state<dim, Number>(motion.F);
+    const StateResponse<dim, Number> answer = response(state);
+
+    const Number        scale = 1. / (1. + state.J_minus_1);
+    Stress<dim, Number> sigma = answer.kirchhoff;
+    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+      sigma[c] *= scale;
+    store_stress<dim, Number>(points, p, sigma);
+    const auto V0 = load<Number>(points.data(points.reference_volume) + p);
+    store<Number>(points.data(points.elastic_energy) + p, V0 * answer.energy);
+    return all(motion.J_after > 0.);
+  }
+
+
+
+  /// In the plane or in space: the mean of the eigenvalues of @p b and the
+  /// largest distance that one of them can have from it,
+  /// sqrt((dim-1)/dim dev b : dev b) @cite wolkowicz1980; in 2-D the
+  /// eigenvalues are mean +- distance.
+  template <int dim, typename Number>
+  struct EigenvalueRange
+  {
+    Number mean, distance;
+
+    TALUS_ALWAYS_INLINE
+    EigenvalueRange(const Stress<dim, Number> &b)
+    {
+      mean = b[0] + b[1];
+      if (dim == 3)
+        mean += b[2];
+      mean *= 1. / dim;
+      Number square{};
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          {
+            const Number s =
+              b[stress_index<dim>(i, j)] - (i == j ? mean : Number{});
+            square += (i == j ? 1. : 2.) * s * s;
+          }
+      distance = sqrt((dim - 1.) / dim * square);
+    }
+  };
+} // namespace talus
+
+#endif

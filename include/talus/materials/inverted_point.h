@@ -1,0 +1,17 @@
+#ifndef talus_materials_inverted_point_h
+#define talus_materials_inverted_point_h
+
+#include <talus/points/points.h>
+
+namespace talus
+{
+  /// Throw ExcPoint for the first point of [@p begin, @p end) whose deformation
+  /// gradient has no positive determinant.
+  template <int dim>
+  void
+  throw_inverted_point(const Points<dim> &points,
+                       unsigned int       begin,
+                       unsigned int       end);
+} // namespace talus
+
+#endif

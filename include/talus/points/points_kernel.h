@@ -1,0 +1,93 @@
+#ifndef talus_points_points_kernel_h
+#define talus_points_points_kernel_h
+
+#include <talus/base/simd.h>
+#include <talus/base/small_matrix.h>
+#include <talus/points/points_view.h>
+
+// What functions of one point read and write. @p Columns is Points or a
+// PointsView, Number a double or as many points as a Simd holds.
+
+namespace talus
+{
+  /// Read a dim x dim tensor column at point(s) p.
+  template <int dim, typename Number, typename Columns>
+  TALUS_ALWAYS_INLINE Matrix<dim, Number>
+                      load_matrix(const Columns     &points,
+                                  const unsigned int column,
+                                  const unsigned int p)
+  {
+    Matrix<dim, Number> A;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        A[i][j] = load<Number>(points.data(column, dim * i + j) + p);
+    return A;
+  }
+
+
+
+  template <int dim, typename Number, typename Columns>
+  TALUS_ALWAYS_INLINE void
+  store_matrix(Columns                   &points,
+               const unsigned int         column,
+               const unsigned int         p,
+               const Matrix<dim, Number> &A)
+  {
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        store(points.data(column, dim * i + j) + p, A[i][j]);
+  }
+
+
+
+  /// Read the velocity gradient at point(s) p.
+  template <int dim, typename Number>
+  TALUS_ALWAYS_INLINE Matrix<dim, Number>
+  load_velocity_gradient(const WorkspaceView<dim> &workspace,
+                         const unsigned int        p)
+  {
+    Matrix<dim, Number> L;
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        L[i][j] = load<Number>(workspace.velocity_gradient(i, j) + p);
+    return L;
+  }
+
+
+
+  template <int dim, typename Number, typename Columns>
+  TALUS_ALWAYS_INLINE Stress<dim, Number>
+                      load_stress(const Columns &points, const unsigned int p)
+  {
+    Stress<dim, Number> sigma;
+    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+      sigma[c] = load<Number>(points.data(points.stress, c) + p);
+    return sigma;
+  }
+
+
+
+  template <int dim, typename Number, typename Columns>
+  TALUS_ALWAYS_INLINE void
+  store_stress(Columns                   &points,
+               const unsigned int         p,
+               const Stress<dim, Number> &sigma)
+  {
+    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+      store(points.data(points.stress, c) + p, sigma[c]);
+  }
+
+
+
+  /// Volumes of point(s) @p p, m^dim.
+  template <int dim, typename Number, typename Columns>
+  TALUS_ALWAYS_INLINE Number
+  volume_of_points(const Columns &points, const unsigned int p)
+  {
+    return load<Number>(points.data(points.reference_volume) + p) *
+           determinant(
+             load_matrix<dim, Number>(points, points.deformation_gradient, p));
+  }
+} // namespace talus
+
+#endif

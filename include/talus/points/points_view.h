@@ -1,0 +1,93 @@
+#ifndef talus_points_points_view_h
+#define talus_points_points_view_h
+
+#include <talus/base/small_matrix.h>
+
+#include <cstddef>
+
+namespace talus
+{
+  /// The columns that every point has: the index of the first scalar array of
+  /// each. Tensors are stored row by row. First what both sweeps of a step read,
+  /// then what the second one reads, then what is read now and then.
+  template <int dim>
+  struct PointColumns
+  {
+    static constexpr unsigned int position = 0; ///< dim, m
+    static constexpr unsigned int velocity =
+      dim; ///< dim, m/s, at the half step
+    static constexpr unsigned int deformation_gradient =
+      velocity + dim; ///< dim*dim
+    static constexpr unsigned int stress =
+      deformation_gradient + dim * dim; ///< Cauchy, n_stress_components, Pa
+    static constexpr unsigned int mass =
+      stress + n_stress_components<dim>;                       ///< 1, kg
+    static constexpr unsigned int reference_volume = mass + 1; ///< 1, m^dim
+    static constexpr unsigned int reference_length =
+      reference_volume + 1; ///< dim, m, of the undeformed box
+    static constexpr unsigned int stretch =
+      reference_length + dim; ///< dim, of the box along the axes
+    static constexpr unsigned int elastic_energy = stretch + dim;      ///< 1, J
+    static constexpr unsigned int plastic_work   = elastic_energy + 1; ///< 1, J
+    static constexpr unsigned int creation_stretch =
+      plastic_work + 1; ///< dim, stretch when created
+    static constexpr unsigned int generation =
+      creation_stretch + dim; ///< 1, number of splits behind it
+    static constexpr unsigned int initial_position = generation + 1; ///< dim, m
+    static constexpr unsigned int id   = initial_position + dim; ///< 1, unique
+    static constexpr unsigned int body = id + 1; ///< 1, index of its body
+    static constexpr unsigned int n_arrays = body + 1;
+  };
+
+
+
+  /// What a function of one point needs of the points: where the columns lie.
+  /// Trivially copyable, and knows nothing of how they came there. Laws have
+  /// columns of their own, whose index they know.
+  template <int dim, typename Value = double>
+  struct PointsView : PointColumns<dim>
+  {
+    Value      *memory;
+    std::size_t pitch; ///< from the beginning of an array to the next one
+
+    Value *
+    data(const unsigned int column, const unsigned int component = 0) const
+    {
+      return memory + (column + component) * pitch;
+    }
+  };
+
+
+
+  /// The same for what one step computes for a range of points, which is no
+  /// state; see StepWorkspace. Row r of point p is row(r)[p].
+  template <int dim>
+  struct WorkspaceView
+  {
+    double      *memory;
+    std::size_t  pitch;
+    unsigned int begin; ///< first point of the range
+
+    double *
+    row(const unsigned int r) const
+    {
+      return memory + r * pitch - begin;
+    }
+
+    /// Velocity gradient, 1/s; after the gather.
+    double *
+    velocity_gradient(const unsigned int i, const unsigned int j) const
+    {
+      return row(dim * i + j);
+    }
+
+    /// Shift of the mean stress by the anti-locking mean, Pa.
+    double *
+    mean_stress_shift() const
+    {
+      return row(dim * dim);
+    }
+  };
+} // namespace talus
+
+#endif

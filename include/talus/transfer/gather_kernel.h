@@ -1,0 +1,240 @@
+#ifndef talus_transfer_gather_kernel_h
+#define talus_transfer_gather_kernel_h
+
+#include <talus/grid/nodal_record.h>
+#include <talus/points/points_kernel.h>
+#include <talus/transfer/block.h>
+#include <talus/transfer/loads_kernel.h>
+#include <talus/transfer/transpose.h>
+
+// Grid to points, as registers see it: the same as scatter_kernel.h the other
+// way round, along x, then y, then z. Gradients are those of the velocity, the
+// first half of a NodalMotion.
+
+namespace talus
+{
+  inline namespace TALUS_SIMD_NAMESPACE
+  {
+    /// The motion of the nodes interpolated to the points of a block, row by
+    /// row: velocity and increment in the order of NodalMotion, then derivatives
+    /// of the velocity along each axis.
+    template <int dim>
+    struct InterpolatedMotion
+    {
+      using Motion                           = NodalMotion<dim>;
+      static constexpr unsigned int half     = Motion::width / 2;
+      static constexpr unsigned int gradient = Motion::width;
+      static constexpr unsigned int n_entries =
+        (gradient + half * dim + simd_width - 1) / simd_width * simd_width;
+
+      /// Place of dv_i/dx_d.
+      static constexpr unsigned int
+      place_of_gradient(const unsigned int i, const unsigned int d)
+      {
+        return gradient + half * d + i;
+      }
+
+      alignas(
+        64) double row[Block<dim>::n_points + Points<dim>::n_spare][n_entries];
+    };
+
+
+
+    /// A register, or all of them, of the nodes' motion at a point.
+    template <unsigned int dim, unsigned int width>
+    struct MotionAtPoint
+    {
+      Simd<width> value;
+      Simd<width> slope[dim];
+    };
+
+
+
+    /// Interpolate entries [at, at + width) of the motion of 3^dim nodes to
+    /// point @p k of the block, with or without their derivatives.
+    template <int dim, unsigned int width, bool with_gradient>
+    TALUS_ALWAYS_INLINE MotionAtPoint<dim, width>
+                        interpolate(const Block<dim>    &block,
+                                    const unsigned int   k,
+                                    const double *const *nodes,
+                                    const unsigned int   at)
+    {
+      using Number                = Simd<width>;
+      MotionAtPoint<dim, width> p = {};
+      for (unsigned int l = 0; l < (dim == 3 ? 3 : 1); ++l)
+        {
+          Number value(0.), slope_x(0.), slope_y(0.);
+          for (unsigned int j = 0; j < 3; ++j)
+            {
+              Number row(0.), slope(0.);
+              for (unsigned int i = 0; i < 3; ++i)
+                {
+                  const auto node = load<Number>(nodes[9 * l + 3 * j + i] + at);
+                  row += Number(block.value[0][i][k]) * node;
+                  if constexpr (with_gradient)
+                    slope += Number(block.gradient[0][i][k]) * node;
+                }
+              value += Number(block.value[1][j][k]) * row;
+              if constexpr (with_gradient)
+                {
+                  slope_x += Number(block.value[1][j][k]) * slope;
+                  slope_y += Number(block.gradient[1][j][k]) * row;
+                }
+            }
+          if constexpr (dim == 2)
+            {
+              p.value    = value;
+              p.slope[0] = slope_x;
+              p.slope[1] = slope_y;
+            }
+          else
+            {
+              const Number z(block.value[2][l][k]);
+              p.value += z * value;
+              if constexpr (with_gradient)
+                {
+                  p.slope[0] += z * slope_x;
+                  p.slope[1] += z * slope_y;
+                  p.slope[2] += Number(block.gradient[2][l][k]) * value;
+                }
+            }
+        }
+      return p;
+    }
+
+
+
+    /// Interpolate to point @p k of the block and store its row.
+    template <int dim>
+    TALUS_ALWAYS_INLINE void
+    interpolate(const Block<dim>    &block,
+                const unsigned int   k,
+                const double *const *nodes,
+                double              *row)
+    {
+      using I                     = InterpolatedMotion<dim>;
+      constexpr unsigned int half = I::half;
+      if constexpr (simd_width > half)
+        {
+          // One register holds velocity and increment; of the derivatives only
+          // those of the velocity are kept.
+          constexpr unsigned int width = 2 * half;
+          const auto p = interpolate<dim, width, true>(block, k, nodes, 0);
+          store(row, p.value);
+          store(row + I::gradient, first_halves(p.slope[0], p.slope[1]));
+          if constexpr (dim == 3)
+            store(row + I::gradient + width,
+                  first_halves(p.slope[2], Simd<width>(0.)));
+        }
+      else
+        for (unsigned int at = 0; at < half; at += simd_width)
+          {
+            const auto v =
+              interpolate<dim, simd_width, true>(block, k, nodes, at);
+            store(row + at, v.value);
+            for (unsigned int d = 0; d < dim; ++d)
+              store(row + I::gradient + half * d + at, v.slope[d]);
+            const auto dv =
+              interpolate<dim, simd_width, false>(block, k, nodes, half + at);
+            store(row + half + at, dv.value);
+          }
+    }
+
+
+
+    /// The addresses of the nodes at which point @p k of the block has weights.
+    template <int dim>
+    TALUS_ALWAYS_INLINE void
+    find_nodes(const Block<dim>  &block,
+               const unsigned int k,
+               const double      *motions,
+               const double     **nodes)
+    {
+      for (unsigned int l = 0; l < (dim == 3 ? 3 : 1); ++l)
+        for (unsigned int j = 0; j < 3; ++j)
+          for (unsigned int i = 0; i < 3; ++i)
+            nodes[9 * l + 3 * j + i] =
+              motions + NodalMotion<dim>::width *
+                          std::size_t(block.nodes[k][16 * l + 4 * j + i]);
+    }
+
+
+
+    /// The rows of some points entry by entry.
+    template <int dim, typename Number>
+    struct MotionEntries
+    {
+      using I = InterpolatedMotion<dim>;
+      Number entry[I::n_entries];
+
+      TALUS_ALWAYS_INLINE explicit MotionEntries(
+        const double (*row)[I::n_entries])
+      {
+        if constexpr (std::is_same_v<Number, Simd<simd_width>>)
+          for (unsigned int e = 0; e < I::n_entries; e += simd_width)
+            {
+              for (unsigned int i = 0; i < simd_width; ++i)
+                entry[e + i] = load<Number>(&row[i][e]);
+              transpose(entry + e);
+            }
+        else
+          for (unsigned int e = 0; e < I::n_entries; ++e)
+            entry[e] = row[0][e];
+      }
+    };
+
+
+
+    /// v_p <- flip (v_p + dv) + (1 - flip) v(x_p), x_p <- x_p + dt v(x_p).
+    /// Returns the power of the loads on the points: m b . (mean velocity).
+    template <int dim, typename Number>
+    TALUS_ALWAYS_INLINE Number
+    move_points(const PointsView<dim>            &points,
+                const WorkspaceView<dim>         &workspace,
+                const unsigned int                p,
+                const MotionEntries<dim, Number> &now,
+                const LoadsView<dim>             &loads,
+                const double                      flip,
+                const double                      dt)
+    {
+      using I = InterpolatedMotion<dim>;
+      Number power(0.);
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          const Number v    = now.entry[NodalMotion<dim>::velocity + i];
+          const Number dv   = now.entry[NodalMotion<dim>::increment + i];
+          double      *to_v = points.data(points.velocity, i) + p;
+          double      *to_x = points.data(points.position, i) + p;
+          store(to_v, flip * (load<Number>(to_v) + dv) + (1. - flip) * v);
+          store(to_x, load<Number>(to_x) + dt * v);
+          for (unsigned int d = 0; d < dim; ++d)
+            store(workspace.velocity_gradient(i, d) + p,
+                  now.entry[I::place_of_gradient(i, d)]);
+          power += acceleration<Number>(loads, p, i) * (v - 0.5 * dv);
+        }
+      return power * load<Number>(points.data(points.mass) + p);
+    }
+
+
+
+    /// Whether point(s) @p p are in the cell that begins at @p lower; false if a
+    /// position is no number, too.
+    template <int dim, typename Number, typename Columns>
+    TALUS_ALWAYS_INLINE auto
+    is_inside(const Columns     &points,
+              const unsigned int p,
+              const Number      *lower,
+              const double       cell_size)
+    {
+      auto inside = (lower[0] == lower[0]);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const auto x = load<Number>(points.data(points.position, d) + p);
+          inside &= (x >= lower[d]) & (x < lower[d] + cell_size);
+        }
+      return inside;
+    }
+  } // namespace TALUS_SIMD_NAMESPACE
+} // namespace talus
+
+#endif

@@ -1,0 +1,51 @@
+#ifndef talus_transfer_reference_h
+#define talus_transfer_reference_h
+
+#include <talus/grid/nodal_fields.h>
+#include <talus/points/points.h>
+#include <talus/points/step_workspace.h>
+#include <talus/transfer/box_shape.h>
+#include <talus/transfer/loads.h>
+
+// The transfer as doc/method.md, section 2, has it: point by point and node by
+// node, with the weights by their definition. Read this first; scatter_kernel.h
+// and gather_kernel.h compute the same many points at a time, and the tests hold
+// them to it. Also what is used in cells whose neighbours differ in size.
+
+namespace talus
+{
+  /// Add mass, reference volume, momentum and force of the points of a segment
+  /// to their nodes, @cite bardenhagen2004, eq. 19 ff.:
+  ///   m_i = sum_p S_ip m_p,  (mv)_i = sum_p S_ip m_p v_p,
+  ///   f_i = sum_p S_ip m_p b_p - sum_p V_p sigma'_p . grad S_ip,
+  /// sigma' the stress with the mean over its cell.
+  template <int dim>
+  void
+  scatter_by_definition(const Points<dim>        &points,
+                        const WorkspaceView<dim> &workspace,
+                        const Segment            &segment,
+                        const Grid<dim>          &grid,
+                        const Loads<dim>         &loads,
+                        const BoxShape           &shape,
+                        NodalFields<dim>         &nodes);
+
+  /// Move the points of a segment by the motion of the nodes,
+  ///   v_p <- flip (v_p + sum_i S_ip dv_i) + (1 - flip) sum_i S_ip v_i,
+  ///   x_p <- x_p + dt sum_i S_ip v_i,  L_p = sum_i v_i (x) grad S_ip,
+  /// with L_p in the workspace, where those are noted that left the cell.
+  /// Returns the power of the loads, sum_p m_p b_p . sum_i S_ip (v_i - dv_i/2),
+  /// W.
+  template <int dim>
+  double
+  gather_by_definition(const NodalFields<dim> &nodes,
+                       const Grid<dim>        &grid,
+                       const Loads<dim>       &loads,
+                       const BoxShape         &shape,
+                       const Segment          &segment,
+                       double                  flip_fraction,
+                       double                  dt,
+                       Points<dim>            &points,
+                       StepWorkspace<dim>     &workspace);
+} // namespace talus
+
+#endif

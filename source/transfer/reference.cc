@@ -1,0 +1,179 @@
+#include <talus/points/points_kernel.h>
+#include <talus/transfer/loads_kernel.h>
+#include <talus/transfer/reference.h>
+#include <talus/transfer/weights.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    Tensor<1, dim>
+    load_vector(const Points<dim> &points,
+                const unsigned int column,
+                const unsigned int p)
+    {
+      Tensor<1, dim> value;
+      for (unsigned int d = 0; d < dim; ++d)
+        value[d] = points.data(column, d)[p];
+      return value;
+    }
+
+
+
+    template <int dim>
+    Tensor<1, dim>
+    acceleration_of_point(const Loads<dim>  &loads,
+                          const unsigned int body,
+                          const unsigned int p)
+    {
+      Tensor<1, dim> b;
+      for (unsigned int d = 0; d < dim; ++d)
+        b[d] = acceleration<double>(loads.view(body), p, d);
+      return b;
+    }
+
+
+
+    /// Stress of point @p p within the dimensions of the mesh, with the mean
+    /// over its cell, Pa.
+    template <int dim>
+    Tensor<2, dim>
+    averaged_stress(const Points<dim>        &points,
+                    const WorkspaceView<dim> &workspace,
+                    const unsigned int        p)
+    {
+      const auto     s = load_stress<dim, double>(points, p);
+      Tensor<2, dim> sigma;
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          sigma[i][j] = s[stress_index<dim>(i, j)];
+      for (unsigned int d = 0; d < dim; ++d)
+        sigma[d][d] += workspace.mean_stress_shift()[p];
+      return sigma;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  scatter_by_definition(const Points<dim>        &points,
+                        const WorkspaceView<dim> &workspace,
+                        const Segment            &segment,
+                        const Grid<dim>          &grid,
+                        const Loads<dim>         &loads,
+                        const BoxShape           &shape,
+                        NodalFields<dim>         &nodes)
+  {
+    std::vector<NodeWeight<dim>> weights;
+    for (unsigned int p = segment.begin; p < segment.end; ++p)
+      {
+        weights_of_point(points, grid, shape, segment.cell, p, weights);
+        const double m     = points.data(points.mass)[p];
+        const double V0    = points.data(points.reference_volume)[p];
+        const double V     = volume_of_points<dim, double>(points, p);
+        const auto   v     = load_vector(points, points.velocity, p);
+        const auto   b     = acceleration_of_point(loads, segment.body, p);
+        const auto   sigma = averaged_stress(points, workspace, p);
+        for (const auto &w : weights)
+          nodes.add_sums(w.node,
+                         w.value * m,
+                         w.value * V0,
+                         w.value * m * v,
+                         w.value * m * b - V * sigma * w.gradient);
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  gather_by_definition(const NodalFields<dim> &nodes,
+                       const Grid<dim>        &grid,
+                       const Loads<dim>       &loads,
+                       const BoxShape         &shape,
+                       const Segment          &segment,
+                       const double            flip_fraction,
+                       const double            dt,
+                       Points<dim>            &points,
+                       StepWorkspace<dim>     &workspace)
+  {
+    const Cell<dim> &cell  = grid.cells()[segment.cell];
+    const auto       work  = workspace.view(segment.begin, segment.end);
+    double           power = 0;
+    std::vector<NodeWeight<dim>> weights;
+    for (unsigned int p = segment.begin; p < segment.end; ++p)
+      {
+        weights_of_point(points, grid, shape, segment.cell, p, weights);
+        Tensor<1, dim> v, dv;
+        Tensor<2, dim> L;
+        for (const auto &w : weights)
+          {
+            const auto v_i = nodes.velocity(w.node);
+            v += w.value * v_i;
+            dv += w.value * nodes.increment(w.node);
+            L += outer_product(v_i, w.gradient);
+          }
+        bool is_inside = true;
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            double &v_p = points.data(points.velocity, i)[p];
+            double &x_p = points.data(points.position, i)[p];
+            v_p = flip_fraction * (v_p + dv[i]) + (1. - flip_fraction) * v[i];
+            x_p += dt * v[i];
+            is_inside = is_inside && x_p >= cell.lower[i] &&
+                        x_p < cell.lower[i] + cell.size;
+            for (unsigned int d = 0; d < dim; ++d)
+              work.velocity_gradient(i, d)[p] = L[i][d];
+          }
+        if (!is_inside)
+          workspace.points_out_of_cell().push_back(p);
+        power +=
+          points.data(points.mass)[p] *
+          (acceleration_of_point(loads, segment.body, p) * (v - 0.5 * dv));
+      }
+    return power;
+  }
+
+
+
+  template void
+  scatter_by_definition(const Points<2> &,
+                        const WorkspaceView<2> &,
+                        const Segment &,
+                        const Grid<2> &,
+                        const Loads<2> &,
+                        const BoxShape &,
+                        NodalFields<2> &);
+  template void
+  scatter_by_definition(const Points<3> &,
+                        const WorkspaceView<3> &,
+                        const Segment &,
+                        const Grid<3> &,
+                        const Loads<3> &,
+                        const BoxShape &,
+                        NodalFields<3> &);
+  template double
+  gather_by_definition(const NodalFields<2> &,
+                       const Grid<2> &,
+                       const Loads<2> &,
+                       const BoxShape &,
+                       const Segment &,
+                       double,
+                       double,
+                       Points<2> &,
+                       StepWorkspace<2> &);
+  template double
+  gather_by_definition(const NodalFields<3> &,
+                       const Grid<3> &,
+                       const Loads<3> &,
+                       const BoxShape &,
+                       const Segment &,
+                       double,
+                       double,
+                       Points<3> &,
+                       StepWorkspace<3> &);
+} // namespace talus
