@@ -21,13 +21,14 @@ namespace talus
     {
       for (unsigned int k = 0; k < block.size; ++k)
         points.fetch_ahead(block.begin + k, points.initial_position);
-      for_each_run(block,
-                   [&](const unsigned int begin, const unsigned int end) {
-                     const double *nodes[power(3, dim)];
-                     find_nodes(block, begin, motions, nodes);
-                     for (unsigned int k = begin; k < end; ++k)
-                       interpolate(block, k, nodes, motion.row[k]);
-                   });
+      for (unsigned int r = 0; r < block.n_runs; ++r)
+        {
+          const double *nodes[power(3, dim)];
+          find_nodes<dim>(block.runs[r], motions, nodes);
+          for_each_point(block.runs[r], [&](const unsigned int k) {
+            interpolate(block, k, nodes, motion.row[k]);
+          });
+        }
     }
 
 

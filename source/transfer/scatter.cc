@@ -31,10 +31,8 @@ namespace talus
         fill(contributions, block, columns, work, loads.view(block.body));
         for (unsigned int k = 0; k < block.size; ++k)
           points.fetch_ahead(block.begin + k, points.elastic_energy);
-        for_each_run(block,
-                     [&](const unsigned int begin, const unsigned int end) {
-                       add_run(block, contributions, begin, end, sums);
-                     });
+        for (unsigned int r = 0; r < block.n_runs; ++r)
+          add_run(block, contributions, block.runs[r], sums);
       }
     // Cells whose neighbours differ in size.
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)

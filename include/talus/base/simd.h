@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #if defined(__SSE2__)
 #  include <immintrin.h>
@@ -92,6 +93,16 @@ namespace talus
         : value(value)
       {}
 
+      /// The opposite of bits(); more bits than entries do not count.
+      static TALUS_ALWAYS_INLINE SimdMask
+      of_bits(const unsigned long long bits)
+      {
+        if constexpr (n == 1)
+          return Register((bits & 1) != 0);
+        else
+          return of_bits(bits, std::make_integer_sequence<int, n>());
+      }
+
       TALUS_ALWAYS_INLINE bool
       operator[](const unsigned int i) const
       {
@@ -165,6 +176,15 @@ namespace talus
       {
         return mask.bits() == (1u << n) - 1;
       }
+
+    private:
+      template <int... i>
+      static TALUS_ALWAYS_INLINE SimdMask
+      of_bits(const long long bits, std::integer_sequence<int, i...>)
+      {
+        const Register bit = {(1ll << i)...};
+        return Register(((Register{} + bits) & bit) == bit);
+      }
     };
 
 
@@ -180,6 +200,18 @@ namespace talus
       Register value;
 
       Simd() = default;
+
+      TALUS_ALWAYS_INLINE
+      Simd(const Simd &x)
+        : value(x.value)
+      {}
+
+      TALUS_ALWAYS_INLINE Simd &
+      operator=(const Simd &x)
+      {
+        value = x.value;
+        return *this;
+      }
 
       TALUS_ALWAYS_INLINE
       Simd(const double x)
@@ -327,6 +359,36 @@ namespace talus
       select(const Mask &mask, const Simd &a, const Simd &b)
       {
         return of(mask.value ? a.value : b.value);
+      }
+
+      // a > b ? a : b, also where one is no number; GCC finds the instruction for
+      // it only sometimes.
+      friend TALUS_ALWAYS_INLINE Simd
+      max(const Simd &a, const Simd &b)
+      {
+#if defined(__AVX512F__)
+        if constexpr (n == 8)
+          return of(_mm512_max_pd(a.value, b.value));
+#endif
+#if defined(__AVX__)
+        if constexpr (n == 4)
+          return of(_mm256_max_pd(a.value, b.value));
+#endif
+        return select(a > b, a, b);
+      }
+
+      friend TALUS_ALWAYS_INLINE Simd
+      min(const Simd &a, const Simd &b)
+      {
+#if defined(__AVX512F__)
+        if constexpr (n == 8)
+          return of(_mm512_min_pd(a.value, b.value));
+#endif
+#if defined(__AVX__)
+        if constexpr (n == 4)
+          return of(_mm256_min_pd(a.value, b.value));
+#endif
+        return select(a < b, a, b);
       }
 
       friend TALUS_ALWAYS_INLINE Simd

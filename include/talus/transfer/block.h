@@ -3,10 +3,24 @@
 
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
-#include <talus/transfer/box_rule.h>
+#include <talus/transfer/box_shape.h>
+
+#include <array>
+#include <cstdint>
 
 namespace talus
 {
+  /// Points of a block in one cell with weights at the same 3^dim nodes.
+  struct Run
+  {
+    std::uint64_t points; ///< bit k: point k of the block
+    /// The first of the nodes in the patch of the cell, see Cell::patch; 4
+    /// nodes of the patch are a row.
+    const unsigned int *patch;
+  };
+
+
+
   /// Up to n_points consecutive points of one body, in uniform cells of one
   /// size, with what the kernels need of them side by side: small enough for the
   /// first-level cache, large enough that loops over points fill the registers
@@ -14,26 +28,32 @@ namespace talus
   template <int dim>
   struct Block
   {
-    static constexpr unsigned int n_points = 64;
+    static constexpr unsigned int n_points = 64; ///< bits of Run::points
     /// What is filled a register at a time may go beyond the last point.
     static constexpr unsigned int n_with_spare =
       n_points + Points<dim>::n_spare;
-    using Row = std::array<double, n_points>;
+    using Row          = std::array<double, n_points>;
+    using RowWithSpare = std::array<double, n_with_spare>;
 
-    unsigned int begin   = 0; ///< first point
-    unsigned int size    = 0;
-    unsigned int n_cells = 0;
-    unsigned int body    = 0;
+    /// The points of a cell.
+    struct Piece
+    {
+      unsigned int        begin, end; ///< among those of the block
+      const unsigned int *patch;      ///< Cell::patch
+    };
+
+    unsigned int begin = 0; ///< first point
+    unsigned int size  = 0;
+    unsigned int body  = 0;
     double       cell_size;
 
-    /// Nodes around each of the cells, see Cell::patch.
-    std::array<const unsigned int *, n_points> patch_of_cell;
+    unsigned int                n_pieces = 0;
+    std::array<Piece, n_points> pieces;
+    unsigned int                n_runs = 0;
+    std::array<Run, n_points>   runs;
 
     /// Corner of the cell of each point, m.
-    alignas(64) std::array<std::array<double, n_with_spare>, dim> cell_lower;
-    /// The first of the 3^dim nodes of its cell's patch at which a point has
-    /// weights; 4 nodes of the patch are a row.
-    alignas(64) std::array<const unsigned int *, n_with_spare> nodes;
+    alignas(64) std::array<RowWithSpare, dim> cell_lower;
 
     alignas(64) std::array<std::array<Row, 3>, dim> value;
     alignas(64) std::array<std::array<Row, 3>, dim> gradient; ///< 1/m
@@ -90,26 +110,20 @@ namespace talus
   TALUS_ALWAYS_INLINE void
   prefetch_nodes(const Block<dim> &block, const Address &address)
   {
-    for (unsigned int c = 0; c < block.n_cells; ++c)
+    for (unsigned int c = 0; c < block.n_pieces; ++c)
       for (unsigned int i = 0; i < power(4, dim); ++i)
-        __builtin_prefetch(address(block.patch_of_cell[c][i]));
+        __builtin_prefetch(address(block.pieces[c].patch[i]));
   }
 
 
 
-  /// Call action(begin, end) for the points of the block that follow each other
-  /// and have weights at the same nodes.
-  template <int dim, typename Action>
+  /// Call action(k) for each point of a run.
+  template <typename Action>
   TALUS_ALWAYS_INLINE void
-  for_each_run(const Block<dim> &block, const Action &action)
+  for_each_point(const Run &run, const Action &action)
   {
-    for (unsigned int begin = 0, end; begin < block.size; begin = end)
-      {
-        end = begin + 1;
-        while (end < block.size && block.nodes[end] == block.nodes[begin])
-          ++end;
-        action(begin, end);
-      }
+    for (std::uint64_t left = run.points; left != 0; left &= left - 1)
+      action(__builtin_ctzll(left));
   }
 } // namespace talus
 

@@ -142,20 +142,17 @@ namespace talus
 
 
 
-    /// The addresses of the nodes at which point @p k of the block has weights.
+    /// The addresses of the nodes at which the points of a run have weights.
     template <int dim>
     TALUS_ALWAYS_INLINE void
-    find_nodes(const Block<dim>  &block,
-               const unsigned int k,
-               const double      *motions,
-               const double     **nodes)
+    find_nodes(const Run &run, const double *motions, const double **nodes)
     {
       for (unsigned int l = 0; l < (dim == 3 ? 3 : 1); ++l)
         for (unsigned int j = 0; j < 3; ++j)
           for (unsigned int i = 0; i < 3; ++i)
             nodes[9 * l + 3 * j + i] =
               motions + NodalMotion<dim>::width *
-                          std::size_t(block.nodes[k][16 * l + 4 * j + i]);
+                          std::size_t(run.patch[16 * l + 4 * j + i]);
     }
 
 

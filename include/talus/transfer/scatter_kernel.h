@@ -159,14 +159,12 @@ namespace talus
 
 
 
-    /// Add register @p part of what the points [begin, end) of the block give,
-    /// which have the same nodes.
+    /// Add register @p part of what the points of a run give.
     template <int dim, unsigned int part>
     TALUS_ALWAYS_INLINE void
     add_register(const Block<dim>         &block,
                  const Contributions<dim> &contributions,
-                 const unsigned int        begin,
-                 const unsigned int        end,
+                 const Run                &run,
                  double                   *sums)
     {
       using C                   = Contributions<dim>;
@@ -174,45 +172,45 @@ namespace talus
       constexpr unsigned int at = part * simd_width;
       constexpr bool         has_flux =
         (at >= C::first_of_force && at < C::first_of_force + C::n_of_force);
-      constexpr unsigned int in_flux = (has_flux ? at - C::first_of_force : 0);
+      [[maybe_unused]] constexpr unsigned int in_flux =
+        (has_flux ? at - C::first_of_force : 0);
       constexpr auto entries = std::make_integer_sequence<int, simd_width>();
 
       for (unsigned int plane = 0; plane < (dim == 3 ? 3 : 1); ++plane)
         {
           Number sum[9] = {};
-          for (unsigned int k = begin; k < end; ++k)
-            {
-              Number record = load<Number>(&contributions.record[k][at]);
-              Number flux_y;
-              if constexpr (has_flux)
-                flux_y = load<Number>(&contributions.flux[0][k][in_flux]);
-              if constexpr (dim == 3)
-                {
-                  const double z = block.value[dim - 1][plane][k];
-                  record *= z;
-                  if constexpr (has_flux)
-                    {
-                      record +=
-                        Number(block.gradient[dim - 1][plane][k]) *
-                        load<Number>(&contributions.flux[dim - 2][k][in_flux]);
-                      flux_y *= z;
-                    }
-                }
-              Number x[3];
-              for (unsigned int i = 0; i < 3; ++i)
-                x[i] = factor_along_x<dim, part>(block.value[0][i][k],
-                                                 block.gradient[0][i][k],
-                                                 entries);
-              for (unsigned int j = 0; j < 3; ++j)
-                {
-                  Number row = Number(block.value[1][j][k]) * record;
-                  if constexpr (has_flux)
-                    row += Number(block.gradient[1][j][k]) * flux_y;
-                  for (unsigned int i = 0; i < 3; ++i)
-                    sum[3 * j + i] += x[i] * row;
-                }
-            }
-          const unsigned int *patch = block.nodes[begin] + 16 * plane;
+          for_each_point(run, [&](const unsigned int k) {
+            Number record = load<Number>(&contributions.record[k][at]);
+            Number flux_y;
+            if constexpr (has_flux)
+              flux_y = load<Number>(&contributions.flux[0][k][in_flux]);
+            if constexpr (dim == 3)
+              {
+                const double z = block.value[dim - 1][plane][k];
+                record *= z;
+                if constexpr (has_flux)
+                  {
+                    record +=
+                      Number(block.gradient[dim - 1][plane][k]) *
+                      load<Number>(&contributions.flux[dim - 2][k][in_flux]);
+                    flux_y *= z;
+                  }
+              }
+            Number x[3];
+            for (unsigned int i = 0; i < 3; ++i)
+              x[i] = factor_along_x<dim, part>(block.value[0][i][k],
+                                               block.gradient[0][i][k],
+                                               entries);
+            for (unsigned int j = 0; j < 3; ++j)
+              {
+                Number row = Number(block.value[1][j][k]) * record;
+                if constexpr (has_flux)
+                  row += Number(block.gradient[1][j][k]) * flux_y;
+                for (unsigned int i = 0; i < 3; ++i)
+                  sum[3 * j + i] += x[i] * row;
+              }
+          });
+          const unsigned int *patch = run.patch + 16 * plane;
           for (unsigned int j = 0; j < 3; ++j)
             for (unsigned int i = 0; i < 3; ++i)
               {
@@ -226,20 +224,18 @@ namespace talus
 
 
 
-    /// Add all that the points [begin, end) of the block give, which have the
-    /// same nodes.
+    /// Add all that the points of a run give.
     template <int dim, unsigned int part = 0>
     TALUS_ALWAYS_INLINE void
     add_run(const Block<dim>         &block,
             const Contributions<dim> &contributions,
-            const unsigned int        begin,
-            const unsigned int        end,
+            const Run                &run,
             double                   *sums)
     {
       if constexpr (part * simd_width < NodalSum<dim>::n_entries)
         {
-          add_register<dim, part>(block, contributions, begin, end, sums);
-          add_run<dim, part + 1>(block, contributions, begin, end, sums);
+          add_register<dim, part>(block, contributions, run, sums);
+          add_run<dim, part + 1>(block, contributions, run, sums);
         }
     }
   } // namespace TALUS_SIMD_NAMESPACE

@@ -27,51 +27,39 @@ namespace talus
 
 
 
-  /// Mean over a box of the one-dimensional shape functions around a cell and of
-  /// their derivatives. A box no longer than a cell touches two cells, so that
-  /// three nodes that follow each other have a weight.
+  /// Mean over a box of the one-dimensional shape functions of three nodes that
+  /// follow each other, and of their derivatives.
   template <typename Number>
   struct AxisWeights
   {
-    /// Whether the first of them is the one at -1 in units of the cell, not the
-    /// one at 0.
-    decltype(Number() < Number()) begins_below;
-    std::array<Number, 3>         value;
-    std::array<Number, 3>         gradient; ///< per cell size
+    std::array<Number, 3> value;
+    std::array<Number, 3> gradient; ///< per cell size
   };
 
 
 
-  /// Weights of the box [centre - half, centre + half] along one axis, in units
-  /// of the cell with origin at its lower face. The box must lie in [-1, 2] and
-  /// be no longer than one. The shape functions are the hats of the nodes; their
-  /// integrals over the two cells are taken one by one. @cite bardenhagen2004,
-  /// eq. 36 ff.
+  /// Weights of the box [centre - half, centre + half], which must lie in [0, 2],
+  /// along one axis, at the nodes 0, 1 and 2 in units of the cell. Shape
+  /// functions are the hats of the nodes. Only the third mean is an integral; the
+  /// others follow, since the hats interpolate 1 and x exactly: sum w_i = 1 and
+  /// sum i w_i = centre. @cite bardenhagen2004, eq. 36 ff.
   template <typename Number>
   TALUS_ALWAYS_INLINE AxisWeights<Number>
                       axis_weights(const Number &centre, const Number &half)
   {
-    const Number zero(0.), one(1.);
+    // Of the ends of the box, how far they are in the second cell.
+    const Number zero(0.);
+    const Number a     = max(centre - half - 1., zero);
+    const Number b     = max(centre + half - 1., zero);
+    const Number slope = (b - a) * (0.5 / half);
 
     AxisWeights<Number> w;
-    w.begins_below = centre < half;
-    // The ends of the box, seen from the first node.
-    const Number a     = centre - half + select(w.begins_below, one, zero);
-    const Number b     = a + 2. * half;
-    const Number scale = 0.5 / half;
-    // Of the first cell from the ends of the box on; of the second up to them.
-    const Number a_left = max(1. - a, zero), b_left = max(1. - b, zero);
-    const Number a_right = max(a - 1., zero), b_right = max(b - 1., zero);
-
-    w.value[0] = 0.5 * scale * (a_left * a_left - b_left * b_left);
-    w.value[2] = 0.5 * scale * (b_right * b_right - a_right * a_right);
-    w.value[1] = 1. - w.value[0] - w.value[2];
-
-    const Number in_first  = scale * (a_left - b_left),
-                 in_second = scale * (b_right - a_right);
-    w.gradient[0]          = -in_first;
-    w.gradient[1]          = in_first - in_second;
-    w.gradient[2]          = in_second;
+    w.value[2]    = 0.5 * slope * (b + a);
+    w.value[1]    = centre - 2. * w.value[2];
+    w.value[0]    = (1. - centre) + w.value[2];
+    w.gradient[2] = slope;
+    w.gradient[1] = 1. - 2. * slope;
+    w.gradient[0] = slope - 1.;
     return w;
   }
 } // namespace talus
