@@ -57,7 +57,7 @@ namespace talus
   Splitter<dim>::violates(const PointsView<dim, const double> &points,
                           const unsigned int                   p,
                           const unsigned int                   d,
-                          const double cell_size) const
+                          const double                         cell_size) const
   {
     const Number stretch = load<Number>(points.data(points.stretch, d) + p);
     const Number at_creation =
@@ -104,16 +104,20 @@ namespace talus
       }
     const auto columns = points.view();
     bool       found   = false;
-    for_each_simd(
-      batch.begin, batch.end, [&](const unsigned int p, auto number) {
-        using Number         = decltype(number);
-        auto may_be_violated = violates<Number>(columns, p, 0, least_size);
-        for (unsigned int d = 1; d < dim; ++d)
-          may_be_violated |= violates<Number>(columns, p, d, least_size);
-        found |= any(may_be_violated &
-                     (load<Number>(columns.data(columns.generation) + p) <
-                      Number(maximum_generation_)));
-      });
+    for_each_simd(batch.begin,
+                  batch.end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    using Number = decltype(number);
+                    auto may_be_violated =
+                      violates<Number>(columns, p, 0, least_size);
+                    for (unsigned int d = 1; d < dim; ++d)
+                      may_be_violated |=
+                        violates<Number>(columns, p, d, least_size);
+                    found |=
+                      any(may_be_violated &
+                          (load<Number>(columns.data(columns.generation) + p) <
+                           Number(maximum_generation_)));
+                  });
     return found;
   }
 

@@ -85,18 +85,18 @@ namespace talus
 
   template <int dim>
   void
-  Hencky<dim>::wave_speed(const Points<dim> &points,
-                          const unsigned int begin,
-                          const unsigned int end,
-                          double            *speed) const
+  Hencky<dim>::wave_modulus(const Points<dim> &points,
+                            const unsigned int begin,
+                            const unsigned int end,
+                            double            *modulus) const
   {
-    wave_speed_by_state(points,
-                        begin,
-                        end,
-                        speed,
-                        [moduli = elasticity_.moduli()](const auto &state) {
-                          return largest_modulus(state, moduli);
-                        });
+    wave_modulus_by_state(points,
+                          begin,
+                          end,
+                          modulus,
+                          [moduli = elasticity_.moduli()](const auto &state) {
+                            return largest_modulus(state, moduli);
+                          });
   }
 
 

@@ -1,5 +1,4 @@
 #include <talus/base/errors.h>
-#include <talus/materials/elastic_wave_speed.h>
 #include <talus/materials/herschel_bulkley.h>
 #include <talus/materials/herschel_bulkley_kernel.h>
 #include <talus/materials/inverted_point.h>
@@ -7,6 +6,7 @@
 #include <talus/materials/shear_band.h>
 #include <talus/materials/strength_factor.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace talus
@@ -157,18 +157,22 @@ namespace talus
     bool                  sound      = true;
     with_strength_factor(
       points, this->strength_factor(), [&](const auto &factor) {
-        for_each_simd(begin, end, [&](const unsigned int p, auto number) {
-          sound &= update_herschel_bulkley_point<dim, decltype(number)>(
-            columns,
-            work,
-            p,
-            plastic_shear_strain_,
-            dt,
-            moduli,
-            strength,
-            resistance,
-            factor(p, number));
-        });
+        for_each_simd(begin,
+                      end,
+                      [&](const unsigned int p,
+                          auto               number) TALUS_INLINE_LAMBDA {
+                        sound &=
+                          update_herschel_bulkley_point<dim, decltype(number)>(
+                            columns,
+                            work,
+                            p,
+                            plastic_shear_strain_,
+                            dt,
+                            moduli,
+                            strength,
+                            resistance,
+                            factor(p, number));
+                      });
       });
     if (!sound)
       {
@@ -242,12 +246,12 @@ namespace talus
 
   template <int dim>
   void
-  HerschelBulkley<dim>::wave_speed(const Points<dim> &points,
-                                   const unsigned int begin,
-                                   const unsigned int end,
-                                   double            *speed) const
+  HerschelBulkley<dim>::wave_modulus(const Points<dim> & /*points*/,
+                                     const unsigned int begin,
+                                     const unsigned int end,
+                                     double            *modulus) const
   {
-    elastic_wave_speed(points, begin, end, elasticity_.moduli(), speed);
+    std::fill_n(modulus, end - begin, elasticity_.moduli().longitudinal());
   }
 
 

@@ -1,8 +1,9 @@
-#include <talus/materials/elastic_wave_speed.h>
 #include <talus/materials/inverted_point.h>
 #include <talus/materials/linear_elastic.h>
 #include <talus/materials/linear_elastic_kernel.h>
 #include <talus/materials/load_step.h>
+
+#include <algorithm>
 
 namespace talus
 {
@@ -48,10 +49,12 @@ namespace talus
     const auto   columns = points.view();
     const auto   work    = workspace.view(begin, end);
     bool         sound   = true;
-    for_each_simd(begin, end, [&](const unsigned int p, auto number) {
-      sound &= update_linear_elastic_point<dim, decltype(number)>(
-        columns, work, p, dt, moduli);
-    });
+    for_each_simd(begin,
+                  end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    sound &= update_linear_elastic_point<dim, decltype(number)>(
+                      columns, work, p, dt, moduli);
+                  });
     if (!sound)
       throw_inverted_point(points, begin, end);
   }
@@ -67,8 +70,14 @@ namespace talus
                                 const StrainMeasure       measure,
                                 StressTangent<dim>       *answer) const
   {
-    return linearize_rate_law(
-      points, workspace, begin, end, measure, elasticity_.moduli(), answer, no_flow);
+    return linearize_rate_law(points,
+                              workspace,
+                              begin,
+                              end,
+                              measure,
+                              elasticity_.moduli(),
+                              answer,
+                              no_flow);
   }
 
 
@@ -95,12 +104,12 @@ namespace talus
 
   template <int dim>
   void
-  LinearElastic<dim>::wave_speed(const Points<dim> &points,
-                                 const unsigned int begin,
-                                 const unsigned int end,
-                                 double            *speed) const
+  LinearElastic<dim>::wave_modulus(const Points<dim> & /*points*/,
+                                   const unsigned int begin,
+                                   const unsigned int end,
+                                   double            *modulus) const
   {
-    elastic_wave_speed(points, begin, end, elasticity_.moduli(), speed);
+    std::fill_n(modulus, end - begin, elasticity_.moduli().longitudinal());
   }
 
 

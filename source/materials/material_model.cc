@@ -1,5 +1,6 @@
 #include <talus/base/errors.h>
 #include <talus/materials/material_model.h>
+#include <talus/points/points_kernel.h>
 
 #include <algorithm>
 #include <limits>
@@ -90,6 +91,19 @@ namespace talus
   MaterialModel<dim>::submerged_density() const
   {
     return submerged_density_.empty() ? density_ : submerged_density_.front();
+  }
+
+
+
+  template <int dim>
+  double
+  MaterialModel<dim>::wave_speed(const Points<dim> &points,
+                                 const unsigned int p) const
+  {
+    double modulus;
+    wave_modulus(points, p, p + 1, &modulus);
+    return std::sqrt(modulus * volume_of_points<dim, double>(points, p) /
+                     points.data(points.mass)[p]);
   }
 
 

@@ -1,5 +1,4 @@
 #include <talus/base/errors.h>
-#include <talus/materials/elastic_wave_speed.h>
 #include <talus/materials/inverted_point.h>
 #include <talus/materials/load_step.h>
 #include <talus/materials/shear_band.h>
@@ -7,6 +6,7 @@
 #include <talus/materials/von_mises.h>
 #include <talus/materials/von_mises_kernel.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace talus
@@ -102,17 +102,20 @@ namespace talus
     bool              sound   = true;
     with_strength_factor(
       points, this->strength_factor(), [&](const auto &factor) {
-        for_each_simd(begin, end, [&](const unsigned int p, auto number) {
-          sound &=
-            update_von_mises_point<dim, decltype(number)>(columns,
-                                                          work,
-                                                          p,
-                                                          plastic_strain_,
-                                                          dt,
-                                                          moduli,
-                                                          yield,
-                                                          factor(p, number));
-        });
+        for_each_simd(
+          begin,
+          end,
+          [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+            sound &=
+              update_von_mises_point<dim, decltype(number)>(columns,
+                                                            work,
+                                                            p,
+                                                            plastic_strain_,
+                                                            dt,
+                                                            moduli,
+                                                            yield,
+                                                            factor(p, number));
+          });
       });
     if (!sound)
       throw_inverted_point(points, begin, end);
@@ -187,12 +190,12 @@ namespace talus
 
   template <int dim>
   void
-  VonMises<dim>::wave_speed(const Points<dim> &points,
-                            const unsigned int begin,
-                            const unsigned int end,
-                            double            *speed) const
+  VonMises<dim>::wave_modulus(const Points<dim> & /*points*/,
+                              const unsigned int begin,
+                              const unsigned int end,
+                              double            *modulus) const
   {
-    elastic_wave_speed(points, begin, end, elasticity_.moduli(), speed);
+    std::fill_n(modulus, end - begin, elasticity_.moduli().longitudinal());
   }
 
 

@@ -50,17 +50,18 @@ namespace talus
 
 
 
+  // Squares, since what this takes its time for are divisions and roots: with
+  // c^2 = M V/m and the sum of the inverse half lengths as one fraction, one of
+  // each is enough.
   template <int dim>
   template <typename Number>
   TALUS_ALWAYS_INLINE std::array<Number, 2>
-  TimeStep<dim>::inverse_bounds(const PointsView<dim, const double> &points,
-                                const BoxShape                      &shape,
-                                const unsigned int                   p,
-                                const Number                        &wave_speed,
-                                const Number &inverse_cell_size) const
+  TimeStep<dim>::inverse_squares(const PointsView<dim, const double> &points,
+                                 const BoxShape                      &shape,
+                                 const unsigned int                   p,
+                                 const Number &wave_modulus,
+                                 const Number &inverse_cell_size) const
   {
-    // The sum of the inverse half lengths with a single division, which are
-    // what this takes its time for.
     Number speed_square(0.), numerator(0.), product(1.);
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -71,10 +72,17 @@ namespace talus
         numerator = numerator * half + product;
         product *= half;
       }
+    const auto   mass     = load<Number>(points.data(points.mass) + p);
+    const Number fraction = wave_modulus *
+                            volume_of_points<dim, Number>(points, p) /
+                            (mass * product);
+    const Number wave_square = fraction * product;
+    const Number h_square    = inverse_cell_size * inverse_cell_size;
     const double by_cfl = 1. / cfl_number_, by_box = 0.5 / box_safety_factor_;
     return {
-      {(wave_speed + sqrt(speed_square)) * (inverse_cell_size * by_cfl),
-       wave_speed * sqrt(numerator / product) * (inverse_cell_size * by_box)}};
+      {(wave_square + speed_square + 2. * sqrt(wave_square * speed_square)) *
+         (h_square * (by_cfl * by_cfl)),
+       fraction * numerator * (h_square * (by_box * by_box))}};
   }
 
 
@@ -87,8 +95,7 @@ namespace talus
     for (const Segment &segment : points.segments())
       for (unsigned int p = segment.begin; p < segment.end; ++p)
         {
-          double sum;
-          materials.of_body(segment.body).wave_speed(points, p, p + 1, &sum);
+          double sum = materials.of_body(segment.body).wave_speed(points, p);
           for (unsigned int d = 0; d < dim; ++d)
             sum += points.data(points.velocity, d)[p];
           if (!std::isfinite(sum))
@@ -112,9 +119,9 @@ namespace talus
                       const BoxShape       &shape)
   {
     const unsigned int n = batch.end - batch.begin;
-    if (wave_speed_.size() < n + Points<dim>::n_spare)
+    if (wave_modulus_.size() < n + Points<dim>::n_spare)
       {
-        wave_speed_.resize(n + Points<dim>::n_spare);
+        wave_modulus_.resize(n + Points<dim>::n_spare);
         inverse_cell_size_.resize(n + Points<dim>::n_spare);
       }
     materials.for_runs(points,
@@ -122,10 +129,11 @@ namespace talus
                        [&](const MaterialModel<dim> &model,
                            const unsigned int        begin,
                            const unsigned int        end) {
-                         model.wave_speed(points,
-                                          begin,
-                                          end,
-                                          &wave_speed_[begin - batch.begin]);
+                         model.wave_modulus(
+                           points,
+                           begin,
+                           end,
+                           &wave_modulus_[begin - batch.begin]);
                        });
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
@@ -140,22 +148,25 @@ namespace talus
     const auto       columns = points.view();
     Simd<simd_width> largest(largest_);
     Simd<1>          largest_of_rest(largest_);
-    for_each_simd(
-      batch.begin, batch.end, [&](const unsigned int p, auto number) {
-        using Number         = decltype(number);
-        const unsigned int k = p - batch.begin;
-        const auto         bounds =
-          inverse_bounds<Number>(columns,
-                                 shape,
-                                 p,
-                                 load<Number>(&wave_speed_[k]),
-                                 load<Number>(&inverse_cell_size_[k]));
-        for (const Number &bound : bounds)
-          if constexpr (std::is_same_v<Number, Simd<simd_width>>)
-            largest = larger_or_none(largest, bound);
-          else
-            largest_of_rest = larger_or_none(largest_of_rest, bound);
-      });
+    for_each_simd(batch.begin,
+                  batch.end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    using Number         = decltype(number);
+                    const unsigned int k = p - batch.begin;
+                    const auto         bounds =
+                      inverse_squares<Number>(columns,
+                                              shape,
+                                              p,
+                                              load<Number>(&wave_modulus_[k]),
+                                              load<Number>(
+                                                &inverse_cell_size_[k]));
+                    for (const Number &bound : bounds)
+                      if constexpr (std::is_same_v<Number, Simd<simd_width>>)
+                        largest = larger_or_none(largest, bound);
+                      else
+                        largest_of_rest =
+                          larger_or_none(largest_of_rest, bound);
+                  });
     largest_ = largest_of_rest[0];
     for (unsigned int i = 0; i < simd_width; ++i)
       largest_ = larger_or_none(largest_, largest[i]);
@@ -184,7 +195,7 @@ namespace talus
                            const Materials<dim> &materials) const
   {
     // Infinite where there are no points.
-    const double dt = 1. / largest_;
+    const double dt = 1. / std::sqrt(largest_);
     AssertThrow((std::isfinite(dt) || points.size() == 0) && dt > 0,
                 ExcPoint(text("No time step can be chosen (it would be ",
                               dt,
@@ -209,10 +220,15 @@ namespace talus
     for (const Segment &segment : points.segments())
       for (unsigned int p = segment.begin; p < segment.end; ++p)
         {
-          double c;
-          materials.of_body(segment.body).wave_speed(points, p, p + 1, &c);
-          const auto bounds = inverse_bounds<double>(
-            points.view(), shape, p, c, 1. / grid.cells()[segment.cell].size);
+          const auto &material = materials.of_body(segment.body);
+          double      modulus;
+          material.wave_modulus(points, p, p + 1, &modulus);
+          const auto bounds =
+            inverse_squares<double>(points.view(),
+                                    shape,
+                                    p,
+                                    modulus,
+                                    1. / grid.cells()[segment.cell].size);
           const unsigned int which = (bounds[0] >= bounds[1] ? 0 : 1);
           if (bounds[which] <= largest)
             continue;
@@ -221,7 +237,7 @@ namespace talus
                                    : "the thin box of point ",
                         points.data(points.id)[p],
                         " (wave speed ",
-                        c,
+                        material.wave_speed(points, p),
                         " m/s)");
         }
     // The first of the ranks with the shortest step has the word.
@@ -234,7 +250,7 @@ namespace talus
           largest = bound;
           reason  = reason_there;
         }
-    if (maximum_ > 0 && 1. / largest > maximum_)
+    if (maximum_ > 0 && 1. / std::sqrt(largest) > maximum_)
       return "'Time step/Maximum'";
     return reason;
   }

@@ -5,92 +5,14 @@
 
 namespace talus
 {
-  /// Ask for the cell of that segment of the next batch whose turn comes as long
-  /// after its begin as this segment's: the first phase of that batch would else
-  /// wait for each of its cells. (Not inlined, GCC leaves it out.)
-  template <int dim>
-  DEAL_II_ALWAYS_INLINE inline void
-  BlockWalk<dim>::fetch_cell_ahead() const
-  {
-    constexpr int     for_reading = 0, into_second_level_cache = 2;
-    constexpr auto    line     = alignof(Cell<dim>);
-    const auto       &segments = points_.segments();
-    const std::size_t ahead    = std::size_t(segment_) + n_segments_;
-    if (ahead >= segments.size())
-      return;
-    const auto *const cell =
-      reinterpret_cast<const char *>(&grid_.cells()[segments[ahead].cell]);
-    for (std::size_t i = 0; i < sizeof(Cell<dim>); i += line)
-      __builtin_prefetch(cell + i, for_reading, into_second_level_cache);
-  }
-
-
-
-  template <int dim>
-  void
-  BlockWalk<dim>::take_piece(Block<dim>        &block,
-                             const Segment     &segment,
-                             const unsigned int n)
-  {
-    using Number             = Simd<simd_width>;
-    const Cell<dim>   &cell  = grid_.cells()[segment.cell];
-    const unsigned int begin = block.size, end = begin + n;
-    fetch_cell_ahead();
-    block.pieces[block.n_pieces++] = {begin, end, cell.patch.data()};
-    // Whole registers: what goes beyond the end is overwritten by the next
-    // piece. One is mostly enough.
-#pragma GCC unroll 1
-    for (unsigned int k = begin; k < end; k += simd_width)
-      for (unsigned int d = 0; d < dim; ++d)
-        store(&block.cell_lower[d][k], Number(cell.lower[d]));
-    block.size = end;
-  }
-
-
-
   namespace
   {
-    /// Points of a block, a bit for each.
-    using Bits = std::uint64_t;
-
-    /// Boxes along one axis, in units of the cell, from its lower face on.
-    template <int dim>
-    struct Boxes
+    /// Of a block, which boxes reach beyond the lower face of their cell along
+    /// an axis, and which do not reach its upper one.
+    struct Reach
     {
-      alignas(64) typename Block<dim>::RowWithSpare centre, half;
-      /// Boxes that reach beyond the lower and the upper face of their cell.
-      Bits reach_below = 0, reach_above = 0;
+      PointsOfBlock below = 0, inside_above = 0;
     };
-
-
-
-    template <int dim>
-    void
-    find_boxes(const Block<dim>                    &block,
-               const PointsView<dim, const double> &points,
-               const BoxShape                      &shape,
-               Boxes<dim> (&boxes)[dim])
-    {
-      using Number              = Simd<simd_width>;
-      const Number inverse_size = 1. / block.cell_size;
-      // Whole registers: what lies behind the last point of the block is
-      // computed, too, from whatever is there, and never used.
-      for (unsigned int k = 0; k < block.size; k += simd_width)
-#pragma GCC unroll 3
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const unsigned int p = block.begin + k;
-            const auto x = load<Number>(points.data(points.position, d) + p);
-            const auto lower  = load<Number>(&block.cell_lower[d][k]);
-            const auto centre = (x - lower) * inverse_size;
-            const auto half =
-              half_length_in_cells<dim>(points, shape, d, p, inverse_size);
-            store(&boxes[d].centre[k], centre);
-            store(&boxes[d].half[k], half);
-            boxes[d].reach_below |= Bits((centre < half).bits()) << k;
-            boxes[d].reach_above |= Bits((centre + half > 1.).bits()) << k;
-          }
-    }
 
 
 
@@ -99,71 +21,70 @@ namespace talus
     /// as well as with those that do not. Take the side that leaves most
     /// points of the cell with the same nodes: below if any box must. Returns,
     /// of @p these points, those whose nodes begin below the cell.
-    template <int dim>
-    Bits
-    begin_below(const Boxes<dim> &boxes, const Bits these)
+    PointsOfBlock
+    begin_below(const Reach &reach, const PointsOfBlock these)
     {
-      return (boxes.reach_below & these) != 0 ? these & ~boxes.reach_above : 0;
+      return (reach.below & these) != 0 ? these & reach.inside_above : 0;
     }
 
 
 
-    /// Part @p these points of a cell into runs.
+    /// Add a run of @p points, if there are any, whose nodes begin below the
+    /// cell along the axes where bit d of @p above is not set.
     template <int dim>
     void
-    add_runs(Block<dim>                               &block,
-             const unsigned int                       *patch,
-             const Bits                                these,
-             const std::array<Bits, std::size_t(dim)> &below)
+    add_run(Block<dim>         &block,
+            const unsigned int *patch,
+            const PointsOfBlock points,
+            const unsigned int  above)
     {
-      for (unsigned int corner = 0; corner < power(2, dim); ++corner)
+      if (points == 0)
+        return;
+      auto &run  = block.runs[block.n_runs++];
+      run.points = points;
+      run.patch  = patch;
+      for (unsigned int d = 0; d < dim; ++d)
         {
-          Bits         points = these;
-          unsigned int first  = 0;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              const bool is_above = (corner >> d) & 1;
-              points &= (is_above ? ~below[d] : below[d]);
-              first += is_above * power(4, d);
-            }
-          if (points != 0)
-            block.runs[block.n_runs++] = {points, patch + first};
+          const unsigned int i = (above >> d) & 1;
+          run.patch += i * power(4, d);
+          run.weights[d] = &block.weights[d][i * Block<dim>::n_points];
         }
     }
 
 
 
-    /// Part the points of each cell into runs. On return @p boxes has in
-    /// reach_below the points whose nodes begin below the cell.
+    /// Part the points of each cell into runs.
     template <int dim>
     void
-    find_runs(Block<dim> &block, Boxes<dim> (&boxes)[dim])
+    find_runs(Block<dim> &block, const Reach (&reach)[dim])
     {
       block.n_runs = 0;
-      std::array<Bits, dim> below{};
       for (unsigned int i = 0; i < block.n_pieces; ++i)
         {
-          const auto &piece = block.pieces[i];
-          const Bits  all   = (~Bits(0) >> (64 - (piece.end - piece.begin)))
-                           << piece.begin;
-          std::array<Bits, dim> below_here;
-          bool                  is_one_run = true;
-          unsigned int          first      = 0;
+          const auto         &piece = block.pieces[i];
+          const PointsOfBlock all =
+            (~PointsOfBlock(0) >> (64 - (piece.end - piece.begin)))
+            << piece.begin;
+          PointsOfBlock below[dim];
+          bool          is_one_run = true;
+          unsigned int  above      = 0;
           for (unsigned int d = 0; d < dim; ++d)
             {
-              below_here[d] = begin_below(boxes[d], all);
-              below[d] |= below_here[d];
-              is_one_run =
-                is_one_run & (below_here[d] == 0 || below_here[d] == all);
-              first += (below_here[d] == 0) * power(4, d);
+              below[d]   = begin_below(reach[d], all);
+              is_one_run = is_one_run & (below[d] == 0 || below[d] == all);
+              above |= (below[d] == 0) << d;
             }
           if (is_one_run)
-            block.runs[block.n_runs++] = {all, piece.patch + first};
+            add_run(block, piece.patch, all, above);
           else
-            add_runs(block, piece.patch, all, below_here);
+            for (unsigned int corner = 0; corner < power(2, dim); ++corner)
+              {
+                PointsOfBlock points = all;
+                for (unsigned int d = 0; d < dim; ++d)
+                  points &= ((corner >> d) & 1 ? ~below[d] : below[d]);
+                add_run(block, piece.patch, points, corner);
+              }
         }
-      for (unsigned int d = 0; d < dim; ++d)
-        boxes[d].reach_below = below[d];
     }
   } // namespace
 
@@ -173,27 +94,50 @@ namespace talus
   void
   BlockWalk<dim>::compute_weights(Block<dim> &block) const
   {
-    Boxes<dim> boxes[dim];
-    find_boxes(block, points_.view(), shape_, boxes);
-    find_runs(block, boxes);
-
-    using Number              = Simd<simd_width>;
-    const Number inverse_size = 1. / block.cell_size;
+    using Number                        = Simd<simd_width>;
+    constexpr unsigned int n            = Block<dim>::n_points;
+    const auto             points       = points_.view();
+    const Number           inverse_size = 1. / block.cell_size;
+    Reach                  reach[dim];
+    // Whole registers: what lies behind the last point of the block is
+    // computed, too, from whatever is there, and never used.
     for (unsigned int k = 0; k < block.size; k += simd_width)
 #pragma GCC unroll 3
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const auto below = Number::Mask::of_bits(boxes[d].reach_below >> k);
-          const auto w     = axis_weights(load<Number>(&boxes[d].centre[k]) +
-                                        select(below, Number(1.), Number(0.)),
-                                      load<Number>(&boxes[d].half[k]));
-          for (unsigned int i = 0; i < 3; ++i)
+          const unsigned int p = block.begin + k;
+          const auto x     = load<Number>(points.data(points.position, d) + p);
+          const auto lower = load<Number>(&block.cell_lower[d][k]);
+          const auto half =
+            half_length_in_cells<dim>(points, shape_, d, p, inverse_size);
+          const auto    w  = axis_weights((x - lower) * inverse_size, half);
+          double *const to = &block.weights[d][k];
+          for (unsigned int i = 0; i < 4; ++i)
             {
-              store(&block.value[d][i][k], w.value[i]);
-              store(&block.gradient[d][i][k], w.gradient[i] * inverse_size);
+              store(to + n * i, w.value[i]);
+              store(to + Block<dim>::begin_of_gradient + n * i, w.gradient[i]);
             }
+          reach[d].below |= PointsOfBlock(w.lower_end.sign_bits()) << k;
+          reach[d].inside_above |= PointsOfBlock(w.upper_end.sign_bits()) << k;
         }
+    find_runs(block, reach);
   }
+
+
+
+  namespace
+  {
+    /// Ask for a cell. (Not inlined, GCC leaves it out.)
+    template <int dim>
+    TALUS_ALWAYS_INLINE void
+    prefetch(const Cell<dim> &cell)
+    {
+      constexpr int     for_reading = 0, into_second_level_cache = 2;
+      const auto *const bytes = reinterpret_cast<const char *>(&cell);
+      for (std::size_t i = 0; i < sizeof(Cell<dim>); i += alignof(Cell<dim>))
+        __builtin_prefetch(bytes + i, for_reading, into_second_level_cache);
+    }
+  } // namespace
 
 
 
@@ -201,39 +145,51 @@ namespace talus
   bool
   BlockWalk<dim>::next(Block<dim> &block)
   {
-    block.size           = 0;
-    block.n_pieces       = 0;
-    const auto &segments = points_.segments();
-    for (; segment_ < last_segment_; ++segment_, taken_ = 0)
+    const std::vector<Segment> &segments = points_.segments();
+    const Cell<dim> *const      cells    = grid_.cells().data();
+    unsigned int                size = 0, n_pieces = 0;
+    for (; segment_ < last_segment_; ++segment_)
       {
         const Segment   &segment = segments[segment_];
-        const Cell<dim> &cell    = grid_.cells()[segment.cell];
-        if (block.size == 0)
+        const Cell<dim> &cell    = cells[segment.cell];
+        if (n_pieces == 0)
           {
             if (!cell.uniform)
               continue;
-            block.begin     = segment.begin + taken_;
+            point_          = std::max(point_, segment.begin);
+            block.begin     = point_;
             block.body      = segment.body;
             block.cell_size = cell.size;
           }
         else if (!cell.uniform || segment.body != block.body ||
                  cell.size != block.cell_size)
           break;
-        const unsigned int left = segment.end - segment.begin - taken_;
-        const unsigned int room = Block<dim>::n_points - block.size;
-        take_piece(block, segment, std::min(left, room));
-        if (left >= room)
+        // The first phase of the next batch would else wait for each of its
+        // cells: each one is asked for when its turn is a batch later.
+        if (const std::size_t ahead = std::size_t(segment_) + n_segments_;
+            ahead < segments.size())
+          prefetch(cells[segments[ahead].cell]);
+
+        const unsigned int end =
+          std::min(size + (segment.end - point_), Block<dim>::n_points);
+        block.pieces[n_pieces++] = {size, end, cell.patch.data()};
+        // Whole registers: what goes beyond the end is overwritten by the next
+        // piece. One is mostly enough.
+#pragma GCC unroll 1
+        for (unsigned int k = size; k < end; k += simd_width)
+          for (unsigned int d = 0; d < dim; ++d)
+            store(&block.cell_lower[d][k], Simd<simd_width>(cell.lower[d]));
+        point_ += end - size;
+        size = end;
+        if (size == Block<dim>::n_points)
           {
-            taken_ += room;
-            if (left == room)
-              {
-                ++segment_;
-                taken_ = 0;
-              }
+            segment_ += (point_ == segment.end);
             break;
           }
       }
-    if (block.size == 0)
+    block.size     = size;
+    block.n_pieces = n_pieces;
+    if (size == 0)
       return false;
     compute_weights(block);
     return true;

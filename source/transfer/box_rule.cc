@@ -85,16 +85,17 @@ namespace talus
                                   const unsigned int        end,
                                   const double              dt)
     {
-      for_each_simd(begin, end, [&](const unsigned int p, auto number) {
-        using Number = decltype(number);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            double      *stretch = points.data(points.stretch, d) + p;
-            const Number strain =
-              dt * load<Number>(workspace.velocity_gradient(d, d) + p);
-            store(stretch, load<Number>(stretch) * exp_by_series(strain));
-          }
-      });
+      for_each_simd(
+        begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+          using Number = decltype(number);
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              double      *stretch = points.data(points.stretch, d) + p;
+              const Number strain =
+                dt * load<Number>(workspace.velocity_gradient(d, d) + p);
+              store(stretch, load<Number>(stretch) * exp_by_series(strain));
+            }
+        });
     }
   } // namespace
 
@@ -116,14 +117,15 @@ namespace talus
           columns, workspace.view(begin, end), begin, end, dt);
         return;
       }
-    for_each_simd(begin, end, [&](const unsigned int p, auto number) {
-      using Number = decltype(number);
-      const auto F =
-        load_matrix<dim, Number>(columns, columns.deformation_gradient, p);
-      const auto stretch = stretch_along_axes<dim>(F, rule);
-      for (unsigned int d = 0; d < dim; ++d)
-        store(columns.data(columns.stretch, d) + p, stretch[d]);
-    });
+    for_each_simd(
+      begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+        using Number = decltype(number);
+        const auto F =
+          load_matrix<dim, Number>(columns, columns.deformation_gradient, p);
+        const auto stretch = stretch_along_axes<dim>(F, rule);
+        for (unsigned int d = 0; d < dim; ++d)
+          store(columns.data(columns.stretch, d) + p, stretch[d]);
+      });
   }
 
 

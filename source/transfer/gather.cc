@@ -26,7 +26,7 @@ namespace talus
           const double *nodes[power(3, dim)];
           find_nodes<dim>(block.runs[r], motions, nodes);
           for_each_point(block.runs[r], [&](const unsigned int k) {
-            interpolate(block, k, nodes, motion.row[k]);
+            interpolate<dim>(block.runs[r], k, nodes, motion.row[k]);
           });
         }
     }
@@ -73,27 +73,31 @@ namespace talus
         });
         interpolate_to_block(block, points, nodes.motion(0), motion);
         const auto loads_here = loads.view(block.body);
-        for_each_simd(0, block.size, [&](const unsigned int k, auto number) {
-          using Number         = decltype(number);
-          const unsigned int p = block.begin + k;
-          power.add(k,
-                    move_points<dim, Number>(columns,
-                                             work,
-                                             p,
-                                             MotionEntries<dim, Number>(
-                                               &motion.row[k]),
-                                             loads_here,
-                                             flip_fraction_,
-                                             dt));
-          Number lower[dim];
-          for (unsigned int d = 0; d < dim; ++d)
-            lower[d] = load<Number>(&block.cell_lower[d][k]);
-          note_points_out_of_cell(
-            is_inside<dim, Number>(columns, p, lower, block.cell_size),
-            p,
-            sizeof(Number) / sizeof(double),
-            workspace.points_out_of_cell());
-        });
+        for_each_simd(
+          0,
+          block.size,
+          [&](const unsigned int k, auto number) TALUS_INLINE_LAMBDA {
+            using Number         = decltype(number);
+            const unsigned int p = block.begin + k;
+            power.add(k,
+                      move_points<dim, Number>(columns,
+                                               work,
+                                               1. / block.cell_size,
+                                               p,
+                                               MotionEntries<dim, Number>(
+                                                 &motion.row[k]),
+                                               loads_here,
+                                               flip_fraction_,
+                                               dt));
+            Number lower[dim];
+            for (unsigned int d = 0; d < dim; ++d)
+              lower[d] = load<Number>(&block.cell_lower[d][k]);
+            note_points_out_of_cell(
+              is_inside<dim, Number>(columns, p, lower, block.cell_size),
+              p,
+              sizeof(Number) / sizeof(double),
+              workspace.points_out_of_cell());
+          });
       }
     double power_elsewhere = 0;
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)

@@ -32,7 +32,7 @@ namespace talus
         for (unsigned int k = 0; k < block.size; ++k)
           points.fetch_ahead(block.begin + k, points.elastic_energy);
         for (unsigned int r = 0; r < block.n_runs; ++r)
-          add_run(block, contributions, block.runs[r], sums);
+          add_run<dim>(contributions, block.runs[r], sums);
       }
     // Cells whose neighbours differ in size.
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)

@@ -147,16 +147,18 @@ namespace talus
         return;
       }
     const auto columns = points.view();
-    for_each_simd(
-      batch.begin, batch.end, [&](const unsigned int p, auto number) {
-        using Number = decltype(number);
-        Number q(0.);
-        for (unsigned int d = 0; d < dim; ++d)
-          q += load<Number>(columns.data(columns.stress, d) + p);
-        const unsigned int k = p - batch.begin;
-        store(shift + k, q * (1. / dim));
-        store(volume + k, volume_of_points<dim, Number>(columns, p));
-      });
+    for_each_simd(batch.begin,
+                  batch.end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    using Number = decltype(number);
+                    Number q(0.);
+                    for (unsigned int d = 0; d < dim; ++d)
+                      q += load<Number>(columns.data(columns.stress, d) + p);
+                    const unsigned int k = p - batch.begin;
+                    store(shift + k, q * (1. / dim));
+                    store(volume + k,
+                          volume_of_points<dim, Number>(columns, p));
+                  });
     subtract_from_mean(points, batch, volume, shift);
   }
 
@@ -174,13 +176,16 @@ namespace talus
     const auto    work    = workspace.view(batch.begin, batch.end);
     double *const volume  = workspace.scratch(0);
     double *const rate    = workspace.scratch(1);
-    for_each_simd(
-      batch.begin, batch.end, [&](const unsigned int p, auto number) {
-        using Number         = decltype(number);
-        const unsigned int k = p - batch.begin;
-        store(rate + k, trace(load_velocity_gradient<dim, Number>(work, p)));
-        store(volume + k, volume_of_points<dim, Number>(columns, p));
-      });
+    for_each_simd(batch.begin,
+                  batch.end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    using Number         = decltype(number);
+                    const unsigned int k = p - batch.begin;
+                    store(rate + k,
+                          trace(load_velocity_gradient<dim, Number>(work, p)));
+                    store(volume + k,
+                          volume_of_points<dim, Number>(columns, p));
+                  });
     subtract_from_mean(points, batch, volume, rate);
     for (unsigned int d = 0; d < dim; ++d)
       {

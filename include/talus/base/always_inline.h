@@ -5,4 +5,7 @@
 /// line, which costs more than they do.
 #define TALUS_ALWAYS_INLINE inline __attribute__((always_inline))
 
+/// The same for a lambda function: [](...) TALUS_INLINE_LAMBDA { ... }.
+#define TALUS_INLINE_LAMBDA __attribute__((always_inline))
+
 #endif

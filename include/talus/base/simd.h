@@ -261,6 +261,17 @@ namespace talus
           return value[i];
       }
 
+      /// Bit i is set if entry i is negative.
+      TALUS_ALWAYS_INLINE unsigned int
+      sign_bits() const
+      {
+#if defined(__AVX__)
+        if constexpr (n == 4)
+          return _mm256_movemask_pd(value);
+#endif
+        return (*this < Simd(0.)).bits();
+      }
+
       TALUS_ALWAYS_INLINE Simd &
       operator+=(const Simd &b)
       {

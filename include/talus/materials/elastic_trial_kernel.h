@@ -1,8 +1,8 @@
 #ifndef talus_materials_elastic_trial_kernel_h
 #define talus_materials_elastic_trial_kernel_h
 
-#include <talus/materials/elasticity.h>
 #include <talus/materials/kinematics_kernel.h>
+#include <talus/materials/moduli.h>
 
 namespace talus
 {

@@ -1,22 +1,14 @@
 #ifndef talus_materials_elasticity_h
 #define talus_materials_elasticity_h
 
+#include <talus/materials/moduli.h>
+
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <string>
 
 namespace talus
 {
-  /// Elastic constants of an isotropic material, Pa.
-  struct Moduli
-  {
-    double lambda; ///< Lamé's first constant
-    double mu;     ///< shear modulus
-    double bulk;   ///< bulk modulus
-  };
-
-
-
   /// The two elastic parameters that all laws have.
   class Elasticity
   {

@@ -2,8 +2,8 @@
 #define talus_materials_hencky_kernel_h
 
 #include <talus/base/dual.h>
-#include <talus/materials/elasticity.h>
 #include <talus/materials/hyperelastic_kernel.h>
+#include <talus/materials/moduli.h>
 
 #include <algorithm>
 #include <limits>

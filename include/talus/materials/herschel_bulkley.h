@@ -69,10 +69,10 @@ namespace talus
     }
 
     void
-    wave_speed(const Points<dim> &points,
-               unsigned int       begin,
-               unsigned int       end,
-               double            *speed) const override;
+    wave_modulus(const Points<dim> &points,
+                 unsigned int       begin,
+                 unsigned int       end,
+                 double            *modulus) const override;
 
     bool
     is_hyperelastic() const override

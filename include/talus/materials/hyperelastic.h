@@ -21,37 +21,38 @@ namespace talus
     const auto columns = points.view();
     const auto work    = workspace.view(begin, end);
     bool       sound   = true;
-    for_each_simd(begin, end, [&](const unsigned int p, auto number) {
-      sound &= update_point_by_state<dim, decltype(number)>(
-        columns, work, p, dt, response);
-    });
+    for_each_simd(begin,
+                  end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    sound &= update_point_by_state<dim, decltype(number)>(
+                      columns, work, p, dt, response);
+                  });
     if (!sound)
       throw_inverted_point(points, begin, end);
   }
 
 
 
-  /// Wave speed sqrt(M/rho) of all hyperelastic laws: @p modulus maps a
+  /// MaterialModel::wave_modulus() of all hyperelastic laws: @p modulus maps a
   /// DeformationState to J M, M the largest eigenvalue of the acoustic tensor
-  /// over all directions, and rho = m/(V0 J).
+  /// over all directions.
   template <int dim, typename Modulus>
   inline void
-  wave_speed_by_state(const Points<dim> &points,
-                      const unsigned int begin,
-                      const unsigned int end,
-                      double            *speed,
-                      const Modulus     &modulus)
+  wave_modulus_by_state(const Points<dim> &points,
+                        const unsigned int begin,
+                        const unsigned int end,
+                        double            *to,
+                        const Modulus     &modulus)
   {
     const auto columns = points.view();
-    for_each_simd(begin, end, [&](const unsigned int p, auto number) {
-      using Number     = decltype(number);
-      const auto state = deformation_state<dim, Number>(
-        load_matrix<dim, Number>(columns, columns.deformation_gradient, p));
-      const auto V0 = load<Number>(columns.data(columns.reference_volume) + p);
-      const auto m  = load<Number>(columns.data(columns.mass) + p);
-      const Number JM = modulus(state);
-      store<Number>(speed + (p - begin), sqrt(JM * V0 / m));
-    });
+    for_each_simd(
+      begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+        using Number     = decltype(number);
+        const auto state = deformation_state<dim, Number>(
+          load_matrix<dim, Number>(columns, columns.deformation_gradient, p));
+        const Number JM = modulus(state);
+        store<Number>(to + (p - begin), JM / (1. + state.J_minus_1));
+      });
   }
 } // namespace talus
 

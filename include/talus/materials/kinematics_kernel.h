@@ -188,6 +188,58 @@ namespace talus
 
 
 
+  /// What mid-step sees of the displacement of a step: its gradient G by the
+  /// position there, and half of the rotation by skew G.
+  template <int dim, typename Number>
+  struct MidStep
+  {
+    Matrix<dim, Number>       G;
+    HalfRotation<dim, Number> half_rotation;
+  };
+
+
+
+  /// G = H (I + H/2)^-1. In 2-D that is (H + (det H)/2 I)/D, D = det (I + H/2),
+  /// and the half rotation of half_rotation(), t = w/(4 D), w the difference of
+  /// the shears, takes the same division.
+  template <typename Number>
+  TALUS_ALWAYS_INLINE MidStep<2, Number>
+                      mid_step(const Matrix<2, Number> &H)
+  {
+    const Number det = determinant(H);
+    const Number D = 1. + 0.5 * trace(H) + 0.25 * det, D4 = 4. * D;
+    const Number w = H[1][0] - H[0][1], square = D4 * D4 + w * w;
+    const Number both      = 1. / (D * square);
+    const Number inverse_D = both * square, inverse_square = both * D;
+
+    MidStep<2, Number> result;
+    result.G[0][0]              = (H[0][0] + 0.5 * det) * inverse_D;
+    result.G[0][1]              = H[0][1] * inverse_D;
+    result.G[1][0]              = H[1][0] * inverse_D;
+    result.G[1][1]              = (H[1][1] + 0.5 * det) * inverse_D;
+    result.half_rotation.cosine = (D4 * D4 - w * w) * inverse_square;
+    result.half_rotation.sine   = 2. * w * D4 * inverse_square;
+    return result;
+  }
+
+
+
+  template <typename Number>
+  TALUS_ALWAYS_INLINE MidStep<3, Number>
+                      mid_step(const Matrix<3, Number> &H)
+  {
+    auto middle = identity<3, Number>();
+    for (unsigned int i = 0; i < 3; ++i)
+      for (unsigned int j = 0; j < 3; ++j)
+        middle[i][j] += 0.5 * H[i][j];
+    MidStep<3, Number> result;
+    result.G             = product(H, inverse(middle));
+    result.half_rotation = half_rotation(result.G);
+    return result;
+  }
+
+
+
   /// Split the motion of a step into strain and rotation. G is the displacement
   /// of the step derived by the position at mid-step: free of strain if the
   /// motion is a rotation, however large @cite hughes1980. The trace of G
@@ -197,23 +249,19 @@ namespace talus
   TALUS_ALWAYS_INLINE StrainIncrement<dim, Number>
                       strain_increment(const Motion<dim, Number> &motion)
   {
-    auto mid_step = identity<dim, Number>();
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        mid_step[i][j] += 0.5 * motion.increment[i][j];
-    const auto G = product(motion.increment, inverse(mid_step));
-
+    const auto                   middle = mid_step(motion.increment);
+    const auto                  &G      = middle.G;
     StrainIncrement<dim, Number> strain;
     strain.volumetric = log1p_by_series(motion.dilatation);
 
     const Number        mean = trace(G) * (1. / 3.);
     Stress<dim, Number> D;
-    D[2] = Number{};
+    D[2] = Number(0.);
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = i; j < dim; ++j)
         D[stress_index<dim>(i, j)] = 0.5 * (G[i][j] + G[j][i]);
-    strain.deviatoric    = add_mean(D, -mean);
-    strain.half_rotation = half_rotation(G);
+    strain.deviatoric    = add_mean(D, Number(-mean));
+    strain.half_rotation = middle.half_rotation;
     return strain;
   }
 } // namespace talus

@@ -129,13 +129,17 @@ namespace talus
     virtual double
     shear_modulus() const = 0;
 
-    /// Speed of the fastest wave at each point of the batch, m/s, written to
-    /// speed[p - begin].
+    /// Modulus M = rho c^2 of the fastest wave at each point of the batch, c its
+    /// speed and rho the present density, Pa; written to modulus[p - begin].
     virtual void
-    wave_speed(const Points<dim> &points,
-               unsigned int       begin,
-               unsigned int       end,
-               double            *speed) const = 0;
+    wave_modulus(const Points<dim> &points,
+                 unsigned int       begin,
+                 unsigned int       end,
+                 double            *modulus) const = 0;
+
+    /// Speed of the fastest wave at point @p p, m/s.
+    double
+    wave_speed(const Points<dim> &points, unsigned int p) const;
 
     /// True if the stress is a function of the deformation gradient, so that an
     /// initial stress cannot be prescribed.

@@ -1,8 +1,8 @@
 #ifndef talus_materials_neo_hookean_kernel_h
 #define talus_materials_neo_hookean_kernel_h
 
-#include <talus/materials/elasticity.h>
 #include <talus/materials/hyperelastic_kernel.h>
+#include <talus/materials/moduli.h>
 
 namespace talus
 {

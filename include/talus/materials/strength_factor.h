@@ -35,9 +35,9 @@ namespace talus
     if (column == dealii::numbers::invalid_unsigned_int)
       action([](unsigned int, auto) { return NoStrengthFactor{}; });
     else
-      action([factor = points.data(column)](const unsigned int p, auto number) {
-        return load<decltype(number)>(factor + p);
-      });
+      action(
+        [factor = points.data(column)](const unsigned int p, auto number)
+          TALUS_INLINE_LAMBDA { return load<decltype(number)>(factor + p); });
   }
 } // namespace talus
 

@@ -60,14 +60,14 @@ namespace talus
                const BoxShape       &shape) const;
 
   private:
-    /// Inverse of both bounds at point(s) p.
+    /// Squares of the inverse of both bounds at point(s) p, 1/s^2.
     template <typename Number>
     std::array<Number, 2>
-    inverse_bounds(const PointsView<dim, const double> &points,
-                   const BoxShape                      &shape,
-                   unsigned int                         p,
-                   const Number                        &wave_speed,
-                   const Number &inverse_cell_size) const;
+    inverse_squares(const PointsView<dim, const double> &points,
+                    const BoxShape                      &shape,
+                    unsigned int                         p,
+                    const Number                        &wave_modulus,
+                    const Number &inverse_cell_size) const;
 
     /// Name and place of the first point whose speed is not finite.
     std::string
@@ -78,11 +78,11 @@ namespace talus
     double box_safety_factor_ = 0.9;
     double maximum_           = 0.;
 
-    /// The largest inverse bound so far, 1/s.
+    /// The largest inverse square of a bound so far, 1/s^2.
     double largest_ = 0;
 
     // Of a batch.
-    std::vector<double> wave_speed_;
+    std::vector<double> wave_modulus_;
     std::vector<double> inverse_cell_size_;
   };
 } // namespace talus

@@ -10,14 +10,8 @@
 
 namespace talus
 {
-  /// Points of a block in one cell with weights at the same 3^dim nodes.
-  struct Run
-  {
-    std::uint64_t points; ///< bit k: point k of the block
-    /// The first of the nodes in the patch of the cell, see Cell::patch; 4
-    /// nodes of the patch are a row.
-    const unsigned int *patch;
-  };
+  /// Points of a block: bit k is point k.
+  using PointsOfBlock = std::uint64_t;
 
 
 
@@ -28,12 +22,44 @@ namespace talus
   template <int dim>
   struct Block
   {
-    static constexpr unsigned int n_points = 64; ///< bits of Run::points
+    static constexpr unsigned int n_points = 64; ///< bits of PointsOfBlock
     /// What is filled a register at a time may go beyond the last point.
     static constexpr unsigned int n_with_spare =
       n_points + Points<dim>::n_spare;
-    using Row          = std::array<double, n_points>;
-    using RowWithSpare = std::array<double, n_with_spare>;
+
+    /// Weights along an axis, point by point in rows: at the nodes -1, 0, 1 and
+    /// 2 of the cell, and their derivatives there, per cell size.
+    static constexpr unsigned int begin_of_gradient = 4 * n_points;
+    using Weights = std::array<double, 8 * n_points>;
+
+    /// Points in one cell with weights at the same 3^dim nodes.
+    struct Run
+    {
+      PointsOfBlock points;
+      /// The first of the nodes in the patch of the cell, see Cell::patch; 4
+      /// nodes of the patch are a row.
+      const unsigned int *patch;
+      /// The rows of the weights of that node.
+      std::array<const double *, dim> weights;
+
+      /// Weight of point @p k at node @p i of three along axis @p d.
+      TALUS_ALWAYS_INLINE double
+      value(const unsigned int d,
+            const unsigned int i,
+            const unsigned int k) const
+      {
+        return weights[d][n_points * i + k];
+      }
+
+      /// Its derivative along the axis, per cell size.
+      TALUS_ALWAYS_INLINE double
+      gradient(const unsigned int d,
+               const unsigned int i,
+               const unsigned int k) const
+      {
+        return weights[d][begin_of_gradient + n_points * i + k];
+      }
+    };
 
     /// The points of a cell.
     struct Piece
@@ -53,10 +79,9 @@ namespace talus
     std::array<Run, n_points>   runs;
 
     /// Corner of the cell of each point, m.
-    alignas(64) std::array<RowWithSpare, dim> cell_lower;
+    alignas(64) std::array<std::array<double, n_with_spare>, dim> cell_lower;
 
-    alignas(64) std::array<std::array<Row, 3>, dim> value;
-    alignas(64) std::array<std::array<Row, 3>, dim> gradient; ///< 1/m
+    alignas(64) std::array<Weights, dim> weights;
   };
 
 
@@ -85,10 +110,6 @@ namespace talus
 
   private:
     void
-    fetch_cell_ahead() const;
-    void
-    take_piece(Block<dim> &block, const Segment &segment, unsigned int n);
-    void
     compute_weights(Block<dim> &block) const;
 
     const Points<dim> &points_;
@@ -97,7 +118,7 @@ namespace talus
     unsigned int       segment_;
     unsigned int       last_segment_;
     unsigned int       n_segments_; ///< of the batch
-    unsigned int       taken_ = 0;  ///< points of the segment
+    unsigned int       point_ = 0;  ///< the next one
   };
 
 
@@ -110,19 +131,21 @@ namespace talus
   TALUS_ALWAYS_INLINE void
   prefetch_nodes(const Block<dim> &block, const Address &address)
   {
+    constexpr unsigned int n = power(4, dim);
     for (unsigned int c = 0; c < block.n_pieces; ++c)
-      for (unsigned int i = 0; i < power(4, dim); ++i)
-        __builtin_prefetch(address(block.pieces[c].patch[i]));
+      for (unsigned int i = 0; i < n; ++i)
+        if (i % 4 == 3 || i / (n / 4) == 3 || i / 4 % 4 == 3)
+          __builtin_prefetch(address(block.pieces[c].patch[i]));
   }
 
 
 
   /// Call action(k) for each point of a run.
-  template <typename Action>
+  template <typename Run, typename Action>
   TALUS_ALWAYS_INLINE void
   for_each_point(const Run &run, const Action &action)
   {
-    for (std::uint64_t left = run.points; left != 0; left &= left - 1)
+    for (PointsOfBlock left = run.points; left != 0; left &= left - 1)
       action(__builtin_ctzll(left));
   }
 } // namespace talus

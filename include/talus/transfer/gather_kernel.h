@@ -17,7 +17,7 @@ namespace talus
   {
     /// The motion of the nodes interpolated to the points of a block, row by
     /// row: velocity and increment in the order of NodalMotion, then derivatives
-    /// of the velocity along each axis.
+    /// of the velocity along each axis, per cell size.
     template <int dim>
     struct InterpolatedMotion
     {
@@ -51,13 +51,13 @@ namespace talus
 
 
     /// Interpolate entries [at, at + width) of the motion of 3^dim nodes to
-    /// point @p k of the block, with or without their derivatives.
+    /// point @p k of the run, with or without their derivatives.
     template <int dim, unsigned int width, bool with_gradient>
     TALUS_ALWAYS_INLINE MotionAtPoint<dim, width>
-                        interpolate(const Block<dim>    &block,
-                                    const unsigned int   k,
-                                    const double *const *nodes,
-                                    const unsigned int   at)
+                        interpolate(const typename Block<dim>::Run &run,
+                                    const unsigned int              k,
+                                    const double *const            *nodes,
+                                    const unsigned int              at)
     {
       using Number                = Simd<width>;
       MotionAtPoint<dim, width> p = {};
@@ -70,15 +70,15 @@ namespace talus
               for (unsigned int i = 0; i < 3; ++i)
                 {
                   const auto node = load<Number>(nodes[9 * l + 3 * j + i] + at);
-                  row += Number(block.value[0][i][k]) * node;
+                  row += Number(run.value(0, i, k)) * node;
                   if constexpr (with_gradient)
-                    slope += Number(block.gradient[0][i][k]) * node;
+                    slope += Number(run.gradient(0, i, k)) * node;
                 }
-              value += Number(block.value[1][j][k]) * row;
+              value += Number(run.value(1, j, k)) * row;
               if constexpr (with_gradient)
                 {
-                  slope_x += Number(block.value[1][j][k]) * slope;
-                  slope_y += Number(block.gradient[1][j][k]) * row;
+                  slope_x += Number(run.value(1, j, k)) * slope;
+                  slope_y += Number(run.gradient(1, j, k)) * row;
                 }
             }
           if constexpr (dim == 2)
@@ -89,13 +89,13 @@ namespace talus
             }
           else
             {
-              const Number z(block.value[2][l][k]);
+              const Number z(run.value(2, l, k));
               p.value += z * value;
               if constexpr (with_gradient)
                 {
                   p.slope[0] += z * slope_x;
                   p.slope[1] += z * slope_y;
-                  p.slope[2] += Number(block.gradient[2][l][k]) * value;
+                  p.slope[2] += Number(run.gradient(2, l, k)) * value;
                 }
             }
         }
@@ -104,13 +104,13 @@ namespace talus
 
 
 
-    /// Interpolate to point @p k of the block and store its row.
+    /// Interpolate to point @p k of the run and store its row.
     template <int dim>
     TALUS_ALWAYS_INLINE void
-    interpolate(const Block<dim>    &block,
-                const unsigned int   k,
-                const double *const *nodes,
-                double              *row)
+    interpolate(const typename Block<dim>::Run &run,
+                const unsigned int              k,
+                const double *const            *nodes,
+                double                         *row)
     {
       using I                     = InterpolatedMotion<dim>;
       constexpr unsigned int half = I::half;
@@ -119,7 +119,7 @@ namespace talus
           // One register holds velocity and increment; of the derivatives only
           // those of the velocity are kept.
           constexpr unsigned int width = 2 * half;
-          const auto p = interpolate<dim, width, true>(block, k, nodes, 0);
+          const auto p = interpolate<dim, width, true>(run, k, nodes, 0);
           store(row, p.value);
           store(row + I::gradient, first_halves(p.slope[0], p.slope[1]));
           if constexpr (dim == 3)
@@ -130,12 +130,12 @@ namespace talus
         for (unsigned int at = 0; at < half; at += simd_width)
           {
             const auto v =
-              interpolate<dim, simd_width, true>(block, k, nodes, at);
+              interpolate<dim, simd_width, true>(run, k, nodes, at);
             store(row + at, v.value);
             for (unsigned int d = 0; d < dim; ++d)
               store(row + I::gradient + half * d + at, v.slope[d]);
             const auto dv =
-              interpolate<dim, simd_width, false>(block, k, nodes, half + at);
+              interpolate<dim, simd_width, false>(run, k, nodes, half + at);
             store(row + half + at, dv.value);
           }
     }
@@ -145,7 +145,9 @@ namespace talus
     /// The addresses of the nodes at which the points of a run have weights.
     template <int dim>
     TALUS_ALWAYS_INLINE void
-    find_nodes(const Run &run, const double *motions, const double **nodes)
+    find_nodes(const typename Block<dim>::Run &run,
+               const double                   *motions,
+               const double                  **nodes)
     {
       for (unsigned int l = 0; l < (dim == 3 ? 3 : 1); ++l)
         for (unsigned int j = 0; j < 3; ++j)
@@ -188,6 +190,7 @@ namespace talus
     TALUS_ALWAYS_INLINE Number
     move_points(const PointsView<dim>            &points,
                 const WorkspaceView<dim>         &workspace,
+                const double                      inverse_cell_size,
                 const unsigned int                p,
                 const MotionEntries<dim, Number> &now,
                 const LoadsView<dim>             &loads,
@@ -206,7 +209,7 @@ namespace talus
           store(to_x, load<Number>(to_x) + dt * v);
           for (unsigned int d = 0; d < dim; ++d)
             store(workspace.velocity_gradient(i, d) + p,
-                  now.entry[I::place_of_gradient(i, d)]);
+                  inverse_cell_size * now.entry[I::place_of_gradient(i, d)]);
           power += acceleration<Number>(loads, p, i) * (v - 0.5 * dv);
         }
       return power * load<Number>(points.data(points.mass) + p);

@@ -58,14 +58,17 @@ namespace talus
     compute_contributions(const PointsView<dim, const double> &points,
                           const WorkspaceView<dim>            &workspace,
                           const LoadsView<dim>                &loads,
-                          const unsigned int                   p,
-                          Number                              *record,
+                          const double       inverse_cell_size,
+                          const unsigned int p,
+                          Number            *record,
                           Number (*flux)[Contributions<dim>::n_of_force])
     {
-      using Sum         = NodalSum<dim>;
-      const auto mass   = load<Number>(points.data(points.mass) + p);
-      const auto volume = -volume_of_points<dim, Number>(points, p);
-      const auto shift  = load<Number>(workspace.mean_stress_shift() + p);
+      using Sum       = NodalSum<dim>;
+      const auto mass = load<Number>(points.data(points.mass) + p);
+      // Gradients are per cell size.
+      const auto volume =
+        -inverse_cell_size * volume_of_points<dim, Number>(points, p);
+      const auto shift = load<Number>(workspace.mean_stress_shift() + p);
 
       record[Sum::mass] = mass;
       record[Sum::volume] =
@@ -112,8 +115,13 @@ namespace talus
       for (unsigned int k = 0; k < block.size; k += simd_width)
         {
           Number record[C::n_entries] = {}, flux[dim - 1][C::n_of_force] = {};
-          compute_contributions<dim>(
-            points, workspace, loads, block.begin + k, record, flux);
+          compute_contributions<dim>(points,
+                                     workspace,
+                                     loads,
+                                     1. / block.cell_size,
+                                     block.begin + k,
+                                     record,
+                                     flux);
           const auto to_points =
             [k](auto *rows, auto &to, const unsigned int n) {
               for (unsigned int e = 0; e < n; e += simd_width)
@@ -162,10 +170,9 @@ namespace talus
     /// Add register @p part of what the points of a run give.
     template <int dim, unsigned int part>
     TALUS_ALWAYS_INLINE void
-    add_register(const Block<dim>         &block,
-                 const Contributions<dim> &contributions,
-                 const Run                &run,
-                 double                   *sums)
+    add_register(const Contributions<dim>       &contributions,
+                 const typename Block<dim>::Run &run,
+                 double                         *sums)
     {
       using C                   = Contributions<dim>;
       using Number              = Simd<simd_width>;
@@ -186,26 +193,26 @@ namespace talus
               flux_y = load<Number>(&contributions.flux[0][k][in_flux]);
             if constexpr (dim == 3)
               {
-                const double z = block.value[dim - 1][plane][k];
+                const double z = run.value(dim - 1, plane, k);
                 record *= z;
                 if constexpr (has_flux)
                   {
                     record +=
-                      Number(block.gradient[dim - 1][plane][k]) *
+                      Number(run.gradient(dim - 1, plane, k)) *
                       load<Number>(&contributions.flux[dim - 2][k][in_flux]);
                     flux_y *= z;
                   }
               }
             Number x[3];
             for (unsigned int i = 0; i < 3; ++i)
-              x[i] = factor_along_x<dim, part>(block.value[0][i][k],
-                                               block.gradient[0][i][k],
+              x[i] = factor_along_x<dim, part>(run.value(0, i, k),
+                                               run.gradient(0, i, k),
                                                entries);
             for (unsigned int j = 0; j < 3; ++j)
               {
-                Number row = Number(block.value[1][j][k]) * record;
+                Number row = Number(run.value(1, j, k)) * record;
                 if constexpr (has_flux)
-                  row += Number(block.gradient[1][j][k]) * flux_y;
+                  row += Number(run.gradient(1, j, k)) * flux_y;
                 for (unsigned int i = 0; i < 3; ++i)
                   sum[3 * j + i] += x[i] * row;
               }
@@ -227,15 +234,14 @@ namespace talus
     /// Add all that the points of a run give.
     template <int dim, unsigned int part = 0>
     TALUS_ALWAYS_INLINE void
-    add_run(const Block<dim>         &block,
-            const Contributions<dim> &contributions,
-            const Run                &run,
-            double                   *sums)
+    add_run(const Contributions<dim>       &contributions,
+            const typename Block<dim>::Run &run,
+            double                         *sums)
     {
       if constexpr (part * simd_width < NodalSum<dim>::n_entries)
         {
-          add_register<dim, part>(block, contributions, run, sums);
-          add_run<dim, part + 1>(block, contributions, run, sums);
+          add_register<dim, part>(contributions, run, sums);
+          add_run<dim, part + 1>(contributions, run, sums);
         }
     }
   } // namespace TALUS_SIMD_NAMESPACE

@@ -27,39 +27,50 @@ namespace talus
 
 
 
-  /// Mean over a box of the one-dimensional shape functions of three nodes that
-  /// follow each other, and of their derivatives.
+  /// Mean over a box of the one-dimensional shape functions around a cell and of
+  /// their derivatives: at the nodes -1, 0, 1 and 2 in units of the cell, with
+  /// the origin at its lower face.
   template <typename Number>
   struct AxisWeights
   {
-    std::array<Number, 3> value;
-    std::array<Number, 3> gradient; ///< per cell size
+    std::array<Number, 4> value;
+    std::array<Number, 4> gradient; ///< per cell size
+    /// Where the box ends, from the lower and from the upper face on.
+    Number lower_end, upper_end;
   };
 
 
 
-  /// Weights of the box [centre - half, centre + half], which must lie in [0, 2],
-  /// along one axis, at the nodes 0, 1 and 2 in units of the cell. Shape
-  /// functions are the hats of the nodes. Only the third mean is an integral; the
-  /// others follow, since the hats interpolate 1 and x exactly: sum w_i = 1 and
-  /// sum i w_i = centre. @cite bardenhagen2004, eq. 36 ff.
+  /// Weights of the box [centre - half, centre + half], which must lie in
+  /// [-1, 2], along one axis. Shape functions are the hats of the nodes. Only
+  /// the outer two means are integrals; the others follow, since the hats
+  /// interpolate 1 and x exactly: sum w_i = 1 and sum x_i w_i = centre.
+  /// @cite bardenhagen2004, eq. 36 ff.
   template <typename Number>
   TALUS_ALWAYS_INLINE AxisWeights<Number>
                       axis_weights(const Number &centre, const Number &half)
   {
-    // Of the ends of the box, how far they are in the second cell.
-    const Number zero(0.);
-    const Number a     = max(centre - half - 1., zero);
-    const Number b     = max(centre + half - 1., zero);
-    const Number slope = (b - a) * (0.5 / half);
-
     AxisWeights<Number> w;
-    w.value[2]    = 0.5 * slope * (b + a);
-    w.value[1]    = centre - 2. * w.value[2];
-    w.value[0]    = (1. - centre) + w.value[2];
-    w.gradient[2] = slope;
-    w.gradient[1] = 1. - 2. * slope;
-    w.gradient[0] = slope - 1.;
+    const Number        zero(0.);
+    w.lower_end = centre - half;
+    w.upper_end = centre + half - 1.;
+    // Ends of what lies below and above the cell; a box in front of a wall may
+    // lie beyond the face as a whole.
+    const Number below_from = min(w.lower_end, zero);
+    const Number below_to   = min(w.upper_end + 1., zero);
+    const Number above_from = max(w.lower_end - 1., zero);
+    const Number above_to   = max(w.upper_end, zero);
+    const Number scale      = 0.5 / half;
+    const Number a          = (below_from - below_to) * scale;
+    const Number b          = (above_to - above_from) * scale;
+    w.value[0]              = (0.5 * a) * (below_from + below_to);
+    w.value[3]              = (0.5 * b) * (above_from + above_to);
+    w.value[2]              = centre + w.value[0] - 2. * w.value[3];
+    w.value[1]              = (1. - centre) + w.value[3] - 2. * w.value[0];
+    w.gradient[0]           = a;
+    w.gradient[3]           = b;
+    w.gradient[2]           = (1. + a) - 2. * b;
+    w.gradient[1]           = (b - 1.) - 2. * a;
     return w;
   }
 } // namespace talus
