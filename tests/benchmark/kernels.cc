@@ -2,7 +2,7 @@
 
 #include "sample.h"
 
-#include <talus/transfer/weights.h>
+#include <talus/transfer/weights_kernel.h>
 
 #include <benchmark/benchmark.h>
 
@@ -35,10 +35,11 @@ namespace
       }
     for (auto _ : state)
       {
-        for (unsigned int i = 0; i < n; i += n_lanes)
+        for (unsigned int i = 0; i < n; i += simd_width)
           {
+            using Number = Simd<simd_width>;
             const auto w =
-              axis_weights(load<Lanes>(centre + i), load<Lanes>(half + i));
+              axis_weights(load<Number>(centre + i), load<Number>(half + i));
             for (unsigned int k = 0; k < 3; ++k)
               {
                 store(value[k] + i, w.value[k]);
@@ -59,10 +60,8 @@ namespace
     Sample<dim> sample(law);
     for (auto _ : state)
       {
-        sample.law->update_stress(sample.points,
-                                  0,
-                                  sample.points.size(),
-                                  sample.dt);
+        sample.law->update_stress(
+          sample.points, sample.workspace, 0, sample.points.size(), sample.dt);
         benchmark::ClobberMemory();
       }
     count_points(state, sample.points.size());
@@ -75,10 +74,16 @@ namespace
   stretch(benchmark::State &state, const BoxRule rule)
   {
     Sample<dim> sample("linear elastic");
-    sample.law->update_stress(sample.points, 0, sample.points.size(), 0.3);
+    sample.law->update_stress(
+      sample.points, sample.workspace, 0, sample.points.size(), 0.3);
     for (auto _ : state)
       {
-        update_stretch(sample.points, 0, sample.points.size(), rule, sample.dt);
+        update_stretch(sample.points,
+                       sample.workspace,
+                       0,
+                       sample.points.size(),
+                       rule,
+                       sample.dt);
         benchmark::ClobberMemory();
       }
     count_points(state, sample.points.size());

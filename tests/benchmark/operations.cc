@@ -3,7 +3,9 @@
 // what matters.
 
 #include <talus/materials/radial_return_kernel.h>
-#include <talus/transfer/weights.h>
+#include <talus/points/points.h>
+#include <talus/points/step_workspace.h>
+#include <talus/transfer/weights_kernel.h>
 
 #include <benchmark/benchmark.h>
 
@@ -16,6 +18,24 @@ namespace talus
   {
     double               value;
     static unsigned long n_operations;
+
+    Counted() = default;
+
+    Counted(const double value)
+      : value(value)
+    {}
+
+    static Counted
+    load(const double *from)
+    {
+      return *from;
+    }
+
+    void
+    store(double *to) const
+    {
+      *to = value;
+    }
   };
 
   unsigned long Counted::n_operations = 0;
@@ -72,13 +92,6 @@ namespace talus
     return b > a;
   }
 
-  template <>
-  inline Counted
-  Counted(const double value)
-  {
-    return {value};
-  }
-
   inline Counted
   sqrt(const Counted x)
   {
@@ -98,21 +111,24 @@ namespace
 
   /// A point of volume one that is strained a little.
   template <int dim>
-  Points<dim>
-  strained_point()
+  struct StrainedPoint
   {
-    Points<dim> points;
-    points.append(1);
-    points.lend_workspace(0, 1);
-    points.data(points.reference_volume)[0] = 1.;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        points.data(points.deformation_gradient, d * (dim + 1))[0] = 1.;
-        for (unsigned int e = 0; e < dim; ++e)
-          points.velocity_gradient(d, e)[0] = 1e-3 * (1. + d + 2. * e);
-      }
-    return points;
-  }
+    Points<dim>        points;
+    StepWorkspace<dim> workspace;
+
+    StrainedPoint()
+    {
+      points.append(1);
+      workspace.reinit(0, 1);
+      points.data(points.reference_volume)[0] = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          points.data(points.deformation_gradient, d * (dim + 1))[0] = 1.;
+          for (unsigned int e = 0; e < dim; ++e)
+            workspace.velocity_gradient(d, e)[0] = 1e-3 * (1. + d + 2. * e);
+        }
+    }
+  };
 
 
 
@@ -120,10 +136,11 @@ namespace
   void
   weights_along_axis()
   {
-    Points<2>     points = strained_point<2>();
-    BoxShape      shape;
-    const Counted inverse_size{1.};
-    const Counted half =
+    StrainedPoint<2> point;
+    const auto      &points = point.points;
+    BoxShape         shape;
+    const Counted    inverse_size{1.};
+    const Counted    half =
       half_length_in_cells<2, Counted>(points, shape, 0, 0, inverse_size);
     const Counted x = load<Counted>(points.data(points.position));
     const auto    w = axis_weights((x - Counted{0.}) * inverse_size, half);
@@ -137,13 +154,15 @@ namespace
   template <int dim>
   struct Begun
   {
-    Points<dim>                   points = strained_point<dim>();
+    StrainedPoint<dim>            point;
+    PointsView<dim>               points = point.points.view();
     Motion<dim, Counted>          motion;
     StrainIncrement<dim, Counted> strain;
     ElasticTrial<dim, Counted>    trial;
 
     Begun()
-      : motion(advance_deformation<dim, Counted>(points, 0, 1.))
+      : motion(advance_deformation<dim, Counted>(
+          points, point.workspace.view(0, 1), 0, 1.))
       , strain(strain_increment(motion))
       , trial(elastic_trial<dim, Counted>(load_stress<dim, Counted>(points, 0),
                                           strain,
@@ -181,7 +200,7 @@ namespace
   {
     Begun<dim>    step;
     const auto   &trial = step.trial.deviator_after;
-    const Counted q = sqrt(1.5 * contract<dim>(trial, trial) + 1e-300);
+    const Counted q     = sqrt(1.5 * contract<dim>(trial, trial) + 1e-300);
     // Yield stress on a line and a residual one, the smaller return, no
     // negative one; the new plastic strain.
     Counted       plastic_strain{0.};
@@ -204,9 +223,9 @@ namespace
   void
   determinant_of_deformation()
   {
-    const Points<dim> points = strained_point<dim>();
-    benchmark::DoNotOptimize(determinant(
-      load_matrix<dim, Counted>(points, points.deformation_gradient, 0)));
+    const StrainedPoint<dim> point;
+    benchmark::DoNotOptimize(determinant(load_matrix<dim, Counted>(
+      point.points, Points<dim>::deformation_gradient, 0)));
   }
 
 

@@ -3,7 +3,7 @@ they are written down. doc/performance.md derives them.
 
 Operations are additions, multiplications, divisions, roots, comparisons and
 exponentials, one each, a multiply-add two. They are those that the formulas need;
-lanes of a register that carry nothing are not counted. Counts of formulas that are
+entries of a register that carry nothing are not counted. Counts of formulas that are
 templates come from talus-benchmark, which evaluates them with a number that
 counts; those of the loops over nodes are formulas below.
 
@@ -88,9 +88,9 @@ class Operations:
         sums = sum(
             3**k * (2 * 2 * d + 2 * d * (d - k + 1)) for k in range(1, d + 1)
         )
-        return self.weights + sums + 10 * d + 3 + self.search_for_strays()
+        return self.weights + sums + 10 * d + 3 + self.search_outside_cell()
 
-    def search_for_strays(self):
+    def search_outside_cell(self):
         return 3 * self.d
 
     def mean_stress(self):

@@ -1,13 +1,14 @@
 // What the machine can do at most, on one core: the two lines of the roofline.
 
-#include <talus/base/simd.h>
 #include <talus/base/large_pages.h>
+#include <talus/base/simd.h>
 
 #include <benchmark/benchmark.h>
 
 namespace
 {
   using namespace talus;
+  using Number = Simd<simd_width>;
 
   /// a = b + s c with arrays of 128 MB each, four times the last-level cache of
   /// this kind of machine. Counted are the 24 bytes that the loop names, not
@@ -26,8 +27,8 @@ namespace
       {
         double *const       to = a.data();
         const double *const x = b.data(), *const y = c.data();
-        for (std::size_t i = 0; i < n; i += n_lanes)
-          store(to + i, load<Lanes>(x + i) + 0.5 * load<Lanes>(y + i));
+        for (std::size_t i = 0; i < n; i += simd_width)
+          store(to + i, load<Number>(x + i) + 0.5 * load<Number>(y + i));
         benchmark::ClobberMemory();
       }
     state.counters["bytes_per_second"] =
@@ -43,9 +44,9 @@ namespace
   multiply_add(benchmark::State &state)
   {
     constexpr unsigned int n_chains = 16, n_rounds = 1000;
-    Lanes                  sum[n_chains] = {};
-    Lanes                  factor        = Lanes(0.999);
-    Lanes                  increment     = Lanes(1e-3);
+    Number                 sum[n_chains] = {};
+    Number                 factor        = Number(0.999);
+    Number                 increment     = Number(1e-3);
     benchmark::DoNotOptimize(factor);
     benchmark::DoNotOptimize(increment);
     for (auto _ : state)
@@ -57,7 +58,7 @@ namespace
         benchmark::DoNotOptimize(sum);
       }
     state.counters["operations_per_second"] =
-      benchmark::Counter(2. * n_lanes * n_chains * n_rounds *
+      benchmark::Counter(2. * simd_width * n_chains * n_rounds *
                            state.iterations(),
                          benchmark::Counter::kIsRate);
   }

@@ -2,6 +2,7 @@
 #define talus_tests_benchmark_sample_h
 
 #include <talus/materials/material_model.h>
+#include <talus/points/step_workspace.h>
 #include <talus/transfer/box_rule.h>
 
 #include <memory>
@@ -19,6 +20,7 @@ namespace talus
 
     std::unique_ptr<MaterialModel<dim>> law;
     Points<dim>                         points;
+    StepWorkspace<dim>                  workspace;
     double                              dt = 1e-3; ///< s
 
     explicit Sample(const std::string &name)
@@ -32,7 +34,7 @@ namespace talus
       law->check();
       law->add_columns(points);
       points.append(n_points);
-      points.lend_workspace(0, n_points);
+      workspace.reinit(0, n_points);
       for (unsigned int p = 0; p < n_points; ++p)
         set_point(p);
       initialize_stretch(points, 0, n_points, BoxRule::right_stretch);
@@ -56,9 +58,9 @@ namespace talus
           points.data(points.deformation_gradient, d * (dim + 1))[p] = 1.;
           points.data(points.reference_length, d)[p]                 = 1.;
           for (unsigned int e = 0; e < dim; ++e)
-            points.velocity_gradient(d, e)[p] = 0.;
+            workspace.velocity_gradient(d, e)[p] = 0.;
         }
-      points.velocity_gradient(0, 1)[p] = 0.1 * (1. + p % 7); // 1/s
+      workspace.velocity_gradient(0, 1)[p] = 0.1 * (1. + p % 7); // 1/s
     }
   };
 } // namespace talus

@@ -23,7 +23,6 @@ namespace
                   in_section("Boundaries",
                              conditions + "\n" + in_section("Seabed", seabed)))
     {
-      using Sum         = NodalSum<dim>;
       const auto places = places_of_nodes(this->grid);
       node              = 0;
       while (places[node].distance(place) > 1e-12)
@@ -34,13 +33,8 @@ namespace
       auto &nodes = this->nodes;
       nodes.activate(this->grid, all);
       nodes.clear();
-      nodes.sum(node)[Sum::mass]   = mass;
-      nodes.sum(node)[Sum::volume] = volume;
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          nodes.sum(node)[Sum::momentum + d] = mass * before[d];
-          nodes.sum(node)[Sum::force + d] = mass * (trial[d] - before[d]) / dt;
-        }
+      nodes.set_sums(
+        node, mass, volume, mass * before, mass * (trial - before) / dt);
       this->boundaries.prepare(Constants());
       this->boundaries.locate_nodes(this->grid);
       this->boundaries.add_tractions(nodes, this->grid, 0., 0.);

@@ -1,3 +1,5 @@
+#include <talus/transfer/weights_kernel.h>
+
 #include <deal.II/base/tensor.h>
 
 #include "core_setup.h"
@@ -7,7 +9,7 @@ namespace
   using namespace talus;
   using dealii::Tensor;
 
-  // More than one pass of eight lanes, and a rest.
+  // More than a register of any machine holds, and a rest.
   constexpr unsigned int n_points = 27;
 
   /// Polar decomposition by deal.II: R by a singular value decomposition.
@@ -18,7 +20,7 @@ namespace
     Core<dim> core(cube<dim>());
     auto     &points = core.points;
     points.append(n_points);
-    points.lend_workspace(0, n_points);
+    core.workspace.reinit(0, n_points);
     for (unsigned int round = 0; round < 50; ++round)
       {
         std::vector<Tensor<2, dim>> F(n_points);
@@ -40,9 +42,15 @@ namespace
                             1e-13);
             }
         };
-        update_stretch(points, 0, points.size(), BoxRule::right_stretch, 0.1);
+        update_stretch(points,
+                       core.workspace,
+                       0,
+                       points.size(),
+                       BoxRule::right_stretch,
+                       0.1);
         expect_diagonal([](const auto &F, const auto &R_T) { return R_T * F; });
-        update_stretch(points, 0, points.size(), BoxRule::left_stretch, 0.1);
+        update_stretch(
+          points, core.workspace, 0, points.size(), BoxRule::left_stretch, 0.1);
         expect_diagonal([](const auto &F, const auto &R_T) { return F * R_T; });
       }
   }
@@ -70,10 +78,10 @@ namespace
     if (dim == 3)
       F[dim - 1][dim - 1] = 1.1;
     core.set_deformation(points.append(1), F);
-    points.lend_workspace(0, 1);
+    core.workspace.reinit(0, 1);
     const auto expect =
       [&](const BoxRule rule, const double x, const double y) {
-        update_stretch(points, 0, points.size(), rule, 0.1);
+        update_stretch(points, core.workspace, 0, points.size(), rule, 0.1);
         EXPECT_NEAR(points.data(points.stretch, 0)[0], x, 1e-15);
         EXPECT_NEAR(points.data(points.stretch, 1)[0], y, 1e-15);
         for (unsigned int d = 2; d < dim; ++d)
@@ -103,9 +111,13 @@ namespace
     F[0][0] = 1.7, F[1][1] = 0.4, F[2][2] = 1.2;
     F[0][1] = 0.8, F[2][0] = -0.3;
     core.set_deformation(points.append(1), F);
-    points.lend_workspace(0, 1);
-    update_stretch(
-      points, 0, points.size(), BoxRule::deformation_gradient, 0.1);
+    core.workspace.reinit(0, 1);
+    update_stretch(points,
+                   core.workspace,
+                   0,
+                   points.size(),
+                   BoxRule::deformation_gradient,
+                   0.1);
     for (unsigned int d = 0; d < 3; ++d)
       EXPECT_EQ(points.data(points.stretch, d)[0], F[d][d]);
   }
@@ -121,7 +133,7 @@ namespace
     auto     &points = core.points;
     for (unsigned int p = 0; p < n_points; ++p)
       core.add(core.place(), core.vector(0.2, 0.8));
-    points.lend_workspace(0, n_points);
+    core.workspace.reinit(0, n_points);
     std::vector<Tensor<1, dim>> strain(n_points);
     for (unsigned int step = 0; step < 100; ++step)
       {
@@ -130,12 +142,13 @@ namespace
           for (unsigned int i = 0; i < dim; ++i)
             for (unsigned int j = 0; j < dim; ++j)
               {
-                const double rate                 = core.number(-2., 2.);
-                points.velocity_gradient(i, j)[p] = rate;
+                const double rate = core.number(-2., 2.);
+                core.workspace.velocity_gradient(i, j)[p] = rate;
                 if (i == j)
                   strain[p][i] += dt * rate;
               }
-        update_stretch(points, 0, points.size(), BoxRule::fixed, dt);
+        update_stretch(
+          points, core.workspace, 0, points.size(), BoxRule::fixed, dt);
       }
     for (unsigned int p = 0; p < n_points; ++p)
       for (unsigned int d = 0; d < dim; ++d)

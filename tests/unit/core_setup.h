@@ -33,6 +33,44 @@ struct FreshParameters
 
 
 
+/// Which of the sums at a node is where in NodeSums.
+template <int dim>
+struct SumIndex
+{
+  static constexpr unsigned int mass      = 0;              ///< kg
+  static constexpr unsigned int volume    = 1;              ///< m^dim
+  static constexpr unsigned int momentum  = 2;              ///< kg m/s
+  static constexpr unsigned int force     = momentum + dim; ///< N
+  static constexpr unsigned int n_entries = force + dim;
+};
+
+
+
+/// What the points sent to a node, as numbers in a row: most tests do the same
+/// with all of them.
+template <int dim>
+using NodeSums = std::array<double, SumIndex<dim>::n_entries>;
+
+
+
+template <int dim>
+NodeSums<dim>
+sums_of_node(const talus::NodalFields<dim> &nodes, const unsigned int node)
+{
+  using Index = SumIndex<dim>;
+  NodeSums<dim> sums;
+  sums[Index::mass]   = nodes.mass(node);
+  sums[Index::volume] = nodes.volume(node);
+  for (unsigned int d = 0; d < dim; ++d)
+    {
+      sums[Index::momentum + d] = nodes.momentum(node)[d];
+      sums[Index::force + d]    = nodes.force(node)[d];
+    }
+  return sums;
+}
+
+
+
 /// All rooms below the materials, and some points.
 template <int dim>
 struct Core : FreshParameters
@@ -166,12 +204,12 @@ struct Core : FreshParameters
   }
 
   Tensor
-  velocity_gradient(const unsigned int p)
+  velocity_gradient(const unsigned int p) const
   {
     Tensor L;
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
-        L[i][j] = points.velocity_gradient(i, j)[p];
+        L[i][j] = workspace.velocity_gradient(i, j)[p];
     return L;
   }
 
@@ -227,6 +265,7 @@ struct Core : FreshParameters
   sort()
   {
     relocation.update(points, grid);
+    workspace.points_out_of_cell().clear();
     nodes.activate(grid, relocation.occupied_cells());
   }
 
@@ -234,8 +273,9 @@ struct Core : FreshParameters
   double
   gather(const double dt)
   {
-    points.lend_workspace(0, points.size());
-    return transfer.gather(nodes, grid, loads, points, points.all(), dt);
+    workspace.reinit(0, points.size());
+    return transfer.gather(
+      nodes, grid, loads, points, workspace, points.all(), dt);
   }
 
   /// Find and split what violates the criterion, once.
@@ -243,43 +283,50 @@ struct Core : FreshParameters
   enforce()
   {
     splitter.find(points, points.all(), grid);
-    return splitter.enforce(points);
+    return splitter.enforce(points, workspace.points_out_of_cell());
   }
 
-  /// The sums at all nodes of the mesh, hanging nodes condensed, with the whole
-  /// force in one place; from nothing, whatever was active before.
-  std::vector<std::array<double, talus::n_lanes>>
+  /// The sums at all nodes of the mesh, hanging nodes condensed; from nothing,
+  /// whatever was active before.
+  std::vector<NodeSums<dim>>
   scatter()
   {
-    using Sum = talus::NodalSum<dim>;
     nodes.prepare(grid);
     nodes.activate(grid, relocation.occupied_cells());
-    points.lend_workspace(0, points.size());
-    transfer.average_mean_stress(points, points.all());
-    transfer.scatter(points, points.all(), grid, loads, nodes);
+    scatter_points();
     nodes.sum_over_ranks(grid);
-    std::vector<std::array<double, talus::n_lanes>> sums(grid.n_nodes());
+    return sums_of_nodes();
+  }
+
+  /// Add what all points send to the nodes.
+  void
+  scatter_points()
+  {
+    workspace.reinit(0, points.size());
+    transfer.average_mean_stress(points, workspace, points.all());
+    transfer.scatter(points, workspace, points.all(), grid, loads, nodes);
+  }
+
+  /// The sums at all nodes of the mesh as they are.
+  std::vector<NodeSums<dim>>
+  sums_of_nodes() const
+  {
+    std::vector<NodeSums<dim>> sums(grid.n_nodes());
     for (unsigned int n = 0; n < grid.n_nodes(); ++n)
-      {
-        const double *sum = nodes.sum(n);
-        std::copy_n(sum, talus::n_lanes, sums[n].begin());
-        for (unsigned int d = 0; d < dim; ++d)
-          sums[n][Sum::force + d] = Sum::whole_force(sum, d);
-        for (unsigned int c = Sum::force_by_y; c < talus::n_lanes; ++c)
-          sums[n][c] = 0;
-      }
+      sums[n] = sums_of_node(nodes, n);
     return sums;
   }
 
-  talus::Grid<dim>        grid;
-  talus::Transfer<dim>    transfer;
-  talus::Boundaries<dim>  boundaries;
-  talus::Splitter<dim>    splitter;
-  talus::Points<dim>      points;
-  talus::NodalFields<dim> nodes;
-  talus::Relocation<dim>  relocation;
-  talus::Loads<dim>       loads;
-  std::mt19937            random;
+  talus::Grid<dim>          grid;
+  talus::Transfer<dim>      transfer;
+  talus::Boundaries<dim>    boundaries;
+  talus::Splitter<dim>      splitter;
+  talus::Points<dim>        points;
+  talus::StepWorkspace<dim> workspace; ///< of all points
+  talus::NodalFields<dim>   nodes;
+  talus::Relocation<dim>    relocation;
+  talus::Loads<dim>         loads;
+  std::mt19937              random;
 };
 
 

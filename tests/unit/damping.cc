@@ -32,12 +32,7 @@ namespace
              const Vector      &velocity,
              const Vector      &force)
     {
-      nodes.sum(node)[NodalSum<2>::mass] = mass;
-      for (unsigned int d = 0; d < 2; ++d)
-        {
-          nodes.sum(node)[NodalSum<2>::momentum + d] = mass * velocity[d];
-          nodes.sum(node)[NodalSum<2>::force + d]    = force[d];
-        }
+      nodes.set_sums(node, mass, 0., mass * velocity, force);
     }
 
     double
@@ -108,14 +103,8 @@ namespace
         double                    before = 0;
         for (const unsigned int node : nodes.active_nodes())
           {
-            Tensor<1, 2> v, f;
-            for (unsigned int d = 0; d < 2; ++d)
-              {
-                v[d] =
-                  nodes.sum(node)[NodalSum<2>::momentum + d] / nodes.mass(node);
-                f[d] = nodes.sum(node)[NodalSum<2>::force + d];
-              }
-            force.push_back(f);
+            const auto v = nodes.momentum(node) / nodes.mass(node);
+            force.push_back(nodes.force(node));
             before += 0.5 * nodes.mass(node) * v.norm_square();
           }
         scene.boundaries.add_tractions(nodes, scene.grid, 0., 0.);
@@ -178,7 +167,7 @@ namespace
           all[c] = c;
         nodes.activate(grid, all);
         for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
-          nodes.sum(node)[NodalSum<dim>::mass] = 1.;
+          nodes.set_sums(node, 1., 0., Tensor<1, dim>(), Tensor<1, dim>());
         core.boundaries.apply(nodes, grid, 0., time_step, 0.);
         for (const auto &cell : grid.dof_handler().active_cell_iterators())
           if (cell->is_locally_owned())

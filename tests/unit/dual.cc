@@ -101,8 +101,7 @@ TEST(Dual, Chained)
   for (const auto &[u, v] : {std::pair(1.3, 0.7), {2.9, 5.1}, {1.01, 0.2}})
     {
       const auto [x, y] = variables(u, v);
-      const Number f =
-        sqrt(x * y + log(x) / y) * exp(-x / y) - y / x;
+      const Number f    = sqrt(x * y + log(x) / y) * exp(-x / y) - y / x;
       const double s = std::sqrt(u * v + std::log(u) / v), e = std::exp(-u / v);
       const double s_u = 0.5 / s * (v + 1. / (u * v));
       const double s_v = 0.5 / s * (u - std::log(u) / (v * v));

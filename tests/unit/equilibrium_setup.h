@@ -34,6 +34,7 @@ namespace
     using Base::nodes;
     using Base::points;
     using Base::transfer;
+    using Base::workspace;
 
     static constexpr double density = 1500.; ///< kg/m^3
 
@@ -104,6 +105,7 @@ namespace
     soil()
     {
       return {points,
+              workspace,
               grid,
               nodes,
               transfer,
@@ -141,10 +143,7 @@ namespace
     Tensor<1, dim>
     force(const unsigned int node) const
     {
-      Tensor<1, dim> result;
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] = NodalSum<dim>::whole_force(nodes.sum(node), d);
-      return result;
+      return nodes.force(node);
     }
 
     Materials<dim>                            materials;

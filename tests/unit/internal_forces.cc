@@ -53,11 +53,16 @@ namespace
             statics.loads.varies = false;
             statics.load(Tensor<1, dim>());
             auto &points = statics.points;
-            points.lend_workspace(0, points.size());
+            statics.workspace.reinit(0, points.size());
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
-                std::fill_n(points.velocity_gradient(i, j), points.size(), 0.);
-            statics.materials.update_stress(points, points.all(), 0.);
+                std::fill_n(statics.workspace.velocity_gradient(i, j),
+                            points.size(),
+                            0.);
+            statics.materials.update_stress(points,
+                                            statics.workspace,
+                                            points.all(),
+                                            0.);
             action(statics, measure);
           }
   }
@@ -82,7 +87,8 @@ namespace
       points,
       points.all(),
       [&](const auto &model, const unsigned int begin, const unsigned int end) {
-        model.linearize(points, begin, end, measure, &answers[begin]);
+        model.linearize(
+          points, statics.workspace, begin, end, measure, &answers[begin]);
       });
     for (unsigned int p = 0; p < points.size(); ++p)
       for (unsigned int i = 0; i < dim; ++i)
@@ -90,7 +96,7 @@ namespace
           {
             const double part = statics.volume(p) *
                                 answers[p].stress[dim * i + j] *
-                                points.velocity_gradient(i, j)[p];
+                                statics.velocity_gradient(p)[i][j];
             work += part;
             scale += std::abs(part);
           }

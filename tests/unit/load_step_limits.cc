@@ -99,7 +99,7 @@ namespace
       const double  xi = step.plastic_variable();
       const double  factor =
         load_case.strength_factor > 0. ? load_case.strength_factor : 1.;
-      step.law->accept(step.points, 0, 1, measure);
+      step.law->accept(step.points, step.workspace, 0, 1, measure);
       const double tau = std::sqrt(0.5 * step.deviator_squared());
       const double strength =
         load_case.law == "von Mises"
@@ -226,14 +226,14 @@ TEST(LoadStep, PointsThatAreTurnedInsideOutAreTold)
       LoadStep<2>      step(load_case, 1);
       StressTangent<2> answer;
       step.set_gradient({{{{{-1.5, 0.}}, {{0., 0.}}}}});
-      const bool sound =
-        step.law->linearize(step.points, 0, 1, StrainMeasure::large, &answer);
+      const bool sound = step.law->linearize(
+        step.points, step.workspace, 0, 1, StrainMeasure::large, &answer);
       EXPECT_FALSE(sound) << load_case.name;
       // Small strain does not turn anything.
       if (!load_case.hyperelastic)
         {
           EXPECT_TRUE(step.law->linearize(
-            step.points, 0, 1, StrainMeasure::small, &answer));
+            step.points, step.workspace, 0, 1, StrainMeasure::small, &answer));
         }
     }
 }

@@ -77,6 +77,7 @@ namespace
     using Base     = Specimen<dim>;
     using Base::law;
     using Base::points;
+    using Base::workspace;
 
     LoadStep(const LoadCase &load_case, const unsigned int sample)
       : Base(load_case.law, clay.parameters(load_case.more))
@@ -101,7 +102,6 @@ namespace
           points.data(column)[0] = load_case.strength_factor;
           law->use_strength_factor(column);
         }
-      points.lend_workspace(0, points.size());
       H = random_matrix<dim>(random, is_calm ? 2e-3 : 0.06);
       if (load_case.flows)
         {
@@ -116,7 +116,7 @@ namespace
     {
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
-          points.velocity_gradient(i, j)[0] = gradient[i][j];
+          workspace.velocity_gradient(i, j)[0] = gradient[i][j];
     }
 
     /// At the displacement gradient @p gradient.
@@ -125,7 +125,7 @@ namespace
     {
       StressTangent<dim> result;
       set_gradient(gradient);
-      EXPECT_TRUE(law->linearize(points, 0, 1, measure, &result));
+      EXPECT_TRUE(law->linearize(points, workspace, 0, 1, measure, &result));
       set_gradient(H);
       return result;
     }

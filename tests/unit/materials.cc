@@ -11,7 +11,7 @@ namespace
   /// All columns of 11 points after a step: in one batch, and one by one.
   template <int dim>
   void
-  check_lanes(const std::string &name)
+  check_batch(const std::string &name)
   {
     constexpr unsigned int n = 11;
     Specimen<dim>          batch(name, paper.parameters(), n);
@@ -33,11 +33,12 @@ namespace
                 random_matrix<2>(random, 2000.)[0][0];
           }
       }
-    batch.law->update_stress(batch.points, 0, n, batch.dt);
+    batch.law->update_stress(batch.points, batch.workspace, 0, n, batch.dt);
     for (unsigned int p = 0; p < n; ++p)
-      single.law->update_stress(single.points, p, p + 1, single.dt);
+      single.law->update_stress(
+        single.points, single.workspace, p, p + 1, single.dt);
 
-    double speed[n + n_lanes];
+    double speed[n + Points<dim>::n_spare];
     batch.law->wave_speed(batch.points, 0, n, speed);
     for (const Column &column : batch.points.columns())
       for (unsigned int c = 0; c < column.n_components; ++c)
@@ -76,12 +77,12 @@ namespace
 
 
 
-TEST(Materials, LanesEqualScalars)
+TEST(Materials, BatchEqualsPointByPoint)
 {
   for (const std::string &name : material_names<2>())
     {
-      check_lanes<2>(name);
-      check_lanes<3>(name);
+      check_batch<2>(name);
+      check_batch<3>(name);
     }
 }
 
@@ -150,7 +151,8 @@ TEST(Materials, PointsTurnedInsideOutAreReported)
       for (unsigned int p = 0; p < 9; ++p)
         soil.set_increment(Matrix<2, double>{}, p);
       soil.set_increment({{{{{-1.5, 0.}}, {{0., 0.}}}}}, 4);
-      EXPECT_THROW(soil.law->update_stress(soil.points, 0, 9, soil.dt),
-                   ExcPoint);
+      EXPECT_THROW(
+        soil.law->update_stress(soil.points, soil.workspace, 0, 9, soil.dt),
+        ExcPoint);
     }
 }

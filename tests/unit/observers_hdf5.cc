@@ -311,7 +311,7 @@ namespace
     const unsigned int node = s.grid.cells()[cell].patch[4 * 2 + 1];
     s.nodes.activate(s.grid, {cell});
     s.nodes.clear();
-    s.nodes.sum(node)[NodalSum<2>::mass] = 2;
+    s.nodes.set_sums(node, 2., 0., dealii::Point<2>(), dealii::Point<2>());
     GridOutput<2> output;
     output.begin(folder, MPI_COMM_WORLD, FieldFormat::hdf5);
     output.write(s.snapshot());

@@ -143,10 +143,11 @@ namespace
     // A node with 2 kg at 3 m/s: (momentum + dt force) / mass.
     s.nodes.activate(s.grid, {0});
     s.nodes.clear();
-    double *sum                    = s.nodes.sum(s.nodes.active_nodes()[0]);
-    sum[NodalSum<2>::mass]         = 2.;
-    sum[NodalSum<2>::momentum + 1] = 5.;
-    sum[NodalSum<2>::force + 1]    = 10.;
+    s.nodes.set_sums(s.nodes.active_nodes()[0],
+                     2.,
+                     0.,
+                     dealii::Point<2>(0., 5.),
+                     dealii::Point<2>(0., 10.));
     s.nodes.update_momentum(0.1, 1e-9);
 
     auto row = evaluate(statistics, s.snapshot());

@@ -299,10 +299,8 @@ namespace
     const unsigned int node = s.grid.cells()[cell].patch[4 * 2 + 1];
     s.nodes.activate(s.grid, {cell});
     s.nodes.clear();
-    double *sum                 = s.nodes.sum(node);
-    sum[NodalSum<2>::mass]      = 2;
-    sum[NodalSum<2>::momentum]  = 6;
-    sum[NodalSum<2>::force + 1] = 4;
+    s.nodes.set_sums(
+      node, 2., 0., dealii::Point<2>(6., 0.), dealii::Point<2>(0., 4.));
     s.nodes.update_momentum(0.5, 1e-9);
     s.time = 0.5;
     output.write(s.snapshot());

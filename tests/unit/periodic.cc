@@ -21,8 +21,7 @@ namespace
   /// @p scale becomes the largest of that mesh (on a single node forces cancel).
   template <int dim>
   SumsByPlace<dim>
-  sums_in_the_middle(const Periodic<dim>         &periodic,
-                     std::array<double, n_lanes> &scale)
+  sums_in_the_middle(const Periodic<dim> &periodic, NodeSums<dim> &scale)
   {
     const unsigned int before = copies_before(periodic.width);
     Core<dim>          wide(periodic.grid(2 * before + 1), {}, MPI_COMM_SELF);
@@ -30,7 +29,7 @@ namespace
     SumsByPlace<dim> result;
     for (const auto &[place, sums] : sums_by_place(wide))
       {
-        for (unsigned int i = 0; i < n_lanes; ++i)
+        for (unsigned int i = 0; i < SumIndex<dim>::n_entries; ++i)
           scale[i] = std::max(scale[i], std::abs(sums[i]));
         Lattice<dim> at        = place;
         bool         is_middle = true;
@@ -53,9 +52,9 @@ namespace
   TEST(Periodic, SumsAreThoseOfAWiderMesh)
   {
     on_periodic_meshes([](const auto &periodic) {
-      constexpr unsigned int      dim = std::size(decltype(periodic.axes){});
-      std::array<double, n_lanes> scale{};
-      const auto expected = sums_in_the_middle(periodic, scale);
+      constexpr unsigned int dim = std::size(decltype(periodic.axes){});
+      NodeSums<dim>          scale{};
+      const auto             expected = sums_in_the_middle(periodic, scale);
       for (unsigned int seed = 0; seed < 3; ++seed)
         {
           Core<dim> core(periodic.grid() + periodic.conditions());
@@ -64,7 +63,7 @@ namespace
           add_repeated(core, periodic, 1);
           double worst = 0;
           for (const auto &[place, sums] : sums_by_place(core))
-            for (unsigned int i = 0; i <= NodalSum<dim>::volume; ++i)
+            for (unsigned int i = 0; i < SumIndex<dim>::n_entries; ++i)
               worst =
                 std::max(worst,
                          std::abs(sums[i] - expected.at(place)[i]) / scale[i]);
@@ -145,7 +144,7 @@ namespace
               core.points.data(core.points.stretch)[p] = 1.;
             }
         core.sort();
-        std::map<long, std::array<double, n_lanes>> row;
+        std::map<long, NodeSums<2>> row;
         const auto   collected = MPI::all_gather(MPI_COMM_WORLD, [&]() {
           std::map<std::pair<long, long>, std::vector<double>> sums;
           for (const auto &[place, sum] : sums_by_place(core))
@@ -159,7 +158,7 @@ namespace
               auto &first = row[place.second];
               if (first[0] == 0)
                 std::copy(sums.begin(), sums.end(), first.begin());
-              for (unsigned int i = 0; i <= NodalSum<2>::volume; ++i)
+              for (unsigned int i = 0; i < SumIndex<2>::n_entries; ++i)
                 EXPECT_NEAR(sums[i], first[i], 1e-12 * (1 + std::abs(first[i])))
                   << place.first << ' ' << place.second;
               ++n;
@@ -192,10 +191,7 @@ namespace
               mass[w.node] += w.value * core.points.data(core.points.mass)[p];
           }
       core.nodes.clear();
-      core.points.lend_workspace(0, core.points.size());
-      core.transfer.average_mean_stress(core.points, core.points.all());
-      core.transfer.scatter(
-        core.points, core.points.all(), core.grid, core.loads, core.nodes);
+      core.scatter_points();
       for (unsigned int node = 0; node < core.grid.n_nodes(); ++node)
         EXPECT_NEAR(core.nodes.mass(node), mass[node], 1e-12);
     });

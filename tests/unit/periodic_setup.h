@@ -113,7 +113,7 @@ namespace
 
 
   template <int dim>
-  using SumsByPlace = std::map<Lattice<dim>, std::array<double, n_lanes>>;
+  using SumsByPlace = std::map<Lattice<dim>, NodeSums<dim>>;
 
   /// Sums at the nodes this rank owns.
   template <int dim>

@@ -262,28 +262,33 @@ namespace
     const double dt     = 0.01;
     core.sort();
     nodes.clear();
-    points.lend_workspace(0, points.size());
-    core.transfer.average_mean_stress(points, points.all());
-    core.transfer.scatter(points, points.all(), grid, core.loads, nodes);
+    core.scatter_points();
     nodes.sum_over_ranks(grid);
 
     StepRecord record;
     for (unsigned int node = 0; node < grid.n_nodes(); ++node)
       if (node < grid.n_owned_nodes())
-        record.sums[number_of_node(grid, node)].assign(nodes.sum(node),
-                                                       nodes.sum(node) +
-                                                         n_lanes);
+        {
+          const auto sums = sums_of_node(nodes, node);
+          record.sums[number_of_node(grid, node)].assign(sums.begin(),
+                                                         sums.end());
+        }
       else
-        for (unsigned int c = 0; c < n_lanes; ++c)
+        for (unsigned int c = 0; c < NodalSum<dim>::width; ++c)
           EXPECT_EQ(nodes.sum(node)[c], 0.) << "a ghost";
     nodes.update_momentum(dt, 1e-9);
     nodes.share_with_ghosts(grid);
     for (const unsigned int node : nodes_in_use(core))
-      record.motions[number_of_node(grid, node)].assign(nodes.motion(node),
-                                                        nodes.motion(node) +
-                                                          2 * dim);
+      {
+        auto &motion = record.motions[number_of_node(grid, node)];
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            motion.push_back(nodes.velocity(node)[d]);
+            motion.push_back(nodes.increment(node)[d]);
+          }
+      }
     core.gather(dt);
-    core.transfer.average_dilatation(points, points.all());
+    core.transfer.average_dilatation(points, core.workspace, points.all());
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         auto &state = record.points[std::lround(points.data(points.id)[p])];
@@ -292,7 +297,7 @@ namespace
             state.push_back(points.data(points.position, d)[p]);
             state.push_back(points.data(points.velocity, d)[p]);
             for (unsigned int e = 0; e < dim; ++e)
-              state.push_back(points.velocity_gradient(d, e)[p]);
+              state.push_back(core.velocity_gradient(p)[d][e]);
           }
       }
     return record;

@@ -2,6 +2,7 @@
 #define talus_tests_unit_specimen_h
 
 #include <talus/materials/material_model.h>
+#include <talus/points/points_kernel.h>
 
 #include <gtest/gtest.h>
 
@@ -44,6 +45,7 @@ namespace talus
   public:
     std::unique_ptr<MaterialModel<dim>> law;
     Points<dim>                         points;
+    StepWorkspace<dim>                  workspace;
 
     Specimen(const std::string &name,
              const std::string &parameters,
@@ -52,7 +54,7 @@ namespace talus
     {
       law->add_columns(points);
       points.append(n_points);
-      points.lend_workspace(0, n_points);
+      workspace.reinit(0, n_points);
       for (unsigned int p = 0; p < n_points; ++p)
         {
           points.data(points.reference_volume)[p] = volume;
@@ -78,7 +80,7 @@ namespace talus
     {
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
-          points.velocity_gradient(i, j)[p] = H[i][j] / dt;
+          workspace.velocity_gradient(i, j)[p] = H[i][j] / dt;
     }
 
     /// One step of point @p p with dt L' = @p H.
@@ -86,7 +88,7 @@ namespace talus
     step(const Matrix<dim, double> &H, const unsigned int p = 0)
     {
       set_increment(H, p);
-      law->update_stress(points, p, p + 1, dt);
+      law->update_stress(points, workspace, p, p + 1, dt);
     }
 
     /// Energy per undeformed volume of a hyperelastic law at @p F; sets the
@@ -95,7 +97,7 @@ namespace talus
     energy_at(const Matrix<dim, double> &F)
     {
       set_F(F);
-      law->update_stress(points, 0, 1, 0.);
+      law->update_stress(points, workspace, 0, 1, 0.);
       return elastic_energy() / volume;
     }
 

@@ -125,7 +125,7 @@ namespace
     EXPECT_TRUE(core.enforce());
     EXPECT_EQ(core.splitter.statistics().n_splits, 1u);
     // The daughter in her parent's place may lie in another cell.
-    EXPECT_EQ(points.strays().size(), 1u);
+    EXPECT_EQ(core.workspace.points_out_of_cell().size(), 1u);
     for (unsigned int p = 0; p < points.size(); ++p)
       EXPECT_EQ(points.data(points.generation)[p],
                 points.data(points.position)[p] < 2. ? 1. : 0.);

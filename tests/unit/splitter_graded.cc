@@ -40,11 +40,11 @@ namespace
   /// to the largest of its kind.
   template <int dim>
   double
-  change(const std::vector<std::array<double, n_lanes>> &a,
-         const std::vector<std::array<double, n_lanes>> &b)
+  change(const std::vector<NodeSums<dim>> &a,
+         const std::vector<NodeSums<dim>> &b)
   {
     double result = 0;
-    for (unsigned int c = 0; c <= NodalSum<dim>::volume; ++c)
+    for (unsigned int c = 0; c < SumIndex<dim>::n_entries; ++c)
       {
         double difference = 0, scale = 0;
         for (unsigned int n = 0; n < a.size(); ++n)

@@ -54,8 +54,8 @@ namespace
           this->set_deformation(i, F[i]);
         }
       auto &points = this->points;
-      points.lend_workspace(0, points.size());
-      update_stretch(points, 0, points.size(), rule, 0.);
+      this->workspace.reinit(0, points.size());
+      update_stretch(points, this->workspace, 0, points.size(), rule, 0.);
       for (unsigned int i = 0; i < 50; ++i)
         this->set(points.creation_stretch, i, this->get(points.stretch, i));
       this->sort();
@@ -77,11 +77,11 @@ namespace
           this->set(points.position, p, middle + shift + R * start[i]);
           for (unsigned int k = 0; k < dim; ++k)
             for (unsigned int l = 0; l < dim; ++l)
-              points.velocity_gradient(k, l)[p] = 0.;
-          points.velocity_gradient(0, 1)[p] = -rate;
-          points.velocity_gradient(1, 0)[p] = rate;
+              this->workspace.velocity_gradient(k, l)[p] = 0.;
+          this->workspace.velocity_gradient(0, 1)[p] = -rate;
+          this->workspace.velocity_gradient(1, 0)[p] = rate;
         }
-      update_stretch(points, 0, points.size(), rule, dt);
+      update_stretch(points, this->workspace, 0, points.size(), rule, dt);
       this->sort();
     }
 

@@ -74,7 +74,7 @@ TEST(StrengthFactor, WhoHasAStrength)
 
 
 
-// 1 changes nothing, f is f times all strengths, and neighbours in the same lanes
+// 1 changes nothing, f is f times all strengths, and neighbours in the same register
 // do not matter.
 TEST(StrengthFactor, MultipliesTheStrength)
 {
@@ -100,7 +100,8 @@ TEST(StrengthFactor, MultipliesTheStrength)
                 soil->set_increment(H, p);
             }
           for (Specimen<3> *soil : {&plain, &one, &half, &mixed})
-            soil->law->update_stress(soil->points, 0, n, soil->dt);
+            soil->law->update_stress(
+              soil->points, soil->workspace, 0, n, soil->dt);
         }
       for (unsigned int p = 0; p < n; ++p)
         {

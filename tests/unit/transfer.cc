@@ -1,3 +1,5 @@
+#include <talus/transfer/reference.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -16,27 +18,26 @@ namespace
   void
   expect_conservation(Core<dim> &core)
   {
-    std::array<double, n_lanes> of_nodes{}, of_points{}, scale{};
+    using Index = SumIndex<dim>;
+    NodeSums<dim> of_nodes{}, of_points{}, scale{};
     for (const auto &sum : core.scatter())
-      for (unsigned int c = 0; c < n_lanes; ++c)
+      for (unsigned int c = 0; c < Index::n_entries; ++c)
         of_nodes[c] += sum[c], scale[c] += std::abs(sum[c]);
     const auto &points = core.points;
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         const double mass = points.data(points.mass)[p];
-        of_points[NodalSum<dim>::mass] += mass;
-        of_points[NodalSum<dim>::volume] +=
-          points.data(points.reference_volume)[p];
+        of_points[Index::mass] += mass;
+        of_points[Index::volume] += points.data(points.reference_volume)[p];
         for (unsigned int d = 0; d < dim; ++d)
           {
-            of_points[NodalSum<dim>::momentum + d] +=
+            of_points[Index::momentum + d] +=
               mass * points.data(points.velocity, d)[p];
             // Internal forces are in balance.
-            of_points[NodalSum<dim>::force + d] +=
-              mass * acceleration(core, p)[d];
+            of_points[Index::force + d] += mass * acceleration(core, p)[d];
           }
       }
-    for (unsigned int c = 0; c <= NodalSum<dim>::volume; ++c)
+    for (unsigned int c = 0; c < Index::n_entries; ++c)
       EXPECT_NEAR(of_nodes[c], of_points[c], 1e-13 * scale[c]) << c;
   }
 
@@ -50,67 +51,35 @@ namespace
 
 
 
-  /// The sums of the points' shares, point by point from the definition.
-  template <int dim>
-  std::vector<std::array<double, n_lanes>>
-  scatter_by_definition(Core<dim> &core)
-  {
-    const auto                              &points = core.points;
-    std::vector<std::array<double, n_lanes>> sums(core.grid.n_nodes());
-    for (auto &sum : sums)
-      sum.fill(0.);
-    std::vector<NodeWeight<dim>> weights;
-    for (unsigned int p = 0; p < points.size(); ++p)
-      {
-        const unsigned int c =
-          core.grid.find_cell(Point<dim>(core.get(points.position, p)));
-        weights_of_point(
-          points, core.grid, core.transfer.box_shape(), c, p, weights);
-        const double         mass  = points.data(points.mass)[p];
-        const Tensor<1, dim> b     = acceleration(core, p);
-        Tensor<2, dim>       sigma = core.stress(p);
-        for (unsigned int d = 0; d < dim; ++d)
-          sigma[d][d] += core.points.mean_stress_shift()[p];
-        for (const auto &w : weights)
-          {
-            auto                &sum = sums[w.node];
-            const Tensor<1, dim> force =
-              mass * w.value * b - core.volume(p) * sigma * w.gradient;
-            sum[NodalSum<dim>::mass] += mass * w.value;
-            sum[NodalSum<dim>::volume] +=
-              points.data(points.reference_volume)[p] * w.value;
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                sum[NodalSum<dim>::momentum + d] +=
-                  mass * w.value * points.data(points.velocity, d)[p];
-                sum[NodalSum<dim>::force + d] += force[d];
-              }
-          }
-      }
-    return sums;
-  }
-
-
-
   template <int dim>
   void
   expect_sums_by_definition(Core<dim> &core)
   {
-    const auto sums     = core.scatter();
-    auto       expected = scatter_by_definition(core);
+    constexpr unsigned int n_entries = SumIndex<dim>::n_entries;
+    const auto             sums      = core.scatter();
+    core.nodes.clear();
+    for (const Segment &segment : core.points.segments())
+      scatter_by_definition(core.points,
+                            core.workspace.view(segment.begin, segment.end),
+                            segment,
+                            core.grid,
+                            core.loads,
+                            core.transfer.box_shape(),
+                            core.nodes);
+    auto expected = core.sums_of_nodes();
     for (const auto &hanging : core.grid.hanging_nodes())
-      for (unsigned int c = 0; c < n_lanes; ++c)
+      for (unsigned int c = 0; c < n_entries; ++c)
         {
           for (const auto &[master, weight] : hanging.masters)
             expected[master][c] += weight * expected[hanging.node][c];
           expected[hanging.node][c] = 0.;
         }
-    std::array<double, n_lanes> largest{};
+    NodeSums<dim> largest{};
     for (const auto &sum : expected)
-      for (unsigned int c = 0; c < n_lanes; ++c)
+      for (unsigned int c = 0; c < n_entries; ++c)
         largest[c] = std::max(largest[c], std::abs(sum[c]));
     for (unsigned int n = 0; n < sums.size(); ++n)
-      for (unsigned int c = 0; c < n_lanes; ++c)
+      for (unsigned int c = 0; c < n_entries; ++c)
         EXPECT_NEAR(sums[n][c], expected[n][c], 1e-13 * largest[c])
           << "node " << n << " component " << c;
   }
@@ -143,13 +112,13 @@ namespace
                                             core.nodes.active_nodes().end());
         EXPECT_EQ(active.size(), core.nodes.active_nodes().size()) << "twice";
         for (unsigned int n = 0; n < sums.size(); ++n)
-          if (sums[n][NodalSum<dim>::mass] > 0.)
+          if (sums[n][SumIndex<dim>::mass] > 0.)
             {
               EXPECT_EQ(active.count(n), 1u) << n;
             }
         core.nodes.clear();
         for (unsigned int n = 0; n < sums.size(); ++n)
-          for (unsigned int c = 0; c < n_lanes; ++c)
+          for (unsigned int c = 0; c < NodalSum<dim>::width; ++c)
             EXPECT_EQ(core.nodes.sum(n)[c], 0.);
       }
   }
@@ -209,12 +178,7 @@ namespace
   {
     const auto places = places_of_nodes(core.grid);
     for (unsigned int n = 0; n < places.size(); ++n)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          double *v                          = core.nodes.motion(n);
-          v[NodalMotion<dim>::velocity + d]  = velocity(places[n])[d];
-          v[NodalMotion<dim>::increment + d] = increment(places[n])[d];
-        }
+      core.nodes.set_motion(n, velocity(places[n]), increment(places[n]));
   }
 
 
@@ -276,15 +240,120 @@ namespace
 
 
 
+  /// What a gather does to the points.
+  template <int dim>
+  struct Gathered
+  {
+    std::vector<Tensor<1, dim>> position, velocity;
+    std::vector<Tensor<2, dim>> velocity_gradient;
+    std::vector<unsigned int>   out_of_cell; ///< ascending
+    double                      work = 0.;   ///< of the loads, J
+
+    /// Call @p gather, which returns that work, and undo it.
+    template <typename Action>
+    Gathered(Core<dim> &core, const Action &gather)
+    {
+      auto                       &points = core.points;
+      std::vector<Tensor<1, dim>> old_x, old_v;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          old_x.push_back(core.get(points.position, p));
+          old_v.push_back(core.get(points.velocity, p));
+        }
+      core.workspace.points_out_of_cell().clear();
+      work        = gather();
+      out_of_cell = core.workspace.points_out_of_cell();
+      std::sort(out_of_cell.begin(), out_of_cell.end());
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          position.push_back(core.get(points.position, p));
+          velocity.push_back(core.get(points.velocity, p));
+          velocity_gradient.push_back(core.velocity_gradient(p));
+          core.set(points.position, p, old_x[p]);
+          core.set(points.velocity, p, old_v[p]);
+        }
+    }
+  };
+
+
+
+  /// Any motion of the nodes, and of points that reach beyond the mesh, too.
+  template <int dim>
+  void
+  expect_gather_by_definition(Core<dim> &core, const double flip)
+  {
+    const double dt = 0.1;
+    for (unsigned int n = 0; n < core.grid.n_nodes(); ++n)
+      core.nodes.set_motion(n, core.vector(-1., 1.), core.vector(-1., 1.));
+    core.nodes.share_with_ghosts(core.grid);
+
+    const Gathered<dim> expected(core, [&]() {
+      core.workspace.reinit(0, core.points.size());
+      double power = 0.;
+      for (const Segment &segment : core.points.segments())
+        power += gather_by_definition(core.nodes,
+                                      core.grid,
+                                      core.loads,
+                                      core.transfer.box_shape(),
+                                      segment,
+                                      flip,
+                                      dt,
+                                      core.points,
+                                      core.workspace);
+      return dt * power;
+    });
+    const Gathered<dim> found(core, [&]() { return core.gather(dt); });
+
+    double scale = 0.;
+    for (unsigned int p = 0; p < core.points.size(); ++p)
+      {
+        EXPECT_LT((found.position[p] - expected.position[p]).norm(), 1e-14);
+        EXPECT_LT((found.velocity[p] - expected.velocity[p]).norm(), 1e-14);
+        EXPECT_LT(
+          (found.velocity_gradient[p] - expected.velocity_gradient[p]).norm(),
+          1e-13 * (1. + expected.velocity_gradient[p].norm()));
+        scale += dt * core.points.data(core.points.mass)[p] *
+                 acceleration(core, p).norm();
+      }
+    EXPECT_NEAR(found.work, expected.work, 1e-14 * scale);
+    EXPECT_EQ(found.out_of_cell, expected.out_of_cell);
+    EXPECT_GT(found.out_of_cell.size(), 10u);
+  }
+
+
+
+  template <int dim>
+  void
+  expect_gather_by_definition()
+  {
+    for (const double flip : {1., 0., 0.3})
+      on_both_meshes<dim>(
+        in_section("Transfer", text("set FLIP fraction = ", flip)),
+        [flip](Core<dim> &core) { expect_gather_by_definition(core, flip); });
+  }
+
+
+
+  TEST(Transfer, GatherByDefinition)
+  {
+    expect_gather_by_definition<2>();
+    expect_gather_by_definition<3>();
+  }
+
+
+
   /// Those that get no number for a place, too.
   template <int dim>
   void
-  expect_strays(Core<dim> &core)
+  expect_points_out_of_cell(Core<dim> &core)
   {
     const LinearField<dim> velocity(core), increment(core);
     set_motion(core, velocity, increment);
-    auto &points                                             = core.points;
-    core.nodes.motion(core.nodes.active_nodes()[0])[dim - 1] = std::nan("");
+    auto              &points = core.points;
+    const unsigned int node   = core.nodes.active_nodes()[0];
+    Tensor<1, dim>     v      = core.nodes.velocity(node);
+    v[dim - 1]                = std::nan("");
+    core.nodes.set_motion(node, v, core.nodes.increment(node));
     core.gather(0.1);
     std::vector<unsigned int> left;
     for (const Segment &segment : points.segments())
@@ -303,16 +372,17 @@ namespace
         }
     EXPECT_GT(left.size(), 10u);
     EXPECT_LT(left.size(), points.size());
-    std::sort(points.strays().begin(), points.strays().end());
-    EXPECT_EQ(points.strays(), left);
+    auto &noted = core.workspace.points_out_of_cell();
+    std::sort(noted.begin(), noted.end());
+    EXPECT_EQ(noted, left);
   }
 
 
 
   TEST(Transfer, GatherNotesThoseThatLeaveTheirCell)
   {
-    on_both_meshes<2>("", expect_strays<2>);
-    on_both_meshes<3>("", expect_strays<3>);
+    on_both_meshes<2>("", expect_points_out_of_cell<2>);
+    on_both_meshes<3>("", expect_points_out_of_cell<3>);
   }
 
 

@@ -26,22 +26,24 @@ namespace
     core.loads.varies = false;
     for (auto &acceleration : core.loads.acceleration_of_body)
       acceleration = Tensor<1, dim>();
-    const auto sums = core.scatter();
+    const auto                sums  = core.scatter();
+    const double             *shift = core.workspace.mean_stress_shift();
+    const std::vector<double> mean_stress_shift(shift,
+                                                shift + core.points.size());
     for (unsigned int n = 0; n < core.grid.n_nodes(); ++n)
-      for (unsigned int i = 0; i < NodalMotion<dim>::width; ++i)
-        core.nodes.motion(n)[i] = core.number(-1., 1.);
+      core.nodes.set_motion(n, core.vector(-1., 1.), core.vector(-1., 1.));
     core.nodes.share_with_ghosts(core.grid);
     double of_nodes = 0, of_points = 0, scale = 0;
     for (unsigned int n = 0; n < core.grid.n_nodes(); ++n)
       for (unsigned int d = 0; d < dim; ++d)
         of_nodes +=
-          sums[n][NodalSum<dim>::force + d] * core.nodes.velocity(n)[d];
+          sums[n][SumIndex<dim>::force + d] * core.nodes.velocity(n)[d];
     core.gather(0.1);
     for (unsigned int p = 0; p < core.points.size(); ++p)
       {
         Tensor<2, dim> sigma = core.stress(p);
         for (unsigned int d = 0; d < dim; ++d)
-          sigma[d][d] += core.points.mean_stress_shift()[p];
+          sigma[d][d] += mean_stress_shift[p];
         const double power =
           core.volume(p) * contraction(sigma, core.velocity_gradient(p));
         of_points -= power;
@@ -64,17 +66,18 @@ namespace
   void
   expect_adjoint_means(Core<dim> &core)
   {
-    auto &points = core.points;
-    points.lend_workspace(0, points.size());
+    auto &points    = core.points;
+    auto &workspace = core.workspace;
+    workspace.reinit(0, points.size());
     for (unsigned int p = 0; p < points.size(); ++p)
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
-          points.velocity_gradient(i, j)[p] = core.number(-1., 1.);
+          workspace.velocity_gradient(i, j)[p] = core.number(-1., 1.);
     std::vector<Tensor<2, dim>> old;
     for (unsigned int p = 0; p < points.size(); ++p)
       old.push_back(core.velocity_gradient(p));
-    core.transfer.average_mean_stress(points, points.all());
-    core.transfer.average_dilatation(points, points.all());
+    core.transfer.average_mean_stress(points, workspace, points.all());
+    core.transfer.average_dilatation(points, workspace, points.all());
 
     double rate_averaged = 0, stress_averaged = 0, scale = 0, change = 0;
     for (unsigned int p = 0; p < points.size(); ++p)
@@ -84,7 +87,7 @@ namespace
         const auto   L     = core.velocity_gradient(p);
         rate_averaged += V * contraction(sigma, L);
         for (unsigned int d = 0; d < dim; ++d)
-          sigma[d][d] += points.mean_stress_shift()[p];
+          sigma[d][d] += core.workspace.mean_stress_shift()[p];
         stress_averaged += V * contraction(sigma, old[p]);
         scale += V * std::abs(contraction(sigma, old[p]));
         change += V * std::abs(trace(L - old[p]));
@@ -94,7 +97,7 @@ namespace
         if (points.data(points.body)[p] == 1.)
           {
             EXPECT_EQ(difference.norm(), 0.);
-            EXPECT_EQ(points.mean_stress_shift()[p], 0.);
+            EXPECT_EQ(workspace.mean_stress_shift()[p], 0.);
           }
       }
     EXPECT_GT(change, 1.);
@@ -125,7 +128,7 @@ namespace
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
             EXPECT_NEAR(trace(core.stress(p)) / dim +
-                          points.mean_stress_shift()[p],
+                          core.workspace.mean_stress_shift()[p],
                         mean_q / volume,
                         1e-12);
             EXPECT_NEAR(trace(core.velocity_gradient(p)), rate, 1e-14);

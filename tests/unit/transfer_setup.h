@@ -31,7 +31,7 @@ namespace
       acceleration = core.vector(-10., 10.);
     core.loads.varies = true;
     for (auto &row : core.loads.acceleration_of_point)
-      row.resize(core.points.size() + n_lanes);
+      row.resize(core.points.size() + Points<dim>::n_spare);
     for (unsigned int p = 0; p < core.points.size(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         core.loads.acceleration_of_point[d][p] = core.number(-5., 5.);

@@ -79,7 +79,7 @@ TEST(Viscoplastic, NoTimeNoFlow)
   Specimen<2> soil("Herschel-Bulkley",
                    stiff_soil.parameters(herschel_bulkley(10., 0.4)));
   soil.points.data(soil.points.stress, 3)[0] = 2. * s_u;
-  soil.law->update_stress(soil.points, 0, 1, 0.);
+  soil.law->update_stress(soil.points, soil.workspace, 0, 1, 0.);
   EXPECT_DOUBLE_EQ(soil.stress()[3], 2. * s_u);
   EXPECT_EQ(plastic_shear_strain(soil), 0.);
 }
@@ -127,7 +127,8 @@ TEST(Viscoplastic, Relaxation)
   linear.set_increment({});
   for (unsigned int k = 1; k <= 40; ++k)
     {
-      linear.law->update_stress(linear.points, 0, 1, linear.dt);
+      linear.law->update_stress(
+        linear.points, linear.workspace, 0, 1, linear.dt);
       EXPECT_NEAR(shear_stress(linear) - s_u,
                   start * std::pow(1. + soft.mu * linear.dt / K, -1. * k),
                   1e-11 * start);
@@ -142,7 +143,8 @@ TEST(Viscoplastic, Relaxation)
       soil.set_increment({});
       const unsigned int n_steps = (i == 0 ? 1000 : 2000);
       for (unsigned int k = 0; k < n_steps; ++k)
-        soil.law->update_stress(soil.points, 0, 1, 0.1 / n_steps);
+        soil.law->update_stress(
+          soil.points, soil.workspace, 0, 1, 0.1 / n_steps);
       const double exact = 1. / (1. / start + soft.mu * 0.1 / (3e3 * 3e3));
       error[i]           = shear_stress(soil) - s_u - exact;
     }
@@ -269,7 +271,7 @@ TEST(Viscoplastic, WorkInRemouldingShear)
 
 
 
-TEST(Viscoplastic, LanesEqualScalarsWithRemoulding)
+TEST(Viscoplastic, BatchEqualsPointByPointWithRemoulding)
 {
   constexpr unsigned int n = 19;
   const Elastic          clay{250e3, 0.49};
@@ -290,7 +292,8 @@ TEST(Viscoplastic, LanesEqualScalarsWithRemoulding)
               batch.set_increment(H, p);
               single.step(H, p);
             }
-          batch.law->update_stress(batch.points, 0, n, batch.dt);
+          batch.law->update_stress(
+            batch.points, batch.workspace, 0, n, batch.dt);
         }
       EXPECT_GT(plastic_shear_strain(batch, 1), 0.01);
       for (unsigned int p = 0; p < n; ++p)

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 using namespace talus;
@@ -45,11 +46,31 @@ namespace
   {
     return std::pow(10., from + (to - from) * (random() / 4294967295.));
   }
+
+
+
+  constexpr unsigned int n_points = 8;
+  using Values                    = std::array<double, n_points>;
+
+  /// As many at a time as a register holds.
+  Values
+  plastic_shear_of_all(const Values          &excess,
+                       const Values          &loss,
+                       const ShearResistance &r)
+  {
+    Values result;
+    for_each_simd(0, n_points, [&](const unsigned int i, const auto number) {
+      using Number = std::decay_t<decltype(number)>;
+      store(&result[i],
+            plastic_shear(load<Number>(&excess[i]), load<Number>(&loss[i]), r));
+    });
+    return result;
+  }
 } // namespace
 
 
 
-// Strengths of 1 Pa, so that all else is in units of it. Eight at a time are
+// Strengths of 1 Pa, so that all else is in units of it. Several at a time are
 // those one by one, whatever the neighbours are.
 TEST(ViscoplasticReturn, ReturnIsTheRoot)
 {
@@ -73,18 +94,18 @@ TEST(ViscoplasticReturn, ReturnIsTheRoot)
       // loss * decay / modulus up to 0.9999.
       if (batch % 2 == 0)
         r.decay = (1. - magnitude(random, -4., 0.)) * r.modulus;
-      Lanes excess, loss;
-      for (unsigned int i = 0; i < n_lanes; ++i)
+      Values excess, loss;
+      for (unsigned int i = 0; i < n_points; ++i)
         {
           excess[i] = (i == 3 ? -1. : 1.) * magnitude(random, -7., 4.);
           loss[i]   = (i % 4 == 0 ? 1. : random() / 4294967295.);
         }
-      const Lanes answer = plastic_shear(excess, loss, r);
-      Lanes       others = excess;
-      for (unsigned int i = 0; i < n_lanes; i += 2)
+      const Values answer = plastic_shear_of_all(excess, loss, r);
+      Values       others = excess;
+      for (unsigned int i = 0; i < n_points; i += 2)
         others[i] *= 1e3;
-      const Lanes with_others = plastic_shear(others, loss, r);
-      for (unsigned int i = 0; i < n_lanes; ++i)
+      const Values with_others = plastic_shear_of_all(others, loss, r);
+      for (unsigned int i = 0; i < n_points; ++i)
         {
           const double alone = plastic_shear<double>(excess[i], loss[i], r);
           EXPECT_NEAR(answer[i], alone, 1e-12 * alone);

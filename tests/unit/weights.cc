@@ -1,3 +1,5 @@
+#include <talus/transfer/weights_kernel.h>
+
 #include "weights_setup.h"
 
 namespace
@@ -46,8 +48,7 @@ namespace
     FourNodes(const double centre, const double half)
     {
       const auto         w     = axis_weights(centre, half);
-      const unsigned int first = w.first;
-      EXPECT_TRUE(w.first == 0. || w.first == 1.);
+      const unsigned int first = w.begins_below ? 0 : 1;
       for (unsigned int n = 0; n < 3; ++n)
         {
           value[first + n]    = w.value[n];
@@ -97,25 +98,40 @@ namespace
 
 
 
-  TEST(AxisWeights, LanesAsDoubles)
+  template <unsigned int n>
+  void
+  expect_weights_of_doubles()
   {
-    Lanes centre, half;
-    for (unsigned int i = 0; i < n_lanes; ++i)
+    constexpr unsigned int n_boxes = 8;
+    double                 centre[n_boxes], half[n_boxes];
+    for (unsigned int i = 0; i < n_boxes; ++i)
       {
         centre[i] = -0.5 + 0.27 * i;
         half[i]   = 0.1 + 0.05 * i;
       }
-    const auto lanes = axis_weights(centre, half);
-    for (unsigned int i = 0; i < n_lanes; ++i)
+    for (unsigned int i = 0; i < n_boxes; ++i)
       {
-        const auto w = axis_weights<double>(centre[i], half[i]);
-        EXPECT_EQ(lanes.first[i], w.first);
-        for (unsigned int n = 0; n < 3; ++n)
+        const unsigned int first = i / n * n;
+        const auto         found = axis_weights(Simd<n>::load(centre + first),
+                                        Simd<n>::load(half + first));
+        const auto         w     = axis_weights<double>(centre[i], half[i]);
+        EXPECT_EQ(found.begins_below[i - first], w.begins_below);
+        for (unsigned int k = 0; k < 3; ++k)
           {
-            EXPECT_NEAR(lanes.value[n][i], w.value[n], 1e-15);
-            EXPECT_NEAR(lanes.gradient[n][i], w.gradient[n], 4e-15);
+            EXPECT_NEAR(found.value[k][i - first], w.value[k], 1e-15);
+            EXPECT_NEAR(found.gradient[k][i - first], w.gradient[k], 4e-15);
           }
       }
+  }
+
+
+
+  TEST(AxisWeights, SimdAsDoubles)
+  {
+    expect_weights_of_doubles<1>();
+    expect_weights_of_doubles<2>();
+    expect_weights_of_doubles<4>();
+    expect_weights_of_doubles<8>();
   }
 
 
