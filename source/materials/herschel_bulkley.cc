@@ -157,22 +157,31 @@ namespace talus
     bool                  sound      = true;
     with_strength_factor(
       points, this->strength_factor(), [&](const auto &factor) {
-        for_each_simd(begin,
+        const auto update =
+          [&](const unsigned int p, auto number, auto n_parts)
+            TALUS_INLINE_LAMBDA {
+              sound &=
+                update_herschel_bulkley_points<dim, decltype(number), n_parts>(
+                  columns,
+                  work,
+                  p,
+                  plastic_shear_strain_,
+                  dt,
+                  moduli,
+                  strength,
+                  resistance,
+                  factor);
+            };
+        using One      = std::integral_constant<unsigned int, 1>;
+        using Four     = std::integral_constant<unsigned int, 4>;
+        using Bulk     = Simd<simd_width>;
+        unsigned int p = begin;
+        for (; p + 4 * simd_width <= end; p += 4 * simd_width)
+          update(p, Bulk(), Four());
+        for_each_simd(p,
                       end,
-                      [&](const unsigned int p,
-                          auto               number) TALUS_INLINE_LAMBDA {
-                        sound &=
-                          update_herschel_bulkley_point<dim, decltype(number)>(
-                            columns,
-                            work,
-                            p,
-                            plastic_shear_strain_,
-                            dt,
-                            moduli,
-                            strength,
-                            resistance,
-                            factor(p, number));
-                      });
+                      [&](const unsigned int p, auto number)
+                        TALUS_INLINE_LAMBDA { update(p, number, One()); });
       });
     if (!sound)
       {

@@ -8,6 +8,25 @@
 
 namespace talus
 {
+  /// x^exponent for x > 0. Exponents whose power takes a few multiplications
+  /// or a root are told apart, which is quicker and is exact.
+  template <typename Number>
+  TALUS_ALWAYS_INLINE Number
+  power_of(const Number &x, const double exponent)
+  {
+    if (exponent == 0.5)
+      return sqrt(x);
+    if (exponent == 1.)
+      return x;
+    if (exponent == 2.)
+      return x * x;
+    if (exponent == 3.)
+      return x * x * x;
+    return pow(x, exponent);
+  }
+
+
+
   /// What resists plastic shear in one step of @p dt seconds.
   struct ShearResistance
   {
@@ -90,13 +109,14 @@ namespace talus
     const bool is_power = (r.exponent > 1. && r.consistency > 0.);
     Number     start    = most_shear(excess, loss, linear, r.decay);
     if (is_power)
-      start = min(start, r.dt * pow(excess / r.consistency, 1. / r.exponent));
+      start =
+        min(start, r.dt * power_of(excess / r.consistency, 1. / r.exponent));
     return newton_from_above(start, yields, [&](const Number x) {
       auto [value, slope] = stress_taken(x, loss, linear, r.decay);
       if (is_power)
         {
           const Number viscous =
-            r.consistency * pow(x * (1. / r.dt), r.exponent);
+            r.consistency * power_of(x * (1. / r.dt), r.exponent);
           value += viscous;
           slope += r.exponent * viscous / x;
         }
@@ -115,11 +135,11 @@ namespace talus
                        const ShearResistance &r)
   {
     const auto shear = [&](const Number y) {
-      return r.dt * pow(y * (1. / r.consistency), 1. / r.exponent);
+      return r.dt * power_of(y * (1. / r.consistency), 1. / r.exponent);
     };
     const Number most = most_shear(excess, loss, r.modulus, r.decay);
     const Number start =
-      min(excess, r.consistency * pow(most * (1. / r.dt), r.exponent));
+      min(excess, r.consistency * power_of(most * (1. / r.dt), r.exponent));
     return shear(newton_from_above(start, yields, [&](const Number y) {
       const Number x            = shear(y);
       const auto [value, slope] = stress_taken(x, loss, r.modulus, r.decay);
@@ -150,16 +170,16 @@ namespace talus
                 const Number           loss,
                 const ShearResistance &r)
   {
-    const auto yields     = (excess > 0.);
+    const auto yields     = (excess > Number(0.));
     const bool is_viscous = (r.consistency > 0.);
     if (!any(yields) || (is_viscous && r.dt == 0.))
-      return Number{};
+      return Number(0.);
 
     const bool   is_linear = (!is_viscous || r.exponent == 1.);
     const double linear =
       r.modulus + (is_linear && is_viscous ? r.consistency / r.dt : 0.);
     if (is_linear && r.decay == 0.)
-      return max(excess, Number{}) * (1. / linear);
+      return max(excess, Number(0.)) * Number(1. / linear);
 
     // In the other lanes any positive number will do.
     const Number solvable = select(yields, excess, Number(r.modulus));
