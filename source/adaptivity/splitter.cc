@@ -91,28 +91,21 @@ namespace talus
   template <int dim>
   bool
   Splitter<dim>::may_violate(const Points<dim> &points,
-                             const Batch       &batch,
-                             const Grid<dim>   &grid) const
+                             const unsigned int begin,
+                             const unsigned int end,
+                             const double       cell_size) const
   {
-    double least_size = std::numeric_limits<double>::max();
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
-      {
-        const Cell<dim> &cell = grid.cells()[points.segments()[s].cell];
-        // A neighbour may have cells of half the size.
-        least_size =
-          std::min(least_size, cell.size * (cell.uniform ? 1. : 0.5));
-      }
     const auto columns = points.view();
     bool       found   = false;
-    for_each_simd(batch.begin,
-                  batch.end,
+    for_each_simd(begin,
+                  end,
                   [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
                     using Number = decltype(number);
                     auto may_be_violated =
-                      violates<Number>(columns, p, 0, least_size);
+                      violates<Number>(columns, p, 0, cell_size);
                     for (unsigned int d = 1; d < dim; ++d)
                       may_be_violated |=
-                        violates<Number>(columns, p, d, least_size);
+                        violates<Number>(columns, p, d, cell_size);
                     found |=
                       any(may_be_violated &
                           (load<Number>(columns.data(columns.generation) + p) <
@@ -264,13 +257,31 @@ namespace talus
                       const Batch       &batch,
                       const Grid<dim>   &grid)
   {
-    if (!enabled_ || !may_violate(points, batch, grid))
+    if (!enabled_)
+      return;
+    // The smallest cell that a point of a segment can be in: a neighbour may
+    // have half the size.
+    const auto least_size = [&](const Segment &segment) {
+      const Cell<dim> &cell = grid.cells()[segment.cell];
+      return cell.size * (cell.uniform ? 1. : 0.5);
+    };
+    double least = std::numeric_limits<double>::max(), most = 0;
+    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+      {
+        const double size = least_size(points.segments()[s]);
+        least             = std::min(least, size);
+        most              = std::max(most, size);
+      }
+    if (least == most && !may_violate(points, batch.begin, batch.end, least))
       return;
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
         const Segment   &segment   = points.segments()[s];
         const Cell<dim> &cell      = grid.cells()[segment.cell];
         double           cell_size = cell.size;
+        if (!may_violate(
+              points, segment.begin, segment.end, least_size(segment)))
+          continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
             unsigned int axes = cell.uniform

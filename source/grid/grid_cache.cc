@@ -48,7 +48,8 @@ namespace talus
     const Lattice      extent = extent_of_lattice(level_of_cell_[c]);
     const unsigned int level  = level_of_cell_[c];
 
-    cell.uniform = true;
+    cell.uniform            = true;
+    cell.sides_of_same_size = (1u << (2 * dim)) - 1;
     for (unsigned int k = 0; k < cell.neighbors.size(); ++k)
       {
         const auto offset = digits<dim>(k, 3);
@@ -64,12 +65,15 @@ namespace talus
           continue;
         periodicity_.wrap(other, extent);
         cell.neighbors[k] = cell_at(other, level);
-        if (cell.neighbors[k] == numbers::invalid_unsigned_int)
-          cell.uniform = false;
+        if (cell.neighbors[k] != numbers::invalid_unsigned_int)
+          continue;
+        cell.uniform = false;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (offset[d] != 1)
+            cell.sides_of_same_size &= ~(1u << (2 * d + offset[d] / 2));
       }
-    if (cell.uniform)
-      fill_patch(c);
-    else
+    fill_patch(c);
+    if (!cell.uniform)
       find_touching_cells(c);
   }
 
@@ -99,7 +103,8 @@ namespace talus
             node[d]     = (at[d] >= 2 ? 2 : 1);
           }
         const unsigned int n = cell.neighbors[number<dim>(neighbor, 3)];
-        cell.patch[k]        = cells_[n].patch[number<dim>(node, 4)];
+        if (n != numbers::invalid_unsigned_int)
+          cell.patch[k] = cells_[n].patch[number<dim>(node, 4)];
       }
   }
 

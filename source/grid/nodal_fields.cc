@@ -57,10 +57,13 @@ namespace talus
     active_ghosts_.clear();
     active_boundary_nodes_.clear();
 
+    // Of a cell that is not uniform only its own nodes: those of the cells
+    // around are theirs.
     const auto add_patch = [&](const unsigned int c) {
-      for (const unsigned int node : grid.cells()[c].patch)
-        if (node != numbers::invalid_unsigned_int)
-          add_active(grid, node);
+      const Cell<dim> &cell = grid.cells()[c];
+      for (unsigned int k = 0; k < cell.patch.size(); ++k)
+        if (cell.uniform || is_own_node<dim>(k))
+          add_active(grid, cell.patch[k]);
     };
     for (const unsigned int c : cells)
       if (grid.cells()[c].uniform)
@@ -218,26 +221,6 @@ namespace talus
 
   template <int dim>
   void
-  NodalFields<dim>::add_sums(const unsigned int    node,
-                             const double          mass,
-                             const double          volume,
-                             const Tensor<1, dim> &momentum,
-                             const Tensor<1, dim> &force)
-  {
-    double *const s = sum(node);
-    s[Sum::mass] += mass;
-    s[Sum::volume] += volume;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        s[Sum::momentum + d] += momentum[d];
-        s[Sum::force + d] += force[d];
-      }
-  }
-
-
-
-  template <int dim>
-  void
   NodalFields<dim>::set_motion(const unsigned int    node,
                                const Tensor<1, dim> &velocity,
                                const Tensor<1, dim> &increment)
@@ -247,30 +230,6 @@ namespace talus
         motion(node)[Motion::velocity + d]  = velocity[d];
         motion(node)[Motion::increment + d] = increment[d];
       }
-  }
-
-
-
-  template <int dim>
-  Tensor<1, dim>
-  NodalFields<dim>::velocity(const unsigned int node) const
-  {
-    Tensor<1, dim> v;
-    for (unsigned int d = 0; d < dim; ++d)
-      v[d] = motion(node)[Motion::velocity + d];
-    return v;
-  }
-
-
-
-  template <int dim>
-  Tensor<1, dim>
-  NodalFields<dim>::increment(const unsigned int node) const
-  {
-    Tensor<1, dim> dv;
-    for (unsigned int d = 0; d < dim; ++d)
-      dv[d] = motion(node)[Motion::increment + d];
-    return dv;
   }
 
 

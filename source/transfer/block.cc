@@ -21,10 +21,46 @@ namespace talus
     /// as well as with those that do not. Take the side that leaves most
     /// points of the cell with the same nodes: below if any box must. Returns,
     /// of @p these points, those whose nodes begin below the cell.
-    PointsOfBlock
+    inline PointsOfBlock
     begin_below(const Reach &reach, const PointsOfBlock these)
     {
       return (reach.below & these) != 0 ? these & reach.inside_above : 0;
+    }
+
+
+
+    /// Take out of @p these points of a cell that is not uniform those that
+    /// reach into a cell of another size. Returns the patch for the others.
+    template <int dim>
+    const unsigned int *
+    part_from_outsiders(Block<dim>                       &block,
+                        const typename Block<dim>::Piece &piece,
+                        const Reach (&reach)[dim],
+                        PointsOfBlock &these)
+    {
+      const Cell<dim> &cell = *piece.cell_data;
+      PointsOfBlock    outsiders{};
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          if (!((cell.sides_of_same_size >> (2 * d)) & 1))
+            outsiders |= reach[d].below;
+          if (!((cell.sides_of_same_size >> (2 * d + 1)) & 1))
+            outsiders |= ~reach[d].inside_above;
+        }
+      outsiders &= these;
+      these &= ~outsiders;
+      for_each_bit(outsiders, [&](const unsigned int k) {
+        block.outsiders[block.n_outsiders++] = {k, piece.cell};
+      });
+      constexpr unsigned int own = (power(4, dim) - 1) / 3; // one up each axis
+      auto                  &patch = block.patches[block.n_patches++];
+      for (unsigned int i = 0; i < patch.size(); ++i)
+        {
+          const unsigned int node = cell.patch[i];
+          const bool is_valid = (node != dealii::numbers::invalid_unsigned_int);
+          patch[i]            = (is_valid ? node : cell.patch[own]);
+        }
+      return patch.data();
     }
 
 
@@ -53,37 +89,53 @@ namespace talus
 
 
 
-    /// Part the points of each cell into runs.
+    /// Part @p these points of a cell into runs.
+    template <int dim>
+    TALUS_ALWAYS_INLINE void
+    add_runs(Block<dim>         &block,
+             const unsigned int *patch,
+             const Reach (&reach)[dim],
+             const PointsOfBlock these)
+    {
+      PointsOfBlock below[dim];
+      bool          is_one_run = true;
+      unsigned int  above      = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          below[d]   = begin_below(reach[d], these);
+          is_one_run = is_one_run & (below[d] == 0 || below[d] == these);
+          above |= (below[d] == 0) << d;
+        }
+      if (is_one_run)
+        add_run(block, patch, these, above);
+      else
+        for (unsigned int corner = 0; corner < power(2, dim); ++corner)
+          {
+            PointsOfBlock points = these;
+            for (unsigned int d = 0; d < dim; ++d)
+              points &= ((corner >> d) & 1 ? ~below[d] : below[d]);
+            add_run(block, patch, points, corner);
+          }
+    }
+
+
+
+    /// Part the points of each cell into runs and outsiders.
     template <int dim>
     void
     find_runs(Block<dim> &block, const Reach (&reach)[dim])
     {
-      block.n_runs = 0;
+      block.n_runs = block.n_outsiders = block.n_patches = 0;
       for (unsigned int i = 0; i < block.n_pieces; ++i)
         {
-          const auto         &piece = block.pieces[i];
-          const PointsOfBlock all =
+          const auto   &piece = block.pieces[i];
+          PointsOfBlock these =
             (~PointsOfBlock(0) >> (64 - (piece.end - piece.begin)))
             << piece.begin;
-          PointsOfBlock below[dim];
-          bool          is_one_run = true;
-          unsigned int  above      = 0;
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              below[d]   = begin_below(reach[d], all);
-              is_one_run = is_one_run & (below[d] == 0 || below[d] == all);
-              above |= (below[d] == 0) << d;
-            }
-          if (is_one_run)
-            add_run(block, piece.patch, all, above);
-          else
-            for (unsigned int corner = 0; corner < power(2, dim); ++corner)
-              {
-                PointsOfBlock points = all;
-                for (unsigned int d = 0; d < dim; ++d)
-                  points &= ((corner >> d) & 1 ? ~below[d] : below[d]);
-                add_run(block, piece.patch, points, corner);
-              }
+          const unsigned int *patch = piece.cell_data->patch.data();
+          if (!piece.cell_data->uniform)
+            patch = part_from_outsiders(block, piece, reach, these);
+          add_runs(block, patch, reach, these);
         }
     }
   } // namespace
@@ -154,15 +206,12 @@ namespace talus
         const Cell<dim> &cell    = cells[segment.cell];
         if (n_pieces == 0)
           {
-            if (!cell.uniform)
-              continue;
             point_          = std::max(point_, segment.begin);
             block.begin     = point_;
             block.body      = segment.body;
             block.cell_size = cell.size;
           }
-        else if (!cell.uniform || segment.body != block.body ||
-                 cell.size != block.cell_size)
+        else if (segment.body != block.body || cell.size != block.cell_size)
           break;
         // The first phase of the next batch would else wait for each of its
         // cells: each one is asked for when its turn is a batch later.
@@ -172,7 +221,7 @@ namespace talus
 
         const unsigned int end =
           std::min(size + (segment.end - point_), Block<dim>::n_points);
-        block.pieces[n_pieces++] = {size, end, cell.patch.data()};
+        block.pieces[n_pieces++] = {size, end, segment.cell, &cell};
         // Whole registers: what goes beyond the end is overwritten by the next
         // piece. One is mostly enough.
 #pragma GCC unroll 1

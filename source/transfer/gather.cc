@@ -11,24 +11,64 @@ namespace talus
 
   namespace
   {
+    /// The row of a point by its weights as they are defined.
+    template <int dim>
+    void
+    interpolate_outsider(const Block<dim>                    &block,
+                         const typename Block<dim>::Outsider &outsider,
+                         const Points<dim>                   &points,
+                         const Grid<dim>                     &grid,
+                         const BoxShape                      &shape,
+                         const NodalFields<dim>              &fields,
+                         NodeWeights<dim>                    &room,
+                         InterpolatedMotion<dim>             &motion)
+    {
+      using Motion        = NodalMotion<dim>;
+      const auto    there = interpolate_by_definition(points,
+                                                   outsider.cell,
+                                                   block.begin + outsider.k,
+                                                   grid,
+                                                   shape,
+                                                   fields,
+                                                   room);
+      double *const row   = motion.row[outsider.k];
+      for (unsigned int i = 0; i < dim; ++i)
+        {
+          row[Motion::velocity + i]  = there.velocity[i];
+          row[Motion::increment + i] = there.increment[i];
+          for (unsigned int d = 0; d < dim; ++d)
+            row[InterpolatedMotion<dim>::place_of_gradient(i, d)] =
+              there.gradient[i][d] * block.cell_size;
+        }
+    }
+
+
+
     /// The motion of the nodes, interpolated to all points of the block.
     template <int dim>
     void
     interpolate_to_block(const Block<dim>        &block,
                          const Points<dim>       &points,
-                         const double            *motions,
+                         const Grid<dim>         &grid,
+                         const BoxShape          &shape,
+                         const NodalFields<dim>  &fields,
+                         NodeWeights<dim>        &room,
                          InterpolatedMotion<dim> &motion)
     {
+      const double *const motions = fields.motion(0);
       for (unsigned int k = 0; k < block.size; ++k)
         points.fetch_ahead(block.begin + k, points.initial_position);
       for (unsigned int r = 0; r < block.n_runs; ++r)
         {
           const double *nodes[power(3, dim)];
           find_nodes<dim>(block.runs[r], motions, nodes);
-          for_each_point(block.runs[r], [&](const unsigned int k) {
+          for_each_bit(block.runs[r].points, [&](const unsigned int k) {
             interpolate<dim>(block.runs[r], k, nodes, motion.row[k]);
           });
         }
+      for (unsigned int i = 0; i < block.n_outsiders; ++i)
+        interpolate_outsider(
+          block, block.outsiders[i], points, grid, shape, fields, room, motion);
     }
 
 
@@ -65,13 +105,15 @@ namespace talus
     OrderedSum              power;
     Block<dim>              block;
     InterpolatedMotion<dim> motion;
+    NodeWeights<dim>        room;
     BlockWalk<dim>          walk(points, batch, grid, box_shape_);
     while (walk.next(block))
       {
         prefetch_nodes(block, [&](const unsigned int node) {
           return nodes.motion(node);
         });
-        interpolate_to_block(block, points, nodes.motion(0), motion);
+        interpolate_to_block(
+          block, points, grid, box_shape_, nodes, room, motion);
         const auto loads_here = loads.view(block.body);
         for_each_simd(
           0,
@@ -99,20 +141,7 @@ namespace talus
               workspace.points_out_of_cell());
           });
       }
-    double power_elsewhere = 0;
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
-      if (const Segment &segment = points.segments()[s];
-          !grid.cells()[segment.cell].uniform)
-        power_elsewhere += gather_by_definition(nodes,
-                                                grid,
-                                                loads,
-                                                box_shape_,
-                                                segment,
-                                                flip_fraction_,
-                                                dt,
-                                                points,
-                                                workspace);
-    return dt * (power.total() + power_elsewhere);
+    return dt * power.total();
   }
 
 

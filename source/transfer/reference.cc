@@ -66,25 +66,49 @@ namespace talus
                         const Grid<dim>          &grid,
                         const Loads<dim>         &loads,
                         const BoxShape           &shape,
-                        NodalFields<dim>         &nodes)
+                        NodalFields<dim>         &nodes,
+                        NodeWeights<dim>         &room)
   {
-    std::vector<NodeWeight<dim>> weights;
     for (unsigned int p = segment.begin; p < segment.end; ++p)
       {
-        weights_of_point(points, grid, shape, segment.cell, p, weights);
+        weights_of_point(points, grid, shape, segment.cell, p, room);
         const double m     = points.data(points.mass)[p];
         const double V0    = points.data(points.reference_volume)[p];
         const double V     = volume_of_points<dim, double>(points, p);
         const auto   v     = load_vector(points, points.velocity, p);
         const auto   b     = acceleration_of_point(loads, segment.body, p);
         const auto   sigma = averaged_stress(points, workspace, p);
-        for (const auto &w : weights)
+        for (const auto &w : room)
           nodes.add_sums(w.node,
                          w.value * m,
                          w.value * V0,
                          w.value * m * v,
                          w.value * m * b - V * sigma * w.gradient);
       }
+  }
+
+
+
+  template <int dim>
+  MotionByDefinition<dim>
+  interpolate_by_definition(const Points<dim>      &points,
+                            const unsigned int      cell,
+                            const unsigned int      p,
+                            const Grid<dim>        &grid,
+                            const BoxShape         &shape,
+                            const NodalFields<dim> &nodes,
+                            NodeWeights<dim>       &room)
+  {
+    weights_of_point(points, grid, shape, cell, p, room);
+    MotionByDefinition<dim> there;
+    for (const auto &w : room)
+      {
+        const auto v = nodes.velocity(w.node);
+        there.velocity += w.value * v;
+        there.increment += w.value * nodes.increment(w.node);
+        there.gradient += outer_product(v, w.gradient);
+      }
+    return there;
   }
 
 
@@ -104,19 +128,11 @@ namespace talus
     const Cell<dim> &cell  = grid.cells()[segment.cell];
     const auto       work  = workspace.view(segment.begin, segment.end);
     double           power = 0;
-    std::vector<NodeWeight<dim>> weights;
+    NodeWeights<dim> room;
     for (unsigned int p = segment.begin; p < segment.end; ++p)
       {
-        weights_of_point(points, grid, shape, segment.cell, p, weights);
-        Tensor<1, dim> v, dv;
-        Tensor<2, dim> L;
-        for (const auto &w : weights)
-          {
-            const auto v_i = nodes.velocity(w.node);
-            v += w.value * v_i;
-            dv += w.value * nodes.increment(w.node);
-            L += outer_product(v_i, w.gradient);
-          }
+        const auto [v, dv, L] = interpolate_by_definition(
+          points, segment.cell, p, grid, shape, nodes, room);
         bool is_inside = true;
         for (unsigned int i = 0; i < dim; ++i)
           {
@@ -147,7 +163,8 @@ namespace talus
                         const Grid<2> &,
                         const Loads<2> &,
                         const BoxShape &,
-                        NodalFields<2> &);
+                        NodalFields<2> &,
+                        NodeWeights<2> &);
   template void
   scatter_by_definition(const Points<3> &,
                         const WorkspaceView<3> &,
@@ -155,7 +172,24 @@ namespace talus
                         const Grid<3> &,
                         const Loads<3> &,
                         const BoxShape &,
-                        NodalFields<3> &);
+                        NodalFields<3> &,
+                        NodeWeights<3> &);
+  template MotionByDefinition<2>
+  interpolate_by_definition(const Points<2> &,
+                            unsigned int,
+                            unsigned int,
+                            const Grid<2> &,
+                            const BoxShape &,
+                            const NodalFields<2> &,
+                            NodeWeights<2> &);
+  template MotionByDefinition<3>
+  interpolate_by_definition(const Points<3> &,
+                            unsigned int,
+                            unsigned int,
+                            const Grid<3> &,
+                            const BoxShape &,
+                            const NodalFields<3> &,
+                            NodeWeights<3> &);
   template double
   gather_by_definition(const NodalFields<2> &,
                        const Grid<2> &,

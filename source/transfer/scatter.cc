@@ -22,6 +22,7 @@ namespace talus
     double *const      sums    = nodes.sum(0);
     Block<dim>         block;
     Contributions<dim> contributions;
+    NodeWeights<dim>   room;
     BlockWalk<dim>     walk(points, batch, grid, box_shape_);
     while (walk.next(block))
       {
@@ -33,13 +34,20 @@ namespace talus
           points.fetch_ahead(block.begin + k, points.elastic_energy);
         for (unsigned int r = 0; r < block.n_runs; ++r)
           add_run<dim>(contributions, block.runs[r], sums);
+        for (unsigned int i = 0; i < block.n_outsiders; ++i)
+          {
+            const auto        &outsider = block.outsiders[i];
+            const unsigned int p        = block.begin + outsider.k;
+            scatter_by_definition(points,
+                                  work,
+                                  {outsider.cell, block.body, p, p + 1},
+                                  grid,
+                                  loads,
+                                  box_shape_,
+                                  nodes,
+                                  room);
+          }
       }
-    // Cells whose neighbours differ in size.
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
-      if (const Segment &segment = points.segments()[s];
-          !grid.cells()[segment.cell].uniform)
-        scatter_by_definition(
-          points, work, segment, grid, loads, box_shape_, nodes);
   }
 
 

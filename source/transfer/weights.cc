@@ -11,6 +11,16 @@ namespace talus
 
   namespace
   {
+    /// A box, and one over its length along each axis.
+    template <int dim>
+    struct BoxOfPoint
+    {
+      std::array<double, dim> lower, upper, inverse_length;
+      bool                    is_beyond_mesh; ///< in part, or the whole
+    };
+
+
+
     /// Share of the two hats of one cell in a box, along one axis.
     struct CellShare
     {
@@ -20,36 +30,30 @@ namespace talus
 
 
 
-    /// The cell [lower, lower + size] is continued with constant shape
-    /// functions where it lies at the boundary of the mesh.
-    CellShare
+    /// The cell [lower, upper] is continued with constant shape functions where
+    /// it lies at the boundary of the mesh.
+    inline CellShare
     share_of_cell(const double a,
                   const double b,
+                  const double inverse_length,
                   const double lower,
-                  const double size,
+                  const double upper,
+                  const double inverse_size,
                   const bool   at_lower_boundary,
                   const bool   at_upper_boundary)
     {
-      const double upper  = lower + size;
-      const double below  = std::max(0., std::min(b, lower) - a);
-      const double above  = std::max(0., b - std::max(a, upper));
-      const double first  = std::clamp(a, lower, upper);
-      const double last   = std::clamp(b, lower, upper);
-      const double inside = last - first;
-      const double xi     = (0.5 * (first + last) - lower) / size;
+      const double first  = std::min(std::max(a, lower), upper);
+      const double last   = std::min(std::max(b, lower), upper);
+      const double inside = (last - first) * inverse_length;
+      const double xi     = (0.5 * (first + last) - lower) * inverse_size;
 
       CellShare share;
       share.value    = {{inside * (1. - xi), inside * xi}};
-      share.gradient = {{-inside / size, inside / size}};
+      share.gradient = {{-inside * inverse_size, inside * inverse_size}};
       if (at_lower_boundary)
-        share.value[0] += below;
+        share.value[0] += std::max(0., std::min(b, lower) - a) * inverse_length;
       if (at_upper_boundary)
-        share.value[1] += above;
-      for (unsigned int i = 0; i < 2; ++i)
-        {
-          share.value[i] /= b - a;
-          share.gradient[i] /= b - a;
-        }
+        share.value[1] += std::max(0., b - std::max(a, upper)) * inverse_length;
       return share;
     }
 
@@ -61,47 +65,67 @@ namespace talus
     add_cell(const Grid<dim>              &grid,
              const Cell<dim>              &cell,
              const Point<dim>             &lower,
-             const Point<dim>             &centre,
-             const Tensor<1, dim>         &half,
+             const BoxOfPoint<dim>        &box,
              std::vector<NodeWeight<dim>> &weights)
     {
-      const Box<dim>            &domain = grid.domain();
-      const double               eps    = 1e-9 * cell.size;
+      // Most cells around a box do not overlap it.
+      if (!box.is_beyond_mesh)
+        for (unsigned int d = 0; d < dim; ++d)
+          if (box.upper[d] <= lower[d] || box.lower[d] >= lower[d] + cell.size)
+            return;
+      const Box<dim>            &domain       = grid.domain();
+      const double               eps          = 1e-9 * cell.size;
+      const double               inverse_size = 1. / cell.size;
       std::array<CellShare, dim> share;
       for (unsigned int d = 0; d < dim; ++d)
         {
-          const bool ends   = !grid.periodicity().along(d);
-          const bool lowest = ends && lower[d] < domain.lower[d] + eps;
-          const bool highest =
-            ends && lower[d] + cell.size > domain.upper[d] - eps;
-          share[d] = share_of_cell(centre[d] - half[d],
-                                   centre[d] + half[d],
+          const double upper = lower[d] + cell.size;
+          const bool ends = box.is_beyond_mesh && !grid.periodicity().along(d);
+          share[d]        = share_of_cell(box.lower[d],
+                                   box.upper[d],
+                                   box.inverse_length[d],
                                    lower[d],
-                                   cell.size,
-                                   lowest,
-                                   highest);
+                                   upper,
+                                   inverse_size,
+                                   ends && lower[d] < domain.lower[d] + eps,
+                                   ends && upper > domain.upper[d] - eps);
           if (share[d].value[0] == 0 && share[d].value[1] == 0)
             return;
         }
-      for (unsigned int v = 0; v < power(2, dim); ++v)
+      constexpr unsigned int n_nodes = power(2, dim);
+      weights.resize(weights.size() + n_nodes);
+      NodeWeight<dim> *const to = &weights.back() + 1 - n_nodes;
+#pragma GCC unroll 8
+      for (unsigned int v = 0; v < n_nodes; ++v)
         {
-          NodeWeight<dim> weight;
-          unsigned int    at = 0;
-          weight.value       = 1.;
+          unsigned int at = 0;
+          to[v].value     = 1.;
           for (unsigned int d = 0; d < dim; ++d)
-            weight.gradient[d] = 1.;
+            to[v].gradient[d] = 1.;
           for (unsigned int d = 0; d < dim; ++d)
             {
               const unsigned int i = (v >> d) & 1;
               at += (1 + i) * power(4, d);
-              weight.value *= share[d].value[i];
+              to[v].value *= share[d].value[i];
               for (unsigned int e = 0; e < dim; ++e)
-                weight.gradient[e] *=
+                to[v].gradient[e] *=
                   (d == e ? share[d].gradient[i] : share[d].value[i]);
             }
-          weight.node = cell.patch[at];
-          weights.push_back(weight);
+          to[v].node = cell.patch[at];
         }
+    }
+
+
+
+    template <int dim>
+    bool
+    is_inside(const BoxOfPoint<dim> &box, const Cell<dim> &cell)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (box.lower[d] < cell.lower[d] ||
+            box.upper[d] > cell.lower[d] + cell.size)
+          return false;
+      return true;
     }
   } // namespace
 
@@ -117,7 +141,20 @@ namespace talus
   {
     weights.clear();
     const Cell<dim> &cell = grid.cells()[c];
-    if (cell.uniform)
+    BoxOfPoint<dim>  box;
+    box.is_beyond_mesh = false;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        box.lower[d]          = centre[d] - half[d];
+        box.upper[d]          = centre[d] + half[d];
+        box.inverse_length[d] = 1. / (box.upper[d] - box.lower[d]);
+        box.is_beyond_mesh    = box.is_beyond_mesh ||
+                             box.lower[d] < grid.domain().lower[d] ||
+                             box.upper[d] > grid.domain().upper[d];
+      }
+    if (is_inside(box, cell))
+      add_cell(grid, cell, cell.lower, box, weights);
+    else if (cell.uniform)
       {
         for (unsigned int k = 0; k < cell.neighbors.size(); ++k)
           if (const unsigned int n = cell.neighbors[k];
@@ -126,14 +163,14 @@ namespace talus
               Point<dim> lower = cell.lower;
               for (unsigned int d = 0; d < dim; ++d)
                 lower[d] += (k / power(3, d) % 3 - 1.) * cell.size;
-              add_cell(grid, grid.cells()[n], lower, centre, half, weights);
+              add_cell(grid, grid.cells()[n], lower, box, weights);
             }
       }
     else
       for (const unsigned int n : grid.touching_cells(c))
         {
           const Cell<dim> &touching = grid.cells()[n];
-          add_cell(grid, touching, touching.lower, centre, half, weights);
+          add_cell(grid, touching, touching.lower, box, weights);
         }
   }
 

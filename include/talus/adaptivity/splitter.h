@@ -84,12 +84,14 @@ namespace talus
              unsigned int                         p,
              unsigned int                         d,
              double                               cell_size) const;
-    /// False if no point of the batch violates the criterion: nearly always,
-    /// and known from a look at several points at a time.
+    /// False if no point of [begin, end), in cells of this size or larger ones,
+    /// violates the criterion: nearly always, and known from a look at several
+    /// points at a time.
     bool
     may_violate(const Points<dim> &points,
-                const Batch       &batch,
-                const Grid<dim>   &grid) const;
+                unsigned int       begin,
+                unsigned int       end,
+                double             cell_size) const;
     /// Bit d: the point is to be split along axis d. Zero: not at all.
     unsigned int
     axes_to_split(const Points<dim> &points,

@@ -30,6 +30,10 @@ namespace talus
     /// the patch is complete.
     bool uniform;
 
+    /// Bit 2 d (2 d + 1) is set if those at the lower (upper) face of axis d, its
+    /// edges and corners included, have the same size, or the mesh ends there.
+    unsigned char sides_of_same_size;
+
     /// Neighbours of the same size, 3 per axis, x fastest, the cell itself in
     /// the middle; invalid_unsigned_int beyond the boundary of the mesh or
     /// where there is no active cell of the same size.
@@ -39,9 +43,23 @@ namespace talus
     /// x fastest. Beyond the boundary of the mesh the outer row repeats the
     /// boundary row: the boundary cell is continued outwards with shape
     /// functions that are constant along the normal. The inner 2^dim entries
-    /// are the cell's own nodes, valid also where the cell is not uniform.
+    /// are the cell's own nodes; invalid_unsigned_int where there is no
+    /// neighbour of the same size.
     std::array<unsigned int, power(4, dim)> patch;
   };
+
+
+
+  /// Whether entry @p k of a patch is one of the cell's own nodes.
+  template <int dim>
+  constexpr bool
+  is_own_node(const unsigned int k)
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (const unsigned int at = k / power(4, d) % 4; at == 0 || at == 3)
+        return false;
+    return true;
+  }
 
 
 

@@ -172,6 +172,50 @@ namespace talus
     std::vector<unsigned int>  active_boundary_nodes_;
     std::vector<unsigned char> is_active_;
   };
+
+
+
+  template <int dim>
+  inline dealii::Tensor<1, dim>
+  NodalFields<dim>::velocity(const unsigned int node) const
+  {
+    dealii::Tensor<1, dim> v;
+    for (unsigned int d = 0; d < dim; ++d)
+      v[d] = motion(node)[Motion::velocity + d];
+    return v;
+  }
+
+
+
+  template <int dim>
+  inline dealii::Tensor<1, dim>
+  NodalFields<dim>::increment(const unsigned int node) const
+  {
+    dealii::Tensor<1, dim> dv;
+    for (unsigned int d = 0; d < dim; ++d)
+      dv[d] = motion(node)[Motion::increment + d];
+    return dv;
+  }
+
+
+
+  template <int dim>
+  inline void
+  NodalFields<dim>::add_sums(const unsigned int            node,
+                             const double                  mass,
+                             const double                  volume,
+                             const dealii::Tensor<1, dim> &momentum,
+                             const dealii::Tensor<1, dim> &force)
+  {
+    double *const s = sum(node);
+    s[Sum::mass] += mass;
+    s[Sum::volume] += volume;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        s[Sum::momentum + d] += momentum[d];
+        s[Sum::force + d] += force[d];
+      }
+  }
 } // namespace talus
 
 #endif

@@ -15,8 +15,7 @@ namespace talus
 
 
 
-  /// Up to n_points consecutive points of one body, in uniform cells of one
-  /// size, with what the kernels need of them side by side: small enough for the
+  /// Up to n_points consecutive points of one body, in cells of one size, with what the kernels need of them side by side: small enough for the
   /// first-level cache, large enough that loops over points fill the registers
   /// although a cell may have only a few.
   template <int dim>
@@ -64,8 +63,17 @@ namespace talus
     /// The points of a cell.
     struct Piece
     {
-      unsigned int        begin, end; ///< among those of the block
-      const unsigned int *patch;      ///< Cell::patch
+      unsigned int     begin, end; ///< among those of the block
+      unsigned int     cell;
+      const Cell<dim> *cell_data;
+    };
+
+    /// A point that reaches into a cell of another size: runs leave it out, and
+    /// its weights are those by definition.
+    struct Outsider
+    {
+      unsigned int k; ///< point of the block
+      unsigned int cell;
     };
 
     unsigned int begin = 0; ///< first point
@@ -73,10 +81,16 @@ namespace talus
     unsigned int body  = 0;
     double       cell_size;
 
-    unsigned int                n_pieces = 0;
-    std::array<Piece, n_points> pieces;
-    unsigned int                n_runs = 0;
-    std::array<Run, n_points>   runs;
+    unsigned int                   n_pieces = 0;
+    std::array<Piece, n_points>    pieces;
+    unsigned int                   n_runs = 0;
+    std::array<Run, n_points>      runs;
+    unsigned int                   n_outsiders = 0;
+    std::array<Outsider, n_points> outsiders;
+    /// Patches of cells that are not uniform; where an entry is invalid, a node
+    /// of the cell, as no run has a weight there.
+    unsigned int                                                  n_patches = 0;
+    std::array<std::array<unsigned int, power(4, dim)>, n_points> patches;
 
     /// Corner of the cell of each point, m.
     alignas(64) std::array<std::array<double, n_with_spare>, dim> cell_lower;
@@ -86,8 +100,7 @@ namespace talus
 
 
 
-  /// Walks over the points of a batch in blocks; points in cells that are not
-  /// uniform are passed over.
+  /// Walks over the points of a batch in blocks.
   template <int dim>
   class BlockWalk
   {
@@ -135,17 +148,17 @@ namespace talus
     for (unsigned int c = 0; c < block.n_pieces; ++c)
       for (unsigned int i = 0; i < n; ++i)
         if (i % 4 == 3 || i / (n / 4) == 3 || i / 4 % 4 == 3)
-          __builtin_prefetch(address(block.pieces[c].patch[i]));
+          __builtin_prefetch(address(block.pieces[c].cell_data->patch[i]));
   }
 
 
 
-  /// Call action(k) for each point of a run.
-  template <typename Run, typename Action>
+  /// Call action(k) for each of the points.
+  template <typename Action>
   TALUS_ALWAYS_INLINE void
-  for_each_point(const Run &run, const Action &action)
+  for_each_bit(const PointsOfBlock points, const Action &action)
   {
-    for (PointsOfBlock left = run.points; left != 0; left &= left - 1)
+    for (PointsOfBlock left = points; left != 0; left &= left - 1)
       action(__builtin_ctzll(left));
   }
 } // namespace talus

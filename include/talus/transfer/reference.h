@@ -6,11 +6,12 @@
 #include <talus/points/step_workspace.h>
 #include <talus/transfer/box_shape.h>
 #include <talus/transfer/loads.h>
+#include <talus/transfer/weights.h>
 
 // The transfer as doc/method.md, section 2, has it: point by point and node by
 // node, with the weights by their definition. Read this first; scatter_kernel.h
 // and gather_kernel.h compute the same many points at a time, and the tests hold
-// them to it. Also what is used in cells whose neighbours differ in size.
+// them to it. Also what is used for points that reach into cells of another size.
 
 namespace talus
 {
@@ -18,7 +19,8 @@ namespace talus
   /// to their nodes, @cite bardenhagen2004, eq. 19 ff.:
   ///   m_i = sum_p S_ip m_p,  (mv)_i = sum_p S_ip m_p v_p,
   ///   f_i = sum_p S_ip m_p b_p - sum_p V_p sigma'_p . grad S_ip,
-  /// sigma' the stress with the mean over its cell.
+  /// sigma' the stress with the mean over its cell. @p room is for the weights of
+  /// a point.
   template <int dim>
   void
   scatter_by_definition(const Points<dim>        &points,
@@ -27,7 +29,30 @@ namespace talus
                         const Grid<dim>          &grid,
                         const Loads<dim>         &loads,
                         const BoxShape           &shape,
-                        NodalFields<dim>         &nodes);
+                        NodalFields<dim>         &nodes,
+                        NodeWeights<dim>         &room);
+
+  /// The motion of the nodes at a point.
+  template <int dim>
+  struct MotionByDefinition
+  {
+    dealii::Tensor<1, dim> velocity;  ///< sum_i S_ip v_i, m/s
+    dealii::Tensor<1, dim> increment; ///< sum_i S_ip dv_i, m/s
+    dealii::Tensor<2, dim> gradient;  ///< sum_i v_i (x) grad S_ip, 1/s
+  };
+
+
+
+  /// Interpolate to point @p p in cell @p cell.
+  template <int dim>
+  MotionByDefinition<dim>
+  interpolate_by_definition(const Points<dim>      &points,
+                            unsigned int            cell,
+                            unsigned int            p,
+                            const Grid<dim>        &grid,
+                            const BoxShape         &shape,
+                            const NodalFields<dim> &nodes,
+                            NodeWeights<dim>       &room);
 
   /// Move the points of a segment by the motion of the nodes,
   ///   v_p <- flip (v_p + sum_i S_ip dv_i) + (1 - flip) sum_i S_ip v_i,

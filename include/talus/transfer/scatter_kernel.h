@@ -186,7 +186,7 @@ namespace talus
       for (unsigned int plane = 0; plane < (dim == 3 ? 3 : 1); ++plane)
         {
           Number sum[9] = {};
-          for_each_point(run, [&](const unsigned int k) {
+          for_each_bit(run.points, [&](const unsigned int k) {
             Number record = load<Number>(&contributions.record[k][at]);
             Number flux_y;
             if constexpr (has_flux)

@@ -19,6 +19,11 @@ namespace talus
 
 
 
+  template <int dim>
+  using NodeWeights = std::vector<NodeWeight<dim>>;
+
+
+
   /// Weights by the definition: for every cell that the box overlaps, the mean
   /// of its shape functions over the overlap, times the overlap's share of the
   /// box. Any cells may touch cell @p c, hanging nodes included (whose share
