@@ -195,7 +195,16 @@ namespace
                                        grid.domain().lower[d],
                                        grid.domain().upper[d]);
             }
-          if (cell.uniform || inner)
+          // The neighbour that a node of the patch belongs to, if any.
+          unsigned int neighbor = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const double middle = cell.lower[d] + 0.5 * cell.size;
+              const double out    = (expected[d] - middle) / cell.size;
+              neighbor += (out < -1. ? 0 : (out > 1. ? 2 : 1)) * power(3, d);
+            }
+          if (inner ||
+              cell.neighbors[neighbor] != dealii::numbers::invalid_unsigned_int)
             {
               ASSERT_LT(cell.patch[k], grid.n_nodes());
               EXPECT_LT(places[cell.patch[k]].distance(expected), 1e-12);

@@ -148,9 +148,7 @@ namespace talus
     double
     wave_speed(const unsigned int p = 0) const
     {
-      double speed;
-      law->wave_speed(points, p, p + 1, &speed);
-      return speed;
+      return law->wave_speed(points, p);
     }
 
     static constexpr double volume = 0.37;

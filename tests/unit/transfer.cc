@@ -58,6 +58,7 @@ namespace
     constexpr unsigned int n_entries = SumIndex<dim>::n_entries;
     const auto             sums      = core.scatter();
     core.nodes.clear();
+    NodeWeights<dim> room;
     for (const Segment &segment : core.points.segments())
       scatter_by_definition(core.points,
                             core.workspace.view(segment.begin, segment.end),
@@ -65,7 +66,8 @@ namespace
                             core.grid,
                             core.loads,
                             core.transfer.box_shape(),
-                            core.nodes);
+                            core.nodes,
+                            room);
     auto expected = core.sums_of_nodes();
     for (const auto &hanging : core.grid.hanging_nodes())
       for (unsigned int c = 0; c < n_entries; ++c)
