@@ -56,8 +56,9 @@ namespace talus
                          InterpolatedMotion<dim> &motion)
     {
       const double *const motions = fields.motion(0);
-      for (unsigned int k = 0; k < block.size; ++k)
-        points.fetch_ahead(block.begin + k, points.initial_position);
+      points.fetch_ahead(block.begin,
+                         block.begin + block.size,
+                         points.initial_position);
       for (unsigned int r = 0; r < block.n_runs; ++r)
         {
           const double *nodes[power(3, dim)];

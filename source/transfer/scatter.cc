@@ -30,8 +30,9 @@ namespace talus
           return nodes.sum(node);
         });
         fill(contributions, block, columns, work, loads.view(block.body));
-        for (unsigned int k = 0; k < block.size; ++k)
-          points.fetch_ahead(block.begin + k, points.elastic_energy);
+        points.fetch_ahead(block.begin,
+                           block.begin + block.size,
+                           points.elastic_energy);
         for (unsigned int r = 0; r < block.n_runs; ++r)
           add_run<dim>(contributions, block.runs[r], sums);
         for (unsigned int i = 0; i < block.n_outsiders; ++i)

@@ -200,16 +200,19 @@ namespace talus
         }
     }
 
-    /// Between the arithmetic for point @p p and the next one, ask for the first
-    /// @p n_arrays arrays of the points one batch further: else memory would rest
-    /// while a batch is computed, and the arithmetic while it is fetched. A line
-    /// of the cache holds 8 points. (If it is not inlined, GCC sees that
-    /// it changes nothing, and leaves it out.)
+    /// Ask for the first @p n_arrays arrays of the points one batch behind
+    /// [@p begin, @p end), which are about to be computed: else memory would rest
+    /// while a batch is computed, and the arithmetic while it is fetched. (If it
+    /// is not inlined, GCC sees that it changes nothing, and leaves it out.)
     TALUS_ALWAYS_INLINE void
-    fetch_ahead(const unsigned int p, const unsigned int n_arrays) const
+    fetch_ahead(const unsigned int begin,
+                const unsigned int end,
+                const unsigned int n_arrays) const
     {
-      constexpr int for_reading = 0, into_second_level_cache = 2;
-      if (p % 8 == 0)
+      constexpr int          for_reading = 0, into_second_level_cache = 2;
+      constexpr unsigned int line = 64 / sizeof(double);
+      for (unsigned int p = (begin + line - 1) / line * line; p < end;
+           p += line)
         for (unsigned int a = 0; a < n_arrays; ++a)
           __builtin_prefetch(arrays_[a] + p + batch_size,
                              for_reading,
