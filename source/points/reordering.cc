@@ -81,6 +81,32 @@ namespace talus
 
 
 
+  /// Add the segments [@p begin, @p end) of @p segments as they are: their points
+  /// move together.
+  void
+  Reordering::add_unchanged(const std::vector<Segment> &segments,
+                            const std::size_t           begin,
+                            const std::size_t           end)
+  {
+    if (begin == end)
+      return;
+    const unsigned int shift    = n_points_ - segments[begin].begin; // mod 2^32
+    const std::size_t  old_size = segments_.size();
+    segments_.insert(segments_.end(),
+                     segments.begin() + begin,
+                     segments.begin() + end);
+    for (std::size_t s = old_size; s < segments_.size(); ++s)
+      {
+        segments_[s].begin += shift;
+        segments_[s].end += shift;
+      }
+    add_run(segments[begin].begin, segments[end - 1].end);
+  }
+
+
+
+  // Few points change their cell in a step: between the segments that are
+  // entered or left, all others are copied at once.
   void
   Reordering::merge(const std::vector<Segment>      &segments,
                     std::vector<Mover>              &movers,
@@ -102,11 +128,26 @@ namespace talus
     n_points_         = 0;
     std::size_t skip  = 0;
     auto        mover = movers.begin();
-    for (const Segment &segment : segments)
+    for (std::size_t s = 0; s < segments.size(); ++s)
       {
-        for (; mover != movers.end() && key(*mover) < key(segment); ++mover)
+        // The first segment behind the one that is entered next, and the first
+        // that is left.
+        const auto entered = std::partition_point(
+          segments.begin() + s, segments.end(), [&](const Segment &segment) {
+            return mover == movers.end() || key(segment) <= key(*mover);
+          });
+        const auto left = std::partition_point(
+          segments.begin() + s, segments.end(), [&](const Segment &segment) {
+            return skip == leaving_.size() || segment.end <= leaving_[skip];
+          });
+        const std::size_t next = std::min(entered, left) - segments.begin();
+        add_unchanged(segments, s, next);
+        s = next;
+        if (s == segments.size())
+          break;
+        for (; mover != movers.end() && key(*mover) < key(segments[s]); ++mover)
           add_mover(*mover);
-        add_staying(segment, skip);
+        add_staying(segments[s], skip);
       }
     for (; mover != movers.end(); ++mover)
       add_mover(*mover);

@@ -59,6 +59,10 @@ namespace talus
     void
     add_run(unsigned int begin, unsigned int end);
     void
+    add_unchanged(const std::vector<Segment> &segments,
+                  std::size_t                 begin,
+                  std::size_t                 end);
+    void
     add_staying(const Segment &segment, std::size_t &skip);
 
     // Kept between calls so that a step does not allocate.
