@@ -242,7 +242,9 @@ namespace talus
       load(const double *from)
       {
         using Unaligned = typename SimdRegister<n>::Unaligned;
-        return of(reinterpret_cast<const Unaligned *>(from)->value);
+        // A copy: clang takes a reference for one to something aligned.
+        const Register value = reinterpret_cast<const Unaligned *>(from)->value;
+        return of(value);
       }
 
       TALUS_ALWAYS_INLINE void
