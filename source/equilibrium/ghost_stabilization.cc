@@ -110,8 +110,9 @@ namespace talus
 
   template <int dim>
   void
-  GhostStabilization<dim>::add_to_pattern(const Unknowns<dim>    &unknowns,
-                                          DynamicSparsityPattern &pattern) const
+  GhostStabilization<dim>::add_to_pattern(
+    const Unknowns<dim>               &unknowns,
+    TrilinosWrappers::SparsityPattern &pattern) const
   {
     std::vector<types::global_dof_index> columns(n_nodes);
     for (const Face &face : faces_)

@@ -5,7 +5,7 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/lac/sparsity_tools.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <cmath>
 
@@ -82,9 +82,13 @@ namespace talus
   void
   Newton<dim>::make_pattern(const Soil<dim> &soil)
   {
-    DynamicSparsityPattern               pattern(unknowns_.n_global(),
-                                   unknowns_.n_global(),
-                                   unknowns_.relevant());
+    // Trilinos' own pattern: deal.II's function that makes a matrix from a
+    // DynamicSparsityPattern is no inline one, and clang has another name for it
+    // than GCC, which compiled deal.II.
+    TrilinosWrappers::SparsityPattern    pattern(unknowns_.owned(),
+                                              unknowns_.owned(),
+                                              unknowns_.relevant(),
+                                              unknowns_.communicator());
     std::vector<types::global_dof_index> indices;
     for (unsigned int s = 0; s < soil.points.segments().size(); ++s)
       {
@@ -98,14 +102,8 @@ namespace talus
                                                             true);
       }
     ghost_.add_to_pattern(unknowns_, pattern);
-    SparsityTools::distribute_sparsity_pattern(pattern,
-                                               unknowns_.owned(),
-                                               unknowns_.communicator(),
-                                               unknowns_.relevant());
-    matrix_.reinit(unknowns_.owned(),
-                   unknowns_.owned(),
-                   pattern,
-                   unknowns_.communicator());
+    pattern.compress();
+    matrix_.reinit(pattern);
   }
 
 

@@ -1,4 +1,5 @@
 #include <talus/base/errors.h>
+#include <talus/base/processor.h>
 #include <talus/simulation/command_line.h>
 #include <talus/simulation/simulation.h>
 #include <talus/version.h>
@@ -78,7 +79,8 @@ namespace talus
     if (variables.count("version"))
       {
         out << "talus " << TALUS_VERSION << " (" << TALUS_GIT_REVISION
-            << "), deal.II " << DEAL_II_PACKAGE_VERSION << std::endl;
+            << "), deal.II " << DEAL_II_PACKAGE_VERSION << ", kernels for "
+            << processor() << std::endl;
         return {};
       }
     AssertThrow(result.document || !result.parameter_file.empty(),

@@ -13,7 +13,7 @@ namespace talus
   TALUS_ALWAYS_INLINE auto
   is_beyond_series(const Number &x)
   {
-    return (x > Number(0.02)) | (x < Number(-0.02));
+    return x * x > Number(0.02 * 0.02);
   }
 
 

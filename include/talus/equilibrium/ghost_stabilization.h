@@ -3,8 +3,8 @@
 
 #include <talus/equilibrium/unknowns.h>
 
-#include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <vector>
 
@@ -41,8 +41,8 @@ namespace talus
     add_forces(const std::vector<double> &u, std::vector<double> &forces) const;
 
     void
-    add_to_pattern(const Unknowns<dim>            &unknowns,
-                   dealii::DynamicSparsityPattern &pattern) const;
+    add_to_pattern(const Unknowns<dim>                       &unknowns,
+                   dealii::TrilinosWrappers::SparsityPattern &pattern) const;
 
     void
     add_to_matrix(const Unknowns<dim>                    &unknowns,

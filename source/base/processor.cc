@@ -1,0 +1,16 @@
+#include <talus/base/processor.h>
+#include <talus/base/simd.h>
+
+namespace talus
+{
+  std::string
+  processor()
+  {
+    // TALUS_LEVEL is what CMake gave the compiler as -march.
+    const std::string level = TALUS_LEVEL;
+    return (level == "native"    ? "this machine (native)"
+            : level == "generic" ? "any processor"
+                                 : level) +
+           ", " + std::to_string(simd_width) + " doubles per register";
+  }
+} // namespace talus
