@@ -219,6 +219,10 @@ def executed(program, result):
     return counts
 
 
+def readable(pattern):
+    return re.sub(r"\.\*|\\\(", "", pattern)
+
+
 def judge_kernels(program, result, steps):
     """Prints what the kernels do; sentences on what they should not."""
     instructions = disassemble(program)
@@ -236,7 +240,7 @@ def judge_kernels(program, result, steps):
                     moves += times * bool(MOVES.match(what))
         if everything == 0:
             yield (
-                f"{name}: no function matches {pattern}. It has another name now, "
+                f"{name}: there is no {readable(pattern)}. It has another name now, "
                 "or was inlined: correct KERNELS in " + __file__
             )
             continue
@@ -250,13 +254,13 @@ def judge_kernels(program, result, steps):
             yield (
                 f"{name}: {on_whole / everything:.2f} of the instructions work on "
                 f"whole registers, where {least:.2f} should. The compiler takes "
-                "registers apart: look at the disassembly of " + pattern
+                f"registers apart: look at the disassembly of {readable(pattern)}."
             )
         if moves > MOST_MOVES * on_registers:
             yield (
                 f"{name}: {moves / on_registers:.3f} of the instructions on "
                 "registers move parts of them. Look at the disassembly of "
-                + pattern
+                f"{readable(pattern)}."
             )
 
 
@@ -301,7 +305,7 @@ def main():
     count = total(result)
     print(f"{steps:.4g} point-steps, {count / steps:.1f} instructions each.")
     status = 0
-    for complaint in judge_kernels(program, result, steps):
+    for complaint in list(judge_kernels(program, result, steps)):
         print("FAILED: " + complaint)
         status = 1
 

@@ -78,6 +78,25 @@ def parameter_file(name):
 Roofline = collections.namedtuple("Roofline", "bandwidth operations")
 
 
+def cached(build, name, default=None):
+    """Value of a variable of CMake's cache."""
+    with open(os.path.join(build, "CMakeCache.txt")) as cache:
+        found = re.search(rf"^{re.escape(name)}:\w+=(.*)$", cache.read(), re.M)
+    if found:
+        return found.group(1)
+    if default is None:
+        sys.exit(f"{build}/CMakeCache.txt has no {name}.")
+    return default
+
+
+def architecture(build):
+    """What the sources of a build are compiled for, as -march has it; empty for
+    a build for all processors."""
+    arch = cached(build, "TALUS_ARCH", "")
+    is_native = cached(build, "TALUS_NATIVE", "ON").upper() in ("ON", "1", "TRUE")
+    return arch or ("native" if is_native else "")
+
+
 class Bench:
     """The programs to measure, and a folder to work in."""
 
@@ -88,17 +107,19 @@ class Bench:
         )
         self.folder = folder
         self.repeat = repeat
-        with open(os.path.join(build, "CMakeCache.txt")) as cache:
-            self.compiler = re.search(
-                r"^CMAKE_CXX_COMPILER:\w+=(.*)$", cache.read(), re.M
-            ).group(1)
+        self.build = build
+        self.compiler = cached(build, "CMAKE_CXX_COMPILER")
+        self.march = architecture(build)
         self.yardstick_program = self.compile_yardstick()
         self.kept = {}
 
-    def talus(self, file, settings, ranks=1, folder="run", state=None):
+    def talus(
+        self, file, settings, ranks=1, folder="run", state=None, build=None
+    ):
         """Run a parameter file with what --set would set, with results in
         @p folder. With a @p state, the folder of an earlier run, go on from a
-        copy of its last checkpoint. Returns a Run."""
+        copy of its last checkpoint. The program is that of another @p build if
+        one is given. Returns a Run."""
         output = os.path.join(self.folder, folder)
         shutil.rmtree(output, ignore_errors=True)
         if state:
@@ -107,11 +128,9 @@ class Bench:
                 output,
                 ignore=shutil.ignore_patterns("*.vtu"),
             )
-        command = [self.talus_program, parameter_file(file), "--output", output]
+        command = self.command(file, settings, output, build)
         if state:
             command.append("--resume")
-        for setting in settings:
-            command += ["--set", setting]
         environment = dict(os.environ)
         if ranks > 1:
             command = ["mpirun", "-np", str(ranks)] + command
@@ -128,6 +147,21 @@ class Bench:
         with open(os.path.join(output, "log.txt")) as file:
             return Run(done.stdout, file.read(), elapsed)
 
+    def command(self, file, settings, output, build=None):
+        program = os.path.join(build, "talus") if build else self.talus_program
+        command = [program, parameter_file(file), "--output", output]
+        for setting in settings:
+            command += ["--set", setting]
+        return command
+
+    def registers(self):
+        """What `talus --version` says of its kernels, or nothing."""
+        text = subprocess.run(
+            [self.talus_program, "--version"], stdout=subprocess.PIPE, text=True
+        ).stdout
+        found = re.search(r"kernels for .* doubles? per register", text)
+        return found.group(0) if found else ""
+
     def compile_yardstick(self):
         """The program, or None if TALUS_YARDSTICK names no source."""
         source = os.environ.get("TALUS_YARDSTICK", "")
@@ -139,21 +173,28 @@ class Bench:
                 "the source of the yardstick, or nothing to go without it."
             )
         program = os.path.join(self.folder, "yardstick")
+        # As the program it is compared with; a build for all processors takes
+        # what this one has.
         subprocess.run(
             [
-                self.compiler, "-O3", "-march=native", "-std=c++17",
-                source, "-o", program,
+                self.compiler, "-O3", "-march=" + (self.march or "native"),
+                "-std=c++17", source, "-o", program,
             ],
             check=True,
         )
         return program
 
-    def yardstick(self, n_points, steps):
-        """Million point-steps per second of variant B with about as many
-        points, four per cell."""
-        n_cells = round((n_points / 4) ** 0.5)
+    def yardstick_command(self, n_points, steps, dim=2):
+        """Variant B with about as many points, four per cell; in 3-D variant 3,
+        eight per cell."""
+        n_cells = round((n_points / 2**dim) ** (1 / dim))
+        variant = "B" if dim == 2 else "3"
+        return [self.yardstick_program, variant, str(n_cells), str(steps)]
+
+    def yardstick(self, n_points, steps, dim=2):
+        """Its million point-steps per second."""
         output = subprocess.run(
-            [self.yardstick_program, "B", str(n_cells), str(steps)],
+            self.yardstick_command(n_points, steps, dim),
             check=True,
             stdout=subprocess.PIPE,
             text=True,

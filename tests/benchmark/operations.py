@@ -71,24 +71,26 @@ class Operations:
         self.von_mises = counted[f"von Mises, {d}-D"]
 
     def scatter(self):
-        """Axis by axis: s sums take the weights, the d forces the gradients,
-        too. After axis k there are 3^k partial sums, those of the forces once
-        for each axis whose derivative is still to come."""
-        d, s = self.d, 2 + 2 * self.d
-        staging = self.determinant + 1 + 3 * d + d * d
-        first = 3 * (s + 2 * d + (d - 1) * d)
-        middle = 9 * (s + 2 * d + d) if d == 3 else 0
-        last = 3**d * (2 * s + 2 * d)
-        return self.weights + staging + first + middle + last
+        """Axis by axis, z, y, x. Of the r entries of the record the forces along
+        each axis but x take a gradient, too, and the forces by the gradient
+        along x are entries of their own."""
+        d, r = self.d, 2 + 3 * self.d
+        contributions = self.determinant + 2 + 3 * d + d * (d + 1) // 2
+        planes = 3 * (r + 3 * d) if d == 3 else 0
+        rows = 3 ** (d - 1) * (r + 2 * d)
+        nodes = 3**d * 2 * r
+        return self.weights + contributions + planes + rows + nodes
 
     def gather(self):
-        """Axis by axis from the last to the first: 2d values take the weights,
-        and the d velocities a gradient for each axis so far."""
+        """Axis by axis, x, y, z: 2d values take the weights, and the d velocities
+        a gradient for each axis so far."""
         d = self.d
         sums = sum(
             3**k * (2 * 2 * d + 2 * d * (d - k + 1)) for k in range(1, d + 1)
         )
-        return self.weights + sums + 10 * d + 3 + self.search_outside_cell()
+        return (
+            self.weights + sums + 10 * d + d * d + 3 + self.search_outside_cell()
+        )
 
     def search_outside_cell(self):
         return 3 * self.d
@@ -100,8 +102,8 @@ class Operations:
         return self.determinant + 3 * self.d + 4
 
     def time_step(self):
-        """Wave speed; per axis speed and box; the two bounds."""
-        return self.determinant + 4 + 10 * self.d + 12
+        """Square of the wave speed; per axis speed and box; the two bounds."""
+        return self.determinant + 6 + 10 * self.d + 14
 
     def stretch_fixed(self):
         return 3 * self.d

@@ -19,8 +19,12 @@ def machine(bench):
         [bench.compiler, "--version"], stdout=subprocess.PIPE, text=True
     ).stdout.splitlines()[0]
     roof = bench.roofline()
+    march = f"`-march={bench.march}`" if bench.march else "for distribution"
+    registers = bench.registers()
     return (
-        f"{name}, {n_cores} cores; {version}, `-march=native`; on one core "
+        f"{name}, {n_cores} cores; {version}, {march}"
+        + (f", {registers}" if registers else "")
+        + "; on one core "
         f"{1e-9 * roof.bandwidth:.1f} GB/s (triad) and "
         f"{1e-9 * roof.operations:.1f} GFLOP/s (multiply-add, "
         "counted as two); medians of "
@@ -46,7 +50,7 @@ def replace_between(text, name, content):
     return before + begin + content + "\n" + end + rest.split(end)[1]
 
 
-def write_tables(path, sentence, goals, phases):
+def write_tables(path, sentence, goals, phases, instructions):
     with open(path) as file:
         text = file.read()
     text = replace_between(
@@ -55,6 +59,10 @@ def write_tables(path, sentence, goals, phases):
         sentence + "\n\n" + as_markdown(("what", "measured", "goal", ""), goals),
     )
     text = replace_between(text, "phases", as_markdown(phases[0], phases[1:]))
+    # A sentence where nothing was counted.
+    if not isinstance(instructions, str):
+        instructions = as_markdown(instructions[0], instructions[1:])
+    text = replace_between(text, "instructions", instructions)
     with open(path, "w") as file:
         file.write(text)
     print(os.path.relpath(path) + " is written.")

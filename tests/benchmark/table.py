@@ -2,15 +2,18 @@
 """What talus reaches of its goals of speed, as ratios within one run.
 
     tests/benchmark/table.py BUILD [--repeat 5] [--case NAME]... [--write]
+                             [--dist BUILD] [--clang BUILD]
 
 BUILD is the build folder of a Release build. Runs that are compared take turns,
 so that whatever disturbs the machine disturbs both; the median of the ratios is
-printed. Nothing else should run meanwhile. With all cases it takes some fifteen
-minutes. --write puts the tables into doc/performance.md.
+printed. Nothing else should run meanwhile. With all cases it takes some twenty
+minutes. --write puts the tables into doc/performance.md. --dist and --clang name a
+build for distribution and one by clang, to compare BUILD with.
 
 The environment variable TALUS_YARDSTICK may name the source of the yardstick, a
-program that is called with `B`, the number of cells along a side and that of
-steps, and prints million point-steps per second as `Mps/s(wall) 35.2`.
+program that is called with `B`, or `3` in space, the number of cells along a side
+and that of steps, and prints million point-steps per second as `Mps/s(wall) 35.2`.
+It is compiled as BUILD is: by its compiler, for the same processor.
 """
 
 import argparse
@@ -19,6 +22,7 @@ import statistics
 import sys
 import tempfile
 
+from counters import counter_table
 from measure import QUIET, ROOT, STATES, Bench, median_ratio
 from operations import Operations, phase_table
 from report import machine, print_table, write_tables
@@ -43,34 +47,39 @@ def row(what, value, text, goal=None):
     return (what, text, bound, "met" if is_met(value) else "**falls short**")
 
 
+def within(lower, upper):
+    return lambda value: lower <= value <= upper, f"{lower:g} ... {upper:g}"
+
+
 def without_yardstick(what, goal):
     return (what, "", goal[1], "no yardstick")
 
 
-def block(bench, file, n_cells, steps, dim=2, more=(), upper=None):
+def block(bench, file, n_cells, steps, dim=2, more=(), upper=None, build=None):
     """The block of @p n_cells along an axis for about @p steps steps."""
+    settings = block_settings(file, n_cells, steps, dim, upper)
+    return bench.talus(file, [*settings, *more], build=build)
+
+
+def block_settings(file, n_cells, steps, dim=2, upper=None):
     h = 1 / n_cells
     speed = CLAY_SPEED if "clay" in file else BLOCK_SPEED
     lower, end = [-3 * h, 0], upper or [1 + 3 * h, 1 + 3 * h]
     if dim == 3:
         lower, end = lower + [-3 * h], end + [1 + 3 * h]
     numbers = lambda values: ",".join(f"{x:.12g}" for x in values)
-    return bench.talus(
-        file,
-        [
-            f"Grid/Cell size={h:.12g}",
-            "Grid/Lower corner=" + numbers(lower),
-            "Grid/Upper corner=" + numbers(end),
-            f"End time={steps * CFL * h / speed:.12g}",
-            *more,
-        ],
-    )
+    return [
+        f"Grid/Cell size={h:.12g}",
+        "Grid/Lower corner=" + numbers(lower),
+        "Grid/Upper corner=" + numbers(end),
+        f"End time={steps * CFL * h / speed:.12g}",
+    ]
 
 
-def compare_with_yardstick(bench, what, run, n_points, steps, goal):
+def compare_with_yardstick(bench, what, run, n_points, steps, goal, dim=2):
     if not bench.yardstick_program:
         return without_yardstick(what, goal)
-    runs, limits = bench.in_turn(run, lambda: bench.yardstick(n_points, steps))
+    runs, limits = bench.in_turn(run, lambda: bench.yardstick(n_points, steps, dim))
     ratio = median_ratio([r.rate for r in runs], limits)
     return row(
         what,
@@ -90,7 +99,7 @@ def elastic_block(bench):
             lambda: block(bench, "block.prm", n_cells, steps),
             4 * n_cells**2,
             steps,
-            at_least(0.5),
+            at_least(0.75),
         )
 
 
@@ -103,32 +112,102 @@ def landslide(bench):
         lambda: bench.go_on("mid", 0.5),
         n_points,
         500,
-        at_least(0.3),
+        at_least(0.5),
     )
 
 
 def three_dimensions(bench):
-    flat, deep = bench.in_turn(
-        lambda: block(bench, "block.prm", 125, 300),
-        lambda: block(bench, "block-3d.prm", 20, 60, 3),
-    )
-    counts = bench.counted_operations()
-    rates = [
-        [1e-3 * Operations(counts, dim).elastic_block() * run.rate
-         for run in runs]
-        for dim, runs in ((2, flat), (3, deep))
+    for n_cells, steps in ((16, 200), (22, 80)):
+        n_points = 8 * n_cells**3
+        yield compare_with_yardstick(
+            bench,
+            f"3-D block, {n_points // 1000}k points: share of the 3-D yardstick",
+            lambda: block(bench, "block-3d.prm", n_cells, steps, 3),
+            n_points,
+            steps,
+            at_least(0.65),
+            3,
+        )
+
+
+def herschel_bulkley(bench):
+    """The slide of Herschel-Bulkley material over the von Mises one."""
+    common = QUIET + ["End time=3", "Splitting/Directions=stretched"]
+    law = [
+        "Materials/clay/Law=Herschel-Bulkley",
+        "Materials/clay/Consistency=500",
     ]
-    ratio = median_ratio(rates[1], rates[0])
-    yield row(
-        "3-D block, 8 points per cell: operations per second over those of the "
-        "2-D block",
-        ratio,
-        f"{ratio:.3f} ({statistics.median(rates[1]):.1f} and "
-        f"{statistics.median(rates[0]):.1f} GFLOP/s; "
-        f"{statistics.median(r.rate for r in deep):.1f} and "
-        f"{statistics.median(r.rate for r in flat):.1f} million point-steps/s)",
-        at_least(0.5),
+    runs = bench.in_turn(
+        lambda: bench.talus("landslide-quick.prm", common),
+        *[
+            lambda n=n: bench.talus(
+                "landslide-quick.prm",
+                [*common, *law, f"Materials/clay/Flow exponent={n}"],
+            )
+            for n in (0.5, 0.7)
+        ],
     )
+    mises, *others = [[r.ns for r in some] for some in runs]
+    for n, ns, goal in zip((0.5, 0.7), others, (at_most(1.3), None)):
+        ratio = median_ratio(ns, mises)
+        yield row(
+            f"landslide of Herschel-Bulkley material, n = {n}, over von Mises: "
+            "time per point",
+            ratio,
+            f"{ratio:.3f} ({statistics.median(ns):.0f} and "
+            f"{statistics.median(mises):.0f} ns)",
+            goal,
+        )
+
+
+def graded_mesh(bench):
+    """Half cells at the seabed over uniform ones."""
+    common = QUIET + ["End time=2"]
+    boxes = "Grid/Refinement boxes=-40,0; 280,0.8; 1"
+    graded, uniform = bench.in_turn(
+        lambda: bench.talus("landslide-quick.prm", [*common, boxes]),
+        lambda: bench.talus("landslide-quick.prm", common),
+    )
+    rates = [[r.rate for r in runs] for runs in (graded, uniform)]
+    ratio = median_ratio(*rates)
+    yield row(
+        "landslide on half cells at the seabed over uniform ones: point-steps per "
+        "second",
+        ratio,
+        f"{ratio:.3f} ({statistics.median(rates[0]):.1f} and "
+        f"{statistics.median(rates[1]):.1f} million point-steps/s)",
+        at_least(0.75),
+    )
+
+
+def other_builds(bench):
+    """Other ways to compile: the speed of one over that of the other, on the
+    elastic block and on the block of clay."""
+    for what, other, goal, is_over_given in (
+        ("build for distribution over this one", bench.dist, at_least(0.95), True),
+        ("this build over one by clang", bench.clang, within(0.9, 1.1), False),
+    ):
+        for file, name in (("block.prm", "elastic block"),
+                           ("block-of-clay.prm", "block of clay")):
+            text = f"{name}, 40k points, {what}: speed"
+            if not other:
+                yield (text, "not measured", goal[1], "")
+                continue
+            theirs, ours = bench.in_turn(
+                lambda: block(bench, file, 100, 600, build=other),
+                lambda: block(bench, file, 100, 600),
+            )
+            rates = [[r.rate for r in runs] for runs in (theirs, ours)]
+            if not is_over_given:
+                rates.reverse()
+            ratio = median_ratio(*rates)
+            yield row(
+                text,
+                ratio,
+                f"{ratio:.3f} ({statistics.median(rates[0]):.1f} and "
+                f"{statistics.median(rates[1]):.1f} million point-steps/s)",
+                goal,
+            )
 
 
 def constant_time(bench):
@@ -229,7 +308,8 @@ def ranks_and_domain(bench):
     """What two ranks gain, and what a domain 100 times as long costs where the
     mesh tracks the soil."""
     settings = QUIET + ["End time=1.5"]
-    one, two, large = bench.in_turn(
+    larger = QUIET + ["Grid/Cell size=0.1", "End time=0.3"]
+    one, two, large, larger_one, larger_two = bench.in_turn(
         lambda: bench.talus("landslide.prm", settings),
         lambda: bench.talus("landslide.prm", settings, ranks=2),
         lambda: bench.talus(
@@ -237,16 +317,20 @@ def ranks_and_domain(bench):
             settings + ["Grid/Upper corner=31960,8", "Grid/Coarsest level=6",
                         "Mesh tracking/Enabled=true"],
         ),
+        lambda: bench.talus("landslide.prm", larger),
+        lambda: bench.talus("landslide.prm", larger, ranks=2),
     )
     seconds = [[r.seconds for r in runs] for runs in (one, two, large)]
-    gain = median_ratio(seconds[0], seconds[1])
-    yield row(
-        "landslide, two ranks over one: speed",
-        gain,
-        f"{gain:.3f} ({statistics.median(seconds[0]):.1f} and "
-        f"{statistics.median(seconds[1]):.1f} s)",
-        at_least(1.85),
-    )
+    for single, double in ((one, two), (larger_one, larger_two)):
+        times = [[r.seconds for r in runs] for runs in (single, double)]
+        gain = median_ratio(*times)
+        yield row(
+            f"landslide, {single[0].n_points} points, two ranks over one: speed",
+            gain,
+            f"{gain:.3f} ({statistics.median(times[0]):.1f} and "
+            f"{statistics.median(times[1]):.1f} s)",
+            at_least(1.9),
+        )
     cost = median_ratio(seconds[2], seconds[0])
     memory_ratio = large[0].peak_memory / one[0].peak_memory
     yield row(
@@ -297,10 +381,26 @@ def phases_of_landslide(bench):
     )
 
 
+def instructions_and_cycles(bench):
+    """Of the elastic block and of the landslide, by group of functions."""
+    block = block_settings("block.prm", 100, 600)
+    slide = QUIET + ["End time=6", "Output/Statistics interval=0.5"]
+    return counter_table(
+        bench,
+        [
+            ("elastic block, 40k points", "block.prm", block, (40000, 300)),
+            ("quick landslide to 6 s", "landslide-quick.prm", slide, None),
+        ],
+    )
+
+
 CASES = {
     "block": elastic_block,
     "landslide": landslide,
     "3d": three_dimensions,
+    "herschel-bulkley": herschel_bulkley,
+    "graded": graded_mesh,
+    "builds": other_builds,
     "constant": constant_time,
     "wandered": wandered,
     "empty": empty_cells,
@@ -319,17 +419,23 @@ def main():
     parser.add_argument("--repeat", type=int, default=5)
     parser.add_argument(
         "--case",
-        choices=[*CASES, "phases"],
+        choices=[*CASES, "phases", "instructions"],
         action="append",
         help="only this one; may be repeated",
     )
     parser.add_argument("--write", action="store_true")
+    parser.add_argument("--dist", help="folder of a build for distribution")
+    parser.add_argument("--clang", help="folder of a build by clang")
     options = parser.parse_args()
     if options.write and options.case:
         sys.exit("--write writes whole tables: leave out --case.")
 
     with tempfile.TemporaryDirectory(prefix="talus-performance-") as folder:
         bench = Bench(os.path.abspath(options.build), folder, options.repeat)
+        bench.dist, bench.clang = [
+            build and os.path.abspath(build)
+            for build in (options.dist, options.clang)
+        ]
         print(machine(bench))
         rows = []
         for name, case in CASES.items():
@@ -341,12 +447,17 @@ def main():
         if options.case is None or "phases" in options.case:
             phases = phases_of_landslide(bench)
             print_table(phases)
+        counts = []
+        if options.case is None or "instructions" in options.case:
+            counts = instructions_and_cycles(bench)
+            print_table([[counts]] if isinstance(counts, str) else counts)
         if options.write:
             write_tables(
                 os.path.join(ROOT, "doc", "performance.md"),
                 machine(bench),
                 rows,
                 phases,
+                counts,
             )
 
 
