@@ -195,17 +195,20 @@ namespace
     void
     make_full(dealii::TrilinosWrappers::SparseMatrix &matrix) const
     {
-      const unsigned int             n = unknowns.n_global();
-      dealii::DynamicSparsityPattern pattern(n, n, unknowns.relevant());
+      // Trilinos' own pattern, as in Newton<dim>::make_pattern().
+      const unsigned int                        n = unknowns.n_global();
+      dealii::TrilinosWrappers::SparsityPattern pattern(
+        unknowns.owned(),
+        unknowns.owned(),
+        unknowns.relevant(),
+        unknowns.communicator());
       std::vector<dealii::types::global_dof_index> all(n);
       for (unsigned int i = 0; i < n; ++i)
         all[i] = i;
       for (const auto row : unknowns.relevant())
         pattern.add_entries(row, all.begin(), all.end(), true);
-      matrix.reinit(unknowns.owned(),
-                    unknowns.owned(),
-                    pattern,
-                    unknowns.communicator());
+      pattern.compress();
+      matrix.reinit(pattern);
     }
 
     std::vector<double>
