@@ -377,7 +377,7 @@ main(int argc, char **argv)
 {
   ::testing::InitGoogleTest(&argc, argv);
 #if defined(__x86_64__)
-  if (!__builtin_cpu_supports("x86-64-v3"))
+  if (!__builtin_cpu_supports("avx2") || !__builtin_cpu_supports("fma"))
     {
       std::puts("SKIPPED: this processor has no AVX2.");
       return 77;
