@@ -76,36 +76,6 @@ namespace talus
     {
       return exp(exponent * log(x));
     }
-
-
-
-    template <unsigned int n_parts>
-    TALUS_ALWAYS_INLINE WideSimd<n_parts>
-                        exp(const WideSimd<n_parts> &x)
-    {
-      return WideSimd<n_parts>::of(
-        [&](const unsigned int i) { return exp(x.part[i]); });
-    }
-
-
-
-    template <unsigned int n_parts>
-    TALUS_ALWAYS_INLINE WideSimd<n_parts>
-                        expm1(const WideSimd<n_parts> &x)
-    {
-      return WideSimd<n_parts>::of(
-        [&](const unsigned int i) { return expm1(x.part[i]); });
-    }
-
-
-
-    template <unsigned int n_parts>
-    TALUS_ALWAYS_INLINE WideSimd<n_parts>
-                        pow(const WideSimd<n_parts> &x, const double exponent)
-    {
-      return WideSimd<n_parts>::of(
-        [&](const unsigned int i) { return pow(x.part[i], exponent); });
-    }
   } // namespace TALUS_SIMD_NAMESPACE
 } // namespace talus
 

@@ -1,6 +1,7 @@
 #ifndef talus_materials_herschel_bulkley_kernel_h
 #define talus_materials_herschel_bulkley_kernel_h
 
+#include <talus/base/wide_simd.h>
 #include <talus/materials/radial_return_kernel.h>
 #include <talus/materials/viscoplastic_return_kernel.h>
 
