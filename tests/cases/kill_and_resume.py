@@ -138,7 +138,7 @@ class StopAndResume(Case):
 
     def test_limit_of_wall_time(self):
         self.make_reference()
-        limit, options, stops = 0.002, [], 0
+        limit, options, stops = 0.0002, [], 0
         while True:
             result = self.run_talus(
                 "run", [f"Checkpoint/Wall time limit={limit}"], options)
