@@ -15,9 +15,10 @@ namespace talus
 
 
 
-  /// Up to n_points consecutive points of one body, in cells of one size, with what the kernels need of them side by side: small enough for the
-  /// first-level cache, large enough that loops over points fill the registers
-  /// although a cell may have only a few.
+  /// Up to n_points consecutive points of one body, in cells of one size, with
+  /// what the kernels need of them side by side: small enough for the first-level
+  /// cache, large enough that loops over points fill the registers although a
+  /// cell may have only a few.
   template <int dim>
   struct Block
   {
