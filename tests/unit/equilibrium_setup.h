@@ -222,7 +222,10 @@ namespace
         x(unknowns.first(node) + d) = field[dim * node + d];
       });
       x.compress(dealii::VectorOperation::insert);
-      matrix.vmult(y, x);
+      // Not vmult(): a template of deal.II whose name clang mangles otherwise.
+      matrix.trilinos_matrix().Multiply(false,
+                                        x.trilinos_vector(),
+                                        y.trilinos_vector());
       auto result = unknowns.field();
       unknowns.for_free([&](const unsigned int node, const unsigned int d) {
         result[dim * node + d] = y(unknowns.first(node) + d);
