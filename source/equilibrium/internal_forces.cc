@@ -13,13 +13,13 @@ namespace talus
   {
     Points<dim> &points = soil.points;
     soil.workspace.reinit(0, points.size());
-    for (unsigned int s = 0; s < points.segments().size(); ++s)
+    for (unsigned int c = 0; c < weights.cells().size(); ++c)
       {
-        const Segment &segment = points.segments()[s];
-        const auto     patch   = weights.patch(s);
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
+        const Batch &cell  = weights.cells()[c];
+        const auto   patch = weights.patch(c);
+        for (unsigned int p = cell.begin; p < cell.end; ++p)
           {
-            const auto    *weight = weights.of_point(s, p - segment.begin);
+            const auto    *weight = weights.of_point(c, p - cell.begin);
             Tensor<2, dim> H;
             for (unsigned int a = 0; a < patch.n_nodes; ++a)
               for (unsigned int i = 0; i < dim; ++i)
@@ -61,18 +61,19 @@ namespace talus
                             });
     if (!sound)
       return false;
-    for (unsigned int p = 0; p < points.size(); ++p)
-      volumes_[p] =
-        points.data(points.reference_volume)[p] *
-        determinant(
-          load_matrix<dim, double>(points, points.deformation_gradient, p));
-    for (unsigned int s = 0; s < points.segments().size(); ++s)
-      add_forces_of_segment(points.segments()[s],
-                            s,
-                            soil.transfer.uses_cell_mean(
-                              points.segments()[s].body),
-                            weights,
-                            forces);
+    volumes_of_mean_.resize(points.size());
+    for (const Segment &segment : points.segments())
+      for (unsigned int p = segment.begin; p < segment.end; ++p)
+        {
+          volumes_[p] =
+            points.data(points.reference_volume)[p] *
+            determinant(
+              load_matrix<dim, double>(points, points.deformation_gradient, p));
+          volumes_of_mean_[p] =
+            soil.transfer.uses_cell_mean(segment.body) ? volumes_[p] : 0.;
+        }
+    for (unsigned int c = 0; c < weights.cells().size(); ++c)
+      add_forces_of_cell(c, weights, forces);
     return true;
   }
 
@@ -80,33 +81,29 @@ namespace talus
 
   template <int dim>
   void
-  InternalForces<dim>::add_forces_of_segment(const Segment          &segment,
-                                             const unsigned int      s,
-                                             const bool              uses_mean,
-                                             const KeptWeights<dim> &weights,
-                                             std::vector<double> &forces) const
+  InternalForces<dim>::add_forces_of_cell(const unsigned int      c,
+                                          const KeptWeights<dim> &weights,
+                                          std::vector<double>    &forces) const
   {
-    const auto q = [this](const unsigned int p) {
+    const Batch &cell = weights.cells()[c];
+    const auto   q    = [this](const unsigned int p) {
       double sum = 0;
       for (unsigned int i = 0; i < dim; ++i)
         sum += answers_[p].stress[(dim + 1) * i];
       return sum / dim;
     };
-    double mean = 0, volume = 0;
-    if (uses_mean)
+    double sum = 0, volume = 0;
+    for (unsigned int p = cell.begin; p < cell.end; ++p)
       {
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
-          {
-            mean += volumes_[p] * q(p);
-            volume += volumes_[p];
-          }
-        mean /= volume;
+        sum += volumes_of_mean_[p] * q(p);
+        volume += volumes_of_mean_[p];
       }
-    const auto patch = weights.patch(s);
-    for (unsigned int p = segment.begin; p < segment.end; ++p)
+    const double mean  = (volume > 0. ? sum / volume : 0.);
+    const auto   patch = weights.patch(c);
+    for (unsigned int p = cell.begin; p < cell.end; ++p)
       {
-        const auto  *weight = weights.of_point(s, p - segment.begin);
-        const double shift  = (uses_mean ? mean - q(p) : 0.);
+        const auto  *weight = weights.of_point(c, p - cell.begin);
+        const double shift  = (volumes_of_mean_[p] > 0. ? mean - q(p) : 0.);
         for (unsigned int a = 0; a < patch.n_nodes; ++a)
           for (unsigned int i = 0; i < dim; ++i)
             {
@@ -116,6 +113,33 @@ namespace talus
               forces[dim * patch.nodes[a] + i] += volumes_[p] * sum;
             }
       }
+  }
+
+
+
+  /// The mean over the points of a cell that take it of the gradients at its
+  /// nodes: the rate of volume change of the cell, as a linear form.
+  template <int dim>
+  void
+  InternalForces<dim>::set_mean_gradient(const unsigned int      c,
+                                         const KeptWeights<dim> &weights,
+                                         Scratch                &scratch) const
+  {
+    const Batch &cell  = weights.cells()[c];
+    const auto   patch = weights.patch(c);
+    scratch.mean_gradient.assign(patch.n_nodes, Tensor<1, dim>());
+    double volume = 0;
+    for (unsigned int p = cell.begin; p < cell.end; ++p)
+      {
+        volume += volumes_of_mean_[p];
+        for (unsigned int a = 0; a < patch.n_nodes; ++a)
+          scratch.mean_gradient[a] +=
+            volumes_of_mean_[p] *
+            weights.of_point(c, p - cell.begin)[a].gradient;
+      }
+    if (volume > 0.)
+      for (auto &gradient : scratch.mean_gradient)
+        gradient /= volume;
   }
 
 
@@ -182,38 +206,23 @@ namespace talus
 
   template <int dim>
   void
-  InternalForces<dim>::add_tangent(const Soil<dim>                &soil,
-                                   const KeptWeights<dim>         &weights,
+  InternalForces<dim>::add_tangent(const KeptWeights<dim>         &weights,
                                    const Unknowns<dim>            &unknowns,
                                    TrilinosWrappers::SparseMatrix &matrix) const
   {
-    Scratch     scratch;
-    const auto &segments = soil.points.segments();
-    for (unsigned int s = 0; s < segments.size(); ++s)
+    Scratch scratch;
+    for (unsigned int c = 0; c < weights.cells().size(); ++c)
       {
-        const Segment &segment   = segments[s];
-        const bool     uses_mean = soil.transfer.uses_cell_mean(segment.body);
-        const auto     patch     = weights.patch(s);
+        const Batch       &cell  = weights.cells()[c];
+        const auto         patch = weights.patch(c);
         const unsigned int n     = dim * patch.n_nodes;
-        scratch.mean_gradient.assign(patch.n_nodes, Tensor<1, dim>());
-        double volume = 0;
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
-          {
-            volume += volumes_[p];
-            for (unsigned int a = 0; a < patch.n_nodes; ++a)
-              scratch.mean_gradient[a] +=
-                volumes_[p] *
-                weights.of_point(s, p - segment.begin)[a].gradient;
-          }
-        for (auto &gradient : scratch.mean_gradient)
-          gradient /= volume;
-
+        set_mean_gradient(c, weights, scratch);
         scratch.matrix.reinit(n, n);
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
+        for (unsigned int p = cell.begin; p < cell.end; ++p)
           {
-            fill_strain(weights.of_point(s, p - segment.begin),
+            fill_strain(weights.of_point(c, p - cell.begin),
                         patch.n_nodes,
-                        uses_mean,
+                        volumes_of_mean_[p] > 0.,
                         scratch);
             add_point(volumes_[p], answers_[p], n, scratch);
           }

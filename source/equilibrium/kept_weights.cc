@@ -11,6 +11,7 @@ namespace talus
                             const BoxShape      &shape,
                             const Unknowns<dim> &unknowns)
   {
+    cells_.clear();
     first_node_.assign(1, 0);
     first_weight_.assign(1, 0);
     nodes_.clear();
@@ -19,19 +20,20 @@ namespace talus
     place_of_node_.assign(grid.n_nodes(), numbers::invalid_unsigned_int);
     for (const HangingNode &hanging : grid.hanging_nodes())
       hanging_[hanging.node] = &hanging;
-    for (const Segment &segment : points.segments())
-      add_segment(points, grid, shape, segment, unknowns);
+    points.for_each_cell(points.all(), [&](const Batch &cell) {
+      add_cell(points, grid, shape, cell, unknowns);
+    });
   }
 
 
 
   template <int dim>
   void
-  KeptWeights<dim>::add_segment(const Points<dim>   &points,
-                                const Grid<dim>     &grid,
-                                const BoxShape      &shape,
-                                const Segment       &segment,
-                                const Unknowns<dim> &unknowns)
+  KeptWeights<dim>::add_cell(const Points<dim>   &points,
+                             const Grid<dim>     &grid,
+                             const BoxShape      &shape,
+                             const Batch         &cell,
+                             const Unknowns<dim> &unknowns)
   {
     // What each point gives to each node; a node may be named several times.
     struct Share
@@ -55,13 +57,14 @@ namespace talus
           place = nodes_.size() - first_node;
           nodes_.push_back(node);
         }
-      shares.push_back({p - segment.begin,
+      shares.push_back({p - cell.begin,
                         place,
                         {factor * weight.value, factor * weight.gradient}});
     };
-    for (unsigned int p = segment.begin; p < segment.end; ++p)
+    const unsigned int c = points.segments()[cell.first_segment].cell;
+    for (unsigned int p = cell.begin; p < cell.end; ++p)
       {
-        weights_of_point(points, grid, shape, segment.cell, p, weights);
+        weights_of_point(points, grid, shape, c, p, weights);
         for (const NodeWeight<dim> &weight : weights)
           if (const HangingNode *hanging = hanging_[weight.node])
             for (const auto &[node, factor] : hanging->masters)
@@ -72,7 +75,7 @@ namespace talus
 
     const unsigned int n_nodes = nodes_.size() - first_node;
     const std::size_t  first   = weights_.size();
-    weights_.resize(first + std::size_t(segment.end - segment.begin) * n_nodes,
+    weights_.resize(first + std::size_t(cell.end - cell.begin) * n_nodes,
                     Weight{0., Tensor<1, dim>()});
     for (const Share &share : shares)
       {
@@ -83,6 +86,7 @@ namespace talus
       }
     for (unsigned int i = first_node; i < nodes_.size(); ++i)
       place_of_node_[nodes_[i]] = numbers::invalid_unsigned_int;
+    cells_.push_back(cell);
     first_node_.push_back(nodes_.size());
     first_weight_.push_back(weights_.size());
   }

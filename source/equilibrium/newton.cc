@@ -194,7 +194,7 @@ namespace talus
     const auto start = std::chrono::steady_clock::now();
     moves_freely_    = false;
     matrix_          = 0.;
-    internal_forces_.add_tangent(soil, weights_, unknowns_, matrix_);
+    internal_forces_.add_tangent(weights_, unknowns_, matrix_);
     ghost_.add_to_matrix(unknowns_, matrix_);
     matrix_.compress(VectorOperation::add);
     // Where soil can move freely the solution is to be large, not infinite.
@@ -290,13 +290,13 @@ namespace talus
                          const std::vector<double> &field) const
   {
     std::vector<double> result(dim * std::size_t(points.size()), 0.);
-    for (unsigned int s = 0; s < points.segments().size(); ++s)
+    for (unsigned int c = 0; c < weights_.cells().size(); ++c)
       {
-        const Segment &segment = points.segments()[s];
-        const auto     patch   = weights_.patch(s);
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
+        const Batch &cell  = weights_.cells()[c];
+        const auto   patch = weights_.patch(c);
+        for (unsigned int p = cell.begin; p < cell.end; ++p)
           {
-            const auto *weight = weights_.of_point(s, p - segment.begin);
+            const auto *weight = weights_.of_point(c, p - cell.begin);
             for (unsigned int a = 0; a < patch.n_nodes; ++a)
               for (unsigned int d = 0; d < dim; ++d)
                 result[dim * p + d] +=

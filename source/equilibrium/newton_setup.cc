@@ -50,7 +50,7 @@ namespace talus
                       largest_shear_modulus(soil));
     contact_.begin(soil, unknowns_);
     unknowns_.hold(contact_.held(soil, unknowns_));
-    make_pattern(soil);
+    make_pattern();
     make_rigid_modes(soil.grid);
 
     u_ = last_correction_ = unknowns_.field();
@@ -80,7 +80,7 @@ namespace talus
 
   template <int dim>
   void
-  Newton<dim>::make_pattern(const Soil<dim> &soil)
+  Newton<dim>::make_pattern()
   {
     // Trilinos' own pattern: deal.II's function that makes a matrix from a
     // DynamicSparsityPattern is no inline one, and clang has another name for it
@@ -90,9 +90,9 @@ namespace talus
                                               unknowns_.relevant(),
                                               unknowns_.communicator());
     std::vector<types::global_dof_index> indices;
-    for (unsigned int s = 0; s < soil.points.segments().size(); ++s)
+    for (unsigned int c = 0; c < weights_.cells().size(); ++c)
       {
-        const auto patch = weights_.patch(s);
+        const auto patch = weights_.patch(c);
         indices.clear();
         for (unsigned int a = 0; a < patch.n_nodes; ++a)
           for (unsigned int d = 0; d < dim; ++d)
@@ -134,7 +134,7 @@ namespace talus
 
 #define INSTANTIATE(dim)                                             \
   template void Newton<dim>::begin(Soil<dim> &, const Parameters &); \
-  template void Newton<dim>::make_pattern(const Soil<dim> &);        \
+  template void Newton<dim>::make_pattern();                         \
   template void Newton<dim>::make_rigid_modes(const Grid<dim> &);
 
   INSTANTIATE(2)

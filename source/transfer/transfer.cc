@@ -1,6 +1,7 @@
 #include <talus/base/errors.h>
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/transfer.h>
+#include <talus/transfer/transpose.h>
 
 #include <cmath>
 
@@ -91,47 +92,111 @@ namespace talus
                                  const Batch       &batch) const
   {
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
-      if (cell_mean_of_body_[points.segments()[s].body])
+      if (uses_cell_mean(points.segments()[s].body))
         return true;
     return false;
   }
 
 
 
+  /// The mean of a quantity over each cell, at its points: over those of all
+  /// bodies whose law asks for it. At the others the quantity itself.
   template <int dim>
   void
-  Transfer<dim>::subtract_from_mean(const Points<dim> &points,
-                                    const Batch       &batch,
-                                    const double      *volume,
-                                    double            *quantity) const
+  Transfer<dim>::set_cell_means(const Points<dim> &points,
+                                const Batch       &batch,
+                                const double      *quantity,
+                                const double      *weighted,
+                                double            *mean) const
   {
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+    // A cell has few points, so that what counts is how few instructions go
+    // around them. Sums go point by point, lest they depend on the registers,
+    // product and volume in one. What a register writes behind a segment, the
+    // next one overwrites.
+    using Number              = Simd<simd_width>;
+    const Segment *segment    = points.segments().data() + batch.first_segment;
+    const Segment *const last = points.segments().data() + batch.last_segment;
+    const unsigned char *const uses = cell_mean_of_body_.data();
+    while (segment != last)
       {
-        const Segment     &segment = points.segments()[s];
-        const unsigned int begin   = segment.begin - batch.begin;
-        const unsigned int end     = segment.end - batch.begin;
-        if (!cell_mean_of_body_[segment.body])
+        const Segment *const first = segment;
+        Simd<2>              sums(0.);
+        do
+          if (uses[segment->body] != 0)
+            {
+              const double *at = weighted + 2 * (segment->begin - batch.begin);
+              const double *const end =
+                weighted + 2 * (segment->end - batch.begin);
+              TALUS_SHORT_LOOP
+              for (; at != end; at += 2)
+                sums += load<Simd<2>>(at);
+            }
+        while (++segment != last && segment->cell == first->cell);
+        const Number value(sums[0] / sums[1]);
+        for (const Segment *of_body = first; of_body != segment; ++of_body)
           {
-            std::fill(quantity + begin, quantity + end, 0.);
-            continue;
+            unsigned int       k   = of_body->begin - batch.begin;
+            const unsigned int end = of_body->end - batch.begin;
+            if (uses[of_body->body] != 0)
+              {
+                TALUS_SHORT_LOOP
+                for (; k < end; k += simd_width)
+                  store(mean + k, value);
+              }
+            else
+              {
+                TALUS_SHORT_LOOP
+                for (; k < end; k += simd_width)
+                  store(mean + k, load<Number>(quantity + k));
+              }
           }
-        double sum = 0, sum_of_volumes = 0;
-        for (unsigned int k = begin; k < end; ++k)
-          {
-            sum += volume[k] * quantity[k];
-            sum_of_volumes += volume[k];
-          }
-        const double mean = sum / sum_of_volumes;
-        for (unsigned int k = begin; k < end; ++k)
-          quantity[k] = mean - quantity[k];
       }
+  }
+
+
+
+  /// Call add(p, difference) with the difference between the mean over the cell
+  /// of quantity(p) and itself.
+  template <int dim>
+  template <typename Quantity, typename Add>
+  void
+  Transfer<dim>::shift_to_cell_means(const Points<dim>  &points,
+                                     StepWorkspace<dim> &workspace,
+                                     const Batch        &batch,
+                                     const Quantity     &quantity,
+                                     const Add          &add) const
+  {
+    const auto    columns  = points.view();
+    double *const values   = workspace.scratch(0);
+    double *const mean     = workspace.scratch(1);
+    double *const weighted = workspace.scratch(2); // and 3: pairs
+    for_each_simd(batch.begin,
+                  batch.end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    using Number         = decltype(number);
+                    const unsigned int k = p - batch.begin;
+                    const Number       q = quantity(p, number);
+                    const Number V = volume_of_points<dim, Number>(columns, p);
+                    store(values + k, q);
+                    store_pairs(weighted + 2 * k, V * q, V);
+                  });
+    set_cell_means(points, batch, values, weighted, mean);
+    for_each_simd(batch.begin,
+                  batch.end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    using Number         = decltype(number);
+                    const unsigned int k = p - batch.begin;
+                    add(p, load<Number>(mean + k) - load<Number>(values + k));
+                  });
   }
 
 
 
   // Both means are weighted with the volume at the start of the step and taken
   // over the same points: only then is the pair adjoint,
-  // sum V sigma : D' = sum V sigma' : D, and no energy appears.
+  // sum V sigma : D' = sum V sigma' : D, and no energy appears. Bodies that share
+  // a cell share its mean: with one mean each, nothing would tie the pressures
+  // in that cell to one another.
 
   template <int dim>
   void
@@ -139,27 +204,26 @@ namespace talus
                                      StepWorkspace<dim> &workspace,
                                      const Batch        &batch) const
   {
-    double *const shift  = workspace.mean_stress_shift();
-    double *const volume = workspace.scratch(0);
     if (!takes_cell_mean(points, batch))
       {
-        std::fill_n(shift, batch.end - batch.begin, 0.);
+        std::fill_n(workspace.mean_stress_shift(), batch.end - batch.begin, 0.);
         return;
       }
-    const auto columns = points.view();
-    for_each_simd(batch.begin,
-                  batch.end,
-                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-                    using Number = decltype(number);
-                    Number q(0.);
-                    for (unsigned int d = 0; d < dim; ++d)
-                      q += load<Number>(columns.data(columns.stress, d) + p);
-                    const unsigned int k = p - batch.begin;
-                    store(shift + k, q * (1. / dim));
-                    store(volume + k,
-                          volume_of_points<dim, Number>(columns, p));
-                  });
-    subtract_from_mean(points, batch, volume, shift);
+    const auto    columns = points.view();
+    double *const shift   = workspace.mean_stress_shift() - batch.begin;
+    shift_to_cell_means(
+      points,
+      workspace,
+      batch,
+      [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+        using Number = decltype(number);
+        Number q(0.);
+        for (unsigned int d = 0; d < dim; ++d)
+          q += load<Number>(columns.data(columns.stress, d) + p);
+        return q * (1. / dim);
+      },
+      [&](const unsigned int p, const auto &difference)
+        TALUS_INLINE_LAMBDA { store(shift + p, difference); });
   }
 
 
@@ -172,27 +236,22 @@ namespace talus
   {
     if (!takes_cell_mean(points, batch))
       return;
-    const auto    columns = points.view();
-    const auto    work    = workspace.view(batch.begin, batch.end);
-    double *const volume  = workspace.scratch(0);
-    double *const rate    = workspace.scratch(1);
-    for_each_simd(batch.begin,
-                  batch.end,
-                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-                    using Number         = decltype(number);
-                    const unsigned int k = p - batch.begin;
-                    store(rate + k,
-                          trace(load_velocity_gradient<dim, Number>(work, p)));
-                    store(volume + k,
-                          volume_of_points<dim, Number>(columns, p));
-                  });
-    subtract_from_mean(points, batch, volume, rate);
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        double *const L_dd = workspace.velocity_gradient(d, d);
-        for (unsigned int k = 0; k < batch.end - batch.begin; ++k)
-          L_dd[k] += rate[k] * (1. / dim);
-      }
+    const auto work = workspace.view(batch.begin, batch.end);
+    shift_to_cell_means(
+      points,
+      workspace,
+      batch,
+      [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+        return trace(load_velocity_gradient<dim, decltype(number)>(work, p));
+      },
+      [&](const unsigned int p, const auto &difference) TALUS_INLINE_LAMBDA {
+        using Number = std::decay_t<decltype(difference)>;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            double *const L_dd = work.velocity_gradient(d, d) + p;
+            store(L_dd, load<Number>(L_dd) + difference * (1. / dim));
+          }
+      });
   }
 
 

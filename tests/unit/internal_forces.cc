@@ -144,10 +144,7 @@ namespace
     forces(u);
     dealii::TrilinosWrappers::SparseMatrix matrix;
     parts.make_full(matrix);
-    parts.internal_forces.add_tangent(soil,
-                                      parts.weights,
-                                      parts.unknowns,
-                                      matrix);
+    parts.internal_forces.add_tangent(parts.weights, parts.unknowns, matrix);
     matrix.compress(dealii::VectorOperation::add);
 
     const double eps = 1e-7;

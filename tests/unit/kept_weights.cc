@@ -12,13 +12,13 @@ namespace
   template <int dim>
   Weights<dim>
   expected_weights(const Core<dim>     &core,
-                   const Segment       &segment,
+                   const unsigned int   c,
                    const unsigned int   p,
                    const Unknowns<dim> &unknowns)
   {
     std::vector<NodeWeight<dim>> list;
     weights_of_point(
-      core.points, core.grid, core.transfer.box_shape(), segment.cell, p, list);
+      core.points, core.grid, core.transfer.box_shape(), c, p, list);
     Weights<dim> weights;
     const auto   add = [&](const unsigned int     node,
                          const double           share,
@@ -61,15 +61,17 @@ namespace
       hanging.insert(node.node);
 
     unsigned int n_inside = 0;
-    for (unsigned int s = 0; s < core.points.segments().size(); ++s)
+    unsigned int n_points = 0;
+    for (unsigned int c = 0; c < kept.cells().size(); ++c)
       {
-        const Segment &segment = core.points.segments()[s];
-        const auto     patch   = kept.patch(s);
+        const Batch &cell  = kept.cells()[c];
+        const auto   patch = kept.patch(c);
+        n_points += cell.end - cell.begin;
         EXPECT_EQ(std::set<unsigned int>(patch.nodes,
                                          patch.nodes + patch.n_nodes)
                     .size(),
                   patch.n_nodes);
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
+        for (unsigned int p = cell.begin; p < cell.end; ++p)
           {
             Weights<dim>   found;
             double         one = 0.;
@@ -78,7 +80,7 @@ namespace
             for (unsigned int a = 0; a < patch.n_nodes; ++a)
               {
                 const unsigned int node = patch.nodes[a];
-                const auto        &w = kept.of_point(s, p - segment.begin)[a];
+                const auto        &w    = kept.of_point(c, p - cell.begin)[a];
                 EXPECT_EQ(hanging.count(node), 0u);
                 EXPECT_TRUE(unknowns.is_active(node));
                 found[node] = {w.value, w.gradient};
@@ -86,9 +88,13 @@ namespace
                 x += w.value * places[node];
                 slope += outer_product(places[node], w.gradient);
               }
-            expect_equal(found,
-                         expected_weights(core, segment, p, unknowns),
-                         2e-15);
+            expect_equal(
+              found,
+              expected_weights(core,
+                               core.points.segments()[cell.first_segment].cell,
+                               p,
+                               unknowns),
+              2e-15);
             EXPECT_NEAR(one, 1., 4e-15);
             // Boxes are no longer than a cell: here they are in the mesh.
             const Tensor<1, dim> place  = core.get(core.points.position, p);
@@ -105,6 +111,7 @@ namespace
           }
       }
     EXPECT_GT(n_inside, 200u);
+    EXPECT_EQ(n_points, core.points.size());
   }
 } // namespace
 
@@ -136,9 +143,9 @@ TEST(KeptWeights, NothingForNodesThatCarryNothing)
             masses.size() - masses.size() / 2 - 1);
   KeptWeights<2> kept;
   kept.compute(core.points, core.grid, core.transfer.box_shape(), unknowns);
-  for (unsigned int s = 0; s < core.points.segments().size(); ++s)
+  for (unsigned int c = 0; c < kept.cells().size(); ++c)
     {
-      const auto patch = kept.patch(s);
+      const auto patch = kept.patch(c);
       for (unsigned int a = 0; a < patch.n_nodes; ++a)
         EXPECT_GT(core.nodes.mass(patch.nodes[a]), least);
     }

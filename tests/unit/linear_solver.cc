@@ -48,10 +48,7 @@ namespace
                                       unknowns.field(),
                                       forces);
       parts->make_full(matrix);
-      parts->internal_forces.add_tangent(soil,
-                                         parts->weights,
-                                         unknowns,
-                                         matrix);
+      parts->internal_forces.add_tangent(parts->weights, unknowns, matrix);
       matrix.compress(dealii::VectorOperation::add);
       rhs.reinit(unknowns.owned(), unknowns.communicator());
       unknowns.for_free([&](const unsigned int node, const unsigned int d) {

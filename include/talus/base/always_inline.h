@@ -8,4 +8,12 @@
 /// The same for a lambda function: [](...) TALUS_INLINE_LAMBDA { ... }.
 #define TALUS_INLINE_LAMBDA __attribute__((always_inline))
 
+/// In front of a loop that usually ends after a few turns: with deal.II's flags
+/// GCC unrolls all loops, and then most of the work is to find the way in.
+#if defined(__GNUC__) && !defined(__clang__)
+#  define TALUS_SHORT_LOOP _Pragma("GCC unroll 1")
+#else
+#  define TALUS_SHORT_LOOP
+#endif
+
 #endif

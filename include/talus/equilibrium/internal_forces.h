@@ -15,7 +15,8 @@ namespace talus
   /// nodal displacements of the step, and their derivative.
   ///
   /// The anti-locking mean is taken as in the dynamics: the volume change of a
-  /// point becomes the mean over its cell, theta_c, which is linear in the
+  /// point becomes the mean over the points of its cell whose law asks for it,
+  /// theta_c, which is linear in the
   /// displacements; what does work on that is the stress whose own mean is
   /// taken. Forces and matrix are the first and second derivative of the same
   /// work, so that an elastic matrix is symmetric.
@@ -47,8 +48,7 @@ namespace talus
 
     /// Add the derivative found by the last evaluate() to @p matrix.
     void
-    add_tangent(const Soil<dim>                        &soil,
-                const KeptWeights<dim>                 &weights,
+    add_tangent(const KeptWeights<dim>                 &weights,
                 const Unknowns<dim>                    &unknowns,
                 dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
@@ -65,11 +65,13 @@ namespace talus
     };
 
     void
-    add_forces_of_segment(const Segment          &segment,
-                          unsigned int            s,
-                          bool                    uses_mean,
-                          const KeptWeights<dim> &weights,
-                          std::vector<double>    &forces) const;
+    add_forces_of_cell(unsigned int            c,
+                       const KeptWeights<dim> &weights,
+                       std::vector<double>    &forces) const;
+    void
+    set_mean_gradient(unsigned int            c,
+                      const KeptWeights<dim> &weights,
+                      Scratch                &scratch) const;
     void
     fill_strain(const typename KeptWeights<dim>::Weight *weight,
                 unsigned int                             n_nodes,
@@ -84,6 +86,7 @@ namespace talus
     StrainMeasure                   measure_;
     std::vector<StressTangent<dim>> answers_;
     std::vector<double>             volumes_; ///< at the start of the step
+    std::vector<double> volumes_of_mean_; ///< the same, 0 where none is taken
   };
 } // namespace talus
 

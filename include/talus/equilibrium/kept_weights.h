@@ -8,7 +8,7 @@
 
 namespace talus
 {
-  /// The weights of all points, kept for a load step: for each segment the
+  /// The weights of all points, kept for a load step: for each cell the
   /// nodes that any of its points touch, and for each point the weights at all
   /// of these. Hanging nodes have passed theirs on to their masters, and nodes
   /// without unknowns have none.
@@ -22,7 +22,14 @@ namespace talus
             const BoxShape      &shape,
             const Unknowns<dim> &unknowns);
 
-    /// The nodes of a segment.
+    /// The points of each cell that holds any.
+    const std::vector<Batch> &
+    cells() const
+    {
+      return cells_;
+    }
+
+    /// The nodes of a cell's points.
     struct Patch
     {
       const unsigned int *nodes;
@@ -30,14 +37,14 @@ namespace talus
     };
 
     Patch
-    patch(const unsigned int segment) const
+    patch(const unsigned int c) const
     {
-      return {nodes_.data() + first_node_[segment],
-              first_node_[segment + 1] - first_node_[segment]};
+      return {nodes_.data() + first_node_[c],
+              first_node_[c + 1] - first_node_[c]};
     }
 
     /// Value and gradient, 1/m, at the nodes of the patch of the @p k-th point of
-    /// the segment.
+    /// cell number @p c.
     struct Weight
     {
       double                 value;
@@ -45,20 +52,21 @@ namespace talus
     };
 
     const Weight *
-    of_point(const unsigned int segment, const unsigned int k) const
+    of_point(const unsigned int c, const unsigned int k) const
     {
-      return weights_.data() + first_weight_[segment] +
-             k * std::size_t(patch(segment).n_nodes);
+      return weights_.data() + first_weight_[c] +
+             k * std::size_t(patch(c).n_nodes);
     }
 
   private:
     void
-    add_segment(const Points<dim>   &points,
-                const Grid<dim>     &grid,
-                const BoxShape      &shape,
-                const Segment       &segment,
-                const Unknowns<dim> &unknowns);
+    add_cell(const Points<dim>   &points,
+             const Grid<dim>     &grid,
+             const BoxShape      &shape,
+             const Batch         &cell,
+             const Unknowns<dim> &unknowns);
 
+    std::vector<Batch>        cells_;
     std::vector<unsigned int> first_node_;
     std::vector<unsigned int> nodes_;
     std::vector<std::size_t>  first_weight_;

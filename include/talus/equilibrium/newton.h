@@ -109,7 +109,7 @@ namespace talus
     }
 
     void
-    make_pattern(const Soil<dim> &soil);
+    make_pattern();
     void
     make_rigid_modes(const Grid<dim> &grid);
     bool

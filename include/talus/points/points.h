@@ -183,7 +183,7 @@ namespace talus
     static constexpr unsigned int batch_size = 512;
 
     /// Call action(batch) for batches that together hold all sorted points, in
-    /// their order. A batch is so small that what one phase of the step writes,
+    /// their order, and whole cells each. A batch is so small that what one phase of the step writes,
     /// the next one finds in a cache, and so large that the loops over several
     /// points at a time have few rests.
     template <typename Action>
@@ -193,10 +193,25 @@ namespace talus
       for (unsigned int s = 0; s < segments_.size();)
         {
           Batch batch = {s, s, segments_[s].begin, segments_[s].begin};
-          while (s < segments_.size() && batch.end - batch.begin < batch_size)
+          while (s < segments_.size() &&
+                 (batch.end - batch.begin < batch_size || in_same_cell(s)))
             batch.end = segments_[s++].end;
           batch.last_segment = s;
           action(batch);
+        }
+    }
+
+    /// Call action(batch) for the points of each cell of a batch.
+    template <typename Action>
+    TALUS_ALWAYS_INLINE void
+    for_each_cell(const Batch &batch, const Action &action) const
+    {
+      for (unsigned int s = batch.first_segment; s < batch.last_segment;)
+        {
+          const unsigned int first = s++;
+          while (s < batch.last_segment && in_same_cell(s))
+            ++s;
+          action(Batch{first, s, segments_[first].begin, segments_[s - 1].end});
         }
     }
 
@@ -224,6 +239,13 @@ namespace talus
     memory_consumption() const;
 
   private:
+    /// Whether segment @p s lies in the cell of the one before.
+    bool
+    in_same_cell(const unsigned int s) const
+    {
+      return s > 0 && segments_[s].cell == segments_[s - 1].cell;
+    }
+
     void
     reserve(unsigned int n);
 

@@ -58,7 +58,7 @@ namespace talus
       return row(dim * dim);
     }
 
-    /// Two rows for what a phase needs within itself.
+    /// Four rows for what a phase needs within itself.
     double *
     scratch(const unsigned int i)
     {
@@ -81,7 +81,7 @@ namespace talus
     }
 
   private:
-    static constexpr unsigned int n_rows = dim * dim + 3;
+    static constexpr unsigned int n_rows = dim * dim + 5;
 
     double *
     row(const unsigned int r)

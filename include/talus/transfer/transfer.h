@@ -30,19 +30,20 @@ namespace talus
     void
     use_cell_mean(const std::vector<bool> &of_body)
     {
-      cell_mean_of_body_ = of_body;
+      cell_mean_of_body_.assign(of_body.begin(), of_body.end());
     }
 
     bool
     uses_cell_mean(const unsigned int body) const
     {
-      return cell_mean_of_body_[body];
+      return cell_mean_of_body_[body] != 0;
     }
 
     // The workspace must be that of the points of the batch.
 
     /// First half of the anti-locking pair: store at each point the difference
-    /// between the mean over its cell of q = tr_dim(sigma)/dim and its own q.
+    /// between the mean of q = tr_dim(sigma)/dim over the points of its cell whose
+    /// law asks for it, of whatever body, and its own q.
     void
     average_mean_stress(const Points<dim>  &points,
                         StepWorkspace<dim> &workspace,
@@ -93,21 +94,27 @@ namespace talus
     bool
     takes_cell_mean(const Points<dim> &points, const Batch &batch) const;
 
-    /// Replace a quantity of the points by the difference between its mean over
-    /// the segment, weighted by volume, and itself; by zero where the body is
-    /// not averaged.
     void
-    subtract_from_mean(const Points<dim> &points,
-                       const Batch       &batch,
-                       const double      *volume,
-                       double            *quantity) const;
+    set_cell_means(const Points<dim> &points,
+                   const Batch       &batch,
+                   const double      *quantity,
+                   const double      *weighted,
+                   double            *mean) const;
+
+    template <typename Quantity, typename Add>
+    void
+    shift_to_cell_means(const Points<dim>  &points,
+                        StepWorkspace<dim> &workspace,
+                        const Batch        &batch,
+                        const Quantity     &quantity,
+                        const Add          &add) const;
 
     double      flip_fraction_ = 1.;
     std::string box_rule_      = "right stretch";
     double      mass_cut_off_  = 1e-9;
     BoxShape    box_shape_;
 
-    std::vector<bool> cell_mean_of_body_;
+    std::vector<unsigned char> cell_mean_of_body_;
   };
 } // namespace talus
 

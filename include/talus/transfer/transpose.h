@@ -62,6 +62,42 @@ namespace talus
     {
       return first_halves(a, b, std::make_integer_sequence<int, n>());
     }
+
+
+
+    namespace internal
+    {
+      template <unsigned int n, int... j>
+      TALUS_ALWAYS_INLINE void
+      store_pairs(double        *to,
+                  const Simd<n> &a,
+                  const Simd<n> &b,
+                  std::integer_sequence<int, j...>)
+      {
+        constexpr int m = n;
+        Simd<n>::of(
+          __builtin_shufflevector(a.value, b.value, (j / 2 + j % 2 * m)...))
+          .store(to);
+        Simd<n>::of(__builtin_shufflevector(a.value,
+                                            b.value,
+                                            (m / 2 + j / 2 + j % 2 * m)...))
+          .store(to + n);
+      }
+    } // namespace internal
+
+    /// The first entries of both, then the second ones, ...
+    template <unsigned int n>
+    TALUS_ALWAYS_INLINE void
+    store_pairs(double *to, const Simd<n> &a, const Simd<n> &b)
+    {
+      if constexpr (n == 1)
+        {
+          to[0] = a.value;
+          to[1] = b.value;
+        }
+      else
+        internal::store_pairs(to, a, b, std::make_integer_sequence<int, n>());
+    }
   } // namespace TALUS_SIMD_NAMESPACE
 } // namespace talus
 
