@@ -207,6 +207,12 @@ namespace talus
   Simulation<dim>::advance()
   {
     adapt_mesh();
+    if (filter_.is_due(step_))
+      {
+        PhaseTimer::Scope scope(timer_, "filter");
+        filter_.apply(
+          points_, workspace_, grid_, nodes_, transfer_, least_mass_);
+      }
     points_to_grid();
     choose_time_step();
     update_nodes();

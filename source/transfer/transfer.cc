@@ -25,8 +25,8 @@ namespace talus
                   "How the box of a point follows its deformation: 'fixed' "
                   "(uniform GIMP; the daughters of a split then do not tile "
                   "their parent), 'deformation gradient' (F_dd), 'right "
-                  "stretch' (U_dd of F = R U) or 'left stretch' (V_dd of "
-                  "F = V R).",
+                  "stretch' (U_dd of F = R U, blind to where the material has "
+                  "turned) or 'left stretch' (V_dd of F = V R).",
                   this->prm,
                   Patterns::Selection(
                     "fixed|deformation gradient|right stretch|left stretch"));
@@ -56,8 +56,8 @@ namespace talus
       box_shape_.rule = box_rule_ == "fixed" ? BoxRule::fixed
                         : box_rule_ == "deformation gradient"
                           ? BoxRule::deformation_gradient
-                        : box_rule_ == "left stretch" ? BoxRule::left_stretch
-                                                      : BoxRule::right_stretch;
+                        : box_rule_ == "right stretch" ? BoxRule::right_stretch
+                                                       : BoxRule::left_stretch;
     });
   }
 

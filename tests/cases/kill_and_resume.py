@@ -227,6 +227,7 @@ class ThreeDimensions(KillAndResume):
     N_KILLS = 8
     file = "landslide-3d.prm"
     settings = ["Grid/Cell size=0.8", "End time=0.5",
+                "Transfer/Scheme=filtered FLIP", "Transfer/Filter interval=7",
                 "Output/Field interval=0.05", "Output/Statistics interval=0.02"]
 
 

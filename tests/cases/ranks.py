@@ -22,6 +22,7 @@ TERSE = ["Output/Write points=false", "Output/Write grid=false"]
 TRACKING = ["Mesh tracking/Enabled=true", "Mesh tracking/Margin=6",
             "Mesh tracking/Interval=100", "Grid/Coarsest level=4"]
 BALANCE = ["Load balance/Allowed imbalance=1.05"]
+FILTER = ["Transfer/Scheme=filtered FLIP", "Transfer/Filter interval=20"]
 SLIDE = ["Grid/Cell size=0.8", "End time=4"]
 
 
@@ -123,7 +124,7 @@ class Ranks(Runs):
         settings = ["Grid/Cell size=1.6", "Grid/Upper corner=280,8,6.4",
                     "Grid/Refinement boxes=20,0,-1; 45,1.5,3; 1",
                     "End time=0.8", "Mesh tracking/Enabled=true",
-                    "Mesh tracking/Margin=6"] + BALANCE + TERSE
+                    "Mesh tracking/Margin=6"] + FILTER + BALANCE + TERSE
         alone = self.run_on(1, settings, "landslide-3d.prm")
         self.assert_same(self.run_on(3, settings, "landslide-3d.prm"), alone)
 

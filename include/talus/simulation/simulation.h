@@ -22,6 +22,7 @@
 #include <talus/simulation/stages.h>
 #include <talus/simulation/time_step.h>
 #include <talus/simulation/trigger.h>
+#include <talus/transfer/null_space_filter.h>
 #include <talus/transfer/relocation.h>
 #include <talus/transfer/transfer.h>
 
@@ -209,6 +210,7 @@ namespace talus
     Grid<dim>                               grid_;
     NodalFields<dim>                        nodes_;
     Transfer<dim>                           transfer_;
+    NullSpaceFilter<dim>                    filter_;
     Relocation<dim>                         relocation_;
     Materials<dim>                          materials_;
     Boundaries<dim>                         boundaries_;

@@ -9,14 +9,14 @@ namespace talus
   {
     fixed,                ///< box keeps its reference length (uniform GIMP)
     deformation_gradient, ///< F_dd: blind to shear, vanishes at 90 degrees
-    right_stretch,        ///< U_dd of F = R U (default)
-    left_stretch          ///< V_dd of F = V R
+    right_stretch,        ///< U_dd of F = R U, in the axes of the start
+    left_stretch          ///< V_dd of F = V R (default)
   };
 
   /// The box of a point as the weights see it. @cite bardenhagen2004
   struct BoxShape
   {
-    BoxRule rule = BoxRule::right_stretch;
+    BoxRule rule = BoxRule::left_stretch;
     /// Half of the length is clipped to these, in units of the own cell: the
     /// lower one keeps the step stable, the upper one keeps the box within the
     /// touching cells.

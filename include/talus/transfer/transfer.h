@@ -33,6 +33,12 @@ namespace talus
       cell_mean_of_body_.assign(of_body.begin(), of_body.end());
     }
 
+    unsigned int
+    n_bodies() const
+    {
+      return cell_mean_of_body_.size();
+    }
+
     bool
     uses_cell_mean(const unsigned int body) const
     {
@@ -71,6 +77,14 @@ namespace talus
            const Batch            &batch,
            double                  dt) const;
 
+    /// Replace the velocity of the points by that of the nodes, interpolated.
+    void
+    interpolate_velocity(const NodalFields<dim> &nodes,
+                         const Grid<dim>        &grid,
+                         Points<dim>            &points,
+                         StepWorkspace<dim>     &workspace,
+                         const Batch            &batch) const;
+
     /// Second half of the anti-locking pair: replace the rate of volume change
     /// by its mean over the cell.
     void
@@ -90,6 +104,17 @@ namespace talus
     least_mass(const double density, const double cell_size) const;
 
   private:
+    /// gather() with any share of the velocity that is FLIP's.
+    double
+    gather_with(double                  flip_fraction,
+                const NodalFields<dim> &nodes,
+                const Grid<dim>        &grid,
+                const Loads<dim>       &loads,
+                Points<dim>            &points,
+                StepWorkspace<dim>     &workspace,
+                const Batch            &batch,
+                double                  dt) const;
+
     /// Whether any body in the batch is averaged over its cells.
     bool
     takes_cell_mean(const Points<dim> &points, const Batch &batch) const;
@@ -110,7 +135,7 @@ namespace talus
                         const Add          &add) const;
 
     double      flip_fraction_ = 1.;
-    std::string box_rule_      = "right stretch";
+    std::string box_rule_      = "left stretch";
     double      mass_cut_off_  = 1e-9;
     BoxShape    box_shape_;
 

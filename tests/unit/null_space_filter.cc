@@ -1,0 +1,158 @@
+#include <talus/equilibrium/kept_weights.h>
+#include <talus/transfer/null_space_filter.h>
+
+#include "transfer_setup.h"
+
+namespace
+{
+  using namespace talus;
+
+  /// What one pass to the grid and back makes of velocities, by the weights as
+  /// they are defined.
+  template <int dim>
+  std::vector<Tensor<1, dim>>
+  pass(const Core<dim>                   &core,
+       const KeptWeights<dim>            &kept,
+       const std::vector<Tensor<1, dim>> &v)
+  {
+    std::vector<double>         mass(core.grid.n_nodes());
+    std::vector<Tensor<1, dim>> momentum(mass.size()), result(v.size());
+    for (const bool back : {false, true})
+      for (unsigned int c = 0; c < kept.cells().size(); ++c)
+        {
+          const Batch &cell  = kept.cells()[c];
+          const auto   patch = kept.patch(c);
+          for (unsigned int p = cell.begin; p < cell.end; ++p)
+            for (unsigned int a = 0; a < patch.n_nodes; ++a)
+              {
+                const unsigned int node = patch.nodes[a];
+                const double       m    = core.points.data(core.points.mass)[p];
+                const double S = kept.of_point(c, p - cell.begin)[a].value;
+                if (back)
+                  result[p] += S * momentum[node] / mass[node];
+                else
+                  {
+                    mass[node] += S * m;
+                    momentum[node] += S * m * v[p];
+                  }
+              }
+        }
+    return result;
+  }
+
+
+
+  /// XPIC(4) is P v + P (v - P v) + ... of four passes P.
+  template <int dim>
+  void
+  expect_xpic(Core<dim> &core)
+  {
+    core.scatter();
+    Unknowns<dim> unknowns;
+    unknowns.number(core.nodes, core.grid, 0.);
+    KeptWeights<dim> kept;
+    kept.compute(core.points, core.grid, core.transfer.box_shape(), unknowns);
+
+    const unsigned int          n = core.points.size();
+    std::vector<Tensor<1, dim>> unseen(n), expected(n);
+    Tensor<1, dim>              momentum;
+    double                      scale = 0.;
+    for (unsigned int p = 0; p < n; ++p)
+      unseen[p] = core.get(core.points.velocity, p);
+    for (unsigned int i = 0; i < 4; ++i)
+      {
+        const auto seen = pass(core, kept, unseen);
+        for (unsigned int p = 0; p < n; ++p)
+          {
+            expected[p] += seen[p];
+            unseen[p] -= seen[p];
+          }
+      }
+    for (unsigned int p = 0; p < n; ++p)
+      {
+        const double m = core.points.data(core.points.mass)[p];
+        momentum -= m * core.get(core.points.velocity, p);
+        scale += m * core.get(core.points.velocity, p).norm();
+      }
+    const NullSpaceFilter<dim> filter;
+    filter.apply(
+      core.points, core.workspace, core.grid, core.nodes, core.transfer, 0.);
+    double most_taken = 0.;
+    for (unsigned int p = 0; p < n; ++p)
+      {
+        const Tensor<1, dim> v = core.get(core.points.velocity, p);
+        EXPECT_LT((v - expected[p]).norm(), 1e-12);
+        momentum += core.points.data(core.points.mass)[p] * v;
+        most_taken = std::max(most_taken, unseen[p].norm());
+      }
+    EXPECT_GT(most_taken, 0.1);
+    EXPECT_LT(momentum.norm(), 1e-13 * scale);
+  }
+
+
+
+  /// Points with the cell mean have the mean stress of their cell; neither the
+  /// deviators nor the forces of the nodes have changed.
+  template <int dim>
+  void
+  expect_mean_stress(Core<dim> &core)
+  {
+    const auto before = core.scatter();
+    const auto stress = [&](const unsigned int p) {
+      Stress<dim, double> result;
+      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+        result[c] = core.points.data(core.points.stress, c)[p];
+      return result;
+    };
+    const unsigned int               n = core.points.size();
+    std::vector<Stress<dim, double>> old(n);
+    for (unsigned int p = 0; p < n; ++p)
+      old[p] = stress(p);
+    const NullSpaceFilter<dim> filter;
+    filter.apply(
+      core.points, core.workspace, core.grid, core.nodes, core.transfer, 0.);
+    double largest_change = 0.;
+    for (unsigned int p = 0; p < n; ++p)
+      {
+        const auto   now    = stress(p);
+        const double change = now[0] - old[p][0];
+        for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+          EXPECT_NEAR(now[c] - old[p][c], c < 3 ? change : 0., 1e-13);
+        if (core.points.data(core.points.body)[p] == 1.)
+          {
+            EXPECT_EQ(change, 0.);
+          }
+        largest_change = std::max(largest_change, std::abs(change));
+      }
+    EXPECT_GT(largest_change, 0.1);
+
+    const auto after = core.scatter();
+    for (unsigned int node = 0; node < before.size(); ++node)
+      for (unsigned int d = 0; d < dim; ++d)
+        EXPECT_NEAR(after[node][SumIndex<dim>::force + d],
+                    before[node][SumIndex<dim>::force + d],
+                    1e-11);
+    core.workspace.reinit(0, n);
+    core.transfer.average_mean_stress(core.points,
+                                      core.workspace,
+                                      core.points.all());
+    for (unsigned int p = 0; p < n; ++p)
+      EXPECT_NEAR(core.workspace.mean_stress_shift()[p], 0., 1e-13);
+  }
+} // namespace
+
+
+
+TEST(NullSpaceFilter, IsXpic)
+{
+  on_both_meshes<2>("", expect_xpic<2>);
+  on_both_meshes<3>("", expect_xpic<3>);
+}
+
+
+
+TEST(NullSpaceFilter, MeanStressIsThatOfTheCell)
+{
+  on_both_meshes<2>("", expect_mean_stress<2>);
+  on_both_meshes<3>("", expect_mean_stress<3>);
+}
