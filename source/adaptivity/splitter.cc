@@ -1,8 +1,10 @@
 #include <talus/adaptivity/splitter.h>
 #include <talus/base/errors.h>
 #include <talus/points/points_kernel.h>
+#include <talus/transfer/box_rule.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace talus
@@ -97,20 +99,16 @@ namespace talus
   {
     const auto columns = points.view();
     bool       found   = false;
-    for_each_simd(begin,
-                  end,
-                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-                    using Number = decltype(number);
-                    auto may_be_violated =
-                      violates<Number>(columns, p, 0, cell_size);
-                    for (unsigned int d = 1; d < dim; ++d)
-                      may_be_violated |=
-                        violates<Number>(columns, p, d, cell_size);
-                    found |=
-                      any(may_be_violated &
-                          (load<Number>(columns.data(columns.generation) + p) <
-                           Number(maximum_generation_)));
-                  });
+    for_each_simd(
+      begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+        using Number         = decltype(number);
+        auto may_be_violated = violates<Number>(columns, p, 0, cell_size);
+        for (unsigned int d = 1; d < dim; ++d)
+          may_be_violated |= violates<Number>(columns, p, d, cell_size);
+        found |= any(may_be_violated &
+                     (load<Number>(columns.data(columns.generation) + p) <
+                      Number(maximum_generation_)));
+      });
     return found;
   }
 
@@ -122,17 +120,24 @@ namespace talus
                                     const unsigned int p,
                                     const unsigned int axes,
                                     const double       cell_size,
-                                    const Grid<dim>   &grid) const
+                                    const Grid<dim>   &grid,
+                                    const BoxRule      rule) const
   {
     const Box<dim> &domain = grid.domain();
+    Tensor<1, dim>  reach; // of the daughters' centres
     for (unsigned int d = 0; d < dim; ++d)
-      if ((axes & (1u << d)) && !grid.periodicity().along(d))
+      if (axes & (1u << d))
         {
-          const double x       = points.data(points.position, d)[p];
-          const double quarter = 0.25 * points.data(points.stretch, d)[p] *
-                                 points.data(points.reference_length, d)[p];
-          if (x - quarter < domain.lower[d] - 0.5 * cell_size ||
-              x + quarter > domain.upper[d] + 0.5 * cell_size)
+          const auto edge = edge_of_box(points, rule, d, p);
+          for (unsigned int i = 0; i < dim; ++i)
+            reach[i] += 0.25 * std::abs(edge[i]);
+        }
+    for (unsigned int d = 0; d < dim; ++d)
+      if (reach[d] > 0 && !grid.periodicity().along(d))
+        {
+          const double x = points.data(points.position, d)[p];
+          if (x - reach[d] < domain.lower[d] - 0.5 * cell_size ||
+              x + reach[d] > domain.upper[d] + 0.5 * cell_size)
             return false;
         }
     return true;
@@ -167,13 +172,16 @@ namespace talus
   Splitter<dim>::axes_near_other_sizes(const Points<dim> &points,
                                        const Grid<dim>   &grid,
                                        const unsigned int p,
+                                       const BoxRule      rule,
                                        const unsigned int cell,
                                        double            &cell_size) const
   {
-    Point<dim> x, length;
+    Point<dim>                      x, length;
+    std::array<Tensor<1, dim>, dim> edge;
     for (unsigned int d = 0; d < dim; ++d)
       {
         x[d]      = points.data(points.position, d)[p];
+        edge[d]   = edge_of_box(points, rule, d, p);
         length[d] = points.data(points.stretch, d)[p] *
                     points.data(points.reference_length, d)[p];
       }
@@ -187,7 +195,7 @@ namespace talus
             Point<dim> daughter = x;
             for (unsigned int d = 0; d < dim; ++d)
               if (axes & (1u << d))
-                daughter[d] += ((corner >> d) & 1 ? 0.25 : -0.25) * length[d];
+                daughter += ((corner >> d) & 1 ? 0.25 : -0.25) * edge[d];
             const double size = size_at(daughter, grid, cell);
             for (unsigned int d = 0; d < dim; ++d)
               if (!(axes & (1u << d)) && length[d] > (1. + 1e-9) * size)
@@ -255,7 +263,8 @@ namespace talus
   void
   Splitter<dim>::find(const Points<dim> &points,
                       const Batch       &batch,
-                      const Grid<dim>   &grid)
+                      const Grid<dim>   &grid,
+                      const BoxRule      rule)
   {
     if (!enabled_)
       return;
@@ -284,16 +293,16 @@ namespace talus
           continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
-            unsigned int axes = cell.uniform
-                                  ? axes_to_split(points, p, cell_size)
-                                  : axes_near_other_sizes(
-                                      points, grid, p, segment.cell, cell_size);
+            unsigned int axes =
+              cell.uniform ? axes_to_split(points, p, cell_size)
+                           : axes_near_other_sizes(
+                               points, grid, p, rule, segment.cell, cell_size);
             if (axes == 0 ||
                 points.data(points.generation)[p] >= maximum_generation_)
               continue;
             if (directions_ == "all")
               axes = (1u << dim) - 1;
-            if (daughters_may_stay(points, p, axes, cell_size, grid))
+            if (daughters_may_stay(points, p, axes, cell_size, grid, rule))
               violations_.push_back({p, axes});
           }
       }
@@ -304,6 +313,7 @@ namespace talus
   template <int dim>
   bool
   Splitter<dim>::enforce(Points<dim>               &points,
+                         const BoxRule              rule,
                          std::vector<unsigned int> &points_out_of_cell)
   {
     if (violations_.empty())
@@ -315,7 +325,7 @@ namespace talus
     for (const Violation &violation : violations_)
       {
         points_out_of_cell.push_back(violation.point);
-        split(points, violation.point, violation.axes);
+        split(points, rule, violation.point, violation.axes);
       }
     statistics_.n_splits += violations_.size();
     statistics_.ledger = ledger_.relative_error();
@@ -326,32 +336,104 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Move point @p p by a quarter of the edges of the parent along @p axes;
+    /// bit i of @p daughter says to which side along the i-th of them.
+    template <int dim>
+    class Offset
+    {
+    public:
+      Offset(const Points<dim> &points,
+             const BoxRule      rule,
+             const unsigned int p,
+             const unsigned int axes)
+        : convected_(rule == BoxRule::convected_domain)
+        , axes_(axes)
+        , to_material_(inverse(
+            load_matrix<dim, double>(points, points.deformation_gradient, p)))
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            quarter_[d]  = 0.25 * edge_of_box(points, rule, d, p);
+            material_[d] = 0.25 * points.data(points.reference_length, d)[p];
+          }
+      }
+
+      void
+      move(Points<dim>       &points,
+           const unsigned int p,
+           const unsigned int daughter) const
+      {
+        for (unsigned int d = 0, bit = 0; d < dim; ++d)
+          if (axes_ & (1u << d))
+            {
+              const double sign = ((daughter >> bit++) & 1 ? 1. : -1.);
+              if (convected_)
+                move_along_edge(points, p, d, sign);
+              else
+                move_along_axis(points, p, d, sign * quarter_[d][d]);
+            }
+      }
+
+    private:
+      void
+      move_along_axis(Points<dim>       &points,
+                      const unsigned int p,
+                      const unsigned int d,
+                      const double       offset) const
+      {
+        points.data(points.position, d)[p] += offset;
+        for (unsigned int e = 0; e < dim; ++e)
+          points.data(points.initial_position, e)[p] +=
+            to_material_[e][d] * offset;
+      }
+
+      /// F^-1 takes the edge back to the axis it comes from.
+      void
+      move_along_edge(Points<dim>       &points,
+                      const unsigned int p,
+                      const unsigned int d,
+                      const double       sign) const
+      {
+        for (unsigned int e = 0; e < dim; ++e)
+          points.data(points.position, e)[p] += sign * quarter_[d][e];
+        points.data(points.initial_position, d)[p] += sign * material_[d];
+      }
+
+      bool                            convected_;
+      unsigned int                    axes_;
+      Matrix<dim, double>             to_material_;
+      std::array<Tensor<1, dim>, dim> quarter_;  ///< m
+      std::array<double, dim>         material_; ///< m
+    };
+  } // namespace
+
+
+
   template <int dim>
   void
   Splitter<dim>::split(Points<dim>       &points,
+                       const BoxRule      rule,
                        const unsigned int p,
                        const unsigned int axes)
   {
     ledger_.enter(points, p, +1.);
     const unsigned int n_daughters = 1u << __builtin_popcount(axes);
+    const Offset<dim>  offset(points, rule, p, axes);
 
     // The state of every daughter, in the parent's place.
     for (const Column &column : points.columns())
       if (column.inheritance == Inheritance::divided)
         for (unsigned int c = 0; c < column.n_components; ++c)
           points.data(column.first, c)[p] /= n_daughters;
-    double quarter[dim];
     for (unsigned int d = 0; d < dim; ++d)
       {
-        double      &L0      = points.data(points.reference_length, d)[p];
-        const double stretch = points.data(points.stretch, d)[p];
-        quarter[d]           = 0.25 * stretch * L0;
         if (axes & (1u << d))
-          L0 *= 0.5;
-        points.data(points.creation_stretch, d)[p] = stretch;
+          points.data(points.reference_length, d)[p] *= 0.5;
+        points.data(points.creation_stretch, d)[p] =
+          points.data(points.stretch, d)[p];
       }
-    const auto to_material =
-      inverse(load_matrix<dim, double>(points, points.deformation_gradient, p));
     const double generation = ++points.data(points.generation)[p];
     statistics_.largest_generation =
       std::max(statistics_.largest_generation,
@@ -367,15 +449,7 @@ namespace talus
     for (unsigned int i = 0; i < n_daughters; ++i)
       {
         const unsigned int q = (i == 0 ? p : first + i - 1);
-        for (unsigned int d = 0, bit = 0; d < dim; ++d)
-          if (axes & (1u << d))
-            {
-              const double offset = ((i >> bit++) & 1 ? 1. : -1.) * quarter[d];
-              points.data(points.position, d)[q] += offset;
-              for (unsigned int e = 0; e < dim; ++e)
-                points.data(points.initial_position, e)[q] +=
-                  to_material[e][d] * offset;
-            }
+        offset.move(points, q, i);
         ledger_.enter(points, q, -1.);
       }
   }

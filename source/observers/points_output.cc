@@ -194,13 +194,9 @@ namespace talus
       for (unsigned int p = 0; p < points.size(); ++p)
         for (unsigned int v = 0; v < cells.n_vertices; ++v)
           {
-            Point<dim> corner;
+            Point<dim> corner = load_place(points, points.position, p);
             for (unsigned int d = 0; d < dim; ++d)
-              {
-                const double half = 0.5 * box_length(snapshot, d, p);
-                corner[d]         = points.data(points.position, d)[p] +
-                            ((v >> d) & 1 ? half : -half);
-              }
+              corner += ((v >> d) & 1 ? 0.5 : -0.5) * box_edge(snapshot, d, p);
             cells.vertices.push_back(corner);
           }
       return cells;

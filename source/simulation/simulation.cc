@@ -316,7 +316,7 @@ namespace talus
       materials_.update_stress(points_, workspace_, batch, dt_);
       update_stretch(points_, workspace_, batch.begin, batch.end, rule, dt_);
       timer_.lap(PhaseTimer::stress_update);
-      splitter_.find(points_, batch, grid_);
+      splitter_.find(points_, batch, grid_, rule);
       timer_.lap(PhaseTimer::splitting);
     });
   }
@@ -328,7 +328,9 @@ namespace talus
   Simulation<dim>::split()
   {
     PhaseTimer::Scope scope(timer_, "splitting");
-    splitter_.enforce(points_, workspace_.points_out_of_cell());
+    splitter_.enforce(points_,
+                      transfer_.box_shape().rule,
+                      workspace_.points_out_of_cell());
   }
 
 

@@ -20,6 +20,43 @@ namespace talus
     {
       return select((a < b) | (b != b), b, a);
     }
+
+
+
+    /// Half of the distance between opposite sides of the box(es) of point(s)
+    /// @p p, in cells, as the weights see it; of a convected domain nearly so:
+    /// its sides belong to the axes of the undeformed box, and their normals
+    /// are F^-T e_d.
+    template <int dim, typename Number>
+    TALUS_ALWAYS_INLINE std::array<Number, dim>
+    half_widths_in_cells(const PointsView<dim, const double> &points,
+                         const BoxShape                      &shape,
+                         const unsigned int                   p,
+                         const Number                        &inverse_cell_size)
+    {
+      std::array<Number, dim> half;
+      if (shape.rule != BoxRule::convected_domain)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
+            half[d] =
+              half_length_in_cells<dim>(points, shape, d, p, inverse_cell_size);
+          return half;
+        }
+      const Matrix<dim, Number> inverse_F = inverse(
+        load_matrix<dim, Number>(points, points.deformation_gradient, p));
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          Number square = inverse_F[d][0] * inverse_F[d][0];
+          for (unsigned int i = 1; i < dim; ++i)
+            square += inverse_F[d][i] * inverse_F[d][i];
+          const Number L0 =
+            load<Number>(points.data(points.reference_length, d) + p);
+          half[d] = clamp(0.5 * L0 / sqrt(square) * inverse_cell_size,
+                          shape.least_half,
+                          shape.most_half);
+        }
+      return half;
+    }
   } // namespace
 
 
@@ -38,7 +75,8 @@ namespace talus
       "Box safety factor",
       box_safety_factor_,
       "Share of the stability limit of thin boxes, 2 (h/c)/sqrt(sum "
-      "over axes of h/l) with l the half length of the box [-].",
+      "over axes of h/l) with l the half length of the box, or half of the "
+      "width between opposite sides of a convected domain [-].",
       this->prm,
       Patterns::Double(1e-6, 1.));
     add_parameter("Maximum",
@@ -62,14 +100,15 @@ namespace talus
                                  const Number &wave_modulus,
                                  const Number &inverse_cell_size) const
   {
+    const auto half_widths =
+      half_widths_in_cells<dim>(points, shape, p, inverse_cell_size);
     Number speed_square(0.), numerator(0.), product(1.);
     for (unsigned int d = 0; d < dim; ++d)
       {
         const Number v = load<Number>(points.data(points.velocity, d) + p);
         speed_square += v * v;
-        const Number half =
-          half_length_in_cells<dim>(points, shape, d, p, inverse_cell_size);
-        numerator = numerator * half + product;
+        const Number half = half_widths[d];
+        numerator         = numerator * half + product;
         product *= half;
       }
     const auto   mass     = load<Number>(points.data(points.mass) + p);

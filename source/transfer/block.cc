@@ -138,6 +138,20 @@ namespace talus
           add_runs(block, patch, reach, these);
         }
     }
+
+
+
+    /// Domains that are no boxes have weights that are no products.
+    template <int dim>
+    void
+    make_all_outsiders(Block<dim> &block)
+    {
+      block.n_runs = block.n_outsiders = block.n_patches = 0;
+      for (unsigned int i = 0; i < block.n_pieces; ++i)
+        for (unsigned int k = block.pieces[i].begin; k < block.pieces[i].end;
+             ++k)
+          block.outsiders[block.n_outsiders++] = {k, block.pieces[i].cell};
+    }
   } // namespace
 
 
@@ -240,7 +254,10 @@ namespace talus
     block.n_pieces = n_pieces;
     if (size == 0)
       return false;
-    compute_weights(block);
+    if (shape_.rule == BoxRule::convected_domain)
+      make_all_outsiders(block);
+    else
+      compute_weights(block);
     return true;
   }
 

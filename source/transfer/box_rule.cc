@@ -1,6 +1,7 @@
 #include <talus/base/series.h>
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/box_rule.h>
+#include <talus/transfer/convected_domain.h>
 
 namespace talus
 {
@@ -52,7 +53,26 @@ namespace talus
 
 
 
-    /// For the rules that know the stretch by the deformation gradient.
+    /// |F e_d|, by which the axes of the undeformed box are stretched.
+    template <int dim, typename Number>
+    TALUS_ALWAYS_INLINE std::array<Number, dim>
+                        lengths_of_columns(const Matrix<dim, Number> &F)
+    {
+      std::array<Number, dim> length;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          Number square = F[0][d] * F[0][d];
+          for (unsigned int i = 1; i < dim; ++i)
+            square += F[i][d] * F[i][d];
+          length[d] = sqrt(square);
+        }
+      return length;
+    }
+
+
+
+    /// For boxes parallel to the axes that know their stretch by the deformation
+    /// gradient.
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
     stretch_along_axes(const Matrix<dim, Number> &F, const BoxRule rule)
@@ -73,6 +93,27 @@ namespace talus
         for (unsigned int j = 0; j < dim; ++j)
           transpose[i][j] = F[j][i];
       return stretch_diagonal(transpose, J);
+    }
+
+
+
+    /// Set the stretch of the points [begin, end) to what @p stretch_of makes of
+    /// F. (Rules that share a loop share subexpressions, and so round-off.)
+    template <int dim, typename StretchOf>
+    TALUS_ALWAYS_INLINE void
+    set_stretch(const PointsView<dim> &points,
+                const unsigned int     begin,
+                const unsigned int     end,
+                const StretchOf       &stretch_of)
+    {
+      for_each_simd(
+        begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+          using Number       = decltype(number);
+          const auto stretch = stretch_of(
+            load_matrix<dim, Number>(points, points.deformation_gradient, p));
+          for (unsigned int d = 0; d < dim; ++d)
+            store(points.data(points.stretch, d) + p, stretch[d]);
+        });
     }
 
 
@@ -117,15 +158,20 @@ namespace talus
           columns, workspace.view(begin, end), begin, end, dt);
         return;
       }
-    for_each_simd(
-      begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-        using Number = decltype(number);
-        const auto F =
-          load_matrix<dim, Number>(columns, columns.deformation_gradient, p);
-        const auto stretch = stretch_along_axes<dim>(F, rule);
-        for (unsigned int d = 0; d < dim; ++d)
-          store(columns.data(columns.stretch, d) + p, stretch[d]);
-      });
+    if (rule == BoxRule::convected_domain)
+      set_stretch<dim>(columns,
+                       begin,
+                       end,
+                       [](const auto &F) TALUS_INLINE_LAMBDA {
+                         return lengths_of_columns<dim>(F);
+                       });
+    else
+      set_stretch<dim>(columns,
+                       begin,
+                       end,
+                       [rule](const auto &F) TALUS_INLINE_LAMBDA {
+                         return stretch_along_axes<dim>(F, rule);
+                       });
   }
 
 
@@ -139,16 +185,66 @@ namespace talus
   {
     const BoxRule by_state =
       (rule == BoxRule::fixed ? BoxRule::right_stretch : rule);
-    for (unsigned int p = begin; p < end; ++p)
-      {
-        const auto F =
-          load_matrix<dim, double>(points, points.deformation_gradient, p);
-        const auto stretch = stretch_along_axes<dim, double>(F, by_state);
-        for (unsigned int d = 0; d < dim; ++d)
-          points.data(points.stretch, d)[p] =
-            points.data(points.creation_stretch, d)[p] = stretch[d];
-      }
+    const auto initialize = [&](const auto &stretch_of) {
+      for (unsigned int p = begin; p < end; ++p)
+        {
+          const auto stretch = stretch_of(
+            load_matrix<dim, double>(points, points.deformation_gradient, p));
+          for (unsigned int d = 0; d < dim; ++d)
+            points.data(points.stretch, d)[p] =
+              points.data(points.creation_stretch, d)[p] = stretch[d];
+        }
+    };
+    if (rule == BoxRule::convected_domain)
+      initialize([](const auto &F) { return lengths_of_columns<dim>(F); });
+    else
+      initialize([by_state](const auto &F) {
+        return stretch_along_axes<dim, double>(F, by_state);
+      });
   }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  edge_of_box(const Points<dim> &points,
+              const BoxRule      rule,
+              const unsigned int d,
+              const unsigned int p)
+  {
+    const double   L0 = points.data(points.reference_length, d)[p];
+    Tensor<1, dim> edge;
+    if (rule == BoxRule::convected_domain)
+      for (unsigned int i = 0; i < dim; ++i)
+        edge[i] = points.data(points.deformation_gradient, dim * i + d)[p] * L0;
+    else
+      edge[d] = points.data(points.stretch, d)[p] * L0;
+    return edge;
+  }
+
+
+
+  namespace
+  {
+    template <int dim>
+    unsigned int
+    count_clipped_axes(const Points<dim> &points,
+                       const BoxShape    &shape,
+                       const double       size,
+                       const unsigned int p)
+    {
+      unsigned int n_clipped = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          double half = 0.5 * points.data(points.reference_length, d)[p];
+          if (shape.rule != BoxRule::fixed)
+            half *= points.data(points.stretch, d)[p];
+          if (half < shape.least_half * size || half > shape.most_half * size)
+            ++n_clipped;
+        }
+      return n_clipped;
+    }
+  } // namespace
 
 
 
@@ -160,19 +256,16 @@ namespace talus
   {
     unsigned long n_clipped = 0;
     for (const Segment &segment : points.segments())
-      {
-        const double size = grid.cells()[segment.cell].size;
-        for (unsigned int d = 0; d < dim; ++d)
-          for (unsigned int p = segment.begin; p < segment.end; ++p)
-            {
-              double half = 0.5 * points.data(points.reference_length, d)[p];
-              if (shape.rule != BoxRule::fixed)
-                half *= points.data(points.stretch, d)[p];
-              if (half < shape.least_half * size ||
-                  half > shape.most_half * size)
-                ++n_clipped;
-            }
-      }
+      for (unsigned int p = segment.begin; p < segment.end; ++p)
+        if (shape.rule == BoxRule::convected_domain)
+          n_clipped +=
+            ConvectedDomain<dim>(points, grid, shape, segment.cell, p)
+              .n_clipped();
+        else
+          n_clipped += count_clipped_axes(points,
+                                          shape,
+                                          grid.cells()[segment.cell].size,
+                                          p);
     return n_clipped;
   }
 
@@ -196,6 +289,10 @@ namespace talus
   initialize_stretch(Points<2> &, unsigned int, unsigned int, BoxRule);
   template void
   initialize_stretch(Points<3> &, unsigned int, unsigned int, BoxRule);
+  template Tensor<1, 2>
+  edge_of_box(const Points<2> &, BoxRule, unsigned int, unsigned int);
+  template Tensor<1, 3>
+  edge_of_box(const Points<3> &, BoxRule, unsigned int, unsigned int);
   template unsigned long
   count_clipped_boxes(const Points<2> &, const Grid<2> &, const BoxShape &);
   template unsigned long

@@ -1,6 +1,7 @@
 // Grid to points.
 
 #include <talus/base/ordered_sum.h>
+#include <talus/transfer/convected_kernel.h>
 #include <talus/transfer/gather_kernel.h>
 #include <talus/transfer/reference.h>
 #include <talus/transfer/transfer.h>
@@ -23,6 +24,17 @@ namespace talus
                          NodeWeights<dim>                    &room,
                          InterpolatedMotion<dim>             &motion)
     {
+      if (shape.rule == BoxRule::convected_domain)
+        {
+          interpolate_corners<dim>(
+            ConvectedDomain<dim>(
+              points, grid, shape, outsider.cell, block.begin + outsider.k),
+            grid,
+            outsider.cell,
+            fields.motion(0),
+            motion.row[outsider.k]);
+          return;
+        }
       using Motion        = NodalMotion<dim>;
       const auto    there = interpolate_by_definition(points,
                                                    outsider.cell,

@@ -1,5 +1,6 @@
 // Points to grid.
 
+#include <talus/transfer/convected_kernel.h>
 #include <talus/transfer/reference.h>
 #include <talus/transfer/scatter_kernel.h>
 #include <talus/transfer/transfer.h>
@@ -39,14 +40,23 @@ namespace talus
           {
             const auto        &outsider = block.outsiders[i];
             const unsigned int p        = block.begin + outsider.k;
-            scatter_by_definition(points,
-                                  work,
-                                  {outsider.cell, block.body, p, p + 1},
-                                  grid,
-                                  loads,
-                                  box_shape_,
-                                  nodes,
-                                  room);
+            if (box_shape_.rule == BoxRule::convected_domain)
+              add_corners<dim>(contributions,
+                               ConvectedDomain<dim>(
+                                 points, grid, box_shape_, outsider.cell, p),
+                               grid,
+                               outsider.cell,
+                               outsider.k,
+                               sums);
+            else
+              scatter_by_definition(points,
+                                    work,
+                                    {outsider.cell, block.body, p, p + 1},
+                                    grid,
+                                    loads,
+                                    box_shape_,
+                                    nodes,
+                                    room);
           }
       }
   }

@@ -26,23 +26,30 @@ namespace talus
                   "(uniform GIMP; the daughters of a split then do not tile "
                   "their parent), 'deformation gradient' (F_dd), 'right "
                   "stretch' (U_dd of F = R U, blind to where the material has "
-                  "turned) or 'left stretch' (V_dd of F = V R).",
+                  "turned) or 'left stretch' (V_dd of F = V R), all of them "
+                  "parallel to the axes; or 'convected domain' (CPDI), a "
+                  "parallelogram that turns, stretches and shears with F: for "
+                  "bodies that bend or turn far, at several times the cost.",
                   this->prm,
                   Patterns::Selection(
-                    "fixed|deformation gradient|right stretch|left stretch"));
+                    "fixed|deformation gradient|right stretch|left stretch|"
+                    "convected domain"));
     add_parameter(
       "Minimum half-size",
       box_shape_.least_half,
       "Half of the length of a box is clipped to at least this many "
       "cell sizes for the weights; thinner boxes would lower the "
-      "stable time step [-].",
+      "stable time step. Of a convected domain: half of the distance between "
+      "opposite sides [-].",
       this->prm,
       Patterns::Double(1e-3, 0.5));
     add_parameter("Maximum half-size",
                   box_shape_.most_half,
                   "Half of the length of a box is clipped to at most this many "
                   "cell sizes for the weights; a longer box would reach beyond "
-                  "the cells around its own [-].",
+                  "the cells around its own. A convected domain may reach "
+                  "twice as far from its centre along each axis, in sizes of "
+                  "the smallest cell around [-].",
                   this->prm,
                   Patterns::Double(1e-3, 0.5));
     add_parameter("Mass cut-off",
@@ -53,11 +60,12 @@ namespace talus
                   this->prm,
                   Patterns::Double(0., 1e-3));
     parse_parameters_call_back.connect([this]() {
-      box_shape_.rule = box_rule_ == "fixed" ? BoxRule::fixed
-                        : box_rule_ == "deformation gradient"
-                          ? BoxRule::deformation_gradient
-                        : box_rule_ == "right stretch" ? BoxRule::right_stretch
-                                                       : BoxRule::left_stretch;
+      box_shape_.rule =
+        box_rule_ == "fixed"                  ? BoxRule::fixed
+        : box_rule_ == "deformation gradient" ? BoxRule::deformation_gradient
+        : box_rule_ == "right stretch"        ? BoxRule::right_stretch
+        : box_rule_ == "convected domain"     ? BoxRule::convected_domain
+                                              : BoxRule::left_stretch;
     });
   }
 

@@ -1,3 +1,4 @@
+#include <talus/transfer/convected_domain.h>
 #include <talus/transfer/weights.h>
 #include <talus/transfer/weights_kernel.h>
 
@@ -176,6 +177,54 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Corner by corner; a node of several corners is listed several times.
+    template <int dim>
+    void
+    convected_weights(const Grid<dim>              &grid,
+                      const unsigned int            c,
+                      const ConvectedDomain<dim>   &domain,
+                      std::vector<NodeWeight<dim>> &weights)
+    {
+      weights.clear();
+      for (unsigned int v = 0; v < domain.n_corners; ++v)
+        {
+          const auto around = nodes_around(grid, c, domain.corner(v));
+          const auto factor = domain.gradient_factor(v);
+          for (unsigned int n = 0; n < around.node.size(); ++n)
+            weights.push_back({around.node[n],
+                               around.value[n] / domain.n_corners,
+                               around.value[n] * factor});
+        }
+    }
+
+
+
+    template <int dim>
+    void
+    weights_of_box(const Points<dim>            &points,
+                   const Grid<dim>              &grid,
+                   const BoxShape               &shape,
+                   const unsigned int            c,
+                   const unsigned int            p,
+                   std::vector<NodeWeight<dim>> &weights)
+    {
+      const double   size = grid.cells()[c].size;
+      Point<dim>     centre;
+      Tensor<1, dim> half;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          centre[d] = points.data(points.position, d)[p];
+          half[d] =
+            size * half_length_in_cells<dim>(points, shape, d, p, 1. / size);
+        }
+      general_weights(grid, c, centre, half, weights);
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   weights_of_point(const Points<dim>            &points,
@@ -185,16 +234,13 @@ namespace talus
                    const unsigned int            p,
                    std::vector<NodeWeight<dim>> &weights)
   {
-    const double   size = grid.cells()[c].size;
-    Point<dim>     centre;
-    Tensor<1, dim> half;
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        centre[d] = points.data(points.position, d)[p];
-        half[d] =
-          size * half_length_in_cells<dim>(points, shape, d, p, 1. / size);
-      }
-    general_weights(grid, c, centre, half, weights);
+    if (shape.rule == BoxRule::convected_domain)
+      convected_weights(grid,
+                        c,
+                        ConvectedDomain<dim>(points, grid, shape, c, p),
+                        weights);
+    else
+      weights_of_box(points, grid, shape, c, p, weights);
     Assert(std::abs(std::accumulate(weights.begin(),
                                     weights.end(),
                                     -1.,

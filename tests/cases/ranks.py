@@ -201,6 +201,13 @@ class Graded(Runs):
         self.assert_sound(alone)
         self.assert_same(self.run_on(4, settings), alone)
 
+    def test_graded_with_convected_domains(self):
+        settings = self.settings + BALANCE + TERSE + [
+            "Transfer/Box rule=convected domain"]
+        alone = self.run_on(1, settings)
+        self.assert_sound(alone)
+        self.assert_same(self.run_on(3, settings), alone)
+
     def test_graded_and_tracked(self):
         settings = self.settings + TRACKING + BALANCE + TERSE + [
             "Mesh tracking/Interval=20"]

@@ -282,8 +282,9 @@ struct Core : FreshParameters
   bool
   enforce()
   {
-    splitter.find(points, points.all(), grid);
-    return splitter.enforce(points, workspace.points_out_of_cell());
+    const talus::BoxRule rule = transfer.box_shape().rule;
+    splitter.find(points, points.all(), grid, rule);
+    return splitter.enforce(points, rule, workspace.points_out_of_cell());
   }
 
   /// The sums at all nodes of the mesh, hanging nodes condensed; from nothing,

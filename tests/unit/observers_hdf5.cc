@@ -1,5 +1,6 @@
 #include <talus/base/errors.h>
 #include <talus/observers/output.h>
+#include <talus/points/points_kernel.h>
 
 #include <boost/property_tree/xml_parser.hpp>
 
@@ -215,6 +216,35 @@ namespace
     expect_columns(s.points, file);
     expect_tensors(s.points, file);
     EXPECT_EQ(read_attribute(file, "fields/velocity", "at"), "cells");
+  }
+
+
+
+  /// Convected domains are drawn as they are: counterclockwise from the corner
+  /// where both edges begin.
+  TEST_F(Hdf5Test, ConvectedDomains)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    add_points(s);
+    s.box_shape.rule = BoxRule::convected_domain;
+    const Matrix<2, double> F{{{{{0.25, -1.5}}, {{1., 0.5}}}}};
+    for (unsigned int p = 0; p < 2; ++p)
+      store_matrix(s.points, s.points.deformation_gradient, p, F);
+    const fs::path file       = write(s, /*boxes_as_cells=*/true);
+    const auto     x          = read_dataset<float>(file, "mesh/vertices");
+    const auto     cells      = read_dataset<std::int64_t>(file, "mesh/cells");
+    const int      sign[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
+    for (unsigned int p = 0; p < 2; ++p)
+      for (unsigned int v = 0; v < 4; ++v)
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            double expected = s.points.data(s.points.position, d)[p];
+            for (unsigned int e = 0; e < 2; ++e)
+              expected += 0.5 * sign[v][e] * F[d][e] *
+                          s.points.data(s.points.reference_length, e)[p];
+            EXPECT_FLOAT_EQ(x.values.at(3 * cells.values[p * 4 + v] + d),
+                            expected);
+          }
   }
 
 

@@ -1,5 +1,6 @@
 #include <talus/observers/profile.h>
 #include <talus/observers/statistics.h>
+#include <talus/points/points_kernel.h>
 
 #include <gtest/gtest.h>
 
@@ -228,6 +229,12 @@ namespace
     // Boxes that do not follow the deformation keep their reference length.
     s.box_shape.rule = BoxRule::fixed;
     EXPECT_EQ(find_profile(s.snapshot()).at(1).highest, 0.375);
+
+    // After a quarter of a turn what was along x, 0.5 m, is along y.
+    s.box_shape.rule = BoxRule::convected_domain;
+    const Matrix<2, double> quarter_turn{{{{{0., -1.}}, {{1., 0.}}}}};
+    store_matrix(s.points, s.points.deformation_gradient, 2, quarter_turn);
+    EXPECT_EQ(find_profile(s.snapshot()).at(1).highest, 0.5);
   }
 
 

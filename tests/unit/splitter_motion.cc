@@ -8,11 +8,12 @@ namespace
 
   // ------------------------------------------------------------ rigid motion
 
-  const std::array<std::pair<BoxRule, std::string>, 4> rules{
+  const std::array<std::pair<BoxRule, std::string>, 5> rules{
     {{BoxRule::fixed, "fixed"},
      {BoxRule::deformation_gradient, "deformation gradient"},
      {BoxRule::right_stretch, "right stretch"},
-     {BoxRule::left_stretch, "left stretch"}}};
+     {BoxRule::left_stretch, "left stretch"},
+     {BoxRule::convected_domain, "convected domain"}}};
 
 
 
@@ -118,7 +119,8 @@ namespace
         expect_no_split<3>(rule, false);
       }
     // A deformed body that turns keeps its stretch only in its own axes.
-    for (const BoxRule rule : {BoxRule::right_stretch, BoxRule::fixed})
+    for (const BoxRule rule :
+         {BoxRule::right_stretch, BoxRule::fixed, BoxRule::convected_domain})
       {
         expect_no_split<2>(rule, true);
         expect_no_split<3>(rule, true);

@@ -45,8 +45,11 @@ namespace
 
   TEST(Transfer, ScatterConserves)
   {
-    on_both_meshes<2>("", expect_conservation<2>);
-    on_both_meshes<3>("", expect_conservation<3>);
+    for (const std::string &rule : box_rules)
+      {
+        on_both_meshes<2>(in_section("Transfer", rule), expect_conservation<2>);
+        on_both_meshes<3>(in_section("Transfer", rule), expect_conservation<3>);
+      }
   }
 
 
@@ -90,8 +93,13 @@ namespace
 
   TEST(Transfer, ScatterByDefinition)
   {
-    on_both_meshes<2>("", expect_sums_by_definition<2>);
-    on_both_meshes<3>("", expect_sums_by_definition<3>);
+    for (const std::string &rule : box_rules)
+      {
+        on_both_meshes<2>(in_section("Transfer", rule),
+                          expect_sums_by_definition<2>);
+        on_both_meshes<3>(in_section("Transfer", rule),
+                          expect_sums_by_definition<3>);
+      }
   }
 
 
@@ -100,11 +108,11 @@ namespace
   /// included; otherwise they would get no velocity.
   template <int dim>
   void
-  expect_reached_nodes_active()
+  expect_reached_nodes_active(const std::string &rule)
   {
     for (unsigned int i = 0; i < (dim == 2 ? 100 : 15); ++i)
       {
-        Core<dim> core(cube<dim>());
+        Core<dim> core(cube<dim>() + in_section("Transfer", rule));
         core.random.seed(i);
         refine_corner(core);
         core.randomize(core.add(core.place(), core.vector(0.2, 1.)));
@@ -129,8 +137,11 @@ namespace
 
   TEST(Transfer, ReachedNodesAreActive)
   {
-    expect_reached_nodes_active<2>();
-    expect_reached_nodes_active<3>();
+    for (const std::string &rule : box_rules)
+      {
+        expect_reached_nodes_active<2>(rule);
+        expect_reached_nodes_active<3>(rule);
+      }
   }
 
 
@@ -328,10 +339,11 @@ namespace
   void
   expect_gather_by_definition()
   {
-    for (const double flip : {1., 0., 0.3})
-      on_both_meshes<dim>(
-        in_section("Transfer", text("set FLIP fraction = ", flip)),
-        [flip](Core<dim> &core) { expect_gather_by_definition(core, flip); });
+    for (const std::string &rule : box_rules)
+      for (const double flip : {1., 0., 0.3})
+        on_both_meshes<dim>(
+          in_section("Transfer", text(rule, "\nset FLIP fraction = ", flip)),
+          [flip](Core<dim> &core) { expect_gather_by_definition(core, flip); });
   }
 
 

@@ -39,6 +39,12 @@ namespace
 
 
 
+  /// Boxes parallel to the axes, which go in blocks, and domains that are not.
+  inline const std::array<std::string, 2> box_rules = {
+    {"set Box rule = right stretch", "set Box rule = convected domain"}};
+
+
+
   /// Run the test on a uniform mesh and on one with hanging nodes.
   template <int dim, typename Action>
   void

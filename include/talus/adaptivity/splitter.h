@@ -5,6 +5,7 @@
 #include <talus/adaptivity/split_statistics.h>
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
+#include <talus/transfer/box_shape.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -22,6 +23,10 @@ namespace talus
   /// threshold says. The daughters inherit the state; what is extensive is
   /// divided (see Inheritance). They tile the box of their parent, so that mass,
   /// momentum and internal force of no node change. @cite esub
+  ///
+  /// A convected domain is cut along its own edges, and measured along them. Its
+  /// daughters tile it, too; nodal sums change a little, since there are more
+  /// corners then, between which shape functions are interpolated.
   template <int dim>
   class Splitter : public dealii::ParameterAcceptor
   {
@@ -31,14 +36,19 @@ namespace talus
     /// Note which points of the batch violate the criterion. They may have left
     /// the cell they are sorted into.
     void
-    find(const Points<dim> &points, const Batch &batch, const Grid<dim> &grid);
+    find(const Points<dim> &points,
+         const Batch       &batch,
+         const Grid<dim>   &grid,
+         BoxRule            rule);
 
     /// Split the points that find() noted, once. Daughters may lie outside
     /// their parent's cell: they wait for Relocation::update(). The first one
     /// takes the parent's place, and is added to those that may be out of their
     /// cell; the others are appended. Returns whether any point was split. Throws ExcPoint if this rank would have too many points.
     bool
-    enforce(Points<dim> &points, std::vector<unsigned int> &points_out_of_cell);
+    enforce(Points<dim>               &points,
+            BoxRule                    rule,
+            std::vector<unsigned int> &points_out_of_cell);
 
     /// Throw ExcPoint if there are more points than allowed, over all ranks.
     void
@@ -105,19 +115,21 @@ namespace talus
                        unsigned int       p,
                        unsigned int       axes,
                        double             cell_size,
-                       const Grid<dim>   &grid) const;
+                       const Grid<dim>   &grid,
+                       BoxRule            rule) const;
     /// The same where the point's old cell is not uniform; sets the size of the
     /// cell it is in now.
     unsigned int
     axes_near_other_sizes(const Points<dim> &points,
                           const Grid<dim>   &grid,
                           unsigned int       p,
+                          BoxRule            rule,
                           unsigned int       cell,
                           double            &cell_size) const;
     void
     check_budget(const Points<dim> &points, std::size_t n_points) const;
     void
-    split(Points<dim> &points, unsigned int p, unsigned int axes);
+    split(Points<dim> &points, BoxRule rule, unsigned int p, unsigned int axes);
 
     bool         enabled_            = true;
     double       threshold_          = 1.4;

@@ -24,7 +24,7 @@ namespace talus
 
   /// points.pvd and its VTU files, or points.xdmf and its HDF5 files: each
   /// point as a vertex, or its box as a quad (hex), so that ParaView shows a
-  /// continuum. The boxes are unclipped: full current lengths. The values of a
+  /// continuum. Boxes are as long as the weights let them be; see box_edge(). The values of a
   /// point are at its vertex or at the cell that is its box.
   template <int dim>
   class PointsOutput

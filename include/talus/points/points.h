@@ -6,6 +6,7 @@
 
 #include <deal.II/base/point.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -177,6 +178,20 @@ namespace talus
     all() const
     {
       return {0, static_cast<unsigned int>(segments_.size()), 0, n_sorted()};
+    }
+
+    /// Cell of a sorted point.
+    unsigned int
+    cell_of(const unsigned int p) const
+    {
+      const auto behind =
+        std::upper_bound(segments_.begin(),
+                         segments_.end(),
+                         p,
+                         [](const unsigned int q, const Segment &segment) {
+                           return q < segment.begin;
+                         });
+      return (behind - 1)->cell;
     }
 
     /// Points of a batch, but for what is left of the last cell.

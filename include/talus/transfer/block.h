@@ -69,8 +69,8 @@ namespace talus
       const Cell<dim> *cell_data;
     };
 
-    /// A point that reaches into a cell of another size: runs leave it out, and
-    /// its weights are those by definition.
+    /// A point that reaches into a cell of another size, or whose domain is no
+    /// box: runs leave it out, and its weights are those by definition.
     struct Outsider
     {
       unsigned int k; ///< point of the block

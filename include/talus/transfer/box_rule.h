@@ -29,6 +29,16 @@ namespace talus
                      unsigned int end,
                      BoxRule      rule);
 
+  /// Edge @p d of the box of point @p p, whole and not clipped, m: along axis d,
+  /// stretch times reference length; or, of a convected domain, where F takes
+  /// that of the undeformed box.
+  template <int dim>
+  dealii::Tensor<1, dim>
+  edge_of_box(const Points<dim> &points,
+              BoxRule            rule,
+              unsigned int       d,
+              unsigned int       p);
+
   /// Number of axes of boxes that are clipped for the weights.
   template <int dim>
   unsigned long

@@ -1,0 +1,262 @@
+#ifndef talus_transfer_convected_domain_h
+#define talus_transfer_convected_domain_h
+
+#include <talus/grid/grid.h>
+#include <talus/points/points.h>
+#include <talus/points/points_kernel.h>
+#include <talus/transfer/box_shape.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace talus
+{
+  /// The domain of a point that goes with its material (CPDI): the undeformed
+  /// box as F deforms it, a parallelogram or parallelepiped. In it the shape
+  /// functions are interpolated between their values at the corners, whose mean
+  /// and mean gradient are the point's weights. @cite sadeghirad2011
+  ///
+  /// An edge belongs to an axis of the undeformed box, not of the mesh.
+  template <int dim>
+  class ConvectedDomain
+  {
+  public:
+    static constexpr unsigned int n_corners = 1u << dim;
+
+    /// The domain of point @p p in @p cell as its weights see it:
+    /// - Opposite sides are at least twice `Minimum half-size` cells apart,
+    ///   which keeps the step stable. Moving a side outwards leaves the others.
+    /// - Along each axis of the mesh it is scaled about its centre, so that
+    ///   corners lie in the cells around: with the default `Maximum half-size`
+    ///   no farther from the centre than the smallest of these cells is long.
+    ConvectedDomain(const Points<dim> &points,
+                    const Grid<dim>   &grid,
+                    const BoxShape    &shape,
+                    unsigned int       cell,
+                    unsigned int       p);
+
+    /// Place of corner @p v, m; bit d: at the upper end of edge d.
+    dealii::Point<dim>
+    corner(unsigned int v) const;
+
+    /// A shape function's value at corner @p v times this is the corner's share
+    /// of the mean gradient, 1/m.
+    dealii::Tensor<1, dim>
+    gradient_factor(unsigned int v) const;
+
+    /// How many pairs of sides and axes of the mesh were limited.
+    unsigned int
+    n_clipped() const
+    {
+      return n_clipped_;
+    }
+
+  private:
+    void
+    set_edges(const PointsView<dim, const double> &points, unsigned int p);
+    void
+    widen(double least_half_width);
+    void
+    shrink(double most_half_extent);
+
+    dealii::Point<dim>                      centre_;
+    std::array<dealii::Tensor<1, dim>, dim> half_edge_; ///< m
+    /// Normals of the sides over the half widths: row d times half edge e is
+    /// one for d = e, else zero.
+    std::array<dealii::Tensor<1, dim>, dim> dual_; ///< 1/m
+    unsigned int                            n_clipped_ = 0;
+  };
+
+
+
+  /// The shape functions at a place: those of the nodes of its cell.
+  template <int dim>
+  struct NodesAround
+  {
+    std::array<unsigned int, 1 << dim> node;
+    std::array<double, 1 << dim>       value;
+  };
+
+
+
+  /// Size of the smallest cell that touches cell @p c, which is not uniform, m.
+  template <int dim>
+  double
+  smallest_size_around(const Grid<dim> &grid, unsigned int c);
+
+  /// Move @p x into the mesh. Returns the cell that touches cell @p c, or that
+  /// cell, which holds it; where @p c is not uniform.
+  template <int dim>
+  const Cell<dim> &
+  touching_cell_at(const Grid<dim>    &grid,
+                   unsigned int        c,
+                   dealii::Point<dim> &x);
+
+
+
+  // The rest is inline: each corner of each point comes by here twice a step.
+
+  template <int dim>
+  TALUS_ALWAYS_INLINE
+  ConvectedDomain<dim>::ConvectedDomain(const Points<dim> &points,
+                                        const Grid<dim>   &grid,
+                                        const BoxShape    &shape,
+                                        const unsigned int cell,
+                                        const unsigned int p)
+  {
+    const Cell<dim> &own = grid.cells()[cell];
+    set_edges(points.view(), p);
+    widen(shape.least_half * own.size);
+    shrink(2. * shape.most_half *
+           (own.uniform ? own.size : smallest_size_around(grid, cell)));
+  }
+
+
+
+  template <int dim>
+  TALUS_ALWAYS_INLINE void
+  ConvectedDomain<dim>::set_edges(const PointsView<dim, const double> &points,
+                                  const unsigned int                   p)
+  {
+    Matrix<dim, double> half_edges;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double half = 0.5 * points.data(points.reference_length, d)[p];
+        centre_[d]        = points.data(points.position, d)[p];
+        for (unsigned int i = 0; i < dim; ++i)
+          half_edge_[d][i] = half_edges[i][d] =
+            half * points.data(points.deformation_gradient, dim * i + d)[p];
+      }
+    const auto dual = inverse(half_edges);
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int i = 0; i < dim; ++i)
+        dual_[d][i] = dual[d][i];
+  }
+
+
+
+  // With n the normal of the sides at the ends of edge d, and row d of the dual
+  // basis n/w: adding (least - w) n to the half edge makes the half width
+  // w = least. The dual basis follows by the formula of Sherman and Morrison.
+  template <int dim>
+  TALUS_ALWAYS_INLINE void
+  ConvectedDomain<dim>::widen(const double least_half_width)
+  {
+    const double most_square = 1. / (least_half_width * least_half_width);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double square = dual_[d].norm_square();
+        if (square <= most_square)
+          continue;
+        ++n_clipped_;
+        const double                 width = 1. / std::sqrt(square);
+        const dealii::Tensor<1, dim> more =
+          (least_half_width - width) * width * dual_[d];
+        half_edge_[d] += more;
+        const dealii::Tensor<1, dim> row =
+          (width / least_half_width) * dual_[d];
+        for (unsigned int e = 0; e < dim; ++e)
+          if (e != d)
+            dual_[e] -= (dual_[e] * more) * row;
+        dual_[d] = row;
+      }
+  }
+
+
+
+  template <int dim>
+  TALUS_ALWAYS_INLINE void
+  ConvectedDomain<dim>::shrink(const double most_half_extent)
+  {
+    for (unsigned int i = 0; i < dim; ++i)
+      {
+        double extent = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          extent += std::abs(half_edge_[d][i]);
+        if (extent <= most_half_extent)
+          continue;
+        ++n_clipped_;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            half_edge_[d][i] *= most_half_extent / extent;
+            dual_[d][i] *= extent / most_half_extent;
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  TALUS_ALWAYS_INLINE dealii::Point<dim>
+                      ConvectedDomain<dim>::corner(const unsigned int v) const
+  {
+    dealii::Point<dim> x = centre_;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int i = 0; i < dim; ++i)
+        x[i] += ((v >> d) & 1 ? half_edge_[d][i] : -half_edge_[d][i]);
+    return x;
+  }
+
+
+
+  // The mean of the derivative along edge d is the mean over the corners at its
+  // upper end minus that over those at its lower end.
+  template <int dim>
+  TALUS_ALWAYS_INLINE dealii::Tensor<1, dim>
+  ConvectedDomain<dim>::gradient_factor(const unsigned int v) const
+  {
+    dealii::Tensor<1, dim> factor;
+    for (unsigned int d = 0; d < dim; ++d)
+      for (unsigned int i = 0; i < dim; ++i)
+        factor[i] += ((v >> d) & 1 ? dual_[d][i] : -dual_[d][i]);
+    return factor * (1. / n_corners);
+  }
+
+
+
+  /// The shape functions at @p x, in cell @p c or one that touches it. Beyond
+  /// the boundary of the mesh they are continued constantly along the normal.
+  template <int dim>
+  TALUS_ALWAYS_INLINE NodesAround<dim>
+                      nodes_around(const Grid<dim>   &grid,
+                                   const unsigned int c,
+                                   dealii::Point<dim> x)
+  {
+    const Cell<dim> *cell       = &grid.cells()[c];
+    unsigned int     first      = 0; // of the patch
+    double           lower      = 0.;
+    const bool       is_uniform = cell->uniform;
+    if (!is_uniform)
+      cell = &touching_cell_at(grid, c, x);
+    const double inverse_size = 1. / cell->size;
+    double       xi[dim];
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double t = (x[d] - cell->lower[d]) * inverse_size;
+        // A patch continues the cells beyond the boundary, and knows what is
+        // across a periodic face.
+        if (is_uniform)
+          lower = std::clamp(std::floor(t), -1., 1.);
+        first += static_cast<unsigned int>(lower + 1.) * power(4, d);
+        xi[d] = std::clamp(t - lower, 0., 1.);
+      }
+    NodesAround<dim> around;
+    for (unsigned int n = 0; n < around.node.size(); ++n)
+      {
+        unsigned int at = first;
+        double       N  = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int i = (n >> d) & 1;
+            at += i * power(4, d);
+            N *= (i == 1 ? xi[d] : 1. - xi[d]);
+          }
+        around.node[n]  = cell->patch[at];
+        around.value[n] = N;
+      }
+    return around;
+  }
+} // namespace talus
+
+#endif

@@ -1,0 +1,58 @@
+#include <talus/transfer/convected_domain.h>
+
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  double
+  smallest_size_around(const Grid<dim> &grid, const unsigned int c)
+  {
+    double size = grid.cells()[c].size;
+    for (const unsigned int t : grid.touching_cells(c))
+      size = std::min(size, grid.cells()[t].size);
+    return size;
+  }
+
+
+
+  // Of all cells the one least far away, as round-off may put the place between
+  // two of them.
+  template <int dim>
+  const Cell<dim> &
+  touching_cell_at(const Grid<dim> &grid, const unsigned int c, Point<dim> &x)
+  {
+    const Box<dim> &domain = grid.domain();
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = std::clamp(x[d], domain.lower[d], domain.upper[d]);
+    const Cell<dim> *nearest = &grid.cells()[c];
+    double           least   = std::numeric_limits<double>::max();
+    for (const unsigned int t : grid.touching_cells(c))
+      {
+        const Cell<dim> &cell     = grid.cells()[t];
+        double           distance = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          distance = std::max(
+            {distance, cell.lower[d] - x[d], x[d] - cell.lower[d] - cell.size});
+        if (distance < least)
+          {
+            least   = distance;
+            nearest = &cell;
+          }
+      }
+    return *nearest;
+  }
+
+
+
+  template double
+  smallest_size_around(const Grid<2> &, unsigned int);
+  template double
+  smallest_size_around(const Grid<3> &, unsigned int);
+  template const Cell<2> &
+  touching_cell_at(const Grid<2> &, unsigned int, Point<2> &);
+  template const Cell<3> &
+  touching_cell_at(const Grid<3> &, unsigned int, Point<3> &);
+} // namespace talus
