@@ -2,6 +2,7 @@
 
 #include <talus/base/errors.h>
 #include <talus/simulation/simulation.h>
+#include <talus/transfer/far_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -101,7 +102,7 @@ namespace talus
     StaticState before;
     if (may_strengthen)
       before = static_state();
-    if (!bring_to_equilibrium(1.))
+    if (!bring_to_equilibrium(1., equilibrium_.measure()))
       {
         if (!may_strengthen)
           throw_no_equilibrium(no_equilibrium());
@@ -129,9 +130,10 @@ namespace talus
   /// no balance.
   template <int dim>
   bool
-  Simulation<dim>::bring_to_equilibrium(const double factor)
+  Simulation<dim>::bring_to_equilibrium(const double        factor,
+                                        const StrainMeasure measure)
   {
-    equilibrium_.begin(equilibrium_.measure());
+    equilibrium_.begin(measure);
     while (!equilibrium_.is_found())
       {
         StepNote  note;
@@ -142,7 +144,7 @@ namespace talus
           return false;
         if (!note.residuals.empty())
           tell(note);
-        if (equilibrium_.measure() == StrainMeasure::large)
+        if (measure == StrainMeasure::large)
           follow_points();
       }
     return true;
@@ -150,11 +152,17 @@ namespace talus
 
 
 
-  /// Cells and mesh after all points may have moved.
+  /// Cells and mesh after all points may have moved, in a step that fails much
+  /// farther than to a neighbouring cell.
   template <int dim>
   void
   Simulation<dim>::follow_points()
   {
+    if (Utilities::MPI::n_mpi_processes(grid_.communicator()) > 1)
+      {
+        points_.forget_order();
+        send_far_points(points_, grid_);
+      }
     if (relocation_.update(points_, grid_))
       nodes_.activate(grid_, relocation_.occupied_cells());
     adapt_mesh();
@@ -251,20 +259,20 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                                                    \
-  template void Simulation<dim>::check_static_stages(                       \
-    const std::vector<std::string> &) const;                                \
-  template Soil<dim>   Simulation<dim>::soil();                             \
-  template bool        Simulation<dim>::run_static_stages();                \
-  template void        Simulation<dim>::find_equilibrium();                 \
-  template bool        Simulation<dim>::bring_to_equilibrium(double);       \
-  template void        Simulation<dim>::follow_points();                    \
-  template std::string Simulation<dim>::no_equilibrium() const;             \
-  template void Simulation<dim>::throw_no_equilibrium(const std::string &); \
-  template void Simulation<dim>::observe(const EquilibriumProgress &,       \
-                                         double,                            \
-                                         StepNote &);                       \
-  template void Simulation<dim>::tell(const StepNote &);                    \
+#define INSTANTIATE(dim)                                                      \
+  template void Simulation<dim>::check_static_stages(                         \
+    const std::vector<std::string> &) const;                                  \
+  template Soil<dim> Simulation<dim>::soil();                                 \
+  template bool      Simulation<dim>::run_static_stages();                    \
+  template void      Simulation<dim>::find_equilibrium();                     \
+  template bool Simulation<dim>::bring_to_equilibrium(double, StrainMeasure); \
+  template void Simulation<dim>::follow_points();                             \
+  template std::string Simulation<dim>::no_equilibrium() const;               \
+  template void Simulation<dim>::throw_no_equilibrium(const std::string &);   \
+  template void Simulation<dim>::observe(const EquilibriumProgress &,         \
+                                         double,                              \
+                                         StepNote &);                         \
+  template void Simulation<dim>::tell(const StepNote &);                      \
   template void Simulation<dim>::say_and_note(const std::string &);
 
   INSTANTIATE(2)

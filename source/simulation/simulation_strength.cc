@@ -68,6 +68,21 @@ namespace talus
 
 
 
+  /// Small strain, in which the slope keeps the shape whose factor of safety is
+  /// asked for: with large strain a little more strength would let it stand
+  /// after a long way. Hyperelastic laws know large strain only.
+  template <int dim>
+  StrainMeasure
+  Simulation<dim>::measure_of_stronger_soil() const
+  {
+    for (unsigned int b = 0; b < bodies_.size(); ++b)
+      if (materials_.of_body(b).is_hyperelastic())
+        return StrainMeasure::large;
+    return StrainMeasure::small;
+  }
+
+
+
   /// The soil does not stand with the strength that it has. So that the stage
   /// 'strength reduction' has where to start from, look for a strength with
   /// which it does; @p before is the state without loads.
@@ -92,7 +107,8 @@ namespace talus
         const double factor = strength_reduction_.next();
         bring_back(before);
         divide_strength(factor);
-        const bool stands = bring_to_equilibrium(factor);
+        const bool stands =
+          bring_to_equilibrium(factor, measure_of_stronger_soil());
         strength_reduction_.heed(factor, stands);
         say_and_note(
           text("  strength x ",
@@ -210,17 +226,18 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                                              \
-  template typename Simulation<dim>::StaticState                      \
-                Simulation<dim>::static_state() const;                \
-  template void Simulation<dim>::restore(const StaticState &);        \
-  template void Simulation<dim>::bring_back(const StaticState &);     \
-  template void Simulation<dim>::divide_strength(double);             \
-  template void Simulation<dim>::find_equilibrium_with_more_strength( \
+#define INSTANTIATE(dim)                                                       \
+  template typename Simulation<dim>::StaticState                               \
+                         Simulation<dim>::static_state() const;                \
+  template void          Simulation<dim>::restore(const StaticState &);        \
+  template void          Simulation<dim>::bring_back(const StaticState &);     \
+  template void          Simulation<dim>::divide_strength(double);             \
+  template StrainMeasure Simulation<dim>::measure_of_stronger_soil() const;    \
+  template void          Simulation<dim>::find_equilibrium_with_more_strength( \
     const StaticState &);                                             \
-  template void Simulation<dim>::reduce_strength();                   \
-  template void Simulation<dim>::start_reduction();                   \
-  template bool Simulation<dim>::stands_with(double);                 \
+  template void Simulation<dim>::reduce_strength();                            \
+  template void Simulation<dim>::start_reduction();                            \
+  template bool Simulation<dim>::stands_with(double);                          \
   template void Simulation<dim>::check_soil_stands() const;
 
   INSTANTIATE(2)

@@ -169,7 +169,7 @@ namespace talus
     void
     find_equilibrium();
     bool
-    bring_to_equilibrium(double factor);
+    bring_to_equilibrium(double factor, StrainMeasure measure);
     void
     follow_points();
     std::string
@@ -184,6 +184,8 @@ namespace talus
     bring_back(const StaticState &state);
     void
     divide_strength(double factor);
+    StrainMeasure
+    measure_of_stronger_soil() const;
     void
     find_equilibrium_with_more_strength(const StaticState &before);
     void
