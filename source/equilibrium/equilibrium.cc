@@ -2,6 +2,7 @@
 #include <talus/equilibrium/equilibrium.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace talus
 {
@@ -29,7 +30,8 @@ namespace talus
     add_parameter("Smallest load step",
                   smallest_step_,
                   "Share of the load below which a step is not halved but the "
-                  "search given up [-].",
+                  "search given up [-]. Steps as small as 'Load steps' asks "
+                  "for are always taken.",
                   this->prm,
                   Patterns::Double(0., 1.));
     add_parameter(
@@ -91,17 +93,27 @@ namespace talus
 
 
   template <int dim>
-  void
-  Equilibrium<dim>::begin(const StrainMeasure         measure,
-                          const std::optional<double> smallest_step)
+  EquilibriumLimits
+  Equilibrium<dim>::limits(const StrainMeasure measure) const
   {
-    least_step_                = smallest_step.value_or(smallest_step_);
-    tolerance_                 = allowed_imbalance_ > 0. ? allowed_imbalance_
-                                 : measure == StrainMeasure::small ? 1e-6
-                                                                   : 1e-3;
+    return {n_load_steps_,
+            smallest_step_,
+            allowed_imbalance_ > 0.           ? allowed_imbalance_
+            : measure == StrainMeasure::small ? 1e-6
+                                              : 1e-3};
+  }
+
+
+
+  template <int dim>
+  void
+  Equilibrium<dim>::begin(const StrainMeasure      measure,
+                          const EquilibriumLimits &limits)
+  {
+    limits_                    = limits;
     newton_parameters_.measure = measure;
     load_                      = 0;
-    step_                      = 1. / n_load_steps_;
+    step_                      = 1. / limits.n_load_steps;
     n_steps_ = n_settling_ = 0;
     imbalance_             = 0;
     is_found_              = false;
@@ -112,12 +124,22 @@ namespace talus
 
 
   template <int dim>
+  void
+  Equilibrium<dim>::return_stress(Soil<dim> &soil)
+  {
+    newton_.begin(soil, newton_parameters_);
+    newton_.accept(soil); // no displacements
+  }
+
+
+
+  template <int dim>
   bool
   Equilibrium<dim>::advance(Soil<dim> &soil, const Observer &observe)
   {
-    newton_.begin(soil, newton_parameters_);
+    newton_.begin(soil, parameters_of_step());
     imbalance_ = newton_.imbalance();
-    if (load_ >= 1. && imbalance_ <= tolerance_)
+    if (load_ >= 1. && imbalance_ <= limits_.allowed_imbalance)
       {
         is_found_ = true;
         return true;
@@ -131,7 +153,7 @@ namespace talus
                                            "is ",
                         imbalance_,
                         " of that of the loads, where ",
-                        tolerance_,
+                        limits_.allowed_imbalance,
                         " is allowed; the largest one of a node is ",
                         largest,
                         " N, at ",
@@ -139,6 +161,21 @@ namespace talus
         return false;
       }
     return take_step(soil, observe);
+  }
+
+
+
+  /// Nodes with hardly any soil follow their own forces the more slowly the
+  /// stiffer the stabilization is against what they have of stiffness: so once
+  /// all load is on it gives way. With large strain they would move too far.
+  template <int dim>
+  typename Newton<dim>::Parameters
+  Equilibrium<dim>::parameters_of_step() const
+  {
+    auto parameters = newton_parameters_;
+    if (parameters.measure == StrainMeasure::small)
+      parameters.ghost_penalty *= std::max(1e-3, std::pow(0.5, n_settling_));
+    return parameters;
   }
 
 
@@ -163,14 +200,15 @@ namespace talus
 
 
 
-  /// One step, as large as it succeeds.
+  /// One step, as large as it succeeds; the first trial is never too small.
   template <int dim>
   bool
   Equilibrium<dim>::take_step(Soil<dim> &soil, const Observer &observe)
   {
     const double rest = 1. - load_;
     const bool   all  = !(rest > 1.0001 * step_);
-    for (double cut = 1.; cut * step_ >= least_step_; cut *= 0.5)
+    for (double cut = 1.; cut == 1. || cut * step_ >= limits_.smallest_step;
+         cut *= 0.5)
       {
         // Of what is out of balance now; the last step takes all of it.
         const double share = cut * (all ? 1. : step_ / rest);
@@ -187,7 +225,7 @@ namespace talus
         newton_.accept(soil);
         n_settling_ += (load_ >= 1.);
         load_ = after;
-        step_ = std::min(1.5 * cut * step_, 1. / n_load_steps_);
+        step_ = std::min(1.5 * cut * step_, 1. / limits_.n_load_steps);
         ++n_steps_;
         return true;
       }

@@ -111,6 +111,7 @@ namespace talus
     target_ = internal_;
     for (std::size_t i = 0; i < target_.size(); ++i)
       target_[i] += share * unbalanced_[i];
+    contact_.add_contact_force(-(1. - share), target_);
     u_                               = unknowns_.field();
     const StaticContact<dim> before  = contact_;
     const Outcome            outcome = seek(soil, observe);

@@ -37,6 +37,8 @@ namespace talus
               {
                 contact.state    = before->second.state;
                 contact.friction = before->second.friction;
+                contact.reaction = before->second.reaction;
+                limit_friction(contact, soil.boundaries.seabed());
               }
             contacts_.push_back(contact);
           }
@@ -71,6 +73,46 @@ namespace talus
       if (contact.state == State::slips)
         for (unsigned int d = 0; d < dim; ++d)
           forces[dim * contact.node + d] += contact.friction[d];
+  }
+
+
+
+  template <int dim>
+  void
+  StaticContact<dim>::add_contact_force(const double         factor,
+                                        std::vector<double> &forces) const
+  {
+    for (const Contact &contact : contacts_)
+      for (unsigned int d = 0; d < dim; ++d)
+        if (contact.state != State::open)
+          forces[dim * contact.node + d] +=
+            factor *
+            (contact.reaction[d] +
+             (contact.state == State::slips ? contact.friction[d] : 0.));
+  }
+
+
+
+  /// What the node bore along the seabed may be more than it bears now.
+  template <int dim>
+  void
+  StaticContact<dim>::limit_friction(Contact           &contact,
+                                     const Seabed<dim> &seabed) const
+  {
+    const unsigned int axis         = contact.face / 2;
+    const double       outwards     = (contact.face % 2 == 0 ? -1. : 1.);
+    const double       normal_force = -outwards * contact.reaction[axis];
+    const double       limit =
+      seabed.largest_friction(std::max(normal_force, 0.), contact.area);
+    Tensor<1, dim> &force =
+      (contact.state == State::slips ? contact.friction : contact.reaction);
+    Tensor<1, dim> tangential = force;
+    tangential[axis]          = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (contact.walls & (1u << d))
+        tangential[d] = 0.;
+    if (tangential.norm() > limit)
+      force -= (1. - limit / tangential.norm()) * tangential;
   }
 
 
@@ -144,6 +186,10 @@ namespace talus
             force[d]        = reaction[dim * contact.node + d];
             displacement[d] = u[dim * contact.node + d];
           }
+        contact.reaction = Tensor<1, dim>();
+        for (unsigned int d = 0; d < dim; ++d)
+          if (contact.state == State::sticks || d == contact.face / 2)
+            contact.reaction[d] = force[d];
         const double weight =
           force.norm() + unknowns.mass(contact.node) *
                            soil.loads.acceleration_of_body[0].norm();

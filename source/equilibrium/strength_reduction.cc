@@ -1,6 +1,8 @@
 #include <talus/base/errors.h>
 #include <talus/equilibrium/strength_reduction.h>
 
+#include <algorithm>
+
 namespace talus
 {
   using namespace dealii;
@@ -34,9 +36,20 @@ namespace talus
     add_parameter("Smallest load step",
                   smallest_step_,
                   "Share of the force that a factor puts out of balance, below "
-                  "which a step is not halved but the soil said to fail [-].",
+                  "which a step is not halved but a smaller reduction tried "
+                  "[-]. A factor within 'Tolerance' of one with which the soil "
+                  "stands, whose failure decides, has steps down to "
+                  "'Equilibrium/Smallest load step'.",
                   this->prm,
                   Patterns::Double(0., 1.));
+    add_parameter("Allowed imbalance",
+                  allowed_imbalance_,
+                  "Force out of balance over that of the loads or of the "
+                  "stress, as in the section Equilibrium, with which the soil "
+                  "counts as standing [-]; 0 for a fiftieth of 'Tolerance'. "
+                  "It must be small against 'Tolerance'.",
+                  this->prm,
+                  Patterns::Double(0.));
     add_parameter("Seabed",
                   includes_seabed_,
                   "Divide friction coefficient and maximum shear stress of the "
@@ -45,10 +58,35 @@ namespace talus
 
 
 
-  void
-  StrengthReduction::begin()
+  namespace
   {
-    lower_ = upper_ = 0.;
+    constexpr double fastest_growth = 0.5;
+  }
+
+
+
+  void
+  StrengthReduction::begin(const double largest_strength)
+  {
+    lower_ = upper_ = upper_from_ = 0.;
+    growth_                       = fastest_growth;
+    largest_strength_             = largest_strength;
+  }
+
+
+
+  double
+  StrengthReduction::least_factor() const
+  {
+    return std::max(smallest_, 1. / largest_strength_);
+  }
+
+
+
+  bool
+  StrengthReduction::is_narrow() const
+  {
+    return upper_ - lower_ <= tolerance_ * lower_;
   }
 
 
@@ -59,8 +97,9 @@ namespace talus
     if (upper_ == 0.)
       return lower_ >= largest_;
     if (lower_ == 0.)
-      return upper_ <= smallest_;
-    return upper_ - lower_ <= tolerance_ * lower_;
+      return upper_ <= least_factor();
+    return is_narrow() &&
+           upper_ - upper_from_ <= (1. + 1e-9) * tolerance_ * lower_;
   }
 
 
@@ -69,12 +108,14 @@ namespace talus
   StrengthReduction::next() const
   {
     if (lower_ == 0. && upper_ == 0.)
-      return first_;
+      return std::max(first_, least_factor());
     if (upper_ == 0.)
-      return std::min(1.5 * lower_, largest_);
+      return std::min(std::max((1. + growth_) * lower_,
+                               growth_ == fastest_growth ? first_ : 0.),
+                      std::max(largest_, lower_));
     if (lower_ == 0.)
-      return std::max(upper_ / 1.5, smallest_);
-    return 0.5 * (lower_ + upper_);
+      return std::max(upper_ / (1. + fastest_growth), least_factor());
+    return is_narrow() ? upper_ : 0.5 * (lower_ + upper_);
   }
 
 
@@ -82,7 +123,38 @@ namespace talus
   void
   StrengthReduction::heed(const double factor, const bool stands)
   {
-    (stands ? lower_ : upper_) = factor;
+    if (!stands)
+      {
+        upper_      = factor;
+        upper_from_ = lower_;
+        return;
+      }
+    // What failed from farther below may stand: go on in small steps.
+    if (factor == upper_)
+      {
+        upper_  = 0.;
+        growth_ = tolerance_;
+      }
+    lower_  = factor;
+    growth_ = std::min(2. * growth_, fastest_growth);
+  }
+
+
+
+  // With strengths divided by a factor at the upper end of the bracket the soil
+  // lacks about the tolerance of what bears it.
+  EquilibriumLimits
+  StrengthReduction::limits(const double factor, EquilibriumLimits limits) const
+  {
+    limits.allowed_imbalance =
+      allowed_imbalance_ > 0. ? allowed_imbalance_ : 0.02 * tolerance_;
+    if (lower_ == 0.)
+      return limits;
+    limits.n_load_steps = 1;
+    const bool decides  = factor - lower_ <= (1. + 1e-9) * tolerance_ * lower_;
+    limits.smallest_step =
+      decides ? std::min(smallest_step_, limits.smallest_step) : smallest_step_;
+    return limits;
   }
 
 
@@ -90,22 +162,32 @@ namespace talus
   std::string
   StrengthReduction::result() const
   {
+    const std::string cannot_stand =
+      is_less_than_one()
+        ? " It is less than 1: the soil cannot stand with the strength it has."
+        : "";
     if (upper_ == 0.)
       return text("The factor of safety is more than ",
                   lower_,
                   ", where 'Strength reduction/Largest factor' ends the "
                   "search.");
     if (lower_ == 0.)
-      return text("The factor of safety is less than ",
-                  upper_,
-                  ", where 'Strength reduction/Smallest factor' ends the "
-                  "search.");
+      return text(
+        "The factor of safety is less than ",
+        upper_,
+        smallest_ >= least_factor()
+          ? ", where 'Strength reduction/Smallest factor' ends the "
+            "search."
+          : "; with more strength the soil would soften faster than it "
+            "unloads.",
+        cannot_stand);
     return text("The factor of safety is ",
                 0.5 * (lower_ + upper_),
                 ": the soil stands with its strength divided by ",
                 lower_,
                 " and fails with ",
                 upper_,
-                ".");
+                ".",
+                cannot_stand);
   }
 } // namespace talus

@@ -278,6 +278,19 @@ namespace talus
 
 
 
+  // The condition of check() for the strength times the factor.
+  template <int dim>
+  double
+  HerschelBulkley<dim>::largest_strength_factor() const
+  {
+    const double lost = (1. - remoulded_ratio_) * strength_;
+    if (lost == 0.)
+      return std::numeric_limits<double>::infinity();
+    return 0.99 * elasticity_.moduli().mu * strain_to_remould_ / (3. * lost);
+  }
+
+
+
   // The work is the integral of s_u(xi) - r s_u0 over all xi.
   template <int dim>
   std::string

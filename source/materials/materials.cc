@@ -104,6 +104,18 @@ namespace talus
 
 
   template <int dim>
+  double
+  Materials<dim>::largest_strength_factor() const
+  {
+    double result = std::numeric_limits<double>::infinity();
+    for (const unsigned int material : material_of_body_)
+      result = std::min(result, models_[material]->largest_strength_factor());
+    return result;
+  }
+
+
+
+  template <int dim>
   void
   Materials<dim>::update_stress(Points<dim>              &points,
                                 const StepWorkspace<dim> &workspace,

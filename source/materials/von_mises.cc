@@ -213,6 +213,18 @@ namespace talus
 
 
 
+  // The condition of check() for the hardening modulus times the factor.
+  template <int dim>
+  double
+  VonMises<dim>::largest_strength_factor() const
+  {
+    if (hardening_ >= 0. || residual_strength_ == strength_)
+      return std::numeric_limits<double>::infinity();
+    return -0.99 * 3. * elasticity_.moduli().mu / hardening_;
+  }
+
+
+
   // With ep = gamma/sqrt(3) of simple shear the strength is s_u + H gamma/3.
   template <int dim>
   std::string

@@ -102,11 +102,12 @@ namespace talus
 
 
 
-    /// Number of connected groups, by union-find. The cells are sorted, so for
-    /// each direction the neighbours are found by walking along the list once.
+    /// For each cell the first one of its connected group, by union-find. The
+    /// cells are sorted, so for each direction the neighbours are found by
+    /// walking along the list once.
     template <int dim>
-    unsigned long
-    count_bodies(const std::vector<Occupied> &cells)
+    std::vector<std::size_t>
+    find_bodies(const std::vector<Occupied> &cells)
     {
       std::vector<std::size_t> parent(cells.size());
       std::iota(parent.begin(), parent.end(), std::size_t(0));
@@ -116,7 +117,6 @@ namespace talus
         return i;
       };
 
-      unsigned long n_bodies = cells.size();
       for (const std::uint64_t step : steps_to_earlier_neighbors<dim>())
         for (std::size_t i = 0, j = 0; i < cells.size(); ++i)
           {
@@ -126,9 +126,27 @@ namespace talus
               continue;
             const std::size_t a = root(i), b = root(j);
             parent[std::max(a, b)] = std::min(a, b);
-            n_bodies -= (a != b);
           }
-      return n_bodies;
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        parent[i] = root(i);
+      return parent;
+    }
+
+
+
+    /// For each cell whether its group has a cell at the bottom of the mesh.
+    template <int dim>
+    std::vector<bool>
+    rests_on_bottom(const std::vector<Occupied>    &cells,
+                    const std::vector<std::size_t> &body)
+    {
+      std::vector<bool> result(cells.size(), false);
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        if (CellLattice<dim>::place(cells[i].key)[1] == 0)
+          result[body[i]] = true;
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        result[i] = result[body[i]];
+      return result;
     }
   } // namespace
 
@@ -138,22 +156,25 @@ namespace talus
   FractureCounts
   count_fractures(const Points<dim> &points, const Grid<dim> &grid)
   {
-    using Lattice                     = CellLattice<dim>;
-    const std::vector<Occupied> cells = find_occupied(points, grid);
-    FractureCounts              counts;
-    counts.occupied_cells   = cells.size();
-    counts.connected_bodies = count_bodies<dim>(cells);
+    using Lattice                        = CellLattice<dim>;
+    const std::vector<Occupied>    cells = find_occupied(points, grid);
+    const std::vector<std::size_t> body  = find_bodies<dim>(cells);
+    const std::vector<bool>        rests = rests_on_bottom<dim>(cells, body);
+    FractureCounts                 counts;
+    counts.occupied_cells = cells.size();
 
     for (std::size_t i = 0; i < cells.size(); ++i)
       {
+        counts.connected_bodies += (body[i] == i);
         counts.cells_with_one_point += (cells[i].n_points == 1);
 
         // What lies unoccupied between this cell and the one below it.
         const auto place     = Lattice::place(cells[i].key);
         const bool is_lowest = (i == 0 || Lattice::column(cells[i - 1].key) !=
                                             Lattice::column(cells[i].key));
-        const int  below =
-          (is_lowest ? -1 : Lattice::place(cells[i - 1].key)[1]);
+        const int  below     = !is_lowest ? Lattice::place(cells[i - 1].key)[1]
+                               : rests[i] ? -1
+                                          : place[1] - 1;
         counts.empty_interior_cells += place[1] - below - 1;
 
         const int left =

@@ -34,6 +34,7 @@ namespace talus
     list.add("repartitions", "-", n_repartitions_, Reduction::equal);
     loading_.list_state(list);
     stages_.list_state(list);
+    list.add("standing factor", "-", standing_factor_, Reduction::equal);
     newton_table_.file().list_state(newton_table_.file_name, list);
     splitter_.list_state(list);
     load_balance_.list_state(list);

@@ -2,6 +2,7 @@
 
 #include <talus/base/errors.h>
 #include <talus/simulation/simulation.h>
+#include <talus/transfer/far_points.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -86,6 +87,7 @@ namespace talus
         if (act_on(std::max(wish, Wish::checkpoint)))
           return false;
       }
+    check_soil_stands();
     return true;
   }
 
@@ -95,24 +97,16 @@ namespace talus
   void
   Simulation<dim>::find_equilibrium()
   {
-    equilibrium_.begin(equilibrium_.measure());
     say("Stage 'equilibrium':");
-    while (!equilibrium_.is_found())
+    const bool  may_strengthen = stages_.contain(Stage::strength_reduction);
+    StaticState before;
+    if (may_strengthen)
+      before = static_state();
+    if (!bring_to_equilibrium(1., equilibrium_.measure()))
       {
-        StepNote  note;
-        Soil<dim> all = soil();
-        if (!equilibrium_.advance(all, [&](const auto &progress) {
-              observe(progress, 1., note);
-            }))
-          throw_no_equilibrium();
-        if (!note.residuals.empty())
-          tell(note);
-        if (equilibrium_.measure() == StrainMeasure::large)
-          {
-            if (relocation_.update(points_, grid_)) // all may have moved
-              nodes_.activate(grid_, relocation_.occupied_cells());
-            adapt_mesh();
-          }
+        if (!may_strengthen)
+          throw_no_equilibrium(no_equilibrium());
+        find_equilibrium_with_more_strength(before);
       }
     const auto [largest, place] = equilibrium_.newton().largest_imbalance();
     say_and_note(text("Equilibrium was found in ",
@@ -132,23 +126,82 @@ namespace talus
 
 
 
-  /// Show what moved, and end the run.
+  /// Returns false if the soil, whose strengths are divided by @p factor, finds
+  /// no balance.
+  template <int dim>
+  bool
+  Simulation<dim>::bring_to_equilibrium(const double        factor,
+                                        const StrainMeasure measure)
+  {
+    equilibrium_.begin(measure);
+    while (!equilibrium_.is_found())
+      {
+        StepNote  note;
+        Soil<dim> all = soil();
+        if (!equilibrium_.advance(all, [&](const auto &progress) {
+              observe(progress, factor, note);
+            }))
+          return false;
+        if (!note.residuals.empty())
+          tell(note);
+        if (measure == StrainMeasure::large)
+          follow_points();
+      }
+    return true;
+  }
+
+
+
+  /// Cells and mesh after all points may have moved, in a step that fails much
+  /// farther than to a neighbouring cell.
   template <int dim>
   void
-  Simulation<dim>::throw_no_equilibrium()
+  Simulation<dim>::follow_points()
+  {
+    if (Utilities::MPI::n_mpi_processes(grid_.communicator()) > 1)
+      {
+        points_.forget_order();
+        send_far_points(points_, grid_);
+      }
+    if (relocation_.update(points_, grid_))
+      nodes_.activate(grid_, relocation_.occupied_cells());
+    adapt_mesh();
+  }
+
+
+
+  /// Why the last search for equilibrium ended, a sentence.
+  template <int dim>
+  std::string
+  Simulation<dim>::no_equilibrium() const
+  {
+    return text("The stage 'equilibrium' found no balance ",
+                equilibrium_.load() > 0.
+                  ? text("beyond ", equilibrium_.load(), " of the load. ")
+                  : text("with any share of the load that was tried. "),
+                equilibrium_.failure(),
+                ".");
+  }
+
+
+
+  /// Show what moved, and end the run with @p sentence.
+  template <int dim>
+  void
+  Simulation<dim>::throw_no_equilibrium(const std::string &sentence)
   {
     output_.write_mechanism(snapshot(),
                             "no-equilibrium",
                             equilibrium_.newton().mechanism(points_));
     throw ExcUser(
-      text("The stage 'equilibrium' found no balance beyond ",
-           equilibrium_.load(),
-           " of the load. ",
-           equilibrium_.failure(),
-           ". 'no-equilibrium' in the output folder shows where it "
-           "moved. Either the soil cannot bear its weight, and needs "
-           "more strength or support before the trigger; or the "
-           "search needs more 'Equilibrium/Load steps'."));
+      sentence +
+      " 'no-equilibrium' in the output folder shows where it moved. Either "
+      "the soil cannot bear its weight, and needs more strength or support "
+      "before the trigger" +
+      (stages_.contain(Stage::strength_reduction)
+         ? ""
+         : " (the stage 'strength reduction' after this one finds how much)") +
+      "; or the search needs more 'Equilibrium/Load steps'.");
   }
 
 
@@ -206,106 +259,21 @@ namespace talus
 
 
 
-  namespace
-  {
-    /// All columns of the points, which stay where they are.
-    template <int dim>
-    std::vector<std::vector<double>>
-    copy_columns(const Points<dim> &points)
-    {
-      std::vector<std::vector<double>> columns;
-      for (unsigned int i = 0; i < points.n_arrays(); ++i)
-        columns.emplace_back(points.data(i), points.data(i) + points.size());
-      return columns;
-    }
-
-
-
-    template <int dim>
-    void
-    restore_columns(const std::vector<std::vector<double>> &columns,
-                    Points<dim>                            &points)
-    {
-      for (unsigned int i = 0; i < points.n_arrays(); ++i)
-        std::copy(columns[i].begin(), columns[i].end(), points.data(i));
-    }
-  } // namespace
-
-
-
-  /// Every trial goes on from the largest factor with which the soil stood.
-  template <int dim>
-  void
-  Simulation<dim>::reduce_strength()
-  {
-    say("Stage 'strength reduction':");
-    const auto before = copy_columns(points_);
-    auto       state  = before;
-    strength_reduction_.begin();
-    while (!strength_reduction_.is_done())
-      {
-        const double factor = strength_reduction_.next();
-        const bool   stands = stands_with(factor);
-        strength_reduction_.heed(factor, stands);
-        say_and_note(stands ? text("  strength / ", factor, ": stands")
-                            : text("  strength / ",
-                                   factor,
-                                   ": fails. ",
-                                   equilibrium_.failure()));
-        if (stands)
-          state = copy_columns(points_);
-        else // of all that fail the last one has the smallest factor
-          output_.write_mechanism(snapshot(),
-                                  "mechanism",
-                                  equilibrium_.newton().mechanism(points_));
-        restore_columns(state, points_);
-      }
-    restore_columns(before, points_);
-    boundaries_.scale_seabed_strength(1.);
-    say_and_note(strength_reduction_.result());
-  }
-
-
-
-  /// Look for balance with all strengths divided by @p factor.
-  template <int dim>
-  bool
-  Simulation<dim>::stands_with(const double factor)
-  {
-    double *strength_factor = points_.data(materials_.strength_factor());
-    std::fill(strength_factor, strength_factor + points_.size(), 1. / factor);
-    if (strength_reduction_.includes_seabed())
-      boundaries_.scale_seabed_strength(1. / factor);
-    equilibrium_.begin(StrainMeasure::small,
-                       strength_reduction_.smallest_step());
-    while (!equilibrium_.is_found())
-      {
-        StepNote  note;
-        Soil<dim> all = soil();
-        if (!equilibrium_.advance(all, [&](const auto &progress) {
-              observe(progress, factor, note);
-            }))
-          return false;
-      }
-    return true;
-  }
-
-
-
-#define INSTANTIATE(dim)                                                   \
-  template void Simulation<dim>::check_static_stages(                      \
-    const std::vector<std::string> &) const;                               \
-  template Soil<dim> Simulation<dim>::soil();                              \
-  template bool      Simulation<dim>::run_static_stages();                 \
-  template bool      Simulation<dim>::stands_with(double);                 \
-  template void      Simulation<dim>::reduce_strength();                   \
-  template void      Simulation<dim>::find_equilibrium();                  \
-  template void      Simulation<dim>::throw_no_equilibrium();              \
-  template void      Simulation<dim>::observe(const EquilibriumProgress &, \
-                                         double,                      \
-                                         StepNote &);                 \
-  template void      Simulation<dim>::tell(const StepNote &);              \
-  template void      Simulation<dim>::say_and_note(const std::string &);
+#define INSTANTIATE(dim)                                                      \
+  template void Simulation<dim>::check_static_stages(                         \
+    const std::vector<std::string> &) const;                                  \
+  template Soil<dim> Simulation<dim>::soil();                                 \
+  template bool      Simulation<dim>::run_static_stages();                    \
+  template void      Simulation<dim>::find_equilibrium();                     \
+  template bool Simulation<dim>::bring_to_equilibrium(double, StrainMeasure); \
+  template void Simulation<dim>::follow_points();                             \
+  template std::string Simulation<dim>::no_equilibrium() const;               \
+  template void Simulation<dim>::throw_no_equilibrium(const std::string &);   \
+  template void Simulation<dim>::observe(const EquilibriumProgress &,         \
+                                         double,                              \
+                                         StepNote &);                         \
+  template void Simulation<dim>::tell(const StepNote &);                      \
+  template void Simulation<dim>::say_and_note(const std::string &);
 
   INSTANTIATE(2)
   INSTANTIATE(3)

@@ -75,19 +75,71 @@ class BadInputStages(Case):
 
     # Soil that cannot stand
 
-    def falls(self, settings, *words):
+    WEAK_CLAY = "Materials/clay/Undrained shear strength=2500"
+    WEAK_SEABED = "Boundaries/Seabed/Maximum shear stress=1e3"
+
+    def run_slope(self, *settings):
+        return self.run_slope_as("--overwrite", *settings)
+
+    def run_slope_as(self, how, *settings):
         options = [o for s in settings for o in ("--set", s)]
+        return self.run_talus(how, "--output", "falls", "--set",
+                              "Grid/Cell size=0.8", *options,
+                              PRM / "landslide-trigger.prm")
+
+    def falls(self, *settings):
         self.assert_refused(
-            self.run_talus("--overwrite", "--output", "falls", "--set",
-                           "Grid/Cell size=0.8", *options,
-                           PRM / "landslide-trigger.prm"),
+            self.run_slope("Stages=equilibrium, dynamics", *settings),
             "'equilibrium' found no balance", " of the load", ", at (",
-            "'no-equilibrium'", "more strength or support", *words)
+            "'no-equilibrium'", "more strength or support",
+            "'strength reduction'")
         written = self.folder / "falls" / "no-equilibrium.pvd"
         self.assertIn(".vtu", written.read_text())
 
     def test_soil_that_cannot_stand(self):
-        self.falls(["Materials/clay/Undrained shear strength=2500"])
+        self.falls(self.WEAK_CLAY)
 
     def test_seabed_that_cannot_hold(self):
-        self.falls(["Boundaries/Seabed/Maximum shear stress=1e3"])
+        self.falls(self.WEAK_SEABED)
+
+    def test_load_steps_smaller_than_the_smallest(self):
+        self.falls(self.WEAK_CLAY, "Equilibrium/Load steps=2000",
+                   "Equilibrium/Smallest load step=0.01")
+
+    def test_factor_of_safety_less_than_one(self):
+        result = self.run_slope("Stages=equilibrium, strength reduction",
+                                self.WEAK_CLAY, self.WEAK_SEABED)
+        self.assertEqual(result.returncode, 0, result)
+        for words in ("'equilibrium' found no balance beyond 0.",
+                      "looked for with more strength", "strength x ",
+                      "The factor of safety is 0.39", "It is less than 1: the "
+                      "soil cannot stand with the strength it has."):
+            self.assertIn(words, result.stdout)
+
+    def test_no_dynamics_of_soil_that_cannot_stand(self):
+        result = self.run_slope(self.WEAK_CLAY, self.WEAK_SEABED)
+        self.assert_refused(result, "'equilibrium'", "only with 3.375 times",
+                            "no state of rest", "'dynamics'",
+                            "more strength or support")
+        self.assertIn("The factor of safety is 0.39", result.stdout)
+        self.assert_refused(
+            self.run_slope_as("--resume", self.WEAK_CLAY, self.WEAK_SEABED),
+            "only with 3.375 times")
+
+    def test_reduction_from_soil_out_of_balance(self):
+        self.assert_refused(
+            self.run_slope("Equilibrium/Strain=large",
+                           "Strength reduction/Allowed imbalance=1e-12"),
+            "'strength reduction' starts from soil that is out of balance",
+            "where 1e-12 is allowed", "'Equilibrium/Allowed imbalance'",
+            "'Strength reduction/Allowed imbalance'")
+
+    def test_soil_that_softens_is_not_strengthened_too_much(self):
+        # 3 G/|H| = 2.01, but it takes 2.6 times the strength.
+        result = self.run_slope(
+            "Stages=equilibrium, strength reduction", self.WEAK_CLAY,
+            self.WEAK_SEABED, "Materials/clay/Hardening modulus=-125e3",
+            "Materials/clay/Residual undrained shear strength=2400")
+        self.assert_refused(result, "'equilibrium' found no balance",
+                            "Nor was one found with more strength",
+                            "soften faster")

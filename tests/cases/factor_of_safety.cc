@@ -39,6 +39,36 @@ TEST(InfiniteSlope, FactorOfSafety)
 
 
 
+// The same with so little strength that it cannot stand: s_u is divided by f.
+TEST(InfiniteSlope, FactorOfSafetyBelowOne)
+{
+  Verification     gates("Infinite slope of 20 degrees that cannot stand",
+                     "prm/verification/infinite-slope.prm",
+                     "s_u/(gamma H sin) = 1.5/f");
+  constexpr double h = 0.05; // m
+  for (const double exact : {0.99, 0.4})
+    for (const std::string strain : {"small", "large"})
+      {
+        const StaticCase<2> slope(
+          "verification/infinite-slope.prm",
+          text("infinite-slope-", exact, '-', strain),
+          {text("Grid/Cell size=", h),
+           text("Grid/Upper corner=", 2 * h, ", 5.1"),
+           text("Bodies/layer/Upper corner=", 2 * h, ", 5"),
+           "Equilibrium/Strain=" + strain,
+           text("Materials/clay/Undrained shear strength=",
+                25651.51 * exact / 1.5)});
+        gates.near(
+          text("factor of safety, f = ", 1.5 / exact, ", ", strain, " strain"),
+          slope.factor_of_safety(),
+          exact,
+          0.01);
+        EXPECT_TRUE((*slope).strength_reduction().is_less_than_one());
+      }
+}
+
+
+
 namespace
 {
   /// q F/s_u at failure, with cells of @p h.
@@ -95,6 +125,76 @@ TEST(StripFootingFine, BearingCapacity)
 
 
 
+TEST(TaylorSlope, FactorOfSafety)
+{
+  Verification gates(
+    "Undrained slope 2:1 on a foundation as deep as it is high",
+    "prm/verification/taylor-slope.prm",
+    "Taylor's chart, s_u/(gamma H) = 0.25, D = 2");
+  for (const double h : {2., 1.})
+    {
+      const StaticCase<2> slope("verification/taylor-slope.prm",
+                                text("taylor-slope-", h),
+                                {text("Grid/Cell size=", h),
+                                 "Strength reduction/Tolerance=1e-3"});
+      gates.near(text("factor of safety, cells of H/", 10. / h),
+                 slope.factor_of_safety(),
+                 1.47,
+                 0.01);
+    }
+}
+
+
+
+namespace
+{
+  /// The slope of the paper on coarse cells, without dynamics.
+  double
+  paper_slope(const std::string &name, const Overrides &overrides)
+  {
+    const StaticCase<2> slope(
+      "landslide-trigger.prm",
+      "paper-slope-" + name,
+      Overrides{"Stages=equilibrium, strength reduction",
+                "Grid/Cell size=0.8"} +
+        overrides);
+    return slope.factor_of_safety();
+  }
+} // namespace
+
+
+
+// How the search goes there must not matter.
+TEST(PaperSlopeSafety, OneFactorWhateverTheSearch)
+{
+  Verification gates("Slope of the paper before the trigger: factor of safety, "
+                     "h = 0.8 m",
+                     "prm/landslide-trigger.prm Stages = equilibrium, strength "
+                     "reduction",
+                     "the factor with the parameters of the file");
+  const double F = paper_slope("small", {});
+  gates.near("with large strain",
+             paper_slope("large", {"Equilibrium/Strain=large"}),
+             F,
+             0.01);
+  // The brackets are 0.5 % wide.
+  for (const unsigned int n : {5, 2000})
+    gates.near(text("the load in ", n, " steps"),
+               paper_slope(text("steps-", n),
+                           {text("Equilibrium/Load steps=", n)}),
+               F,
+               0.005);
+  for (const double step : {1., 0.01})
+    gates.near(text("smallest load step of the reduction ", step),
+               paper_slope(text("smallest-", step),
+                           {text("Strength reduction/Smallest load step=",
+                                 step)}),
+               F,
+               0.005);
+}
+
+
+
 namespace
 {
   const std::string
@@ -130,6 +230,8 @@ namespace
 
 
 
+// With errors of first order in h, F(h) = F + C h, cells of half the size halve
+// the error: 2 F(h/2) - F(h).
 TEST(VerticalCutSafety, CoarseCells)
 {
   Verification      gates(cut, cut_run, cut_source);
@@ -140,6 +242,11 @@ TEST(VerticalCutSafety, CoarseCells)
   const double coarse = stability_number(8), fine = stability_number(16);
   gates.falls_short(name_of(8), coarse, 1.03 * 3.78, {4.10, cause}, "3.78");
   gates.falls_short(name_of(16), fine, 1.03 * 3.78, {3.95, cause}, "3.78");
+  gates.near(
+    "gamma H F/s_u, extrapolated to h = 0 from these two (first order)",
+    2. * fine - coarse,
+    3.78,
+    0.01);
   EXPECT_LT(fine, coarse);
   EXPECT_GT(fine, 3.776);
 }

@@ -312,6 +312,27 @@ TEST(EquilibriumTest, StepsAreCutUntilTheSmallest)
 
 
 
+// More steps than the smallest one allows are no reason to take none.
+TEST(EquilibriumTest, LoadStepsSmallerThanTheSmallest)
+{
+  for (const std::string law : {"linear elastic", "von Mises"})
+    {
+      const bool yields = (law == "von Mises");
+      Bank<2>    bank({"block", law},
+                   stiff +
+                     (yields ? "set Undrained shear strength = 3e3\n" : ""),
+                   in_section("Equilibrium",
+                              "set Load steps = 40\n"
+                                 "set Smallest load step = 0.1"));
+      bank.transfer.use_cell_mean({yields});
+      EXPECT_EQ(bank.find(), !yields);
+      EXPECT_GE(bank.equilibrium.n_steps(), yields ? 2u : 40u);
+      EXPECT_EQ(bank.equilibrium.failure().empty(), !yields);
+    }
+}
+
+
+
 // What nothing holds has no equilibrium: the first complaint is about that.
 TEST(EquilibriumTest, SoilThatNothingHolds)
 {

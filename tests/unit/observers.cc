@@ -109,6 +109,33 @@ namespace
 
 
 
+  // A pillar with an arm, and below the arm something that hangs beside them:
+  // under the arm, which the pillar carries, soil is missing.
+  TEST_F(Fracture, BelowSoilThatHangsNoneIsMissing)
+  {
+    // . . . . . . . .
+    // # # # . . # # .
+    // # . . . . # . .
+    // # . . . . # # .
+    // # . . . . . . .
+    Scene<2> s("0, 0", "8, 5");
+    for (const auto &x : std::vector<Point<2>>{
+           {5.5, 1.5}, {6.5, 1.5}, {5.5, 2.5}, {5.5, 3.5}, {6.5, 3.5}})
+      s.add(x);
+    EXPECT_EQ(count_fractures(s.points, s.grid).empty_interior_cells, 1u);
+    for (unsigned int j = 0; j < 4; ++j)
+      s.add({0.5, j + 0.5});
+    s.add({1.5, 3.5});
+    s.add({2.5, 3.5});
+    EXPECT_EQ(count_fractures(s.points, s.grid).empty_interior_cells, 1u + 6u);
+    EXPECT_EQ(count_fractures(s.points, s.grid).connected_bodies, 2u);
+    // Now it stands on the bottom, too.
+    s.add({5.5, 0.5});
+    EXPECT_EQ(count_fractures(s.points, s.grid).empty_interior_cells, 2u + 6u);
+  }
+
+
+
   TEST_F(Fracture, LastCellOfAColumnIsNoNeighborOfTheNextColumnsFirst)
   {
     Scene<2> s("0, 0", "8, 4");
@@ -126,7 +153,7 @@ namespace
     s.add({4.3, 3.2});
     const FractureCounts counts = count_fractures(s.points, s.grid);
     EXPECT_EQ(counts.occupied_cells, 2u);
-    EXPECT_EQ(counts.empty_interior_cells, 3u);
+    EXPECT_EQ(counts.empty_interior_cells, 0u); // none below what hangs
     EXPECT_EQ(counts.empty_columns, 2u);
     // In the cell it was counted to, it joins the others.
     s.add({0.5, -0.9});
@@ -185,7 +212,7 @@ namespace
     s.add({4.6, 3.5, 0.5});
     const FractureCounts counts = count_fractures(s.points, s.grid);
     EXPECT_EQ(counts.occupied_cells, 5u);
-    EXPECT_EQ(counts.empty_interior_cells, 1u + 3u);
+    EXPECT_EQ(counts.empty_interior_cells, 1u); // none below what hangs
     EXPECT_EQ(counts.empty_columns, 2u);
     EXPECT_EQ(counts.connected_bodies, 3u);
     EXPECT_EQ(counts.cells_with_one_point, 4u);

@@ -191,6 +191,55 @@ TEST(StaticContactTest, FrictionIsWithinItsLimit)
 
 
 
+// Also while the load comes on, step by step: what the seabed bears belongs to the
+// load that is on, R = f_int - load f_ext.
+TEST(StaticContactTest, FrictionIsWithinItsLimitAtEachLoadStep)
+{
+  for (const auto &[friction, cap] :
+       {std::pair(10., 600.), {10., 100.}, {0.05, 1e9}})
+    {
+      SCOPED_TRACE(text(friction, ", ", cap));
+      BlockOnSeabed block(
+        seabed(friction, cap),
+        Point<2>(0., -g),
+        2.,
+        "set Young's modulus = 1e6\nset Poisson's ratio = 0.45\n");
+      const double small = 1e-6 * block.weight.norm();
+      block.equilibrium.begin(StrainMeasure::small, {4, 1e-3, 1e-9});
+      for (unsigned int step = 1; step <= 4; ++step)
+        {
+          Soil<2> all = block.soil();
+          ASSERT_TRUE(block.equilibrium.advance(all, [](const auto &) {}))
+            << block.equilibrium.failure();
+          const double load = block.equilibrium.load();
+          EXPECT_NEAR(load, 0.25 * step, 1e-12);
+          const auto places = places_of_nodes(block.grid);
+          sum_forces(all);
+          unsigned int n_limited = 0;
+          for (const unsigned int node : block.nodes.active_nodes())
+            {
+              if (block.nodes.mass(node) <= block.least_mass)
+                continue;
+              const Force  weight   = block.nodes.mass(node) * Point<2>(0., -g);
+              const Force  reaction = (1. - load) * weight - block.force(node);
+              const double x        = places[node][0];
+              const double area     = (x == 2. || x == 4. ? 0.25 : 0.5);
+              const double limit = std::min(friction * reaction[1], cap * area);
+              if (places[node][1] > 0.)
+                {
+                  EXPECT_LT(reaction.norm(), small);
+                  continue;
+                }
+              EXPECT_LE(std::abs(reaction[0]), limit + 10. * small) << x;
+              n_limited += std::abs(reaction[0]) > limit - 10. * small;
+            }
+          EXPECT_GE(n_limited, 2u);
+        }
+    }
+}
+
+
+
 // Bodies that spread on a flat seabed and are not symmetric. The first guess is
 // that all nodes slip, which would let them go, though nothing pulls at them.
 TEST(StaticContactTest, SpreadingBodiesStay)

@@ -1,5 +1,7 @@
 // The strength factor of the points, a column, in the laws that have a strength.
 
+#include <talus/base/errors.h>
+
 #include "specimen.h"
 
 using namespace talus;
@@ -116,6 +118,30 @@ TEST(StrengthFactor, MultipliesTheStrength)
           expect_near(one.stress(p), plain.stress(p), 1e-12 * paper.bulk);
         }
     }
+}
+
+
+
+// Up to this factor the return is that of a material which could be given as it
+// is, beyond it the same material is refused.
+TEST(StrengthFactor, OfSoilThatSoftensIsLimited)
+{
+  for (const std::string name : {"von Mises", "Bingham"})
+    {
+      Specimen<2>  soil(name, parameters(name, 1.));
+      const double largest  = soil.law->largest_strength_factor();
+      const double expected = name == "von Mises"
+                                ? 3. * paper.mu / (0.01 * paper.E)
+                                : paper.mu * 2. / (3. * 0.7 * s_u);
+      EXPECT_NEAR(largest, 0.99 * expected, 1e-12 * expected);
+      EXPECT_NO_THROW(Specimen<2>(name, parameters(name, 0.999 * expected)));
+      EXPECT_THROW(Specimen<2>(name, parameters(name, 1.001 * expected)),
+                   ExcUser);
+    }
+  for (const std::string &name : material_names<2>())
+    EXPECT_TRUE(std::isinf(
+      Specimen<2>(name, paper.parameters()).law->largest_strength_factor()))
+      << name;
 }
 
 

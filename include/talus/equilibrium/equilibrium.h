@@ -6,7 +6,6 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +17,16 @@ namespace talus
     unsigned int    load_step; ///< from 1
     double          load;      ///< share of the load after the step
     NewtonIteration iteration;
+  };
+
+
+
+  /// What a search may ask for other than the parameters of the equilibrium.
+  struct EquilibriumLimits
+  {
+    unsigned int n_load_steps;      ///< in which the load comes on
+    double       smallest_step;     ///< share of it below which no step is cut
+    double       allowed_imbalance; ///< with which the soil counts as balanced
   };
 
 
@@ -45,11 +54,20 @@ namespace talus
     check(const Materials<dim>           &materials,
           const std::vector<std::string> &names_of_bodies) const;
 
+    /// Those of the parameters.
+    EquilibriumLimits
+    limits(StrainMeasure measure) const;
+
     /// No load is on yet, whatever was before. Soil that stands still takes
-    /// small strain; @p smallest_step is the share of the load below which a
-    /// step is not cut, that of the parameters if none is given.
+    /// small strain.
     void
-    begin(StrainMeasure measure, std::optional<double> smallest_step = {});
+    begin(StrainMeasure measure)
+    {
+      begin(measure, limits(measure));
+    }
+
+    void
+    begin(StrainMeasure measure, const EquilibriumLimits &limits);
 
     /// Take one load step. Afterwards, with large strain, points may be in other
     /// cells. Returns false if no step, however small, succeeds or the balance
@@ -57,6 +75,12 @@ namespace talus
     /// Collective.
     bool
     advance(Soil<dim> &soil, const Observer &observe);
+
+    /// Return stresses to the yield surface, to be called after begin() if the
+    /// strength is less than it was: nothing moves, but what was in balance is
+    /// so no more. Collective.
+    void
+    return_stress(Soil<dim> &soil);
 
     /// Whether all load is on and what is out of balance is within tolerance.
     bool
@@ -84,6 +108,20 @@ namespace talus
       return n_steps_;
     }
 
+    /// The nodes of the seabed as they are.
+    const StaticContact<dim> &
+    contact() const
+    {
+      return newton_.contact();
+    }
+
+    /// Go back to soil that stood so on the seabed.
+    void
+    set_contact(const StaticContact<dim> &contact)
+    {
+      newton_.set_contact(contact);
+    }
+
     /// Force out of balance, of the reference force; see Newton.
     double
     imbalance() const
@@ -98,6 +136,8 @@ namespace talus
     }
 
   private:
+    typename Newton<dim>::Parameters
+    parameters_of_step() const;
     bool
     is_settling();
     bool
@@ -113,10 +153,9 @@ namespace talus
     LinearSolver                     linear_solver_;
 
     Newton<dim>         newton_;
-    double              load_       = 0;
-    double              step_       = 1;
-    double              least_step_ = 0;
-    double              tolerance_  = 0; ///< of the imbalance
+    double              load_ = 0;
+    double              step_ = 1;
+    EquilibriumLimits   limits_{};
     unsigned int        n_steps_    = 0;
     unsigned int        n_settling_ = 0; ///< steps without load so far
     double              imbalance_  = 0;

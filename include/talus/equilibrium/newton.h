@@ -30,9 +30,10 @@ namespace talus
 
   /// The displacements of one load step, for which stress and loads balance, by
   /// Newton's method with the consistent tangent @cite simo1998. The residual is
-  ///   r = f_int(0) + share (f_ext - f_int(0)) + friction - f_int(u) - ghost,
-  /// where f_ext - f_int(0) is what the points have out of balance now: the step
-  /// takes the share of it.
+  ///   r = f_ext - (1 - share) (f_ext + c - f_int(0)) + friction - f_int(u)
+  ///       - ghost,
+  /// where f_ext + c - f_int(0) is what the points have out of balance now, c
+  /// the force of the seabed on them so far: the step takes the share of it.
   template <int dim>
   class Newton
   {
@@ -87,6 +88,19 @@ namespace talus
     /// Collective.
     std::vector<double>
     mechanism(const Points<dim> &points) const;
+
+    const StaticContact<dim> &
+    contact() const
+    {
+      return contact_;
+    }
+
+    /// To be called before begin(), with the points that it belongs to.
+    void
+    set_contact(const StaticContact<dim> &contact)
+    {
+      contact_ = contact;
+    }
 
     unsigned long
     n_unknowns() const

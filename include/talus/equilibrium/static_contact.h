@@ -15,8 +15,8 @@ namespace talus
   class StaticContact
   {
   public:
-    /// Find the nodes. Those that were known before stay as they were, the
-    /// others stick.
+    /// Find the nodes. Those that were known before stay as they were, but for
+    /// friction that exceeds what the seabed bears now; the others stick.
     void
     begin(const Soil<dim> &soil, const Unknowns<dim> &unknowns);
 
@@ -27,6 +27,11 @@ namespace talus
     /// Add the friction of slipping nodes, N.
     void
     add_friction(std::vector<double> &forces) const;
+
+    /// Add @p factor times what the seabed bore after the last step: reaction
+    /// and friction on the soil, N.
+    void
+    add_contact_force(double factor, std::vector<double> &forces) const;
 
     /// Look at what became of the nodes: @p reaction, N, is what the boundary
     /// bears and @p u the displacement of the step, m, which is taken back where
@@ -61,7 +66,11 @@ namespace talus
       double                 area;  ///< m^(dim-1)
       State                  state = State::sticks;
       dealii::Tensor<1, dim> friction; ///< on the soil, N
+      dealii::Tensor<1, dim> reaction; ///< the same of what is held
     };
+
+    void
+    limit_friction(Contact &contact, const Seabed<dim> &seabed) const;
 
     bool
     revise(Contact                      &contact,

@@ -7,6 +7,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -77,9 +78,18 @@ namespace talus
     virtual double
     shear_strength(const Points<dim> &points, unsigned int p) const;
 
+    /// What the strength may be multiplied by at most [-]: with more of it soil
+    /// that softens would do so faster than it can unload elastically. Infinite
+    /// for laws that do not soften.
+    virtual double
+    largest_strength_factor() const
+    {
+      return std::numeric_limits<double>::infinity();
+    }
+
     /// From now on multiply the whole strength (not viscosity) of each point by
-    /// its value in @p column [-], which must be between 0 and 1 where the law
-    /// softens; other laws ignore it. It may change at any time: a stress that
+    /// its value in @p column [-], from 0 to largest_strength_factor(); laws
+    /// without strength ignore it. It may change at any time: a stress that
     /// is then outside the yield surface is returned in the next step, and what
     /// elastic energy this releases is plastic work.
     void

@@ -58,6 +58,11 @@ namespace talus
       return strength_factor_;
     }
 
+    /// Least MaterialModel::largest_strength_factor() of those that bodies are
+    /// made of.
+    double
+    largest_strength_factor() const;
+
     /// Advance deformation and stress of the points, whose workspace it is.
     void
     update_stress(Points<dim>              &points,

@@ -78,6 +78,9 @@ namespace talus
     }
 
     double
+    largest_strength_factor() const override;
+
+    double
     shear_strength(const Points<dim> &points, unsigned int p) const override;
 
     std::string

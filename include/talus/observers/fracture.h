@@ -12,8 +12,10 @@ namespace talus
   struct FractureCounts
   {
     unsigned long occupied_cells = 0;
-    /// Unoccupied cells below the highest occupied one of their column, down
-    /// to the bottom face of the mesh.
+    /// Unoccupied cells between occupied ones of their column, which has the
+    /// same x (and z); below the lowest one, down to the bottom face of the
+    /// mesh, only if that belongs to a connected body with a cell at this face:
+    /// below soil that hangs there is none to miss.
     unsigned long empty_interior_cells = 0;
     /// Columns of the mesh without an occupied cell between the first and the
     /// last with one; in 3-D slabs of cells with the same x.

@@ -159,16 +159,44 @@ namespace talus
       unsigned int        n_linear_iterations = 0;
       double              seconds             = 0;
     };
+    /// What a search for equilibrium may change.
+    struct StaticState
+    {
+      std::vector<std::vector<double>> columns; ///< of the points
+      StaticContact<dim>               contact;
+    };
     Soil<dim>
     soil();
     void
     find_equilibrium();
+    bool
+    bring_to_equilibrium(double factor, StrainMeasure measure);
+    void
+    follow_points();
+    std::string
+    no_equilibrium() const;
+    [[noreturn]] void
+    throw_no_equilibrium(const std::string &sentence);
+    StaticState
+    static_state() const;
+    void
+    restore(const StaticState &state);
+    void
+    bring_back(const StaticState &state);
+    void
+    divide_strength(double factor);
+    StrainMeasure
+    measure_of_stronger_soil() const;
+    void
+    find_equilibrium_with_more_strength(const StaticState &before);
     void
     reduce_strength();
+    void
+    start_reduction();
     bool
     stands_with(double factor);
-    [[noreturn]] void
-    throw_no_equilibrium();
+    void
+    check_soil_stands() const;
     void
     observe(const EquilibriumProgress &progress, double factor, StepNote &note);
     void
@@ -236,9 +264,12 @@ namespace talus
     unsigned long     step_         = 0;
     double            gravity_work_ = 0; ///< J
     BoundaryWork<dim> boundary_work_;
-    double            least_mass_     = 0; ///< kg
-    unsigned long     n_mesh_changes_ = 0;
-    unsigned long     n_repartitions_ = 0;
+    /// The soil is in balance with its strengths divided by this [-]: 1, or less
+    /// where it does not stand with those that it has.
+    double        standing_factor_ = 1.;
+    double        least_mass_      = 0; ///< kg
+    unsigned long n_mesh_changes_  = 0;
+    unsigned long n_repartitions_  = 0;
 
     Wish            wish_ = Wish::none; // of all ranks, for after this step
     FoundCheckpoint resumed_from_;      // no path in a run from the start
