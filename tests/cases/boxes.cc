@@ -3,6 +3,7 @@
 #include "landslide.h"
 
 #include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
 
 #include <gtest/gtest.h>
 
