@@ -195,6 +195,27 @@ TEST(PaperSlopeSafety, OneFactorWhateverTheSearch)
 
 
 
+// Boxes that are clipped for the weights, as they are with many points in a cell,
+// reach into cells where they leave hardly any soil at the nodes. These settle, too.
+TEST(PaperSlopeSafety, ClippedBoxesSettle)
+{
+  for (const auto &[n_points, least_half] : {std::pair(6, 0.1), {8, 0.25}})
+    {
+      const StaticCase<2> slope(
+        "landslide-trigger.prm",
+        text("clipped-boxes-", n_points),
+        {"Stages=equilibrium",
+         "Grid/Cell size=0.8",
+         text("Bodies/slide/Points per cell and axis=", n_points),
+         text("Transfer/Minimum half-size=", least_half)});
+      EXPECT_TRUE((*slope).equilibrium().is_found());
+      EXPECT_LE((*slope).equilibrium().imbalance(), 1e-6);
+      EXPECT_LE((*slope).equilibrium().n_steps(), 30u);
+    }
+}
+
+
+
 namespace
 {
   const std::string
