@@ -24,6 +24,7 @@ SECTIONS = [
     ("Manufactured solutions",
      ["ManufacturedBar", "Manufactured2d", "Manufactured3d", "Vortex"]),
     ("Elasticity", ["Discs", "SelfWeightColumn", "ElasticaLoads", "Elastica"]),
+    ("Bending and hanging: convected domains", ["Cantilever", "HangingCube"]),
     ("Strength: one point", ["OnePoint"]),
     ("Seabed and layers",
      ["Block", "ShearLayer", "ViscoplasticLayer", "VerticalCut",
@@ -32,8 +33,8 @@ SECTIONS = [
      ["ImplicitColumn", "ImplicitElasticaLoads", "ImplicitElastica",
       "Multigrid"]),
     ("Factors of safety",
-     ["InfiniteSlope", "StripFooting", "StripFootingFine", "VerticalCutSafety",
-      "VerticalCutSafetyFine"]),
+     ["InfiniteSlope", "TaylorSlope", "PaperSlopeSafety", "StripFooting",
+      "StripFootingFine", "VerticalCutSafety", "VerticalCutSafetyFine"]),
     ("From rest into motion",
      ["Geostatic", "Trigger", "GroundMotion", "LandslideFromEquilibrium",
       "LandslideFromEquilibriumFine"]),
@@ -41,7 +42,7 @@ SECTIONS = [
     ("The landslide of the paper",
      ["LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
       "LandslideStretched", "LandslideUnsplit", "LandslideSimilarity",
-      "Landslide3d"]),
+      "LandslideOfLayers", "Landslide3d", "QuietPoints", "Boxes"]),
 ]
 # What README shows: suite and the quantity's beginning.
 SUMMARY = [
@@ -58,6 +59,7 @@ SUMMARY = [
     ("SelfWeightColumn", "mean error"),
     ("SelfWeightColumn", "height"),
     ("Elastica", ""),
+    ("Cantilever", ""),
     ("OnePoint", "plateau [Pa]"),
     ("Block", "acceleration"),
     ("ShearLayer", "acceleration"),
@@ -67,6 +69,7 @@ SUMMARY = [
     ("ImplicitColumn", "mean error"),
     ("ImplicitElastica", ""),
     ("InfiniteSlope", "factor of safety"),
+    ("TaylorSlope", ""),
     ("StripFooting", ""),
     ("VerticalCutSafety", ""),
     ("VerticalCutSafetyFine", ""),
@@ -76,6 +79,8 @@ SUMMARY = [
     ("LandslideFull", "at rest"),
     ("LandslideFull", "h = 0.4 against 0.2 m: front"),
     ("LandslideSimilarity", ""),
+    ("LandslideOfLayers", "five bodies, at rest: front"),
+    ("QuietPoints", "speed of points"),
     ("Landslide3d", "3-D against 2-D, to 4 s: front"),
 ]
 SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",

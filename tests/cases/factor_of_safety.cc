@@ -69,6 +69,39 @@ TEST(InfiniteSlope, FactorOfSafetyBelowOne)
 
 
 
+// A weak layer of 3 m on a stronger one: the weak one fails where it ends.
+TEST(InfiniteSlope, TwoLayersBelowOne)
+{
+  constexpr double h = 0.05, depth = 3., exact = 0.9; // m, m, -
+  const double     strength =
+    exact * 1000. * 10. * depth * std::sin(20. * M_PI / 180.); // Pa
+  Verification        gates("Infinite slope of two layers that cannot stand",
+                     "prm/verification/infinite-slope.prm, "
+                            "a weak body of 3 m on a stronger one of 2 m",
+                     "least s_u/(gamma z sin) of the ends of the layers");
+  const StaticCase<2> slope("verification/infinite-slope.prm",
+                            "infinite-slope-two-layers",
+                            {text("Grid/Cell size=", h),
+                             text("Grid/Upper corner=", 2 * h, ", 5.1"),
+                             "Bodies/Names=layer,top",
+                             text("Bodies/layer/Upper corner=", 2 * h, ", 2"),
+                             "Bodies/top/Shape=box",
+                             "Bodies/top/Lower corner=0, 2",
+                             text("Bodies/top/Upper corner=", 2 * h, ", 5"),
+                             "Bodies/top/Material=weak",
+                             "Materials/Names=clay,weak",
+                             "Materials/weak/Law=von Mises",
+                             "Materials/weak/Density=1000",
+                             "Materials/weak/Young's modulus=1e7",
+                             "Materials/weak/Poisson's ratio=0.49",
+                             text("Materials/weak/Undrained shear strength=",
+                                  strength)});
+  gates.near("factor of safety", slope.factor_of_safety(), exact, 0.01);
+  EXPECT_TRUE((*slope).strength_reduction().is_less_than_one());
+}
+
+
+
 namespace
 {
   /// q F/s_u at failure, with cells of @p h.

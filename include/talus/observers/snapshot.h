@@ -49,6 +49,8 @@ namespace talus
         edges[e] = edge_of_box(points, snapshot.box_shape.rule, e, p);
       else
         edges[e][e] = points.data(points.reference_length, e)[p];
+    if (p >= points.n_sorted())
+      return edges[d]; // in no cell yet
     const double longest = 2. * snapshot.box_shape.most_half *
                            snapshot.grid.cells()[points.cell_of(p)].size;
     for (unsigned int i = 0; i < dim; ++i)
