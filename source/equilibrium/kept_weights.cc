@@ -35,12 +35,6 @@ namespace talus
                              const Batch         &cell,
                              const Unknowns<dim> &unknowns)
   {
-    // What each point gives to each node; a node may be named several times.
-    struct Share
-    {
-      unsigned int point, place;
-      Weight       weight;
-    };
     std::vector<Share>           shares;
     std::vector<NodeWeight<dim>> weights;
     const unsigned int           first_node = nodes_.size();
@@ -73,6 +67,19 @@ namespace talus
             add(p, weight.node, 1., weight);
       }
 
+    store(cell, first_node, shares);
+  }
+
+
+
+  /// The weights of the points of a cell, row by row, from what was found; and
+  /// the bookkeeping for the next cell.
+  template <int dim>
+  void
+  KeptWeights<dim>::store(const Batch              &cell,
+                          const unsigned int        first_node,
+                          const std::vector<Share> &shares)
+  {
     const unsigned int n_nodes = nodes_.size() - first_node;
     const std::size_t  first   = weights_.size();
     weights_.resize(first + std::size_t(cell.end - cell.begin) * n_nodes,

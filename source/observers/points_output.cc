@@ -113,8 +113,9 @@ namespace talus
                         FieldKind::vector,
                         dim,
                         [snapshot](const unsigned int p, float *values) {
+                          const auto lengths = box_lengths(snapshot, p);
                           for (unsigned int d = 0; d < dim; ++d)
-                            values[d] = box_length(snapshot, d, p);
+                            values[d] = lengths[d];
                         }});
     }
 
@@ -192,13 +193,17 @@ namespace talus
       const Points<dim> &points = snapshot.points;
       auto cells = one_cell_per_point<dim>(snapshot, ItemsAt::cells);
       for (unsigned int p = 0; p < points.size(); ++p)
-        for (unsigned int v = 0; v < cells.n_vertices; ++v)
-          {
-            Point<dim> corner = load_place(points, points.position, p);
-            for (unsigned int d = 0; d < dim; ++d)
-              corner += ((v >> d) & 1 ? 0.5 : -0.5) * box_edge(snapshot, d, p);
-            cells.vertices.push_back(corner);
-          }
+        {
+          const Point<dim> centre = load_place(points, points.position, p);
+          const auto       edges  = box_edges(snapshot, p);
+          for (unsigned int v = 0; v < cells.n_vertices; ++v)
+            {
+              Point<dim> corner = centre;
+              for (unsigned int d = 0; d < dim; ++d)
+                corner += ((v >> d) & 1 ? 0.5 : -0.5) * edges[d];
+              cells.vertices.push_back(corner);
+            }
+        }
       return cells;
     }
   } // namespace

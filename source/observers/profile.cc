@@ -70,7 +70,7 @@ namespace talus
     {
       const Points<dim> &points      = snapshot.points;
       const double       y           = points.data(points.position, 1)[p];
-      const double       half_length = 0.5 * box_length(snapshot, 1, p);
+      const double       half_length = 0.5 * box_lengths(snapshot, p)[1];
       const double       mass        = points.data(points.mass)[p];
       const double       v_z =
         (dim == 3 ? points.data(points.velocity, dim - 1)[p] : 0.);

@@ -126,6 +126,19 @@ namespace talus
 
 
 
+  /// Returns false if no step, however small, succeeds.
+  template <int dim>
+  bool
+  Simulation<dim>::take_load_step(const double factor, StepNote &note)
+  {
+    Soil<dim> all = soil();
+    return equilibrium_.advance(all, [&](const auto &progress) {
+      observe(progress, factor, note);
+    });
+  }
+
+
+
   /// Returns false if the soil, whose strengths are divided by @p factor, finds
   /// no balance.
   template <int dim>
@@ -136,11 +149,8 @@ namespace talus
     equilibrium_.begin(measure);
     while (!equilibrium_.is_found())
       {
-        StepNote  note;
-        Soil<dim> all = soil();
-        if (!equilibrium_.advance(all, [&](const auto &progress) {
-              observe(progress, factor, note);
-            }))
+        StepNote note;
+        if (!take_load_step(factor, note))
           return false;
         if (!note.residuals.empty())
           tell(note);
@@ -266,6 +276,7 @@ namespace talus
   template bool      Simulation<dim>::run_static_stages();                    \
   template void      Simulation<dim>::find_equilibrium();                     \
   template bool Simulation<dim>::bring_to_equilibrium(double, StrainMeasure); \
+  template bool Simulation<dim>::take_load_step(double, StepNote &);          \
   template void Simulation<dim>::follow_points();                             \
   template std::string Simulation<dim>::no_equilibrium() const;               \
   template void Simulation<dim>::throw_no_equilibrium(const std::string &);   \

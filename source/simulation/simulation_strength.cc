@@ -192,11 +192,8 @@ namespace talus
     equilibrium_.return_stress(before);
     while (!equilibrium_.is_found())
       {
-        StepNote  note;
-        Soil<dim> all = soil();
-        if (!equilibrium_.advance(all, [&](const auto &progress) {
-              observe(progress, factor, note);
-            }))
+        StepNote note;
+        if (!take_load_step(factor, note))
           return false;
       }
     return true;

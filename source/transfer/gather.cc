@@ -105,14 +105,14 @@ namespace talus
 
   template <int dim>
   double
-  Transfer<dim>::gather_with(const double            flip_fraction,
-                             const NodalFields<dim> &nodes,
-                             const Grid<dim>        &grid,
-                             const Loads<dim>       &loads,
-                             Points<dim>            &points,
-                             StepWorkspace<dim>     &workspace,
-                             const Batch            &batch,
-                             const double            dt) const
+  Transfer<dim>::gather(const NodalFields<dim> &nodes,
+                        const Grid<dim>        &grid,
+                        const Loads<dim>       &loads,
+                        Points<dim>            &points,
+                        StepWorkspace<dim>     &workspace,
+                        const Batch            &batch,
+                        const double            dt,
+                        const double            flip_fraction) const
   {
     const auto              columns = points.view();
     const auto              work    = workspace.view(batch.begin, batch.end);
@@ -160,50 +160,6 @@ namespace talus
 
 
 
-  template <int dim>
-  double
-  Transfer<dim>::gather(const NodalFields<dim> &nodes,
-                        const Grid<dim>        &grid,
-                        const Loads<dim>       &loads,
-                        Points<dim>            &points,
-                        StepWorkspace<dim>     &workspace,
-                        const Batch            &batch,
-                        const double            dt) const
-  {
-    return gather_with(
-      flip_fraction_, nodes, grid, loads, points, workspace, batch, dt);
-  }
-
-
-
-  template <int dim>
-  void
-  Transfer<dim>::interpolate_velocity(const NodalFields<dim> &nodes,
-                                      const Grid<dim>        &grid,
-                                      Points<dim>            &points,
-                                      StepWorkspace<dim>     &workspace,
-                                      const Batch            &batch) const
-  {
-    Loads<dim> none;
-    none.acceleration_of_body.resize(n_bodies());
-    const double flip_fraction = 0., dt = 0.;
-    gather_with(flip_fraction, nodes, grid, none, points, workspace, batch, dt);
-  }
-
-
-
-  template void
-  Transfer<2>::interpolate_velocity(const NodalFields<2> &,
-                                    const Grid<2> &,
-                                    Points<2> &,
-                                    StepWorkspace<2> &,
-                                    const Batch &) const;
-  template void
-  Transfer<3>::interpolate_velocity(const NodalFields<3> &,
-                                    const Grid<3> &,
-                                    Points<3> &,
-                                    StepWorkspace<3> &,
-                                    const Batch &) const;
   template double
   Transfer<2>::gather(const NodalFields<2> &,
                       const Grid<2> &,
@@ -211,6 +167,7 @@ namespace talus
                       Points<2> &,
                       StepWorkspace<2> &,
                       const Batch &,
+                      double,
                       double) const;
   template double
   Transfer<3>::gather(const NodalFields<3> &,
@@ -219,5 +176,6 @@ namespace talus
                       Points<3> &,
                       StepWorkspace<3> &,
                       const Batch &,
+                      double,
                       double) const;
 } // namespace talus

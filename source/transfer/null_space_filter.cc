@@ -76,7 +76,8 @@ namespace talus
                           const double         least_mass)
     {
       // Forces are summed up, too, but no time passes in which they could act.
-      Loads<dim> none;
+      const double time_step = 0., flip_fraction = 0.;
+      Loads<dim>   none;
       none.acceleration_of_body.resize(transfer.n_bodies());
       nodes.clear();
       points.for_batches([&](const Batch &batch) {
@@ -85,11 +86,18 @@ namespace talus
         transfer.scatter(points, workspace, batch, grid, none, nodes);
       });
       nodes.sum_over_ranks(grid);
-      nodes.update_momentum(0., least_mass);
+      nodes.update_momentum(time_step, least_mass);
       nodes.share_with_ghosts(grid);
       points.for_batches([&](const Batch &batch) {
         workspace.reinit(batch.begin, batch.end);
-        transfer.interpolate_velocity(nodes, grid, points, workspace, batch);
+        transfer.gather(nodes,
+                        grid,
+                        none,
+                        points,
+                        workspace,
+                        batch,
+                        time_step,
+                        flip_fraction);
       });
     }
   } // namespace

@@ -12,7 +12,7 @@ import subprocess
 GROUPS = {
     "walk and weights": r"talus::BlockWalk<",
     "scatter": r"talus::Transfer<\d>::scatter\b",
-    "gather": r"talus::Transfer<\d>::gather(_with)?\b",
+    "gather": r"talus::Transfer<\d>::gather\b",
     "means": r"talus::Transfer<\d>::(average_|set_cell_means|shift_to_cell_means)",
     "stress": r"talus::.*(update_stress|update_by_state|update_stretch)",
     "time step": r"talus::(TimeStep<|.*wave_modulus)",

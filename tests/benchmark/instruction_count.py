@@ -51,7 +51,7 @@ ARCH = "x86-64-v3"
 KERNELS = {
     "weights": (r"talus::BlockWalk<2>::compute_weights\(", 0.40),
     "points to grid": (r"talus::Transfer<2>::scatter\(", 0.43),
-    "grid to points": (r"(talus::Transfer<2>::gather_with\(|"
+    "grid to points": (r"(talus::Transfer<2>::gather\(|"
                        r".*interpolate_to_block<2>)", 0.47),
     "stress": (r".*talus::VonMises<2>::update_stress\(", 0.58),
     "time step": (r"talus::TimeStep<2>::heed\(", 0.35),

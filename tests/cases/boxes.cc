@@ -35,7 +35,8 @@ namespace
     double           area = 0., soil = 0.;
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        area += box_length(snapshot, 0, p) * box_length(snapshot, 1, p);
+        const auto lengths = box_lengths(snapshot, p);
+        area += lengths[0] * lengths[1];
         soil +=
           points.data(points.reference_volume)[p] *
           determinant(

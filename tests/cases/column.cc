@@ -42,7 +42,7 @@ namespace talus::cases
           (1e-3 * weight * l0) / points.size();
       }
     result.height = points.data(points.position, 1)[order.back()] +
-                    0.5 * box_length(snapshot, 1, order.back());
+                    0.5 * box_lengths(snapshot, order.back())[1];
     return result;
   }
 

@@ -322,6 +322,19 @@ namespace
 
   // ---------------------------------------------------------------- splitting
 
+  /// A place to 1e-9, so that equal ones compare equal.
+  template <int dim>
+  std::array<double, dim>
+  rounded(const Point<dim> &x)
+  {
+    std::array<double, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = 1e-9 * std::round(1e9 * x[d]);
+    return result;
+  }
+
+
+
   /// Corners of the domains of all points, sorted by where they are.
   template <int dim>
   std::vector<std::array<double, dim>>
@@ -331,11 +344,8 @@ namespace
     for (unsigned int p = 0; p < core.points.size(); ++p)
       for (unsigned int v = 0; v < (1u << dim); ++v)
         {
-          const Point<dim>        x = domain_of(core, p).corner(v);
-          std::array<double, dim> rounded;
-          for (unsigned int d = 0; d < dim; ++d)
-            rounded[d] = 1e-9 * std::round(1e9 * x[d]);
-          corners.push_back(rounded);
+          const Point<dim> x = domain_of(core, p).corner(v);
+          corners.push_back(rounded(x));
         }
     std::sort(corners.begin(), corners.end());
     return corners;
@@ -358,10 +368,7 @@ namespace
           const Point<dim> x =
             domain.corner(daughter) +
             0.5 * (domain.corner(v) - domain.corner(daughter));
-          std::array<double, dim> rounded;
-          for (unsigned int d = 0; d < dim; ++d)
-            rounded[d] = 1e-9 * std::round(1e9 * x[d]);
-          corners.push_back(rounded);
+          corners.push_back(rounded(x));
         }
     std::sort(corners.begin(), corners.end());
     return corners;

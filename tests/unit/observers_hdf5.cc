@@ -202,7 +202,7 @@ namespace
         for (unsigned int d = 0; d < dim; ++d)
           EXPECT_EQ(x.values.at(3 * cells.values[p * n + v] + d),
                     float(s.points.data(s.points.position, d)[p] +
-                          0.5 * sign[v][d] * box_length(s.snapshot(), d, p)));
+                          0.5 * sign[v][d] * box_lengths(s.snapshot(), p)[d]));
   }
 
 

@@ -59,12 +59,24 @@ namespace talus
     }
 
   private:
+    /// What a point gives to a node, which it may name several times.
+    struct Share
+    {
+      unsigned int point, place; ///< in the cell and in its patch
+      Weight       weight;
+    };
+
     void
     add_cell(const Points<dim>   &points,
              const Grid<dim>     &grid,
              const BoxShape      &shape,
              const Batch         &cell,
              const Unknowns<dim> &unknowns);
+
+    void
+    store(const Batch              &cell,
+          unsigned int              first_node,
+          const std::vector<Share> &shares);
 
     std::vector<Batch>        cells_;
     std::vector<unsigned int> first_node_;

@@ -24,8 +24,8 @@ namespace talus
 
   /// points.pvd and its VTU files, or points.xdmf and its HDF5 files: each
   /// point as a vertex, or its box as a quad (hex), so that ParaView shows a
-  /// continuum. Boxes are as long as the weights let them be; see box_edge(). The values of a
-  /// point are at its vertex or at the cell that is its box.
+  /// continuum. Boxes are as long as the weights let them be; see box_edges().
+  /// The values of a point are at its vertex or at the cell that is its box.
   template <int dim>
   class PointsOutput
   {

@@ -24,10 +24,9 @@ namespace talus
 
 
   /// The columns with points, by growing x (then z). A point belongs to the
-  /// column its centre is in; its box reaches half its current
-  /// length, see box_length(), to either side of the centre, so the thickness of a layer of boxes
-  /// is that of the soil. Collective, the result is on the
-  /// first rank.
+  /// column its centre is in; its box reaches half its current length, see
+  /// box_lengths(), to either side of the centre, so the thickness of a layer
+  /// of boxes is that of the soil. Collective, the result is on the first rank.
   template <int dim>
   std::vector<ProfileColumn>
   find_profile(const Snapshot<dim> &snapshot);

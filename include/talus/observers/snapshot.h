@@ -32,52 +32,52 @@ namespace talus
 
 
 
-  /// Edge @p d of the box of point @p p, m: along axis d, or that of a convected
-  /// domain. A box that is longer than the weights let it be is as long as they
-  /// do: in a shear layer F grows without bound. One that is too thin for the
-  /// weights is drawn as thin as it is, so that boxes cover the soil once.
+  /// The edges of the box of point @p p, m: along the axes, or those of a
+  /// convected domain. A box that is longer than the weights let it be is as long
+  /// as they do: in a shear layer F grows without bound. One that is too thin for
+  /// the weights is as thin as it is, so that boxes cover the soil once. Points
+  /// that are in no cell yet have their whole box.
   template <int dim>
-  inline dealii::Tensor<1, dim>
-  box_edge(const Snapshot<dim> &snapshot,
-           const unsigned int   d,
-           const unsigned int   p)
+  inline std::array<dealii::Tensor<1, dim>, dim>
+  box_edges(const Snapshot<dim> &snapshot, const unsigned int p)
   {
     const Points<dim>                      &points = snapshot.points;
+    const BoxShape                         &shape  = snapshot.box_shape;
     std::array<dealii::Tensor<1, dim>, dim> edges;
-    for (unsigned int e = 0; e < dim; ++e)
-      if (snapshot.box_shape.rule != BoxRule::fixed)
-        edges[e] = edge_of_box(points, snapshot.box_shape.rule, e, p);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (shape.rule != BoxRule::fixed)
+        edges[d] = edge_of_box(points, shape.rule, d, p);
       else
-        edges[e][e] = points.data(points.reference_length, e)[p];
+        edges[d][d] = points.data(points.reference_length, d)[p];
     if (p >= points.n_sorted())
-      return edges[d]; // in no cell yet
-    const double longest = 2. * snapshot.box_shape.most_half *
-                           snapshot.grid.cells()[points.cell_of(p)].size;
+      return edges;
+    const double longest =
+      2. * shape.most_half * snapshot.grid.cells()[points.cell_of(p)].size;
     for (unsigned int i = 0; i < dim; ++i)
       {
         double length = 0;
-        for (unsigned int e = 0; e < dim; ++e)
-          length += std::abs(edges[e][i]);
+        for (const auto &edge : edges)
+          length += std::abs(edge[i]);
         if (length > longest)
-          edges[d][i] *= longest / length;
+          for (auto &edge : edges)
+            edge[i] *= longest / length;
       }
-    return edges[d];
+    return edges;
   }
 
 
 
-  /// Length of the box of point @p p along axis @p d, m; of a convected domain,
-  /// from its lowest to its highest corner. See box_edge().
+  /// Length of the box of point @p p along each axis, m; of a convected domain,
+  /// from its lowest to its highest corner. See box_edges().
   template <int dim>
-  inline double
-  box_length(const Snapshot<dim> &snapshot,
-             const unsigned int   d,
-             const unsigned int   p)
+  inline dealii::Tensor<1, dim>
+  box_lengths(const Snapshot<dim> &snapshot, const unsigned int p)
   {
-    double length = 0;
-    for (unsigned int e = 0; e < dim; ++e)
-      length += std::abs(box_edge(snapshot, e, p)[d]);
-    return length;
+    dealii::Tensor<1, dim> lengths;
+    for (const auto &edge : box_edges(snapshot, p))
+      for (unsigned int d = 0; d < dim; ++d)
+        lengths[d] += std::abs(edge[d]);
+    return lengths;
   }
 } // namespace talus
 

@@ -171,6 +171,8 @@ namespace talus
     find_equilibrium();
     bool
     bring_to_equilibrium(double factor, StrainMeasure measure);
+    bool
+    take_load_step(double factor, StepNote &note);
     void
     follow_points();
     std::string

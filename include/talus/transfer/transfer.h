@@ -75,15 +75,23 @@ namespace talus
            Points<dim>            &points,
            StepWorkspace<dim>     &workspace,
            const Batch            &batch,
-           double                  dt) const;
+           const double            dt) const
+    {
+      return gather(
+        nodes, grid, loads, points, workspace, batch, dt, flip_fraction_);
+    }
 
-    /// Replace the velocity of the points by that of the nodes, interpolated.
-    void
-    interpolate_velocity(const NodalFields<dim> &nodes,
-                         const Grid<dim>        &grid,
-                         Points<dim>            &points,
-                         StepWorkspace<dim>     &workspace,
-                         const Batch            &batch) const;
+    /// The same with another share of FLIP in the velocities than that of the
+    /// parameters [-]; 0 makes them those of the grid.
+    double
+    gather(const NodalFields<dim> &nodes,
+           const Grid<dim>        &grid,
+           const Loads<dim>       &loads,
+           Points<dim>            &points,
+           StepWorkspace<dim>     &workspace,
+           const Batch            &batch,
+           double                  dt,
+           double                  flip_fraction) const;
 
     /// Second half of the anti-locking pair: replace the rate of volume change
     /// by its mean over the cell.
@@ -104,17 +112,6 @@ namespace talus
     least_mass(const double density, const double cell_size) const;
 
   private:
-    /// gather() with any share of the velocity that is FLIP's.
-    double
-    gather_with(double                  flip_fraction,
-                const NodalFields<dim> &nodes,
-                const Grid<dim>        &grid,
-                const Loads<dim>       &loads,
-                Points<dim>            &points,
-                StepWorkspace<dim>     &workspace,
-                const Batch            &batch,
-                double                  dt) const;
-
     /// Whether any body in the batch is averaged over its cells.
     bool
     takes_cell_mean(const Points<dim> &points, const Batch &batch) const;
