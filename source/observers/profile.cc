@@ -1,10 +1,16 @@
 #include <talus/observers/cell_lattice.h>
 #include <talus/observers/profile.h>
+#include <talus/points/points_kernel.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/serialization/map.hpp>
+
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
+#include <map>
 
 namespace talus
 {
@@ -15,19 +21,22 @@ namespace talus
     /// What is summed up for a column.
     struct Sums
     {
-      std::uint64_t column;
-      double        lowest, highest; // m
-      double        mass;            // kg
-      double        momentum_x, momentum_z;
+      double lowest     = std::numeric_limits<double>::max();    // m
+      double highest    = std::numeric_limits<double>::lowest(); // m
+      double volume     = 0;                                     // m^dim
+      double mass       = 0;                                     // kg
+      double momentum_x = 0, momentum_z = 0;
 
+      /// @p share of what @p more holds.
       void
-      add(const Sums &more)
+      add(const Sums &more, const double share = 1.)
       {
         lowest  = std::min(lowest, more.lowest);
         highest = std::max(highest, more.highest);
-        mass += more.mass;
-        momentum_x += more.momentum_x;
-        momentum_z += more.momentum_z;
+        volume += share * more.volume;
+        mass += share * more.mass;
+        momentum_x += share * more.momentum_x;
+        momentum_z += share * more.momentum_z;
       }
 
       /// For the message between ranks.
@@ -35,48 +44,29 @@ namespace talus
       void
       serialize(Archive &archive, const unsigned int)
       {
-        archive &column &lowest &highest &mass &momentum_x &momentum_z;
+        archive &lowest &highest &volume &mass &momentum_x &momentum_z;
       }
     };
 
-
-
-    /// Sort by column and add up what belongs together; in this order the sums
-    /// do not depend on how the list came about.
-    void
-    merge(std::vector<Sums> &columns)
-    {
-      std::stable_sort(columns.begin(),
-                       columns.end(),
-                       [](const Sums &a, const Sums &b) {
-                         return a.column < b.column;
-                       });
-      std::size_t n = 0;
-      for (const Sums &sums : columns)
-        if (n > 0 && columns[n - 1].column == sums.column)
-          columns[n - 1].add(sums);
-        else
-          columns[n++] = sums;
-      columns.resize(n);
-    }
+    /// Sums by column, in the order of the columns.
+    using Columns = std::map<std::uint64_t, Sums>;
 
 
 
+    /// All of point @p p.
     template <int dim>
     Sums
-    contribution(const Snapshot<dim>    &snapshot,
-                 const CellLattice<dim> &lattice,
-                 const unsigned int      p)
+    whole_point(const Points<dim> &points,
+                const double       half_height,
+                const unsigned int p)
     {
-      const Points<dim> &points      = snapshot.points;
-      const double       y           = points.data(points.position, 1)[p];
-      const double       half_length = 0.5 * box_lengths(snapshot, p)[1];
-      const double       mass        = points.data(points.mass)[p];
-      const double       v_z =
+      const double y    = points.data(points.position, 1)[p];
+      const double mass = points.data(points.mass)[p];
+      const double v_z =
         (dim == 3 ? points.data(points.velocity, dim - 1)[p] : 0.);
-      return {lattice.column(lattice.find(points, p)),
-              y - half_length,
-              y + half_length,
+      return {y - half_height,
+              y + half_height,
+              volume_of_points<dim, double>(points, p),
               mass,
               mass * points.data(points.velocity, 0)[p],
               mass * v_z};
@@ -84,30 +74,88 @@ namespace talus
 
 
 
+    /// The columns that a box reaches along one axis, and its share in each.
+    struct Shares
+    {
+      int                 first;
+      std::vector<double> share;
+    };
+
     template <int dim>
-    std::vector<Sums>
+    Shares
+    shares_along(const unsigned int      d,
+                 const CellLattice<dim> &lattice,
+                 const double            centre,
+                 const double            length)
+    {
+      const double lower = centre - 0.5 * length, upper = centre + 0.5 * length;
+      const int    last = lattice.coordinate(upper, d);
+      Shares       result{lattice.coordinate(lower, d), {}};
+      double       from = lower;
+      for (int i = result.first; i < last; ++i)
+        {
+          const double to = lattice.lower_face(i + 1, d);
+          result.share.push_back((to - from) / length);
+          from = to;
+        }
+      // A box that ends at a face between columns has nothing behind it.
+      if (upper > from || result.share.empty())
+        result.share.push_back(length > 0 ? (upper - from) / length : 1.);
+      return result;
+    }
+
+
+
+    /// Add to @p columns what each has of point @p p.
+    template <int dim>
+    void
+    add_point(const Snapshot<dim>    &snapshot,
+              const CellLattice<dim> &lattice,
+              const unsigned int      p,
+              Columns                &columns)
+    {
+      const Points<dim> &points  = snapshot.points;
+      const auto         lengths = box_lengths(snapshot, p);
+      const Sums         whole   = whole_point(points, 0.5 * lengths[1], p);
+      const auto         along   = [&](const unsigned int d) {
+        return shares_along(d,
+                            lattice,
+                            points.data(points.position, d)[p],
+                            lengths[d]);
+      };
+      const Shares x = along(0);
+      const Shares z = (dim == 3 ? along(dim - 1) : Shares{0, {1.}});
+
+      typename CellLattice<dim>::Place place = {};
+      for (unsigned int i = 0; i < x.share.size(); ++i)
+        for (unsigned int k = 0; k < z.share.size(); ++k)
+          {
+            place[dim - 1] = z.first + k;
+            place[1]       = 0;
+            place[0]       = x.first + i;
+            columns[lattice.column(lattice.key(place))].add(whole,
+                                                            x.share[i] *
+                                                              z.share[k]);
+          }
+    }
+
+
+
+    template <int dim>
+    Columns
     sum_columns(const Snapshot<dim> &snapshot)
     {
       const Grid<dim>       &grid = snapshot.grid;
       const CellLattice<dim> lattice(grid);
-      std::vector<Sums>      columns;
+      Columns                columns;
       for (unsigned int p = 0; p < snapshot.points.size(); ++p)
-        {
-          const Sums more = contribution(snapshot, lattice, p);
-          if (!columns.empty() && columns.back().column == more.column)
-            columns.back().add(more);
-          else
-            columns.push_back(more);
-        }
-      merge(columns);
-      if (Utilities::MPI::n_mpi_processes(grid.communicator()) == 1)
-        return columns;
+        add_point(snapshot, lattice, p, columns);
 
-      std::vector<Sums> all;
-      for (const auto &part :
+      Columns all;
+      for (const Columns &part :
            Utilities::MPI::gather(grid.communicator(), columns))
-        all.insert(all.end(), part.begin(), part.end());
-      merge(all);
+        for (const auto &[column, sums] : part)
+          all[column].add(sums);
       return all;
     }
   } // namespace
@@ -121,13 +169,14 @@ namespace talus
     using Lattice = CellLattice<dim>;
     const Lattice              lattice(snapshot.grid);
     std::vector<ProfileColumn> profile;
-    for (const Sums &sums : sum_columns(snapshot))
+    for (const auto &[column, sums] : sum_columns(snapshot))
       {
-        const typename Lattice::Key cell = Lattice::lowest_cell(sums.column);
+        const typename Lattice::Key cell = Lattice::lowest_cell(column);
         profile.push_back({lattice.center(cell, 0),
                            dim == 3 ? lattice.center(cell, dim - 1) : 0.,
                            sums.lowest,
                            sums.highest,
+                           sums.volume / std::pow(lattice.size(), dim - 1),
                            sums.mass,
                            sums.momentum_x / sums.mass,
                            sums.momentum_z / sums.mass});
@@ -182,7 +231,7 @@ namespace talus
                                    column.x,
                                    column.lowest,
                                    column.highest,
-                                   column.highest - column.lowest,
+                                   column.thickness,
                                    column.velocity_x};
         if (dim == 3)
           {

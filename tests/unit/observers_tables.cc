@@ -206,35 +206,38 @@ namespace
   TEST_F(ProfileTest, Columns)
   {
     Scene<2> s("0, 0", "8, 4");
+    // Boxes of 0.5 x 0.5 m; the second one has a quarter in the next column.
     s.add({2.25, 0.5}, 1., {1., 9.});
-    s.add({2.75, 1.5}, 3., {3., 9.});
+    s.add({2.875, 1.5}, 4., {3., 9.});
     s.add({4.5, 0.25}, 1., {-1., 9.});
     for (unsigned int p = 0; p < 3; ++p)
       {
         s.points.data(s.points.stretch, 1)[p]          = 2.;
         s.points.data(s.points.reference_length, 1)[p] = 0.25;
+        s.points.data(s.points.reference_volume)[p]    = 0.25;
       }
     Profile<2> profile;
     profile.begin(folder, s.grid);
     s.time = 0.5;
     profile.add_rows(s.snapshot());
     const auto file = lines("profile.csv");
-    ASSERT_EQ(file.size(), 3u);
+    ASSERT_EQ(file.size(), 4u);
     EXPECT_EQ(file[0],
               "time [s],x [m],lowest [m],highest [m],thickness [m],"
               "depth-mean velocity [m/s]");
-    EXPECT_EQ(file[1], "0.5,2.5,0.25,1.75,1.5,2.5");
-    EXPECT_EQ(file[2], "0.5,4.5,0,0.5,0.5,-1");
+    EXPECT_EQ(file[1], "0.5,2.5,0.25,1.75,0.4375,2.5");
+    EXPECT_EQ(file[2], "0.5,3.5,1.25,1.75,0.0625,3");
+    EXPECT_EQ(file[3], "0.5,4.5,0,0.5,0.25,-1");
 
     // Boxes that do not follow the deformation keep their reference length.
     s.box_shape.rule = BoxRule::fixed;
-    EXPECT_EQ(find_profile(s.snapshot()).at(1).highest, 0.375);
+    EXPECT_EQ(find_profile(s.snapshot()).at(2).highest, 0.375);
 
     // After a quarter of a turn what was along x, 0.5 m, is along y.
     s.box_shape.rule = BoxRule::convected_domain;
     const Matrix<2, double> quarter_turn{{{{{0., -1.}}, {{1., 0.}}}}};
     store_matrix(s.points, s.points.deformation_gradient, 2, quarter_turn);
-    EXPECT_EQ(find_profile(s.snapshot()).at(1).highest, 0.5);
+    EXPECT_EQ(find_profile(s.snapshot()).at(2).highest, 0.5);
   }
 
 
@@ -244,6 +247,8 @@ namespace
     Scene<3> s("0, 0, 0", "8, 4, 4");
     s.add({2.5, 0.5, 3.5}, 1., {1., 9., 5.});
     s.add({2.5, 0.5, 1.5}, 1., {2., 9., 6.});
+    for (unsigned int p = 0; p < 2; ++p)
+      s.points.data(s.points.reference_volume)[p] = 0.125;
     Profile<3> profile;
     profile.begin(folder, s.grid);
     profile.add_rows(s.snapshot());
@@ -252,7 +257,32 @@ namespace
     EXPECT_EQ(file[0],
               "time [s],x [m],z [m],lowest [m],highest [m],thickness [m],"
               "depth-mean velocity [m/s],depth-mean velocity z [m/s]");
-    EXPECT_EQ(file[1], "0,2.5,1.5,0.25,0.75,0.5,2,6");
-    EXPECT_EQ(file[2], "0,2.5,3.5,0.25,0.75,0.5,1,5");
+    EXPECT_EQ(file[1], "0,2.5,1.5,0.25,0.75,0.125,2,6");
+    EXPECT_EQ(file[2], "0,2.5,3.5,0.25,0.75,0.125,1,5");
+  }
+
+
+
+  // A box over an edge of the lattice, one at a corner of the mesh, and one
+  // outside of it: nothing is lost and nothing counted twice.
+  TEST_F(ProfileTest, ColumnsShareABox)
+  {
+    Scene<3> s("0, 0, 0", "8, 4, 4");
+    s.add({2., 0.5, 3.});
+    s.add({0., 0.5, 3.875});
+    s.add({9., 0.5, 1.5});
+    for (unsigned int p = 0; p < 3; ++p)
+      s.points.data(s.points.reference_volume)[p] = 0.125;
+    const auto profile = find_profile(s.snapshot());
+    ASSERT_EQ(profile.size(), 6u);
+    const std::vector<double> mass = {1., 0.25, 0.25, 0.25, 0.25, 1.};
+    for (unsigned int i = 0; i < 6; ++i)
+      {
+        EXPECT_EQ(profile[i].mass, mass[i]);
+        EXPECT_EQ(profile[i].thickness, 0.125 * mass[i]);
+      }
+    EXPECT_EQ(profile[1].x, 1.5);
+    EXPECT_EQ(profile[1].z, 2.5);
+    EXPECT_EQ(profile[5].x, 7.5);
   }
 } // namespace

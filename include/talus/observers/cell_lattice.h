@@ -31,15 +31,32 @@ namespace talus
     {
       Place place;
       for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double at =
-            (points.data(points.position, d)[p] - lower_[d]) / size_;
-          // Compared as doubles: a point may be anywhere, or not a number.
-          place[d] = !(at > 0.)            ? 0
-                     : at < extent_[d] - 1 ? static_cast<int>(at)
-                                           : extent_[d] - 1;
-        }
+        place[d] = coordinate(points.data(points.position, d)[p], d);
       return key(place);
+    }
+
+    /// Coordinate @p d of the place of the cells at @p x, m, as in find().
+    int
+    coordinate(const double x, const unsigned int d) const
+    {
+      const double at = (x - lower_[d]) / size_;
+      // Compared as doubles: a point may be anywhere, or not a number.
+      return !(at > 0.)            ? 0
+             : at < extent_[d] - 1 ? static_cast<int>(at)
+                                   : extent_[d] - 1;
+    }
+
+    /// Lower face of the cells with coordinate @p i along axis @p d, m.
+    double
+    lower_face(const int i, const unsigned int d) const
+    {
+      return lower_[d] + i * size_;
+    }
+
+    double
+    size() const
+    {
+      return size_;
     }
 
     /// Each coordinate of a key has a spare value below zero, so that adding

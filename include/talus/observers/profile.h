@@ -11,11 +11,12 @@ namespace talus
   /// The soil in one column of cells of size h (`Grid/Cell size`).
   struct ProfileColumn
   {
-    double x;       ///< of the column's centre, m
-    double z;       ///< of the column's centre, m; 0 in 2-D
-    double lowest;  ///< lower edge of the lowest box, m
-    double highest; ///< upper edge of the highest box, m
-    double mass;    ///< kg
+    double x;         ///< of the column's centre, m
+    double z;         ///< of the column's centre, m; 0 in 2-D
+    double lowest;    ///< lower edge of the lowest box, m
+    double highest;   ///< upper edge of the highest box, m
+    double thickness; ///< volume of the soil over the column's area, m
+    double mass;      ///< kg
     /// Mass-weighted mean of the points' velocities along x and z, m/s.
     double velocity_x;
     double velocity_z;
@@ -23,10 +24,10 @@ namespace talus
 
 
 
-  /// The columns with points, by growing x (then z). A point belongs to the
-  /// column its centre is in; its box reaches half its current length, see
-  /// box_lengths(), to either side of the centre, so the thickness of a layer
-  /// of boxes is that of the soil. Collective, the result is on the first rank.
+  /// The columns with soil, by growing x (then z). Each column has of a point
+  /// the share of its box, see box_lengths(), that lies in the column: volume,
+  /// mass and momentum. What is outside the mesh counts to the outermost
+  /// columns. Collective, the result is on the first rank.
   template <int dim>
   std::vector<ProfileColumn>
   find_profile(const Snapshot<dim> &snapshot);
