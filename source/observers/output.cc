@@ -1,9 +1,9 @@
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
-#include <talus/observers/files.h>
+#include <talus/io/files.h>
+#include <talus/io/run_record.h>
 #include <talus/observers/output.h>
 #include <talus/observers/phase_times.h>
-#include <talus/observers/run_record.h>
 
 namespace talus
 {

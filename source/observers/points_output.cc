@@ -1,6 +1,6 @@
-#include <talus/observers/files.h>
+#include <talus/io/files.h>
+#include <talus/io/vtu.h>
 #include <talus/observers/points_output.h>
-#include <talus/observers/vtu.h>
 #include <talus/points/points_kernel.h>
 
 #include <algorithm>

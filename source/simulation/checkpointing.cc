@@ -1,7 +1,7 @@
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
-#include <talus/observers/run_record.h>
-#include <talus/simulation/parameter_changes.h>
+#include <talus/checkpoint/parameter_changes.h>
+#include <talus/io/run_record.h>
 #include <talus/simulation/simulation.h>
 #include <talus/version.h>
 

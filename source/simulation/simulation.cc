@@ -1,5 +1,5 @@
 #include <talus/base/errors.h>
-#include <talus/simulation/geostatic.h>
+#include <talus/problem/geostatic.h>
 #include <talus/simulation/simulation.h>
 #include <talus/transfer/far_points.h>
 

@@ -1,6 +1,6 @@
 #include "case.h"
 
-#include <talus/simulation/parameter_file.h>
+#include <talus/application/parameter_file.h>
 
 #include <fstream>
 #include <sstream>

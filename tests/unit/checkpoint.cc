@@ -1,7 +1,7 @@
 #include <talus/base/errors.h>
-#include <talus/observers/checkpoint.h>
-#include <talus/observers/checkpoint_folder.h>
-#include <talus/simulation/parameter_changes.h>
+#include <talus/checkpoint/checkpoint.h>
+#include <talus/checkpoint/checkpoint_folder.h>
+#include <talus/checkpoint/parameter_changes.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
-#include <talus/observers/checkpoint_content.h>
-#include <talus/observers/checksum.h>
-#include <talus/observers/hdf5_file.h>
+#include <talus/checkpoint/checkpoint_content.h>
+#include <talus/io/checksum.h>
+#include <talus/io/hdf5_file.h>
 
 #include <gtest/gtest.h>
 

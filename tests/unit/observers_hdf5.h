@@ -1,7 +1,7 @@
 #ifndef observers_hdf5_h
 #define observers_hdf5_h
 
-#include <talus/observers/hdf5_handle.h>
+#include <talus/io/hdf5_handle.h>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The suite works on any number of ranks; ctest runs it on 1 and on 3.
 #include <talus/base/errors.h>
-#include <talus/observers/hdf5_writer.h>
+#include <talus/io/hdf5_writer.h>
 #include <talus/observers/points_output.h>
 
 #include <deal.II/base/utilities.h>

@@ -1,5 +1,5 @@
+#include <talus/io/vtu_arrays.h>
 #include <talus/observers/output.h>
-#include <talus/observers/vtu_arrays.h>
 
 #include <deal.II/base/utilities.h>
 

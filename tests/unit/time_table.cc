@@ -1,6 +1,6 @@
 // Tables of quantities in time.
 
-#include <talus/simulation/time_table.h>
+#include <talus/problem/time_table.h>
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 #ifndef talus_observers_grid_output_h
 #define talus_observers_grid_output_h
 
-#include <talus/observers/series.h>
+#include <talus/io/series.h>
 #include <talus/observers/snapshot.h>
 
 namespace talus

@@ -2,7 +2,7 @@
 #define talus_observers_output_h
 
 #include <talus/base/phase_timer.h>
-#include <talus/observers/files.h>
+#include <talus/io/files.h>
 #include <talus/observers/grid_output.h>
 #include <talus/observers/output_times.h>
 #include <talus/observers/points_output.h>

@@ -1,7 +1,7 @@
 #ifndef talus_observers_profile_h
 #define talus_observers_profile_h
 
-#include <talus/observers/files.h>
+#include <talus/io/files.h>
 #include <talus/observers/snapshot.h>
 
 #include <vector>

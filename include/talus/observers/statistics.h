@@ -1,8 +1,8 @@
 #ifndef talus_observers_statistics_h
 #define talus_observers_statistics_h
 
+#include <talus/io/files.h>
 #include <talus/observers/energy_budget.h>
-#include <talus/observers/files.h>
 #include <talus/observers/snapshot.h>
 
 #include <string>

@@ -3,7 +3,7 @@
 
 #include <talus/base/state.h>
 #include <talus/equilibrium/equilibrium.h>
-#include <talus/observers/files.h>
+#include <talus/io/files.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 

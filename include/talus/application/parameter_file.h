@@ -1,0 +1,40 @@
+#ifndef talus_application_parameter_file_h
+#define talus_application_parameter_file_h
+
+#include <talus/simulation/preview.h>
+
+#include <deal.II/base/parameter_handler.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// A parameter file and what the command line sets on top of it.
+  class ParameterFile
+  {
+  public:
+    /// @p overrides: "Section/Subsection/Entry=value" each. Throws ExcUser if
+    /// the file cannot be read or an override has another form.
+    ParameterFile(const std::string              &file_name,
+                  const std::vector<std::string> &overrides);
+
+    /// First, tolerant pass: only what decides which parameters there are.
+    Preview
+    preview() const;
+
+    /// Second, strict pass into all objects that accept parameters. Throws,
+    /// naming file and line, at the first entry that is unknown or out of range.
+    void
+    parse() const;
+
+  private:
+    void
+    parse_into(dealii::ParameterHandler &prm, bool skip_undefined) const;
+
+    std::string              file_name_;
+    std::vector<std::string> overrides_;
+  };
+} // namespace talus
+
+#endif

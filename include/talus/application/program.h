@@ -1,0 +1,11 @@
+#ifndef talus_application_program_h
+#define talus_application_program_h
+
+namespace talus
+{
+  /// All that the program does. Returns the exit status.
+  int
+  run_program(int argc, char **argv);
+} // namespace talus
+
+#endif

@@ -1,0 +1,78 @@
+#ifndef talus_checkpoint_checkpoint_content_h
+#define talus_checkpoint_checkpoint_content_h
+
+#include <talus/base/state.h>
+#include <talus/io/hdf5_file.h>
+#include <talus/points/points.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  // What is in the file `state.h5` of a checkpoint; see doc/output.md.
+
+  /// To be raised when a talus of today could not read the file of tomorrow, or
+  /// the other way round.
+  constexpr std::uint64_t checkpoint_format = 3;
+
+  /// What one wants to know of a checkpoint first: attributes of the file.
+  struct CheckpointHead
+  {
+    std::uint64_t format    = checkpoint_format;
+    std::uint64_t dimension = 0;
+    std::uint64_t n_ranks   = 0;
+    std::uint64_t step      = 0;
+    double        time      = 0; ///< s
+    double        end_time  = 0; ///< of the run as it was planned, s
+    std::string   version;       ///< of talus
+    std::string   revision;      ///< git's
+  };
+
+  void
+  save_head(Hdf5File &file, const CheckpointHead &head);
+
+  /// Where the file has another format only that is right.
+  CheckpointHead
+  load_head(Hdf5File &file);
+
+
+
+  /// Save the points, sorted, and for each cell that this rank owns the number
+  /// of its points and its weight at the last repartition. All are in the order
+  /// of the cells, those of the first rank first.
+  template <int dim>
+  void
+  save_points(Hdf5File                  &file,
+              const Points<dim>         &points,
+              const std::vector<double> &cell_weights);
+
+  /// Load the weights of the @p n_cells cells this rank owns now.
+  std::vector<double>
+  load_cell_weights(Hdf5File &file, unsigned int n_cells);
+
+  /// Load the points of the @p n_cells cells this rank owns now, in the order
+  /// they had, which is part of the state. Returns the cell of each; @p points
+  /// must be empty and have its columns. Throws ExcUser if the file has others.
+  template <int dim>
+  std::vector<unsigned int>
+  load_points(Hdf5File &file, unsigned int n_cells, Points<dim> &points);
+
+
+
+  /// Save every rank's share of the numbers, and the texts.
+  void
+  save_state(Hdf5File &file, const StateList &list);
+
+  /// Set what save_state() saved. Throws ExcUser if something is missing.
+  void
+  load_state(Hdf5File &file, const StateList &list);
+
+
+
+  /// Throw ExcUser if the file could not be read.
+  void
+  check_read(const Hdf5File &file);
+} // namespace talus
+
+#endif

@@ -1,0 +1,17 @@
+#ifndef talus_checkpoint_parameter_changes_h
+#define talus_checkpoint_parameter_changes_h
+
+#include <string>
+
+namespace talus
+{
+  /// Compare the parameters of a checkpoint with those of the run that is to go
+  /// on from it, both in the language of parameter files. Throws ExcUser,
+  /// naming the first one that differs, unless all that differ are harmless: the
+  /// title, the end time, the limit on the number of points, and those of
+  /// output, checkpoints and load balance; or a stage 'dynamics' was added.
+  void
+  check_parameter_changes(const std::string &saved, const std::string &now);
+} // namespace talus
+
+#endif

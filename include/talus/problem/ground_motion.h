@@ -1,0 +1,67 @@
+#ifndef talus_problem_ground_motion_h
+#define talus_problem_ground_motion_h
+
+#include <talus/base/state.h>
+#include <talus/problem/time_table.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/tensor.h>
+
+#include <memory>
+#include <string>
+
+namespace talus
+{
+  /// The ground accelerates as a table says, for instance the record of an
+  /// earthquake, and gravity may change in time. The mesh is fixed to the
+  /// ground, so that in its frame all soil feels minus that acceleration.
+  template <int dim>
+  class GroundMotion : public dealii::ParameterAcceptor
+  {
+  public:
+    /// Paths of tables start in @p folder.
+    explicit GroundMotion(const std::filesystem::path &folder);
+
+    /// To be called after parsing; reads the table. Throws ExcUser if it cannot
+    /// be used, or if the ground would jump into motion in the middle of the
+    /// run.
+    void
+    prepare();
+
+    /// Acceleration of the ground at time @p t, s, in m/s^2 along the axes of a
+    /// mesh whose x axis points down a slope of @p angle (radians): zero before
+    /// the first and after the last row.
+    dealii::Tensor<1, dim>
+    acceleration(double t, double angle) const;
+
+    /// What gravity is multiplied with at time @p t, s [-]: before the first and
+    /// after the last row as there.
+    double
+    gravity_factor(double t) const;
+
+    /// The table, if there is one, must be the same when the run is resumed.
+    void
+    list_state(StateList &list) const;
+
+  private:
+    /// Columns of the table.
+    enum Column
+    {
+      horizontal,
+      vertical,
+      across,
+      gravity
+    };
+
+    double
+    component(Column column, double t) const;
+
+    std::filesystem::path      folder_;
+    std::string                file_;
+    double                     start_time_ = 0.;
+    double                     factor_     = 1.;
+    std::unique_ptr<TimeTable> table_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,91 @@
+#ifndef talus_problem_initial_state_h
+#define talus_problem_initial_state_h
+
+#include <talus/base/expression.h>
+#include <talus/materials/material_model.h>
+#include <talus/transfer/box_rule.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// How a body is displaced, moves and is stressed at the start, by
+  /// expressions in the places X of its points before the displacement.
+  template <int dim>
+  class InitialState : public dealii::ParameterAcceptor
+  {
+  public:
+    /// @p section is that of the body, for example "/Bodies/slide".
+    explicit InitialState(const std::string &section);
+
+    /// Throw ExcUser if a stress is prescribed twice, or although that of
+    /// @p law follows from the deformation.
+    void
+    check(const MaterialModel<dim> &law) const;
+
+    bool
+    is_displaced() const
+    {
+      return !displacement_.empty();
+    }
+
+    /// True if it starts with the stress of ground at rest under its weight.
+    bool
+    has_stress_at_rest() const
+    {
+      return !K0_.empty();
+    }
+
+    /// Coefficient of earth pressure at rest [-], if has_stress_at_rest().
+    double
+    K0() const
+    {
+      return K0_.front();
+    }
+
+    /// Move the points [begin, end) by the displacement at t = 0 and set their
+    /// deformation gradient, the stretch of their boxes and their stress. The
+    /// gradient of the displacement is taken by differences of sixth order,
+    /// exact to about 1e-12. Throws ExcUser if a point is turned inside out.
+    void
+    deform(Points<dim>              &points,
+           unsigned int              begin,
+           unsigned int              end,
+           const MaterialModel<dim> &law,
+           BoxRule                   rule,
+           const Constants          &constants) const;
+
+    /// Set the velocity of the points of body @p index, that of time @p t, s.
+    void
+    set_velocity(Points<dim>     &points,
+                 unsigned int     index,
+                 double           t,
+                 const Constants &constants) const;
+
+  private:
+    std::string
+    path(const std::string &entry) const;
+    void
+    displace(Points<dim>     &points,
+             unsigned int     begin,
+             unsigned int     end,
+             const Constants &constants) const;
+    void
+    set_stress(Points<dim>     &points,
+               unsigned int     begin,
+               unsigned int     end,
+               const Constants &constants) const;
+
+    std::string section_;
+    std::string displacement_ = "";
+    std::string velocity_     = "";
+    std::string stress_       = "";
+    // One number, or none where the user gave nothing.
+    std::vector<double> K0_;
+  };
+} // namespace talus
+
+#endif

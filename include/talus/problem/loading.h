@@ -1,0 +1,85 @@
+#ifndef talus_problem_loading_h
+#define talus_problem_loading_h
+
+#include <talus/base/expression.h>
+#include <talus/materials/materials.h>
+#include <talus/problem/ground_motion.h>
+#include <talus/transfer/loads.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+
+namespace talus
+{
+  /// Gravity, turned by the slope angle, the motion of the ground, and a body
+  /// force by expression.
+  template <int dim>
+  class Loading
+  {
+  public:
+    /// Paths of tables start in @p folder.
+    explicit Loading(const std::filesystem::path &folder);
+
+    /// To be called after parsing: gravity of each of @p n_bodies bodies.
+    void
+    prepare(const Materials<dim> &materials,
+            unsigned int          n_bodies,
+            const Constants      &constants);
+
+    /// Set the accelerations at time @p t, s; to be called before loads() are
+    /// used.
+    void
+    update(const Points<dim> &points, double t);
+
+    const Loads<dim> &
+    loads() const
+    {
+      return loads_;
+    }
+
+    /// Acceleration of gravity when it is full, m/s^2: x points down the slope,
+    /// y away from it.
+    dealii::Tensor<1, dim>
+    gravity() const;
+
+    /// Share of it that acts at time @p t, s.
+    double
+    share_of_gravity(double t) const;
+
+    void
+    list_state(StateList &list) const
+    {
+      ground_motion_.list_state(list);
+    }
+
+  private:
+    struct Gravity : public dealii::ParameterAcceptor
+    {
+      Gravity();
+      double magnitude   = 9.81;
+      double slope_angle = 0.;
+      double ramp_time   = 0.;
+    };
+
+    struct BodyForce : public dealii::ParameterAcceptor
+    {
+      BodyForce();
+      std::string expression  = "";
+      std::string coordinates = "spatial";
+    };
+
+    double
+    slope_angle() const; // radians
+
+    Gravity                          gravity_;
+    BodyForce                        body_force_;
+    GroundMotion<dim>                ground_motion_;
+    std::unique_ptr<Expression<dim>> expression_;
+    Loads<dim>                       loads_;
+    /// Full weight divided by mass, for each body, m/s^2.
+    std::vector<dealii::Tensor<1, dim>> full_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,110 @@
+#include <talus/application/command_line.h>
+#include <talus/base/errors.h>
+#include <talus/base/processor.h>
+#include <talus/simulation/simulation.h>
+#include <talus/version.h>
+
+#include <deal.II/base/config.h>
+#include <deal.II/base/mpi.h>
+
+#include <boost/program_options.hpp>
+
+#include <iostream>
+
+namespace talus
+{
+  namespace po = boost::program_options;
+
+  namespace
+  {
+    po::options_description
+    visible_options(CommandLine &result)
+    {
+      po::options_description options("Options");
+      // clang-format off
+      options.add_options()
+        ("set", po::value(&result.overrides),
+         "set a parameter, over what the file says: "
+         "--set \"Section/Subsection/Entry=value\"; may be repeated")
+        ("output", po::value(&result.output_folder),
+         "folder for the results, over Output/Folder")
+        ("resume", po::bool_switch(&result.resume),
+         "go on from the newest checkpoint in the output folder; give the same "
+         "file and options as before")
+        ("overwrite", po::bool_switch(&result.overwrite),
+         "start anew even if the output folder holds the checkpoint of an "
+         "unfinished run")
+        ("validate", po::bool_switch(&result.validate),
+         "read and check everything, make mesh and points, but do not run")
+        ("document", po::bool_switch(&result.document),
+         "print the reference of all parameters")
+        ("version", "print the version")
+        ("help", "print this help");
+      // clang-format on
+      return options;
+    }
+  } // namespace
+
+
+
+  std::optional<CommandLine>
+  parse_command_line(const int argc, const char *const *argv)
+  {
+    CommandLine             result;
+    po::options_description visible = visible_options(result);
+    po::options_description all;
+    all.add(visible).add_options()("file", po::value(&result.parameter_file));
+    po::positional_options_description positional;
+    positional.add("file", 1);
+
+    po::variables_map variables;
+    po::store(po::command_line_parser(argc, argv)
+                .options(all)
+                .positional(positional)
+                .run(),
+              variables);
+    po::notify(variables);
+
+    std::ostream  nowhere(nullptr);
+    std::ostream &out =
+      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout
+                                                                    : nowhere;
+    if (variables.count("help"))
+      {
+        out << "talus: submarine landslides by the material point "
+               "method\n\nUsage: talus [options] FILE.prm\n\n"
+            << visible;
+        return {};
+      }
+    if (variables.count("version"))
+      {
+        out << "talus " << TALUS_VERSION << " (" << TALUS_GIT_REVISION
+            << "), deal.II " << DEAL_II_PACKAGE_VERSION << ", kernels for "
+            << processor() << std::endl;
+        return {};
+      }
+    AssertThrow(result.document || !result.parameter_file.empty(),
+                ExcUser("No parameter file was given. Usage: talus [options] "
+                        "FILE.prm; see talus --help."));
+    AssertThrow(!(result.resume && result.overwrite),
+                ExcUser("--resume and --overwrite were given, but a run can "
+                        "only go on or start anew. Give one of the two."));
+    return result;
+  }
+
+
+
+  void
+  document(std::ostream &out)
+  {
+    // One body, and a material of each law, named after it.
+    Preview preview;
+    preview.bodies = {"slide"};
+    for (const std::string &law : material_names<2>())
+      preview.materials.push_back({law, law});
+    Simulation<2> simulation(preview);
+    dealii::ParameterAcceptor::declare_all_parameters();
+    dealii::ParameterAcceptor::prm.print_parameters(
+      out, dealii::ParameterHandler::Text);
+  }
+} // namespace talus

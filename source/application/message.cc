@@ -1,0 +1,137 @@
+#include <talus/application/message.h>
+
+#include <deal.II/base/exceptions.h>
+
+#include <boost/program_options/errors.hpp>
+
+#include <new>
+#include <regex>
+#include <sstream>
+
+namespace talus
+{
+  namespace
+  {
+    /// The information of an exception, without line breaks.
+    std::string
+    one_line(const std::exception &exception)
+    {
+      std::ostringstream information;
+      if (const auto *e =
+            dynamic_cast<const dealii::ExceptionBase *>(&exception))
+        e->print_info(information);
+      else
+        information << exception.what();
+      std::istringstream words(information.str());
+      std::string        line, word;
+      while (words >> word)
+        line += (line.empty() ? "" : " ") + word;
+      return line;
+    }
+
+
+
+    /// deal.II's description of a pattern in plain words.
+    std::string
+    expected(const std::string &pattern)
+    {
+      static const std::pair<std::regex, std::string> words[] = {
+        {std::regex("\\[Bool\\]"), "true or false"},
+        {std::regex("\\[Double( -?M(IN|AX)_DOUBLE\\.\\.\\.MAX_DOUBLE "
+                    "\\(inclusive\\))?\\]"),
+         "a number"},
+        {std::regex("\\[Double (\\S+)\\.\\.\\.MAX_DOUBLE \\(inclusive\\)\\]"),
+         "a number of at least $1"},
+        {std::regex("\\[Double (\\S+)\\.\\.\\.(\\S+) \\(inclusive\\)\\]"),
+         "a number from $1 to $2"},
+        {std::regex("\\[Integer( range -2147483648\\.\\.\\.2147483647 "
+                    "\\(inclusive\\))?\\]"),
+         "a whole number"},
+        {std::regex("\\[Integer range (\\S+)\\.\\.\\.2147483647 "
+                    "\\(inclusive\\)\\]"),
+         "a whole number of at least $1"},
+        {std::regex(
+           "\\[Integer range (\\S+)\\.\\.\\.(\\S+) \\(inclusive\\)\\]"),
+         "a whole number from $1 to $2"},
+        {std::regex("\\[Selection (.*?) ?\\]"), "one of $1"},
+        {std::regex("\\[List of <(.*)> of length (\\S+)\\.\\.\\.(\\S+) "
+                    "\\(inclusive\\)\\]"),
+         "a list of $2 to $3 values, each $1,"},
+        {std::regex("(\\d+) to \\1 values"), "$1 values"}};
+      std::string result = pattern;
+      for (const auto &[description, plain] : words)
+        result = std::regex_replace(result, description, plain);
+      return std::regex_replace(result, std::regex("\\|"), " | ");
+    }
+
+
+
+    /// The message of the parameter parser, which starts with the place.
+    std::string
+    say_anew(const std::string &place, const std::string &complaint)
+    {
+      static const std::regex unknown_entry(
+        "No entry with name <(.*)> was declared.*");
+      static const std::regex unknown_section(
+        "There is no such subsection to be entered: (.*)");
+      static const std::regex bad_value("The entry value (.*) for the entry "
+                                        "named (.*) does not match the given "
+                                        "pattern: (.*)");
+      static const std::regex bad_line("The line <(.*)> could not be parsed.*");
+
+      std::smatch part;
+      if (std::regex_match(complaint, part, unknown_entry))
+        return place + "there is no parameter '" + part[1].str() +
+               "' in this section; `talus --document` lists all that there "
+               "are, and those of bodies and materials are in sections named "
+               "in Bodies/Names and Materials/Names.";
+      if (std::regex_match(complaint, part, unknown_section))
+        return place + "there is no section '" + part[1].str() +
+               "' here; `talus --document` lists all that there are, and those "
+               "of bodies and materials are named in Bodies/Names and "
+               "Materials/Names.";
+      if (std::regex_match(complaint, part, bad_value))
+        return place + "'" + part[2].str() + "' is '" + part[1].str() +
+               "', where " + expected(part[3]) +
+               " was expected; correct the value.";
+      if (std::regex_match(complaint, part, bad_line))
+        return place + "'" + part[1].str() +
+               "' was found, where 'set Entry = value', 'subsection Name' or "
+               "'end' was expected; start a comment with #.";
+      return place + complaint;
+    }
+  } // namespace
+
+
+
+  std::string
+  message(const std::exception &exception)
+  {
+    static const std::regex in_command(
+      "Line <\\d+> of file <(--set .*?)>?: (.*)");
+    static const std::regex in_file("Line <(\\d+)> of file <(.*?)>?: (.*)");
+    static const std::regex unbalanced(
+      "There are unequal numbers of 'subsection' and 'end' statements in the "
+      "parameter file <(.*?)>.*");
+
+    const std::string line = one_line(exception);
+    std::smatch       part;
+    if (dynamic_cast<const boost::program_options::error *>(&exception))
+      return "On the command line, " + line +
+             "; `talus --help` shows what is expected.";
+    if (dynamic_cast<const std::bad_alloc *>(&exception))
+      return "There is not enough memory on this machine; doc/cluster.md says "
+             "what points and cells take. Take fewer of them, or more ranks on "
+             "more machines.";
+    if (std::regex_match(line, part, in_command))
+      return say_anew(part[1].str() + ": ", part[2]);
+    if (std::regex_match(line, part, in_file))
+      return say_anew(part[2].str() + ", line " + part[1].str() + ": ",
+                      part[3]);
+    if (std::regex_match(line, part, unbalanced))
+      return part[1].str() +
+             ": the numbers of 'subsection' and 'end' differ; close each "
+             "'subsection' with an 'end' of its own.";
+    return line;
+  }
+} // namespace talus

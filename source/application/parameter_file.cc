@@ -1,0 +1,148 @@
+#include <talus/application/parameter_file.h>
+#include <talus/base/errors.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The override in the language of parameter files.
+    std::string
+    as_parameter_file(const std::string &override_text)
+    {
+      const auto equals = override_text.find('=');
+      AssertThrow(equals != std::string::npos && equals > 0,
+                  ExcUser("--set '" + override_text +
+                          "' was given, where 'Section/Subsection/Entry=value' "
+                          "was expected."));
+      auto path =
+        Utilities::split_string_list(override_text.substr(0, equals), '/');
+      const std::string entry = path.back();
+      path.pop_back();
+      std::string result;
+      for (const std::string &section : path)
+        result += "subsection " + section + "\n";
+      result +=
+        "set " + entry + " = " + override_text.substr(equals + 1) + "\n";
+      for (std::size_t i = 0; i < path.size(); ++i)
+        result += "end\n";
+      return result;
+    }
+
+
+
+    std::vector<std::string>
+    names(const std::string &list, const std::string &where)
+    {
+      const auto result = Utilities::split_string_list(list, ',');
+      for (const std::string &name : result)
+        {
+          AssertThrow(!name.empty() && name.find('/') == std::string::npos,
+                      ExcUser("'" + where + " = " + list +
+                              "' must be a list of names separated by commas, "
+                              "without slashes."));
+          AssertThrow(std::count(result.begin(), result.end(), name) == 1,
+                      ExcUser("'" + where + " = " + list + "' lists '" + name +
+                              "' twice; names must differ."));
+        }
+      AssertThrow(!result.empty(),
+                  ExcUser("'" + where +
+                          "' is empty, but at least one name is needed: each "
+                          "has a section of that name with its parameters."));
+      return result;
+    }
+  } // namespace
+
+
+
+  ParameterFile::ParameterFile(const std::string              &file_name,
+                               const std::vector<std::string> &overrides)
+    : file_name_(file_name)
+    , overrides_(overrides)
+  {
+    AssertThrow(std::ifstream(file_name_).good() &&
+                  !std::filesystem::is_directory(file_name_),
+                ExcUser(
+                  "The parameter file '" + file_name_ +
+                  "' cannot be read. Give the path of an existing file."));
+  }
+
+
+
+  void
+  ParameterFile::parse_into(ParameterHandler &prm,
+                            const bool        skip_undefined) const
+  {
+    std::ifstream file(file_name_);
+    prm.parse_input(file, file_name_, "", skip_undefined);
+    for (const std::string &override_text : overrides_)
+      {
+        std::istringstream input(as_parameter_file(override_text));
+        prm.parse_input(input, "--set " + override_text, "", skip_undefined);
+      }
+  }
+
+
+
+  Preview
+  ParameterFile::preview() const
+  {
+    ParameterHandler prm;
+    prm.declare_entry("Dimension", "2", Patterns::Integer(2, 3));
+    for (const std::string section : {"Bodies", "Materials"})
+      {
+        prm.enter_subsection(section);
+        prm.declare_entry("Names", "");
+        prm.leave_subsection();
+      }
+    parse_into(prm, /*skip_undefined=*/true);
+
+    Preview preview;
+    preview.folder    = std::filesystem::path(file_name_).parent_path();
+    preview.dimension = prm.get_integer("Dimension");
+    prm.enter_subsection("Bodies");
+    preview.bodies = names(prm.get("Names"), "Bodies/Names");
+    prm.leave_subsection();
+    prm.enter_subsection("Materials");
+    const auto  materials = names(prm.get("Names"), "Materials/Names");
+    std::string laws;
+    for (const std::string &law : material_names<2>())
+      laws += (laws.empty() ? "" : "|") + law;
+    for (const std::string &name : materials)
+      {
+        prm.enter_subsection(name);
+        prm.declare_entry("Law", "linear elastic", Patterns::Selection(laws));
+        prm.leave_subsection();
+      }
+    prm.leave_subsection();
+
+    parse_into(prm, /*skip_undefined=*/true);
+    prm.enter_subsection("Materials");
+    for (const std::string &name : materials)
+      {
+        prm.enter_subsection(name);
+        preview.materials.push_back({name, prm.get("Law")});
+        prm.leave_subsection();
+      }
+    return preview;
+  }
+
+
+
+  void
+  ParameterFile::parse() const
+  {
+    ParameterAcceptor::declare_all_parameters();
+    parse_into(ParameterAcceptor::prm, /*skip_undefined=*/false);
+    ParameterAcceptor::parse_all_parameters();
+  }
+} // namespace talus

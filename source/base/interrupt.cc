@@ -1,0 +1,54 @@
+#include <talus/base/interrupt.h>
+
+#include <csignal>
+
+namespace talus
+{
+  namespace
+  {
+    // All that a signal handler may touch.
+    volatile std::sig_atomic_t last_signal = 0;
+
+    extern "C" void
+    talus_remember_signal(const int signal)
+    {
+      last_signal = signal;
+    }
+  } // namespace
+
+
+
+  void
+  remember_signals()
+  {
+    last_signal = 0;
+    for (const int signal : {SIGTERM, SIGINT, SIGUSR1})
+      {
+        struct sigaction action = {};
+        action.sa_handler       = &talus_remember_signal;
+        // A write that was under way goes on.
+        action.sa_flags = SA_RESTART;
+        if (signal == SIGINT)
+          action.sa_flags |= SA_RESETHAND;
+        sigaction(signal, &action, nullptr);
+      }
+  }
+
+
+
+  std::string
+  remembered_signal()
+  {
+    switch (last_signal)
+      {
+        case 0:
+          return "";
+        case SIGTERM:
+          return "SIGTERM";
+        case SIGINT:
+          return "SIGINT";
+        default:
+          return "SIGUSR1";
+      }
+  }
+} // namespace talus

@@ -1,0 +1,225 @@
+#include <talus/base/agreement.h>
+#include <talus/base/errors.h>
+#include <talus/checkpoint/checkpoint.h>
+#include <talus/checkpoint/checkpoint_folder.h>
+#include <talus/io/disk_space.h>
+#include <talus/version.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+  namespace fs = std::filesystem;
+
+  namespace
+  {
+    double
+    minutes(const std::chrono::steady_clock::duration duration)
+    {
+      return std::chrono::duration<double>(duration).count() / 60.;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  Checkpoint<dim>::Checkpoint()
+    : ParameterAcceptor("/Checkpoint")
+  {
+    add_parameter("Step interval",
+                  step_interval_,
+                  "Number of steps between two checkpoints [-]; 0 for none by "
+                  "steps.",
+                  this->prm,
+                  Patterns::Integer(0));
+    add_parameter("Wall time interval",
+                  wall_interval_,
+                  "Time on the clock between two checkpoints [min]; 0 for none "
+                  "by the clock.",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("Wall time limit",
+                  wall_time_limit_,
+                  "After this time on the clock [min] the run writes a "
+                  "checkpoint and ends with exit status 75; `talus --resume` "
+                  "goes on. 0 for no limit.",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("At the end",
+                  at_the_end_,
+                  "Write a checkpoint at the end time, too, so that the run "
+                  "can be continued to a later one.");
+  }
+
+
+
+  template <int dim>
+  void
+  Checkpoint<dim>::begin(const fs::path &output_folder,
+                         const MPI_Comm  communicator,
+                         const fs::path &resumed_from)
+  {
+    output_folder_ = output_folder;
+    communicator_  = communicator;
+    last_          = resumed_from;
+    start_ = last_time_ = Clock::now();
+    if (!is_first_rank(communicator_))
+      return;
+    remove_parts(output_folder_);
+    if (resumed_from.empty())
+      {
+        remove_checkpoints_but(output_folder_, {});
+        return;
+      }
+    // The run may have been killed before it removed the third newest.
+    std::vector<fs::path> kept = find_checkpoints(output_folder_);
+    const auto used = std::find(kept.begin(), kept.end(), resumed_from);
+    if (kept.end() - used > 2)
+      {
+        kept.erase(used + 2, kept.end());
+        remove_checkpoints_but(output_folder_, kept);
+      }
+  }
+
+
+
+  template <int dim>
+  bool
+  Checkpoint<dim>::is_due(const unsigned long step) const
+  {
+    if (step_interval_ > 0 && step % step_interval_ == 0)
+      return true;
+    return wall_interval_ > 0 && is_first_rank(communicator_) &&
+           minutes(Clock::now() - last_time_) >= wall_interval_;
+  }
+
+
+
+  template <int dim>
+  bool
+  Checkpoint<dim>::limit_is_reached() const
+  {
+    return wall_time_limit_ > 0 && is_first_rank(communicator_) &&
+           minutes(Clock::now() - start_) >= wall_time_limit_;
+  }
+
+
+
+  template <int dim>
+  fs::path
+  Checkpoint<dim>::write(const Content &content, const Grid<dim> &grid)
+  {
+    const fs::path path     = checkpoint_path(output_folder_, content.step);
+    const fs::path part     = part_of(path);
+    const bool     is_first = is_first_rank(communicator_);
+
+    check_all(is_first ? make_part(path) : "");
+    write_mesh(part, grid);
+    write_state(part, content);
+    // Every node of a cluster brings its own part to the disk.
+    check_all(sync_folder(part));
+    check_all(is_first ? publish(path) : "");
+    // Written anew at the same step, it leaves the one before it alone.
+    if (is_first && path != last_)
+      remove_checkpoints_but(output_folder_, {path, last_});
+    last_      = path;
+    last_time_ = Clock::now();
+    return path;
+  }
+
+
+
+  template <int dim>
+  void
+  Checkpoint<dim>::check_all(const std::string &complaint) const
+  {
+    const std::string sentence = first_sentence(complaint, communicator_);
+    if (sentence.empty())
+      return;
+    // What was written so far only takes space.
+    if (is_first_rank(communicator_))
+      remove_parts(output_folder_);
+    AssertThrow(false,
+                ExcUser("A checkpoint could not be written to '" +
+                        output_folder_.string() + "' (" + sentence +
+                        "). Earlier ones are still there: free some space and "
+                        "go on with --resume, or choose another folder with "
+                        "--output."));
+  }
+
+
+
+  template <int dim>
+  void
+  Checkpoint<dim>::write_mesh(const fs::path &part, const Grid<dim> &grid) const
+  {
+    // p4est ends the program where the disk is full.
+    const double    needed = 1e5 + 64. * grid.n_global_cells();
+    std::error_code error;
+    const auto      space = fs::space(part, error);
+    check_all(!error && space.available < needed
+                ? "No space left on device for the mesh"
+                : "");
+    grid.save((part / mesh_file_name).string());
+  }
+
+
+
+  /// Of state.h5, at most; collective.
+  template <int dim>
+  std::uint64_t
+  Checkpoint<dim>::size_in_file(const Content &content) const
+  {
+    std::uint64_t texts = content.parameters.size();
+    for (const StateList::Text &text : content.state.texts())
+      texts += text.get().size();
+    const std::uint64_t own_values =
+      std::uint64_t(content.points.n_arrays()) * content.points.size() +
+      2 * content.cell_weights.size() + content.state.numbers().size();
+    // The library's own structures are about 1 kB for each array.
+    const std::uint64_t n_arrays = content.points.columns().size() +
+                                   content.state.numbers().size() +
+                                   content.state.texts().size();
+    return 8 * Utilities::MPI::sum(own_values, communicator_) +
+           Utilities::MPI::max(texts, communicator_) + 2048 * (n_arrays + 50);
+  }
+
+
+
+  template <int dim>
+  void
+  Checkpoint<dim>::write_state(const fs::path &part,
+                               const Content  &content) const
+  {
+    CheckpointHead head;
+    head.dimension = dim;
+    head.n_ranks   = Utilities::MPI::n_mpi_processes(communicator_);
+    head.step      = content.step;
+    head.time      = content.time;
+    head.end_time  = content.end_time;
+    head.version   = TALUS_VERSION;
+    head.revision  = TALUS_GIT_REVISION;
+
+    const fs::path path     = part / state_file_name;
+    const bool     is_first = is_first_rank(communicator_);
+    Hdf5File       file(path, Hdf5File::Access::create, communicator_);
+    // HDF5 does not survive a full disk: on several ranks it waits for ever.
+    const std::uint64_t n_bytes = size_in_file(content);
+    check_all(is_first ? reserve_disk_space(path, n_bytes) : "");
+    save_head(file, head);
+    save_points(file, content.points, content.cell_weights);
+    save_state(file, content.state);
+    file.write_text("parameters", content.parameters);
+    // The mesh is complete: all ranks have left save().
+    file.write_text("mesh", is_first ? mesh_checksums(part) : "");
+    file.close();
+    check_all(file.error());
+    check_all(is_first ? release_disk_space(path) : "");
+  }
+
+
+
+  template class Checkpoint<2>;
+  template class Checkpoint<3>;
+} // namespace talus

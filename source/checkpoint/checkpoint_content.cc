@@ -1,0 +1,248 @@
+#include <talus/base/errors.h>
+#include <talus/checkpoint/checkpoint_content.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const char *
+    name_of(const Reduction reduction)
+    {
+      switch (reduction)
+        {
+          case Reduction::sum:
+            return "sum";
+          case Reduction::maximum:
+            return "maximum";
+          default:
+            return "equal";
+        }
+    }
+
+
+
+    std::string
+    checked(const std::string &name)
+    {
+      AssertThrow(name.find('/') == std::string::npos,
+                  ExcInternalError("'" + name + "' must not have a slash."));
+      return name;
+    }
+
+
+
+    template <int dim>
+    std::string
+    unit_of(const Column &column)
+    {
+      std::string unit = column.unit;
+      if (const auto at = unit.find("dim"); at != std::string::npos)
+        unit.replace(at, 3, std::to_string(dim));
+      return unit;
+    }
+
+
+
+    template <int dim>
+    void
+    load_column(Hdf5File           &file,
+                const Column       &column,
+                const std::uint64_t first,
+                Points<dim>        &points)
+    {
+      const unsigned int        n    = column.n_components;
+      const std::string         name = "points/" + column.name;
+      const std::vector<double> rows = file.read(name, first, points.size());
+      check_read(file);
+      AssertThrow(file.shape(name).second == n,
+                  ExcUser("In '" + file.path().string() + "' the column '" +
+                          column.name +
+                          "' has another number of components than now. Resume "
+                          "with the version of talus that wrote it."));
+      for (unsigned int c = 0; c < n; ++c)
+        for (unsigned int p = 0; p < points.size(); ++p)
+          points.data(column.first, c)[p] = rows[std::size_t(n) * p + c];
+    }
+  } // namespace
+
+
+
+  void
+  save_head(Hdf5File &file, const CheckpointHead &head)
+  {
+    file.set_attribute("/", "format version", head.format);
+    file.set_attribute("/", "dimension", head.dimension);
+    file.set_attribute("/", "ranks", head.n_ranks);
+    file.set_attribute("/", "step", head.step);
+    file.set_attribute("/", "time [s]", head.time);
+    file.set_attribute("/", "end time [s]", head.end_time);
+    file.set_attribute("/", "talus version", head.version);
+    file.set_attribute("/", "git revision", head.revision);
+  }
+
+
+
+  CheckpointHead
+  load_head(Hdf5File &file)
+  {
+    CheckpointHead head;
+    head.format = file.integer_attribute("/", "format version");
+    if (head.format != checkpoint_format)
+      return head;
+    head.dimension = file.integer_attribute("/", "dimension");
+    head.n_ranks   = file.integer_attribute("/", "ranks");
+    head.step      = file.integer_attribute("/", "step");
+    head.time      = file.number_attribute("/", "time [s]");
+    head.end_time  = file.number_attribute("/", "end time [s]");
+    head.version   = file.text_attribute("/", "talus version");
+    head.revision  = file.text_attribute("/", "git revision");
+    return head;
+  }
+
+
+
+  template <int dim>
+  void
+  save_points(Hdf5File                  &file,
+              const Points<dim>         &points,
+              const std::vector<double> &cell_weights)
+  {
+    std::vector<double> points_of_cell(cell_weights.size(), 0.);
+    for (const Segment &segment : points.segments())
+      points_of_cell[segment.cell] += segment.end - segment.begin;
+    file.create_group("cells");
+    file.write("cells/points", points_of_cell, 1);
+    file.write("cells/weight", cell_weights, 1);
+
+    file.create_group("points");
+    std::vector<double> rows;
+    for (const Column &column : points.columns())
+      {
+        const unsigned int n = column.n_components;
+        rows.resize(std::size_t(n) * points.size());
+        for (unsigned int c = 0; c < n; ++c)
+          for (unsigned int p = 0; p < points.size(); ++p)
+            rows[std::size_t(n) * p + c] = points.data(column.first, c)[p];
+        const std::string name = "points/" + checked(column.name);
+        file.write(name, rows, n);
+        file.set_attribute(name, "unit", unit_of<dim>(column));
+      }
+  }
+
+
+
+  std::vector<double>
+  load_cell_weights(Hdf5File &file, const unsigned int n_cells)
+  {
+    return file.read("cells/weight",
+                     file.first_and_total(n_cells).first,
+                     n_cells);
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  load_points(Hdf5File &file, const unsigned int n_cells, Points<dim> &points)
+  {
+    const std::vector<double> points_of_cell =
+      file.read("cells/points", file.first_and_total(n_cells).first, n_cells);
+    check_read(file);
+    const double n_points =
+      std::accumulate(points_of_cell.begin(), points_of_cell.end(), 0.);
+    points.append(static_cast<unsigned int>(n_points));
+
+    AssertThrow(file.names("points").size() == points.columns().size(),
+                ExcUser("In '" + file.path().string() +
+                        "' the points have other columns than now. Resume "
+                        "with the version of talus that wrote it."));
+    const std::uint64_t first = file.first_and_total(points.size()).first;
+    for (const Column &column : points.columns())
+      load_column(file, column, first, points);
+
+    std::vector<unsigned int> cells;
+    for (unsigned int c = 0; c < n_cells; ++c)
+      cells.insert(cells.end(), points_of_cell[c], c);
+    return cells;
+  }
+
+
+
+  void
+  save_state(Hdf5File &file, const StateList &list)
+  {
+    std::vector<double> own;
+    for (const StateList::Number &number : list.numbers())
+      own.push_back(number.get());
+    const auto of_ranks = Utilities::MPI::all_gather(file.communicator(), own);
+
+    file.create_group("state");
+    for (unsigned int i = 0; i < own.size(); ++i)
+      {
+        const StateList::Number &number = list.numbers()[i];
+        const std::string        name   = "state/" + checked(number.name);
+        std::vector<double>      shares;
+        for (const std::vector<double> &numbers : of_ranks)
+          shares.push_back(numbers[i]);
+        file.write_known(name, shares);
+        file.set_attribute(name, "unit", number.unit);
+        file.set_attribute(name, "over ranks", name_of(number.reduction));
+      }
+    file.create_group("text");
+    for (const StateList::Text &text : list.texts())
+      file.write_text("text/" + checked(text.name), text.get());
+  }
+
+
+
+  void
+  load_state(Hdf5File &file, const StateList &list)
+  {
+    const MPI_Comm      communicator = file.communicator();
+    const unsigned int  n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int  rank = Utilities::MPI::this_mpi_process(communicator);
+    const std::uint64_t n_ranks_then = file.integer_attribute("/", "ranks");
+    for (const StateList::Number &number : list.numbers())
+      {
+        const std::vector<double> shares =
+          file.read("state/" + number.name, 0, n_ranks_then);
+        check_read(file);
+        number.set(restored_share(shares, number.reduction, rank, n_ranks));
+      }
+    for (const StateList::Text &text : list.texts())
+      {
+        const std::string value = file.read_text("text/" + text.name);
+        check_read(file);
+        text.set(value);
+      }
+  }
+
+
+
+  void
+  check_read(const Hdf5File &file)
+  {
+    AssertThrow(file.error().empty(),
+                ExcUser("The checkpoint file '" + file.path().string() +
+                        "' cannot be used: " + file.error() +
+                        ". Resume with the version of talus that wrote it, or "
+                        "remove this checkpoint so that the one before it is "
+                        "used."));
+  }
+
+
+
+  template void
+  save_points(Hdf5File &, const Points<2> &, const std::vector<double> &);
+  template void
+  save_points(Hdf5File &, const Points<3> &, const std::vector<double> &);
+  template std::vector<unsigned int>
+  load_points(Hdf5File &, unsigned int, Points<2> &);
+  template std::vector<unsigned int>
+  load_points(Hdf5File &, unsigned int, Points<3> &);
+} // namespace talus

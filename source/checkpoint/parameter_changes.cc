@@ -1,0 +1,134 @@
+#include <talus/base/errors.h>
+#include <talus/checkpoint/parameter_changes.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cstdlib>
+#include <iomanip>
+#include <map>
+#include <regex>
+#include <sstream>
+#include <vector>
+
+namespace talus
+{
+  using dealii::Utilities::split_string_list;
+  using dealii::Utilities::trim;
+
+  namespace
+  {
+    using Values = std::map<std::string, std::string>;
+
+    /// Values by path, "Section/Subsection/Entry".
+    Values
+    read_parameters(const std::string &parameters)
+    {
+      Values                   values;
+      std::vector<std::string> sections;
+      std::istringstream       in(parameters);
+      for (std::string line; std::getline(in, line);)
+        {
+          line = trim(line.substr(0, line.find('#')));
+          if (line == "end" && !sections.empty())
+            sections.pop_back();
+          else if (line.rfind("subsection ", 0) == 0)
+            sections.push_back(trim(line.substr(11)));
+          else if (line.rfind("set ", 0) == 0)
+            {
+              std::string path;
+              for (const std::string &section : sections)
+                path += section + '/';
+              const auto equals = line.find('=');
+              path += trim(line.substr(4, equals - 4));
+              values[path] = trim(line.substr(equals + 1));
+            }
+        }
+      return values;
+    }
+
+
+
+    /// Whether the state of the run does not depend on it.
+    bool
+    is_harmless(const std::string &path)
+    {
+      // A series of files has one index, which knows one format.
+      // The columns of a table cannot change.
+      if (path == "Output/Format" || path == "Output/Runout")
+        return false;
+      for (const std::string name :
+           {"Title", "End time", "Splitting/Maximum number of points"})
+        if (path == name)
+          return true;
+      for (const std::string section :
+           {"Output/", "Checkpoint/", "Load balance/"})
+        if (path.rfind(section, 0) == 0)
+          return true;
+      return false;
+    }
+
+
+
+    /// 1e-3 is 0.001, and blanks around separators do not count.
+    std::string
+    normal_form(const std::string &value)
+    {
+      static const std::regex separator(" *[;|] *");
+      std::string             result;
+      for (const std::string &item :
+           split_string_list(std::regex_replace(value, separator, ","), ','))
+        {
+          char        *end       = nullptr;
+          const double number    = std::strtod(item.c_str(), &end);
+          const bool   is_number = !item.empty() && *end == '\0';
+          result += is_number ? text(std::setprecision(17), number) : item;
+          result += ',';
+        }
+      return result;
+    }
+
+
+
+    /// Stages that are done may be followed by dynamics. (Strength reduction
+    /// needs a column of the points that others do not have.)
+    bool
+    adds_dynamics(const std::string &path,
+                  const std::string &before,
+                  const std::string &after)
+    {
+      return path == "Stages" &&
+             normal_form(after) == normal_form(before) + "dynamics,";
+    }
+
+
+
+    std::string
+    value_of(const Values &values, const std::string &path)
+    {
+      const auto value = values.find(path);
+      return value == values.end() ? "no value" : value->second;
+    }
+  } // namespace
+
+
+
+  void
+  check_parameter_changes(const std::string &saved, const std::string &now)
+  {
+    const Values saved_values = read_parameters(saved);
+    const Values values       = read_parameters(now);
+    Values       all          = values;
+    all.insert(saved_values.begin(), saved_values.end());
+    for (const auto &[path, value] : all)
+      {
+        const std::string before = value_of(saved_values, path);
+        const std::string after  = value_of(values, path);
+        AssertThrow(normal_form(before) == normal_form(after) ||
+                      is_harmless(path) || adds_dynamics(path, before, after),
+                    ExcUser("The parameter '" + path + "' is '" + after +
+                            "', but in the run to resume it was '" + before +
+                            "'. Give it the value of that run, or start anew "
+                            "in another folder."));
+      }
+  }
+} // namespace talus

@@ -1,0 +1,65 @@
+#include <talus/base/errors.h>
+#include <talus/geometry/shape.h>
+
+namespace talus
+{
+  using namespace dealii;
+  namespace bg = boost::geometry;
+
+  template <int dim>
+  Polygon<dim>::Polygon(const std::string                        &name,
+                        const std::vector<std::array<double, 2>> &vertices,
+                        const double                              z_lower,
+                        const double                              z_upper)
+    : z_lower_(z_lower)
+    , z_upper_(z_upper)
+  {
+    for (const auto &v : vertices)
+      bg::append(polygon_.outer(), BoostPoint(v[0], v[1]));
+    bg::correct(polygon_);
+    std::string reason;
+    AssertThrow(bg::is_valid(polygon_, reason),
+                ExcUser(text(name,
+                             " do not form a simple polygon: ",
+                             reason,
+                             ". List the corners in order around the body, "
+                             "without crossing edges.")));
+  }
+
+
+
+  template <int dim>
+  bool
+  Polygon<dim>::contains(const Point<dim> &x) const
+  {
+    if (dim == 3 && !(x[dim - 1] >= z_lower_ && x[dim - 1] <= z_upper_))
+      return false;
+    return bg::covered_by(BoostPoint(x[0], x[1]), polygon_);
+  }
+
+
+
+  template <int dim>
+  Box<dim>
+  Polygon<dim>::bounding_box() const
+  {
+    const auto envelope =
+      bg::return_envelope<bg::model::box<BoostPoint>>(polygon_);
+    Box<dim> box;
+    box.lower[0] = envelope.min_corner().x();
+    box.lower[1] = envelope.min_corner().y();
+    box.upper[0] = envelope.max_corner().x();
+    box.upper[1] = envelope.max_corner().y();
+    if (dim == 3)
+      {
+        box.lower[dim - 1] = z_lower_;
+        box.upper[dim - 1] = z_upper_;
+      }
+    return box;
+  }
+
+
+
+  template class Polygon<2>;
+  template class Polygon<3>;
+} // namespace talus

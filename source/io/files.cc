@@ -1,0 +1,241 @@
+#include <talus/base/errors.h>
+#include <talus/io/files.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <sstream>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    std::string
+    reason()
+    {
+      return errno == 0 ? "unknown reason" : std::strerror(errno);
+    }
+
+
+
+    std::string
+    failed_write(const std::filesystem::path &path)
+    {
+      return talus::failed_write(path, reason());
+    }
+  } // namespace
+
+
+
+  void
+  make_folder(const std::filesystem::path &folder)
+  {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    AssertThrow(!error && std::filesystem::is_directory(folder, error),
+                ExcUser(text("The output folder '",
+                             folder.string(),
+                             "' could not be made (",
+                             error ? error.message() : "it is not a folder",
+                             "). A folder that can be written is expected; "
+                             "choose another one with Output/Folder or "
+                             "--output.")));
+  }
+
+
+
+  void
+  write_file(const std::filesystem::path               &path,
+             const std::function<void(std::ostream &)> &write)
+  {
+    std::filesystem::path part = path;
+    part += ".part";
+    errno = 0;
+    std::ofstream file(part, std::ios::binary);
+    write(file);
+    file.close();
+    if (!file)
+      {
+        const std::string sentence = failed_write(path);
+        std::error_code   ignored;
+        std::filesystem::remove(part, ignored);
+        AssertThrow(false, ExcUser(sentence));
+      }
+    std::error_code error;
+    std::filesystem::rename(part, path, error);
+    errno = error.value();
+    AssertThrow(!error, ExcUser(failed_write(path)));
+  }
+
+
+
+  std::string
+  sync_to_disk(const std::filesystem::path &path)
+  {
+    errno                = 0;
+    const int descriptor = ::open(path.c_str(), O_RDONLY);
+    if (descriptor < 0)
+      return reason();
+    // Some file systems cannot sync everything, and say so with EINVAL.
+    const bool        is_done   = (::fsync(descriptor) == 0 || errno == EINVAL);
+    const std::string complaint = is_done ? "" : reason();
+    ::close(descriptor);
+    return complaint;
+  }
+
+
+
+  std::string
+  failed_write(const std::filesystem::path &path, const std::string &reason)
+  {
+    return text("The file '",
+                path.string(),
+                "' could not be written (",
+                reason,
+                "). Free some space or choose another folder with "
+                "Output/Folder or --output.");
+  }
+
+
+
+  void
+  LogFile::open(const std::filesystem::path &path, const Beginning beginning)
+  {
+    path_ = path;
+    errno = 0;
+    file_ = std::ofstream(path,
+                          beginning == Beginning::anew ? std::ios::trunc
+                                                       : std::ios::app);
+    AssertThrow(file_, ExcUser(failed_write(path_)));
+  }
+
+
+
+  void
+  LogFile::add_line(const std::string &line)
+  {
+    errno = 0;
+    file_ << line << std::endl;
+    AssertThrow(file_, ExcUser(failed_write(path_)));
+  }
+
+
+
+  void
+  CsvFile::open(const std::filesystem::path    &path,
+                const std::vector<std::string> &names,
+                const Beginning                 beginning)
+  {
+    path_      = path;
+    n_columns_ = names.size();
+    file_.close();
+    file_.clear();
+    std::string header;
+    for (const std::string &name : names)
+      header += (header.empty() ? "" : ",") + name;
+    errno = 0;
+    if (beginning == Beginning::resumed)
+      {
+        // Rows written after the checkpoint are written once more.
+        std::error_code error;
+        std::filesystem::resize_file(path, n_bytes_, error);
+        errno = error.value();
+        AssertThrow(!error, ExcUser(failed_write(path)));
+        file_.open(path, std::ios::in | std::ios::out | std::ios::ate);
+        flush();
+        return;
+      }
+    file_.open(path);
+    file_ << header << '\n';
+    flush();
+  }
+
+
+
+  std::string
+  CsvFile::cannot_resume(const std::filesystem::path    &path,
+                         const std::vector<std::string> &names) const
+  {
+    const std::string what =
+      "The file '" + path.string() + "', which the run is to go on with, ";
+    std::error_code error;
+    const auto      size = std::filesystem::file_size(path, error);
+    if (error || size < n_bytes_)
+      return text(what,
+                  error ? "cannot be read (" + error.message() + ")"
+                        : text("has only ", size, " bytes"),
+                  ", but it had ",
+                  n_bytes_,
+                  " bytes at the checkpoint. Put back the file that belongs to "
+                  "the checkpoint, or start the run anew.");
+
+    // Another version of talus may have other columns.
+    std::ifstream file(path);
+    std::string   header;
+    std::getline(file, header);
+    std::istringstream columns(header);
+    for (const std::string &name : names)
+      {
+        std::string found;
+        std::getline(columns, found, ',');
+        if (found != name)
+          return what + "has a column '" + found + "' where '" + name +
+                 "' was expected. Resume with the version of talus that wrote "
+                 "it, or start the run anew.";
+      }
+    return "";
+  }
+
+
+
+  void
+  CsvFile::list_state(const std::string &name, StateList &list)
+  {
+    // The file belongs to the first rank; the others have zero.
+    list.add("length of " + name, "B", n_bytes_, Reduction::sum);
+  }
+
+
+
+  void
+  CsvFile::add_row(const std::vector<double> &values)
+  {
+    Assert(values.size() == n_columns_,
+           ExcDimensionMismatch(values.size(), n_columns_));
+    std::string row;
+    char        number[32];
+    for (const double value : values)
+      {
+        std::snprintf(number, sizeof(number), "%.16g", value);
+        row += (row.empty() ? "" : ",");
+        row += number;
+      }
+    // A failure here shows in flush().
+    file_ << row << '\n';
+  }
+
+
+
+  void
+  CsvFile::flush()
+  {
+    errno = 0;
+    file_.flush();
+    AssertThrow(file_, ExcUser(failed_write(path_)));
+    n_bytes_ = file_.tellp();
+  }
+
+
+
+  void
+  CsvFile::sync()
+  {
+    flush();
+    AssertThrow(sync_to_disk(path_).empty(), ExcUser(failed_write(path_)));
+  }
+} // namespace talus

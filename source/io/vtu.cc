@@ -1,0 +1,213 @@
+#include <talus/base/errors.h>
+#include <talus/io/files.h>
+#include <talus/io/vtu.h>
+#include <talus/io/vtu_arrays.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <iomanip>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+#ifdef DEAL_II_WORDS_BIGENDIAN
+    const std::string byte_order = "BigEndian";
+#else
+    const std::string byte_order = "LittleEndian";
+#endif
+
+    template <typename Number>
+    void
+    write_array(std::ostream              &out,
+                const std::string         &attributes,
+                const std::vector<Number> &values)
+    {
+      out << "<DataArray " << attributes << " format=\"binary\">\n";
+      write_vtu_array(out, values);
+      out << "\n</DataArray>\n";
+    }
+
+
+
+    /// Type, name and number of components of a field.
+    std::string
+    attributes_of(const Field &field)
+    {
+      return text("type=\"Float32\" Name=\"",
+                  field.name,
+                  "\" NumberOfComponents=\"",
+                  n_columns(field),
+                  "\"");
+    }
+
+
+
+    template <int cell_dim, int dim>
+    void
+    write_geometry(std::ostream &out, const OutputCells<cell_dim, dim> &cells)
+    {
+      // Of VTK: a vertex, a quad, a hexahedron.
+      constexpr std::uint8_t type =
+        (cell_dim == 0 ? 1 : (cell_dim == 2 ? 9 : 12));
+      std::vector<std::int32_t> offsets(cells.size());
+      for (unsigned int c = 0; c < cells.size(); ++c)
+        offsets[c] = (c + 1) * cells.n_vertices;
+
+      out << "<Points>\n";
+      write_array(out,
+                  "type=\"Float32\" NumberOfComponents=\"3\"",
+                  vertex_coordinates(cells));
+      out << "</Points>\n<Cells>\n";
+      write_array(out,
+                  "type=\"Int32\" Name=\"connectivity\"",
+                  corners_of_cells<std::int32_t>(cells));
+      write_array(out, "type=\"Int32\" Name=\"offsets\"", offsets);
+      write_array(out,
+                  "type=\"UInt8\" Name=\"types\"",
+                  std::vector<std::uint8_t>(cells.size(), type));
+      out << "</Cells>\n";
+    }
+
+
+
+    /// Kind of data that ParaView is to take the fields for.
+    template <int cell_dim, int dim>
+    std::string
+    data_of(const OutputCells<cell_dim, dim> &cells)
+    {
+      return cells.items_at == ItemsAt::cells ? "CellData" : "PointData";
+    }
+
+
+
+    /// What names the files of all ranks.
+    template <int cell_dim, int dim>
+    void
+    write_pvtu(std::ostream                     &out,
+               const OutputCells<cell_dim, dim> &cells,
+               const std::vector<std::string>   &pieces)
+    {
+      const std::string data = data_of(cells);
+      out << "<?xml version=\"1.0\"?>\n"
+             "<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" "
+             "byte_order=\""
+          << byte_order
+          << "\">\n"
+             "<PUnstructuredGrid GhostLevel=\"0\">\n"
+             "<PPoints>\n"
+             "<PDataArray type=\"Float32\" NumberOfComponents=\"3\"/>\n"
+             "</PPoints>\n"
+             "<P"
+          << data << ">\n";
+      for (const Field &field : cells.fields)
+        out << "<PDataArray " << attributes_of(field) << "/>\n";
+      out << "</P" << data << ">\n";
+      for (const std::string &piece : pieces)
+        out << "<Piece Source=\"" << piece << "\"/>\n";
+      out << "</PUnstructuredGrid>\n</VTKFile>\n";
+    }
+  } // namespace
+
+
+
+  template <int cell_dim, int dim>
+  void
+  write_vtu(std::ostream                     &out,
+            const OutputCells<cell_dim, dim> &cells,
+            const double                      time,
+            const unsigned long               step)
+  {
+    const std::string data = data_of(cells);
+    out << "<?xml version=\"1.0\"?>\n"
+           "<VTKFile type=\"UnstructuredGrid\" version=\"0.1\" byte_order=\""
+        << byte_order
+        << "\" compressor=\"vtkZLibDataCompressor\">\n"
+           "<UnstructuredGrid>\n"
+           "<FieldData>\n"
+           "<DataArray type=\"Float64\" Name=\"TIME\" NumberOfTuples=\"1\" "
+           "format=\"ascii\">"
+        << std::setprecision(16) << time
+        << "</DataArray>\n"
+           "<DataArray type=\"Int64\" Name=\"CYCLE\" NumberOfTuples=\"1\" "
+           "format=\"ascii\">"
+        << step << "</DataArray>\n</FieldData>\n<Piece NumberOfPoints=\""
+        << cells.vertices.size() << "\" NumberOfCells=\"" << cells.size()
+        << "\">\n";
+    write_geometry(out, cells);
+    out << '<' << data << ">\n";
+    for (const Field &field : cells.fields)
+      write_array(out, attributes_of(field), values_of(field, cells.items));
+    out << "</" << data << ">\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  }
+
+
+
+  template <int cell_dim, int dim>
+  std::string
+  write_vtu(const std::filesystem::path        &folder,
+            const std::string                  &base,
+            const MPI_Comm                      communicator,
+            const OutputCells<cell_dim, dim>   &cells,
+            const double                        time,
+            const unsigned long                 step,
+            std::vector<std::filesystem::path> &written)
+  {
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
+    const auto         piece   = [&](const unsigned int r) {
+      return base + (n_ranks > 1 ? "." + std::to_string(r) : "") + ".vtu";
+    };
+    const auto write = [&](const std::string &name, const auto &content) {
+      write_file(folder / name, content);
+      written.push_back(folder / name);
+    };
+
+    // ParaView has no use for files without cells: only ranks with cells write
+    // one, the first if nobody has any.
+    const auto n_cells = Utilities::MPI::all_gather(communicator, cells.size());
+    const bool nobody  = std::all_of(n_cells.begin(),
+                                    n_cells.end(),
+                                    [](const auto n) { return n == 0; });
+    const auto writes  = [&](const unsigned int r) {
+      return n_cells[r] > 0 || (nobody && r == 0);
+    };
+    if (writes(rank))
+      write(piece(rank),
+            [&](std::ostream &out) { write_vtu(out, cells, time, step); });
+    if (n_ranks == 1)
+      return piece(0);
+
+    std::vector<std::string> pieces;
+    for (unsigned int r = 0; r < n_ranks; ++r)
+      if (writes(r))
+        pieces.push_back(piece(r));
+    if (rank == 0)
+      write(base + ".pvtu",
+            [&](std::ostream &out) { write_pvtu(out, cells, pieces); });
+    return base + ".pvtu";
+  }
+
+
+
+#define INSTANTIATE(cell_dim, dim)                                   \
+  template void        write_vtu(std::ostream &,                     \
+                                 const OutputCells<cell_dim, dim> &, \
+                                 double,                             \
+                                 unsigned long);                     \
+  template std::string write_vtu(const std::filesystem::path &,      \
+                                 const std::string &,                \
+                                 MPI_Comm,                           \
+                                 const OutputCells<cell_dim, dim> &, \
+                                 double,                             \
+                                 unsigned long,                      \
+                                 std::vector<std::filesystem::path> &);
+
+  INSTANTIATE(0, 2)
+  INSTANTIATE(0, 3)
+  INSTANTIATE(2, 2)
+  INSTANTIATE(3, 3)
+#undef INSTANTIATE
+} // namespace talus

@@ -1,0 +1,297 @@
+#include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
+#include <talus/problem/geostatic.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The undeformed box of a point, by centre and lengths, m, and the density
+    /// that gives weight, kg/m^3.
+    template <int dim>
+    struct Brick
+    {
+      std::array<double, dim> centre, length;
+      double                  density;
+
+      /// In an order that does not depend on who has it.
+      bool
+      operator<(const Brick &other) const
+      {
+        return centre < other.centre;
+      }
+    };
+
+
+
+    template <int dim>
+    Brick<dim>
+    brick_of(const Points<dim>         &points,
+             const unsigned int         p,
+             const std::vector<double> &weight_density)
+    {
+      Brick<dim> brick;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          brick.centre[d] = points.data(points.initial_position, d)[p];
+          brick.length[d] = points.data(points.reference_length, d)[p];
+        }
+      brick.density = weight_density[points.data(points.body)[p]];
+      return brick;
+    }
+
+
+
+    /// Bricks by columns of the width of the widest one, so that what lies above
+    /// a brick is in its column or in those beside.
+    template <int dim>
+    class Columns
+    {
+    public:
+      explicit Columns(const std::vector<Brick<dim>> &bricks)
+      {
+        for (const auto &brick : bricks)
+          for (unsigned int d = 0; d < dim; ++d)
+            if (d != 1)
+              width_ = std::max(width_, brick.length[d]);
+        for (const auto &brick : bricks)
+          columns_[place(brick)].push_back(brick);
+        for (auto &column : columns_)
+          std::sort(column.second.begin(), column.second.end());
+      }
+
+      double
+      mass_above(const Brick<dim> &brick) const
+      {
+        double     mass = 0;
+        const auto at   = place(brick);
+        for (long i = -1; i <= 1; ++i)
+          for (long k = (dim == 3 ? -1 : 0); k <= (dim == 3 ? 1 : 0); ++k)
+            {
+              const auto column = columns_.find({{at[0] + i, at[1] + k}});
+              if (column != columns_.end())
+                for (const auto &other : column->second)
+                  mass += mass_above(brick, other);
+            }
+        return mass;
+      }
+
+    private:
+      using Place = std::array<long, 2>;
+
+      Place
+      place(const Brick<dim> &brick) const
+      {
+        const auto index = [&](const unsigned int d) {
+          return std::lround(std::floor(brick.centre[d] / width_));
+        };
+        return {{index(0), dim == 3 ? index(dim - 1) : 0}};
+      }
+
+      /// Share of @p other that lies above the centre of @p brick, per area of
+      /// @p brick, kg/m^2.
+      static double
+      mass_above(const Brick<dim> &brick, const Brick<dim> &other)
+      {
+        const double top  = other.centre[1] + 0.5 * other.length[1];
+        double       mass = other.density *
+                      std::clamp(top - brick.centre[1], 0., other.length[1]);
+        for (unsigned int d = 0; d < dim; ++d)
+          if (d != 1)
+            {
+              const double distance =
+                std::abs(brick.centre[d] - other.centre[d]);
+              const double common =
+                0.5 * (brick.length[d] + other.length[d]) - distance;
+              mass *= std::clamp(common,
+                                 0.,
+                                 std::min(brick.length[d], other.length[d])) /
+                      brick.length[d];
+            }
+        return mass;
+      }
+
+      double                                   width_ = 0;
+      std::map<Place, std::vector<Brick<dim>>> columns_;
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<double>
+  overburden(const Points<dim>         &points,
+             const std::vector<double> &weight_density,
+             const MPI_Comm             communicator)
+  {
+    std::vector<double> own;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const auto brick = brick_of(points, p, weight_density);
+        own.insert(own.end(), brick.centre.begin(), brick.centre.end());
+        own.insert(own.end(), brick.length.begin(), brick.length.end());
+        own.push_back(brick.density);
+      }
+    std::vector<Brick<dim>> bricks;
+    for (const auto &part : Utilities::MPI::all_gather(communicator, own))
+      for (auto number = part.begin(); number != part.end();
+           number += 2 * dim + 1)
+        {
+          Brick<dim> brick;
+          std::copy_n(number, dim, brick.centre.begin());
+          std::copy_n(number + dim, dim, brick.length.begin());
+          brick.density = number[2 * dim];
+          bricks.push_back(brick);
+        }
+    const Columns<dim>  columns(bricks);
+    std::vector<double> result(points.size());
+    for (unsigned int p = 0; p < points.size(); ++p)
+      result[p] = columns.mass_above(brick_of(points, p, weight_density));
+    return result;
+  }
+
+
+
+  namespace
+  {
+    template <int dim>
+    void
+    check(const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+          const std::string                             &name,
+          const Tensor<1, dim>                          &gravity)
+    {
+      for (const auto &body : bodies)
+        AssertThrow(!body->initial_state().is_displaced(),
+                    ExcUser("'Bodies/" + name + "/K0' is given, but 'Bodies/" +
+                            body->name() +
+                            "/Initial displacement', too, and the weight above "
+                            "a point is taken without displacement. Remove one "
+                            "of the two."));
+      AssertThrow(gravity.norm() > 0.,
+                  ExcUser("'Bodies/" + name +
+                          "/K0' is given, but there is no gravity at t = 0, so "
+                          "that the soil has no weight. Set 'Gravity/Ramp "
+                          "time' to 0 and 'Gravity/Magnitude' to more than 0, "
+                          "or remove the entry."));
+    }
+
+
+
+    template <int dim>
+    Stress<dim, double>
+    stress_at_rest(const double          mass_above,
+                   const double          K0,
+                   const Tensor<1, dim> &gravity)
+    {
+      Stress<dim, double> sigma{};
+      sigma[1] = gravity[1] * mass_above;
+      sigma[0] = sigma[2]            = K0 * sigma[1];
+      sigma[stress_index<dim>(0, 1)] = gravity[0] * mass_above;
+      return sigma;
+    }
+
+
+
+    template <int dim>
+    double
+    shear_stress(const Stress<dim, double> &sigma)
+    {
+      const double mean = (sigma[0] + sigma[1] + sigma[2]) / 3.;
+      double       sum  = 0;
+      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+        sum += c < 3 ? 0.5 * (sigma[c] - mean) * (sigma[c] - mean)
+                     : sigma[c] * sigma[c];
+      return std::sqrt(sum);
+    }
+
+
+
+    std::string
+    note_of_yielding(const std::string &name,
+                     const double       n_points,
+                     const double       ratio)
+    {
+      return text("The K0 stress is more than the soil of the body '",
+                  name,
+                  "' bears at ",
+                  n_points,
+                  " of its points: the shear stress is up to ",
+                  ratio,
+                  " times the strength. There it is returned to the strength "
+                  "in the first steps, and the body starts to move. A slope "
+                  "that is to be at rest needs more strength or a 'Bodies/",
+                  name,
+                  "/K0' closer to 1.");
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  set_geostatic_stress(Points<dim>                                   &points,
+                       const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                       const Materials<dim>                          &materials,
+                       const Tensor<1, dim>                          &gravity,
+                       const MPI_Comm communicator)
+  {
+    std::vector<double>      density, mass_above;
+    std::vector<std::string> notes;
+    bool                     is_first = true;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      density.push_back(materials.of_body(b).submerged_density());
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const InitialState<dim> &initial = bodies[b]->initial_state();
+        if (!initial.has_stress_at_rest())
+          continue;
+        check(bodies, bodies[b]->name(), gravity);
+        if (is_first)
+          mass_above = overburden(points, density, communicator);
+        is_first          = false;
+        double n_yielding = 0, largest = 0;
+        for (unsigned int p = 0; p < points.size(); ++p)
+          if (points.data(points.body)[p] == b)
+            {
+              const auto sigma =
+                stress_at_rest(mass_above[p], initial.K0(), gravity);
+              store_stress<dim, double>(points, p, sigma);
+              const double strength =
+                materials.of_body(b).shear_strength(points, p);
+              const double tau = shear_stress<dim>(sigma);
+              n_yielding += (tau > (1. + 1e-9) * strength);
+              largest = std::max(largest, tau / strength);
+            }
+        n_yielding = Utilities::MPI::sum(n_yielding, communicator);
+        largest    = Utilities::MPI::max(largest, communicator);
+        if (n_yielding > 0)
+          notes.push_back(
+            note_of_yielding(bodies[b]->name(), n_yielding, largest));
+      }
+    return notes;
+  }
+
+
+
+#define INSTANTIATE(dim)                                                    \
+  template std::vector<double>      overburden(const Points<dim> &,         \
+                                               const std::vector<double> &, \
+                                               MPI_Comm);                   \
+  template std::vector<std::string> set_geostatic_stress(                   \
+    Points<dim> &,                                                          \
+    const std::vector<std::unique_ptr<Body<dim>>> &,                        \
+    const Materials<dim> &,                                                 \
+    const Tensor<1, dim> &,                                                 \
+    MPI_Comm);
+
+  INSTANTIATE(2)
+  INSTANTIATE(3)
+#undef INSTANTIATE
+} // namespace talus

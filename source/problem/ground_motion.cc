@@ -1,0 +1,150 @@
+#include <talus/base/errors.h>
+#include <talus/problem/ground_motion.h>
+
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  GroundMotion<dim>::GroundMotion(const std::filesystem::path &folder)
+    : ParameterAcceptor("/Ground motion")
+    , folder_(folder)
+  {
+    add_parameter("File",
+                  file_,
+                  "CSV file of what the ground does in time, its path from the "
+                  "folder of the parameter file; empty for none. The first "
+                  "line names the columns: 'time [s]' and any of 'horizontal "
+                  "[m/s^2]' (acceleration of the ground, positive down the "
+                  "slope), 'vertical [m/s^2]' (upwards), in 3-D 'across "
+                  "[m/s^2]' (along z), and 'gravity factor [-]', which gravity "
+                  "is multiplied with. Linear between the rows; outside of "
+                  "them accelerations are zero and gravity stays.");
+    add_parameter("Start time",
+                  start_time_,
+                  "Time of the run at which that of the table is zero [s].",
+                  this->prm,
+                  Patterns::Double());
+    add_parameter("Factor",
+                  factor_,
+                  "What the accelerations of the table are multiplied with "
+                  "[-], to scale a record.",
+                  this->prm,
+                  Patterns::Double());
+  }
+
+
+
+  template <int dim>
+  void
+  GroundMotion<dim>::prepare()
+  {
+    table_.reset();
+    AssertThrow(!file_.empty() || (start_time_ == 0. && factor_ == 1.),
+                ExcUser("The section 'Ground motion' has entries, but 'Ground "
+                        "motion/File' is empty, so that the ground rests. Give "
+                        "a table or remove the section."));
+    if (file_.empty())
+      return;
+    std::vector<std::string>    columns = {"horizontal [m/s^2]",
+                                           "vertical [m/s^2]",
+                                           "across [m/s^2]",
+                                           "gravity factor [-]"};
+    const std::filesystem::path path    = folder_ / file_;
+    table_ = std::make_unique<TimeTable>(path, columns);
+    AssertThrow(dim == 3 || !table_->has(across),
+                ExcUser("The table '" + path.string() + "' has a column '" +
+                        columns[across] +
+                        "', but the simulation is two-dimensional. Remove the "
+                        "column or set 'Dimension' to 3."));
+    const double begin = start_time_ + table_->first_time();
+    for (const Column column : {horizontal, vertical, across})
+      if (begin > 0. && table_->has(column))
+        {
+          const double first =
+            factor_ * table_->value(column, table_->first_time());
+          AssertThrow(first == 0.,
+                      ExcUser(text("The table '",
+                                   path.string(),
+                                   "' begins at t = ",
+                                   begin,
+                                   " s of the run with ",
+                                   first,
+                                   " m/s^2 in the column '",
+                                   columns[column],
+                                   "', so that the ground would jump into "
+                                   "motion. Put a row with zeros before it, or "
+                                   "let it begin with the run ('Ground "
+                                   "motion/Start time').")));
+        }
+  }
+
+
+
+  template <int dim>
+  double
+  GroundMotion<dim>::component(const Column column, const double t) const
+  {
+    const double s = t - start_time_;
+    if (!table_ || !table_->has(column) || s < table_->first_time() ||
+        s > table_->last_time())
+      return 0.;
+    return factor_ * table_->value(column, s);
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  GroundMotion<dim>::acceleration(const double t, const double angle) const
+  {
+    Tensor<1, dim> a;
+    if (!table_)
+      return a;
+    const double a_h = component(horizontal, t), a_v = component(vertical, t);
+    a[0] = a_h * std::cos(angle) - a_v * std::sin(angle);
+    a[1] = a_h * std::sin(angle) + a_v * std::cos(angle);
+    if (dim == 3)
+      a[dim - 1] = component(across, t);
+    return a;
+  }
+
+
+
+  template <int dim>
+  double
+  GroundMotion<dim>::gravity_factor(const double t) const
+  {
+    return table_ && table_->has(gravity)
+             ? table_->value(gravity, t - start_time_)
+             : 1.;
+  }
+
+
+
+  template <int dim>
+  void
+  GroundMotion<dim>::list_state(StateList &list) const
+  {
+    if (!table_)
+      return;
+    const std::string now = table_->checksum();
+    list.add_text(
+      {"checksum of the ground motion",
+       [now]() { return now; },
+       [now, this](const std::string &saved) {
+         AssertThrow(saved == now,
+                     ExcUser("The table '" + (folder_ / file_).string() +
+                             "' is not the one of the run to resume. "
+                             "Restore it, or start anew in another "
+                             "folder."));
+       }});
+  }
+
+
+
+  template class GroundMotion<2>;
+  template class GroundMotion<3>;
+} // namespace talus

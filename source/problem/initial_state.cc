@@ -1,0 +1,218 @@
+#include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
+#include <talus/problem/initial_state.h>
+
+#include <array>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Derivative of component @p i along @p axis at t = 0, by central
+    /// differences over three steps of @p delta on each side.
+    template <int dim>
+    double
+    derivative(Expression<dim>   &expression,
+               const Point<dim>  &X,
+               const unsigned int i,
+               const unsigned int axis,
+               const double       delta)
+    {
+      constexpr std::array<double, 3> weights = {{0.75, -0.15, 1. / 60.}};
+      double                          sum     = 0;
+      for (unsigned int k = 0; k < 3; ++k)
+        {
+          Point<dim> before = X, after = X;
+          before[axis] -= (k + 1) * delta;
+          after[axis] += (k + 1) * delta;
+          sum += weights[k] * (expression.finite_value(after, 0., i) -
+                               expression.finite_value(before, 0., i));
+        }
+      return sum / delta;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  InitialState<dim>::InitialState(const std::string &section)
+    : ParameterAcceptor(section)
+    , section_(section)
+  {
+    add_parameter(
+      "Initial displacement",
+      displacement_,
+      "Expressions in x, y, (z,) t for the components of the displacement at "
+      "t = 0, separated by semicolons [m]; empty for none. x, y, z are the "
+      "place without it, in all initial fields. Deformation gradient and boxes "
+      "follow, and with hyperelastic laws the stress.");
+    add_parameter(
+      "Initial velocity",
+      velocity_,
+      "Expressions in x, y, (z,) t for the components of the "
+      "velocity, separated by semicolons [m/s]; empty for rest. t is the "
+      "time it belongs to, see "
+      "'Initial velocity time'.");
+    add_parameter(
+      "Initial stress",
+      stress_,
+      "Expressions in x, y, (z,) t for the Cauchy stress, tension "
+      "positive [Pa]: in 2-D xx; yy; zz; xy, in 3-D xx; yy; zz; xy; "
+      "xz; yz. Empty for none. Only for laws in rate form.");
+    add_parameter(
+      "K0",
+      K0_,
+      "Coefficient of earth pressure at rest [-]: start with the stress of "
+      "ground at rest under the weight of all that lies above, along y, with "
+      "stresses along the layer of K0 times that across it and, on a slope, "
+      "the shear stress of an infinite slope. Empty: without. Only for laws in "
+      "rate form.",
+      this->prm,
+      Patterns::List(Patterns::Double(0.), 0, 1));
+  }
+
+
+
+  template <int dim>
+  std::string
+  InitialState<dim>::path(const std::string &entry) const
+  {
+    return "'" + section_.substr(1) + "/" + entry + "'";
+  }
+
+
+
+  template <int dim>
+  void
+  InitialState<dim>::check(const MaterialModel<dim> &law) const
+  {
+    AssertThrow(stress_.empty() || K0_.empty(),
+                ExcUser(text(path("Initial stress"),
+                             " and ",
+                             path("K0"),
+                             " are given, but a body starts with one stress. "
+                             "Remove one of the two.")));
+    AssertThrow((stress_.empty() && K0_.empty()) || !law.is_hyperelastic(),
+                ExcUser(text(path(K0_.empty() ? "Initial stress" : "K0"),
+                             " is given, but the stress of the body's material "
+                             "follows from its deformation alone. Remove it, "
+                             "prescribe 'Initial displacement', or choose a "
+                             "law in rate form ('linear elastic', 'von "
+                             "Mises').")));
+  }
+
+
+
+  template <int dim>
+  void
+  InitialState<dim>::displace(Points<dim>       &points,
+                              const unsigned int begin,
+                              const unsigned int end,
+                              const Constants   &constants) const
+  {
+    Expression<dim> u(path("Initial displacement"),
+                      displacement_,
+                      dim,
+                      constants);
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        const Point<dim>    X = load_place(points, points.initial_position, p);
+        Matrix<dim, double> F = identity<dim, double>();
+        for (unsigned int i = 0; i < dim; ++i)
+          {
+            points.data(points.position, i)[p] =
+              X[i] + u.finite_value(X, 0., i);
+            for (unsigned int j = 0; j < dim; ++j)
+              F[i][j] += derivative(
+                u, X, i, j, 0.01 * points.data(points.reference_length, j)[p]);
+          }
+        AssertThrow(determinant(F) > 0,
+                    ExcUser(text(path("Initial displacement"),
+                                 " = '",
+                                 displacement_,
+                                 "' turns the body inside out at (",
+                                 X,
+                                 ") m: the determinant of its deformation "
+                                 "gradient is ",
+                                 determinant(F),
+                                 " there. Make the displacement smaller.")));
+        store_matrix(points, points.deformation_gradient, p, F);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  InitialState<dim>::set_stress(Points<dim>       &points,
+                                const unsigned int begin,
+                                const unsigned int end,
+                                const Constants   &constants) const
+  {
+    Expression<dim> sigma(path("Initial stress"),
+                          stress_,
+                          n_stress_components<dim>,
+                          constants);
+    for (unsigned int p = begin; p < end; ++p)
+      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+        points.data(points.stress, c)[p] =
+          sigma.finite_value(load_place(points, points.initial_position, p),
+                             0.,
+                             c);
+  }
+
+
+
+  template <int dim>
+  void
+  InitialState<dim>::deform(Points<dim>              &points,
+                            const unsigned int        begin,
+                            const unsigned int        end,
+                            const MaterialModel<dim> &law,
+                            const BoxRule             rule,
+                            const Constants          &constants) const
+  {
+    if (!stress_.empty())
+      set_stress(points, begin, end, constants);
+    if (displacement_.empty())
+      return;
+    displace(points, begin, end, constants);
+    initialize_stretch(points, begin, end, rule);
+    if (!law.is_hyperelastic())
+      return;
+    StepWorkspace<dim> workspace;
+    workspace.reinit(begin, end);
+    for (unsigned int i = 0; i < dim; ++i)
+      for (unsigned int j = 0; j < dim; ++j)
+        std::fill_n(workspace.velocity_gradient(i, j), end - begin, 0.);
+    law.update_stress(points, workspace, begin, end, /*dt=*/0.);
+  }
+
+
+
+  template <int dim>
+  void
+  InitialState<dim>::set_velocity(Points<dim>       &points,
+                                  const unsigned int index,
+                                  const double       t,
+                                  const Constants   &constants) const
+  {
+    if (velocity_.empty())
+      return;
+    Expression<dim> v(path("Initial velocity"), velocity_, dim, constants);
+    for (unsigned int p = 0; p < points.size(); ++p)
+      if (points.data(points.body)[p] == index)
+        for (unsigned int d = 0; d < dim; ++d)
+          points.data(points.velocity, d)[p] =
+            v.finite_value(load_place(points, points.initial_position, p),
+                           t,
+                           d);
+  }
+
+
+
+  template class InitialState<2>;
+  template class InitialState<3>;
+} // namespace talus

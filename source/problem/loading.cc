@@ -1,0 +1,150 @@
+#include <talus/problem/loading.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Loading<dim>::Gravity::Gravity()
+    : ParameterAcceptor("/Gravity")
+  {
+    add_parameter("Magnitude",
+                  magnitude,
+                  "Acceleration of gravity [m/s^2].",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("Slope angle",
+                  slope_angle,
+                  "Angle by which the mesh is turned against the horizontal "
+                  "[degrees]: gravity points along (sin, -cos), so that x "
+                  "points down the slope.",
+                  this->prm,
+                  Patterns::Double(-90., 90.));
+    add_parameter("Ramp time",
+                  ramp_time,
+                  "Time over which gravity grows from 0 to its magnitude, "
+                  "smoothly by half a cosine [s]; 0 for full gravity from the "
+                  "start.",
+                  this->prm,
+                  Patterns::Double(0.));
+  }
+
+
+
+  template <int dim>
+  Loading<dim>::BodyForce::BodyForce()
+    : ParameterAcceptor("/Body force")
+  {
+    add_parameter("Expression",
+                  expression,
+                  "Components of a force per unit mass as expressions in x, y, "
+                  "(z,) t, separated by semicolons [m/s^2]; empty for none.");
+    add_parameter("Coordinates",
+                  coordinates,
+                  "What x, y, z are: 'spatial' (where the point is now) or "
+                  "'material' (where it was at the start, without initial "
+                  "displacement).",
+                  this->prm,
+                  Patterns::Selection("spatial|material"));
+  }
+
+
+
+  template <int dim>
+  Loading<dim>::Loading(const std::filesystem::path &folder)
+    : ground_motion_(folder)
+  {}
+
+
+
+  template <int dim>
+  double
+  Loading<dim>::slope_angle() const
+  {
+    return gravity_.slope_angle * numbers::PI / 180.;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Loading<dim>::gravity() const
+  {
+    const double   angle = slope_angle();
+    Tensor<1, dim> g;
+    g[0] = gravity_.magnitude * std::sin(angle);
+    g[1] = -gravity_.magnitude * std::cos(angle);
+    return g;
+  }
+
+
+
+  template <int dim>
+  double
+  Loading<dim>::share_of_gravity(const double t) const
+  {
+    const double ramp =
+      t < gravity_.ramp_time
+        ? 0.5 * (1. - std::cos(numbers::PI * t / gravity_.ramp_time))
+        : 1.;
+    return ramp * ground_motion_.gravity_factor(t);
+  }
+
+
+
+  template <int dim>
+  void
+  Loading<dim>::prepare(const Materials<dim> &materials,
+                        const unsigned int    n_bodies,
+                        const Constants      &constants)
+  {
+    ground_motion_.prepare();
+    full_.clear();
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      full_.push_back(materials.of_body(b).submerged_density() /
+                      materials.of_body(b).density() * gravity());
+    loads_.acceleration_of_body = full_;
+    loads_.varies               = !body_force_.expression.empty();
+    if (loads_.varies)
+      expression_ = std::make_unique<Expression<dim>>("'Body force/Expression'",
+                                                      body_force_.expression,
+                                                      dim,
+                                                      constants);
+  }
+
+
+
+  template <int dim>
+  void
+  Loading<dim>::update(const Points<dim> &points, const double t)
+  {
+    // The inertia of the whole mass, not of the submerged one, resists.
+    const Tensor<1, dim> ground = ground_motion_.acceleration(t, slope_angle());
+    const double         share  = share_of_gravity(t);
+    for (unsigned int b = 0; b < full_.size(); ++b)
+      loads_.acceleration_of_body[b] = share * full_[b] - ground;
+    if (!loads_.varies)
+      return;
+    const unsigned int coordinates = body_force_.coordinates == "material"
+                                       ? points.initial_position
+                                       : points.position;
+    for (auto &row : loads_.acceleration_of_point)
+      row.resize(points.size() + Points<dim>::n_spare);
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const Point<dim> x = load_place(points, coordinates, p);
+        for (unsigned int d = 0; d < dim; ++d)
+          loads_.acceleration_of_point[d][p] =
+            expression_->finite_value(x, t, d);
+      }
+  }
+
+
+
+  template class Loading<2>;
+  template class Loading<3>;
+} // namespace talus

@@ -1,0 +1,180 @@
+#include <talus/base/errors.h>
+#include <talus/io/checksum.h>
+#include <talus/problem/time_table.h>
+
+#include <deal.II/base/types.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    const std::string  time_name      = "time [s]";
+    const unsigned int column_of_time = numbers::invalid_unsigned_int;
+
+
+
+    std::string
+    read_file(const std::filesystem::path &file)
+    {
+      std::ifstream      in(file, std::ios::binary);
+      std::ostringstream content;
+      if (in.good() && !std::filesystem::is_directory(file))
+        content << in.rdbuf();
+      AssertThrow(!content.str().empty(),
+                  ExcUser("The table '" + file.string() +
+                          "' cannot be read or is empty. Give the path of an "
+                          "existing CSV file, from the folder of the parameter "
+                          "file."));
+      return content.str();
+    }
+
+
+
+    /// The parts between commas, without blanks around them; also empty ones.
+    std::vector<std::string>
+    split_at_commas(const std::string &line)
+    {
+      std::vector<std::string> parts;
+      std::istringstream       in(line + ',');
+      for (std::string part; std::getline(in, part, ',');)
+        parts.push_back(Utilities::trim(part));
+      return parts;
+    }
+  } // namespace
+
+
+
+  TimeTable::TimeTable(const std::filesystem::path    &file,
+                       const std::vector<std::string> &known_columns)
+    : values_(known_columns.size())
+  {
+    const std::string content = read_file(file);
+    checksum_                 = text(talus::checksum(content));
+    std::istringstream in(content);
+    unsigned int       number = 0;
+    for (std::string line; std::getline(in, line);)
+      {
+        ++number;
+        if (number == 1 && line.rfind("\xef\xbb\xbf", 0) == 0)
+          line.erase(0, 3); // the mark that some programs put before UTF-8
+        line = Utilities::trim(line);
+        if (line.empty() || line[0] == '#')
+          continue;
+        const std::string place =
+          text("The table '", file.string(), "', line ", number, ": ");
+        if (known_of_read_.empty())
+          read_header(line, place, known_columns);
+        else
+          read_row(line, place);
+      }
+    AssertThrow(times_.size() >= 2,
+                ExcUser(text("The table '",
+                             file.string(),
+                             "' has ",
+                             times_.size(),
+                             " rows of numbers, but at least two are needed to "
+                             "interpolate between. Add rows.")));
+  }
+
+
+
+  void
+  TimeTable::read_header(const std::string              &line,
+                         const std::string              &place,
+                         const std::vector<std::string> &known_columns)
+  {
+    std::string expected = "'" + time_name + "'";
+    for (const std::string &name : known_columns)
+      expected += ", '" + name + "'";
+    for (const std::string &name : split_at_commas(line))
+      {
+        const auto known =
+          std::find(known_columns.begin(), known_columns.end(), name);
+        AssertThrow(name == time_name || known != known_columns.end(),
+                    ExcUser(place + "there is a column '" + name +
+                            "', but the header may name only: " + expected +
+                            ". Correct the name or remove the column."));
+        const unsigned int column =
+          (name == time_name) ? column_of_time : known - known_columns.begin();
+        AssertThrow(std::find(known_of_read_.begin(),
+                              known_of_read_.end(),
+                              column) == known_of_read_.end(),
+                    ExcUser(place + "the column '" + name +
+                            "' is there twice. Remove one of the two."));
+        known_of_read_.push_back(column);
+      }
+    AssertThrow(known_of_read_.size() >= 2 &&
+                  std::find(known_of_read_.begin(),
+                            known_of_read_.end(),
+                            column_of_time) != known_of_read_.end(),
+                ExcUser(place + "the header is '" + line +
+                        "', where the column '" + time_name +
+                        "' and at least one other were expected of: " +
+                        expected + ". Name the columns in the first line."));
+  }
+
+
+
+  void
+  TimeTable::read_row(const std::string &line, const std::string &place)
+  {
+    const std::vector<std::string> entries = split_at_commas(line);
+    AssertThrow(entries.size() == known_of_read_.size(),
+                ExcUser(text(place,
+                             "there are ",
+                             entries.size(),
+                             " entries, but the header names ",
+                             known_of_read_.size(),
+                             " columns. Give one number for each, separated by "
+                             "commas.")));
+    for (unsigned int i = 0; i < entries.size(); ++i)
+      {
+        char        *end    = nullptr;
+        const double number = std::strtod(entries[i].c_str(), &end);
+        AssertThrow(!entries[i].empty() && *end == '\0' &&
+                      std::isfinite(number),
+                    ExcUser(place + "'" + entries[i] +
+                            "' was found, where a finite number was expected. "
+                            "Correct it."));
+        if (known_of_read_[i] != column_of_time)
+          {
+            values_[known_of_read_[i]].push_back(number);
+            continue;
+          }
+        AssertThrow(times_.empty() || number > times_.back(),
+                    ExcUser(text(place,
+                                 "the time is ",
+                                 number,
+                                 " s, but that of the row before is ",
+                                 times_.back(),
+                                 " s. Times must ascend: sort the rows, and "
+                                 "give a jump two rows some time apart.")));
+        times_.push_back(number);
+      }
+  }
+
+
+
+  double
+  TimeTable::value(const unsigned int column, const double t) const
+  {
+    const std::vector<double> &values = values_[column];
+    if (t <= times_.front())
+      return values.front();
+    if (t >= times_.back())
+      return values.back();
+    const unsigned int i =
+      std::upper_bound(times_.begin(), times_.end(), t) - times_.begin();
+    return values[i - 1] + (values[i] - values[i - 1]) * (t - times_[i - 1]) /
+                             (times_[i] - times_[i - 1]);
+  }
+} // namespace talus

@@ -1,0 +1,240 @@
+#include <talus/base/errors.h>
+#include <talus/problem/trigger.h>
+
+#include <deal.II/base/numbers.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Trigger<dim>::Trigger()
+    : ParameterAcceptor("/Trigger")
+  {
+    const auto add_fraction = [this](const std::string &name,
+                                     double            &value,
+                                     const std::string &sentence) {
+      add_parameter(name, value, sentence, this->prm, Patterns::Double(0., 1.));
+    };
+    add_parameter("Start time",
+                  start_time_,
+                  "Time at which the strength begins to fall [s].",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("Duration",
+                  duration_,
+                  "Time over which it falls, smoothly by half a cosine [s]; 0: "
+                  "at once, in the step after the start time.",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_fraction("Strength fraction",
+                 strength_fraction_,
+                 "Fraction of its strength that soil is left with [-], without "
+                 "viscosity; 1: it keeps its strength.");
+    add_parameter("Bodies",
+                  names_of_bodies_,
+                  "Names of the bodies whose soil becomes weaker, separated by "
+                  "commas; empty: all whose law has a strength.");
+    add_parameter("Region",
+                  region_,
+                  "Expression in x, y (, z) that is positive where the soil of "
+                  "these bodies becomes weaker, for instance 0.5 - y for a "
+                  "weak layer; x, y, z is the initial place, without initial "
+                  "displacement. Empty: everywhere.");
+    add_fraction("Seabed shear stress fraction",
+                 seabed_fraction_,
+                 "Fraction of `Boundaries/Seabed/Maximum shear stress` that is "
+                 "left [-]; the friction coefficient stays. 1: all of it.");
+  }
+
+
+
+  template <int dim>
+  void
+  Trigger<dim>::check(const std::vector<std::string> &names_of_bodies,
+                      const Materials<dim>           &materials,
+                      const bool                      has_seabed,
+                      const double                    end_time)
+  {
+    const bool is_on = changes_strength() || seabed_fraction_ != 1.;
+    AssertThrow(is_on || (start_time_ == 0. && duration_ == 0. &&
+                          names_of_bodies_.empty() && region_.empty()),
+                ExcUser("The section Trigger has entries, but nothing would "
+                        "become weaker: set 'Trigger/Strength fraction' or "
+                        "'Trigger/Seabed shear stress fraction' to less than "
+                        "1, or remove the section."));
+    AssertThrow(!is_on || start_time_ < end_time,
+                ExcUser(text("'Trigger/Start time' is ",
+                             start_time_,
+                             " s, but the run ends at ",
+                             end_time,
+                             " s, before anything would happen. Give an "
+                             "earlier time or a later 'End time'.")));
+    AssertThrow(seabed_fraction_ == 1. || has_seabed,
+                ExcUser(text("'Trigger/Seabed shear stress fraction' is ",
+                             seabed_fraction_,
+                             ", but no face of the mesh is a seabed. Set one "
+                             "in the section Boundaries or remove the "
+                             "entry.")));
+    AssertThrow(changes_strength() ||
+                  (names_of_bodies_.empty() && region_.empty()),
+                ExcUser("'Trigger/Bodies' or 'Trigger/Region' is given, but "
+                        "'Trigger/Strength fraction' is 1, so that no soil "
+                        "becomes weaker. Set it to less than 1 or remove the "
+                        "entries."));
+    if (changes_strength())
+      check_bodies(names_of_bodies, materials);
+  }
+
+
+
+  template <int dim>
+  void
+  Trigger<dim>::check_bodies(const std::vector<std::string> &names_of_bodies,
+                             const Materials<dim>           &materials)
+  {
+    std::string known;
+    for (const std::string &name : names_of_bodies)
+      known += (known.empty() ? "" : ", ") + name;
+    weakens_body_.assign(names_of_bodies.size(), false);
+    for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
+      weakens_body_[b] =
+        names_of_bodies_.empty() && materials.of_body(b).has_strength();
+    const std::string advice =
+      ", which has no strength that could fall to 'Trigger/Strength fraction' "
+      "of itself. Choose the law 'von Mises', 'Bingham' or 'Herschel-Bulkley', "
+      "or ";
+    for (const std::string &name : names_of_bodies_)
+      {
+        const auto found =
+          std::find(names_of_bodies.begin(), names_of_bodies.end(), name);
+        AssertThrow(found != names_of_bodies.end(),
+                    ExcUser("'Trigger/Bodies' lists '" + name +
+                            "', but Bodies/Names lists only: " + known +
+                            ". Correct the name or add the body."));
+        const unsigned int b = found - names_of_bodies.begin();
+        AssertThrow(materials.of_body(b).has_strength(),
+                    ExcUser("'Trigger/Bodies' lists '" + name +
+                            "', made of the material of section " +
+                            materials.of_body(b).section() + advice +
+                            "remove the body from the list."));
+        weakens_body_[b] = true;
+      }
+    AssertThrow(std::count(weakens_body_.begin(), weakens_body_.end(), true) >
+                  0,
+                ExcUser("All bodies are made of materials as that of section " +
+                        materials.of_body(0).section() + advice +
+                        "remove the section Trigger."));
+  }
+
+
+
+  template <int dim>
+  void
+  Trigger<dim>::add_columns(Points<dim> &points)
+  {
+    if (changes_strength())
+      weakened_ = points.add_column("weakened", "-", 1, Inheritance::copied);
+  }
+
+
+
+  // Chosen once: a daughter may lie across the edge of the region, and at
+  // periodic faces initial places are shifted.
+  template <int dim>
+  void
+  Trigger<dim>::choose_points(Points<dim>     &points,
+                              const Constants &constants,
+                              const MPI_Comm   communicator) const
+  {
+    if (!changes_strength())
+      return;
+    Expression<dim> region("'Trigger/Region'",
+                           region_.empty() ? "1" : region_,
+                           1,
+                           constants);
+    double          n_weakened = 0;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const unsigned int body = points.data(points.body)[p];
+        const bool         is_weakened =
+          weakens_body_[body] &&
+          region.finite_value(load_place(points, points.initial_position, p),
+                              0.,
+                              0) > 0.;
+        points.data(weakened_)[p] = is_weakened;
+        n_weakened += is_weakened;
+      }
+    AssertThrow(Utilities::MPI::sum(n_weakened, communicator) > 0.,
+                ExcUser("'Trigger/Region' = '" + region_ +
+                        "' is positive at no point of the bodies that are to "
+                        "become weaker. Give an expression that is positive "
+                        "where the weak soil lies, or leave it empty."));
+  }
+
+
+
+  template <int dim>
+  double
+  Trigger<dim>::progress(const double t) const
+  {
+    if (t <= start_time_)
+      return 0.;
+    if (t >= start_time_ + duration_)
+      return 1.;
+    return 0.5 * (1. - std::cos(numbers::PI * (t - start_time_) / duration_));
+  }
+
+
+
+  template <int dim>
+  void
+  Trigger<dim>::update(Points<dim>       &points,
+                       const unsigned int strength_factor,
+                       const double       before,
+                       const double       now) const
+  {
+    if (!changes_strength() || progress(before) == progress(now))
+      return;
+    const double  lost     = progress(now) * (1. - strength_fraction_);
+    const double *weakened = points.data(weakened_);
+    double       *factor   = points.data(strength_factor);
+    for (unsigned int p = 0; p < points.size(); ++p)
+      factor[p] = 1. - weakened[p] * lost;
+  }
+
+
+
+  template <int dim>
+  std::string
+  Trigger<dim>::note() const
+  {
+    if (!changes_strength() && seabed_fraction_ == 1.)
+      return "";
+    std::string what;
+    if (changes_strength())
+      what = text("the strength of the soil chosen in the section Trigger "
+                  "falls to ",
+                  strength_fraction_,
+                  " of itself");
+    if (seabed_fraction_ != 1.)
+      what += text(what.empty() ? "" : ", and ",
+                   "the seabed's maximum shear stress falls to ",
+                   seabed_fraction_,
+                   " of itself");
+    const std::string when =
+      duration_ > 0.
+        ? text(
+            "From t = ", start_time_, " s to ", start_time_ + duration_, " s ")
+        : text("At t = ", start_time_, " s ");
+    return when + what + ".";
+  }
+
+
+
+  template class Trigger<2>;
+  template class Trigger<3>;
+} // namespace talus
