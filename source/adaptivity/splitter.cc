@@ -56,10 +56,10 @@ namespace talus
   template <int dim>
   template <typename Number>
   TALUS_ALWAYS_INLINE auto
-  Splitter<dim>::violates(const PointsView<dim, const double> &points,
-                          const unsigned int                   p,
-                          const unsigned int                   d,
-                          const double                         cell_size) const
+  Splitter<dim>::exceeds_threshold(const PointsView<dim, const double> &points,
+                                   const unsigned int                   p,
+                                   const unsigned int                   d,
+                                   const double cell_size) const
   {
     const Number stretch = load<Number>(points.data(points.stretch, d) + p);
     const Number at_creation =
@@ -83,7 +83,7 @@ namespace talus
   {
     unsigned int axes = 0;
     for (unsigned int d = 0; d < dim; ++d)
-      if (violates<double>(points.view(), p, d, cell_size))
+      if (exceeds_threshold<double>(points.view(), p, d, cell_size))
         axes |= 1u << d;
     return axes;
   }
@@ -101,13 +101,13 @@ namespace talus
     bool       found   = false;
     for_each_simd(
       begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-        using Number         = decltype(number);
-        auto may_be_violated = violates<Number>(columns, p, 0, cell_size);
+        using Number    = decltype(number);
+        auto may_exceed = exceeds_threshold<Number>(columns, p, 0, cell_size);
         for (unsigned int d = 1; d < dim; ++d)
-          may_be_violated |= violates<Number>(columns, p, d, cell_size);
-        found |= any(may_be_violated &
-                     (load<Number>(columns.data(columns.generation) + p) <
-                      Number(maximum_generation_)));
+          may_exceed |= exceeds_threshold<Number>(columns, p, d, cell_size);
+        found |=
+          any(may_exceed & (load<Number>(columns.data(columns.generation) + p) <
+                            Number(maximum_generation_)));
       });
     return found;
   }
@@ -261,7 +261,7 @@ namespace talus
 
   template <int dim>
   void
-  Splitter<dim>::find(const Points<dim> &points,
+  Splitter<dim>::mark(const Points<dim> &points,
                       const Batch       &batch,
                       const Grid<dim>   &grid,
                       const BoxRule      rule)
@@ -312,9 +312,9 @@ namespace talus
 
   template <int dim>
   bool
-  Splitter<dim>::enforce(Points<dim>               &points,
-                         const BoxRule              rule,
-                         std::vector<unsigned int> &points_out_of_cell)
+  Splitter<dim>::split_marked(Points<dim>               &points,
+                              const BoxRule              rule,
+                              std::vector<unsigned int> &points_out_of_cell)
   {
     if (violations_.empty())
       return false;
@@ -452,6 +452,29 @@ namespace talus
         offset.move(points, q, i);
         ledger_.enter(points, q, -1.);
       }
+  }
+
+
+
+  template <int dim>
+  void
+  Splitter<dim>::list_quantities(const State<dim> &state,
+                                 Quantities       &list) const
+  {
+    const MPI_Comm communicator = state.communicator();
+    const auto     add = [&list](const std::string &name, const double value) {
+      list.push_back({name, "", value});
+    };
+    add("splits", Utilities::MPI::sum(statistics_.n_splits, communicator));
+    add("largest generation",
+        Utilities::MPI::max(statistics_.largest_generation, communicator));
+    add("clipped boxes",
+        Utilities::MPI::sum(
+          count_clipped_boxes(state.points, state.grid, state.box_shape),
+          communicator));
+    list.push_back({"split ledger",
+                    "-",
+                    Utilities::MPI::max(statistics_.ledger, communicator)});
   }
 
 

@@ -141,7 +141,7 @@ namespace talus
   Boundaries<dim>::add_tractions(NodalFields<dim> &nodes,
                                  const Grid<dim>  &grid,
                                  const double      t,
-                                 const double      least_mass)
+                                 const double      mass_cutoff)
   {
     loaded_.clear();
     if (std::count(conditions_.begin(),
@@ -149,7 +149,7 @@ namespace talus
                    FaceCondition::traction) == 0)
       return;
     for (const unsigned int node : nodes.active_boundary_nodes())
-      if (nodes.mass(node) > least_mass)
+      if (nodes.mass(node) > mass_cutoff)
         for_faces_with(FaceCondition::traction,
                        grid.faces_of_node(node),
                        [&](const unsigned int face) {
@@ -174,7 +174,7 @@ namespace talus
                                  const unsigned int node,
                                  const double       t,
                                  const double       dt,
-                                 BoundaryWork<dim> &work)
+                                 Works<dim>        &work)
   {
     const unsigned char faces = grid.faces_of_node(node);
     Tensor<1, dim>      contact, friction, wall;
@@ -201,16 +201,16 @@ namespace talus
 
 
   template <int dim>
-  BoundaryWork<dim>
+  Works<dim>
   Boundaries<dim>::apply(NodalFields<dim> &nodes,
                          const Grid<dim>  &grid,
                          const double      t,
                          const double      dt,
-                         const double      least_mass)
+                         const double      mass_cutoff)
   {
-    BoundaryWork<dim> work;
+    Works<dim> work;
     for (const unsigned int node : nodes.active_boundary_nodes())
-      if (nodes.mass(node) > least_mass)
+      if (nodes.mass(node) > mass_cutoff)
         apply_to_node(nodes, grid, node, t, dt, work);
     for (const auto &[node, force] : loaded_)
       {

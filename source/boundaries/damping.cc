@@ -29,13 +29,13 @@ namespace talus
   Damping<dim>::apply(NodalFields<dim>      &nodes,
                       const Grid<dim>       &grid,
                       const Boundaries<dim> &boundaries,
-                      const double           least_mass) const
+                      const double           mass_cutoff) const
   {
     double work = 0;
     if (coefficient_ == 0)
       return work;
     for (const unsigned int node : nodes.active_nodes())
-      if (nodes.mass(node) > least_mass)
+      if (nodes.mass(node) > mass_cutoff)
         {
           const unsigned char faces = grid.faces_of_node(node);
           const unsigned char held =

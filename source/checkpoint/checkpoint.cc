@@ -56,6 +56,18 @@ namespace talus
 
   template <int dim>
   void
+  Checkpoint<dim>::check_nothing_is_lost(
+    const std::filesystem::path &output_folder,
+    const MPI_Comm               communicator) const
+  {
+    if (!may_overwrite_)
+      check_nothing_unfinished(output_folder, communicator);
+  }
+
+
+
+  template <int dim>
+  void
   Checkpoint<dim>::begin(const fs::path &output_folder,
                          const MPI_Comm  communicator,
                          const fs::path &resumed_from)

@@ -125,19 +125,20 @@ namespace talus
 
   template <int dim>
   void
-  Equilibrium<dim>::return_stress(Soil<dim> &soil)
+  Equilibrium<dim>::return_stress(StaticProblem<dim> &problem)
   {
-    newton_.begin(soil, newton_parameters_);
-    newton_.accept(soil); // no displacements
+    newton_.begin(problem, newton_parameters_);
+    newton_.accept(problem); // no displacements
   }
 
 
 
   template <int dim>
   bool
-  Equilibrium<dim>::advance(Soil<dim> &soil, const Observer &observe)
+  Equilibrium<dim>::advance(StaticProblem<dim> &problem,
+                            const Observer     &observe)
   {
-    newton_.begin(soil, parameters_of_step());
+    newton_.begin(problem, parameters_of_step());
     imbalance_ = newton_.imbalance();
     if (load_ >= 1. && imbalance_ <= limits_.allowed_imbalance)
       {
@@ -160,7 +161,7 @@ namespace talus
                         place);
         return false;
       }
-    return take_step(soil, observe);
+    return take_step(problem, observe);
   }
 
 
@@ -203,7 +204,8 @@ namespace talus
   /// One step, as large as it succeeds; the first trial is never too small.
   template <int dim>
   bool
-  Equilibrium<dim>::take_step(Soil<dim> &soil, const Observer &observe)
+  Equilibrium<dim>::take_step(StaticProblem<dim> &problem,
+                              const Observer     &observe)
   {
     const double rest = 1. - load_;
     const bool   all  = !(rest > 1.0001 * step_);
@@ -214,7 +216,7 @@ namespace talus
         const double share = cut * (all ? 1. : step_ / rest);
         const double after = (all && cut == 1. ? 1. : load_ + share * rest);
         const auto   outcome =
-          newton_.solve(soil, share, [&](const NewtonIteration &iteration) {
+          newton_.solve(problem, share, [&](const NewtonIteration &iteration) {
             observe({n_steps_ + 1, after, iteration});
           });
         if (!outcome.converged)
@@ -222,7 +224,7 @@ namespace talus
             failure_ = outcome.failure;
             continue;
           }
-        newton_.accept(soil);
+        newton_.accept(problem);
         n_settling_ += (load_ >= 1.);
         load_ = after;
         step_ = std::min(1.5 * cut * step_, 1. / limits_.n_load_steps);

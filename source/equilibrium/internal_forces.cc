@@ -7,12 +7,12 @@ namespace talus
 
   template <int dim>
   void
-  InternalForces<dim>::set_gradients(Soil<dim>                 &soil,
+  InternalForces<dim>::set_gradients(StaticProblem<dim>        &problem,
                                      const KeptWeights<dim>    &weights,
                                      const std::vector<double> &u) const
   {
-    Points<dim> &points = soil.points;
-    soil.workspace.reinit(0, points.size());
+    Points<dim> &points = problem.state.points;
+    problem.state.workspace.reinit(0, points.size());
     for (unsigned int c = 0; c < weights.cells().size(); ++c)
       {
         const Batch &cell  = weights.cells()[c];
@@ -26,39 +26,42 @@ namespace talus
                 H[i] += u[dim * patch.nodes[a] + i] * weight[a].gradient;
             for (unsigned int i = 0; i < dim; ++i)
               for (unsigned int j = 0; j < dim; ++j)
-                soil.workspace.velocity_gradient(i, j)[p] = H[i][j];
+                problem.state.workspace.velocity_gradient(i, j)[p] = H[i][j];
           }
       }
-    soil.transfer.average_dilatation(points, soil.workspace, points.all());
+    problem.transfer.average_dilatation(points,
+                                        problem.state.workspace,
+                                        points.all());
   }
 
 
 
   template <int dim>
   bool
-  InternalForces<dim>::evaluate(Soil<dim>                 &soil,
+  InternalForces<dim>::evaluate(StaticProblem<dim>        &problem,
                                 const KeptWeights<dim>    &weights,
                                 const std::vector<double> &u,
                                 std::vector<double>       &forces)
   {
-    Points<dim> &points = soil.points;
-    set_gradients(soil, weights, u);
+    Points<dim> &points = problem.state.points;
+    set_gradients(problem, weights, u);
     answers_.resize(points.size());
     volumes_.resize(points.size());
     bool sound = true;
-    soil.materials.for_runs(points,
-                            points.all(),
-                            [&](const MaterialModel<dim> &model,
-                                const unsigned int        begin,
-                                const unsigned int        end) {
-                              sound = sound &&
-                                      model.linearize(points,
-                                                      soil.workspace,
-                                                      begin,
-                                                      end,
-                                                      measure_,
-                                                      answers_.data() + begin);
-                            });
+    problem.materials.for_runs(points,
+                               points.all(),
+                               [&](const MaterialModel<dim> &model,
+                                   const unsigned int        begin,
+                                   const unsigned int        end) {
+                                 sound =
+                                   sound &&
+                                   model.linearize(points,
+                                                   problem.state.workspace,
+                                                   begin,
+                                                   end,
+                                                   measure_,
+                                                   answers_.data() + begin);
+                               });
     if (!sound)
       return false;
     volumes_of_mean_.resize(points.size());
@@ -70,7 +73,7 @@ namespace talus
             determinant(
               load_matrix<dim, double>(points, points.deformation_gradient, p));
           volumes_of_mean_[p] =
-            soil.transfer.uses_cell_mean(segment.body) ? volumes_[p] : 0.;
+            problem.transfer.uses_cell_mean(segment.body) ? volumes_[p] : 0.;
         }
     for (unsigned int c = 0; c < weights.cells().size(); ++c)
       add_forces_of_cell(c, weights, forces);

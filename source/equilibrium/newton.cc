@@ -67,10 +67,11 @@ namespace talus
   /// rank would be turned inside out.
   template <int dim>
   bool
-  Newton<dim>::evaluate(Soil<dim> &soil, const std::vector<double> &u)
+  Newton<dim>::evaluate(StaticProblem<dim>        &problem,
+                        const std::vector<double> &u)
   {
     std::vector<double> forces = unknowns_.field();
-    const bool sound = internal_forces_.evaluate(soil, weights_, u, forces);
+    const bool sound = internal_forces_.evaluate(problem, weights_, u, forces);
     if (!Utilities::MPI::logical_or(!sound, unknowns_.communicator()))
       {
         ghost_.add_forces(u, forces);
@@ -104,9 +105,9 @@ namespace talus
 
   template <int dim>
   typename Newton<dim>::Outcome
-  Newton<dim>::solve(Soil<dim>      &soil,
-                     const double    share,
-                     const Observer &observe)
+  Newton<dim>::solve(StaticProblem<dim> &problem,
+                     const double        share,
+                     const Observer     &observe)
   {
     target_ = internal_;
     for (std::size_t i = 0; i < target_.size(); ++i)
@@ -114,7 +115,7 @@ namespace talus
     contact_.add_contact_force(-(1. - share), target_);
     u_                               = unknowns_.field();
     const StaticContact<dim> before  = contact_;
-    const Outcome            outcome = seek(soil, observe);
+    const Outcome            outcome = seek(problem, observe);
     if (!outcome.converged)
       contact_ = before;
     return outcome;
@@ -124,13 +125,13 @@ namespace talus
 
   template <int dim>
   typename Newton<dim>::Outcome
-  Newton<dim>::seek(Soil<dim> &soil, const Observer &observe)
+  Newton<dim>::seek(StaticProblem<dim> &problem, const Observer &observe)
   {
     // A node of the seabed may change its mind some times.
     for (unsigned int trial = 0; trial < 50; ++trial)
       {
-        unknowns_.hold(contact_.held(soil, unknowns_));
-        const Outcome outcome = iterate(soil, observe);
+        unknowns_.hold(contact_.held(problem, unknowns_));
+        const Outcome outcome = iterate(problem, observe);
         if (!outcome.converged)
           {
             if (moves_freely_ &&
@@ -143,7 +144,7 @@ namespace talus
         std::vector<double> reaction = residual_;
         for (double &force : reaction)
           force = -force;
-        if (contact_.revise(soil, unknowns_, reaction, u_) == 0)
+        if (contact_.revise(problem, unknowns_, reaction, u_) == 0)
           return outcome;
         unknowns_.copy_to_ghosts(u_);
       }
@@ -154,9 +155,9 @@ namespace talus
 
   template <int dim>
   typename Newton<dim>::Outcome
-  Newton<dim>::iterate(Soil<dim> &soil, const Observer &observe)
+  Newton<dim>::iterate(StaticProblem<dim> &problem, const Observer &observe)
   {
-    if (!evaluate(soil, u_))
+    if (!evaluate(problem, u_))
       return failure("A point would be turned inside out");
     for (unsigned int i = 0;; ++i)
       {
@@ -178,7 +179,7 @@ namespace talus
                                             parameters_.tolerance,
                                             " was asked for"));
           }
-        const std::string complaint = correct(soil, iteration);
+        const std::string complaint = correct(problem, iteration);
         observe(iteration);
         if (!complaint.empty())
           return failure(
@@ -190,7 +191,7 @@ namespace talus
 
   template <int dim>
   std::string
-  Newton<dim>::correct(Soil<dim> &soil, NewtonIteration &iteration)
+  Newton<dim>::correct(StaticProblem<dim> &problem, NewtonIteration &iteration)
   {
     const auto start = std::chrono::steady_clock::now();
     moves_freely_    = false;
@@ -240,7 +241,7 @@ namespace talus
     if (moves_freely_)
       return "the matrix is singular or nearly so: part of the soil can move "
              "freely";
-    iteration.length = search_along(soil, direction);
+    iteration.length = search_along(problem, direction);
     iteration.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
         .count();
@@ -254,7 +255,7 @@ namespace talus
   /// direction; 0 if no point along it is sound.
   template <int dim>
   double
-  Newton<dim>::search_along(Soil<dim>                 &soil,
+  Newton<dim>::search_along(StaticProblem<dim>        &problem,
                             const std::vector<double> &direction)
   {
     const double        work_before = unknowns_.product(direction, residual_);
@@ -265,7 +266,7 @@ namespace talus
       {
         for (std::size_t i = 0; i < u.size(); ++i)
           u[i] = u_[i] + length * direction[i];
-        if (!evaluate(soil, u))
+        if (!evaluate(problem, u))
           {
             length *= 0.5;
             continue;
@@ -327,18 +328,21 @@ namespace talus
 
   template <int dim>
   void
-  Newton<dim>::accept(Soil<dim> &soil)
+  Newton<dim>::accept(StaticProblem<dim> &problem)
   {
-    Points<dim> &points = soil.points;
-    internal_forces_.set_gradients(soil, weights_, u_);
-    soil.materials.for_runs(
-      points,
-      points.all(),
-      [&](const MaterialModel<dim> &model,
-          const unsigned int        begin,
-          const unsigned int        end) {
-        model.accept(points, soil.workspace, begin, end, parameters_.measure);
-      });
+    Points<dim> &points = problem.state.points;
+    internal_forces_.set_gradients(problem, weights_, u_);
+    problem.materials.for_runs(points,
+                               points.all(),
+                               [&](const MaterialModel<dim> &model,
+                                   const unsigned int        begin,
+                                   const unsigned int        end) {
+                                 model.accept(points,
+                                              problem.state.workspace,
+                                              begin,
+                                              end,
+                                              parameters_.measure);
+                               });
     if (parameters_.measure == StrainMeasure::small)
       return;
     const std::vector<double> u = at_points(points, u_);
@@ -346,10 +350,10 @@ namespace talus
       for (unsigned int d = 0; d < dim; ++d)
         points.data(points.position, d)[p] += u[dim * p + d];
     update_stretch(points,
-                   soil.workspace,
+                   problem.state.workspace,
                    0,
                    points.size(),
-                   soil.transfer.box_shape().rule,
+                   problem.transfer.box_shape().rule,
                    /*dt=*/1.);
   }
 

@@ -18,13 +18,14 @@ namespace talus
     /// Largest shear modulus of the bodies, Pa.
     template <int dim>
     double
-    largest_shear_modulus(const Soil<dim> &soil)
+    largest_shear_modulus(const StaticProblem<dim> &problem)
     {
       double result = 0;
-      for (const Segment &segment : soil.points.segments())
-        result = std::max(result,
-                          soil.materials.of_body(segment.body).shear_modulus());
-      return Utilities::MPI::max(result, soil.grid.communicator());
+      for (const Segment &segment : problem.state.points.segments())
+        result =
+          std::max(result,
+                   problem.materials.of_body(segment.body).shear_modulus());
+      return Utilities::MPI::max(result, problem.state.grid.communicator());
     }
   } // namespace
 
@@ -32,37 +33,40 @@ namespace talus
 
   template <int dim>
   void
-  Newton<dim>::begin(Soil<dim> &soil, const Parameters &parameters)
+  Newton<dim>::begin(StaticProblem<dim> &problem, const Parameters &parameters)
   {
     parameters_      = parameters;
     internal_forces_ = InternalForces<dim>(parameters.measure);
-    places_          = places_of_owned_nodes(soil.grid);
-    extent_ = soil.grid.domain().lower.distance(soil.grid.domain().upper);
-    sum_forces(soil);
-    unknowns_.number(soil.nodes, soil.grid, soil.least_mass);
-    weights_.compute(soil.points,
-                     soil.grid,
-                     soil.transfer.box_shape(),
+    places_          = places_of_owned_nodes(problem.state.grid);
+    extent_          = problem.state.grid.domain().lower.distance(
+      problem.state.grid.domain().upper);
+    sum_forces(problem);
+    unknowns_.number(problem.state.nodes,
+                     problem.state.grid,
+                     problem.state.mass_cutoff);
+    weights_.compute(problem.state.points,
+                     problem.state.grid,
+                     problem.transfer.box_shape(),
                      unknowns_);
-    ghost_.find_faces(soil.grid,
+    ghost_.find_faces(problem.state.grid,
                       unknowns_,
                       parameters.ghost_penalty,
-                      largest_shear_modulus(soil));
-    contact_.begin(soil, unknowns_);
-    unknowns_.hold(contact_.held(soil, unknowns_));
+                      largest_shear_modulus(problem));
+    contact_.begin(problem, unknowns_);
+    unknowns_.hold(contact_.held(problem, unknowns_));
     make_pattern();
-    make_rigid_modes(soil.grid);
+    make_rigid_modes(problem.state.grid);
 
     u_ = last_correction_ = unknowns_.field();
     mechanism_.resize(u_.size(), 0.);
     internal_   = unknowns_.field();
     unbalanced_ = unknowns_.field();
-    internal_forces_.evaluate(soil, weights_, u_, internal_);
+    internal_forces_.evaluate(problem, weights_, u_, internal_);
     unknowns_.add_to_owners(internal_);
     double external = 0, internal = 0;
     for (const unsigned int node : unknowns_.active_nodes())
       {
-        const Tensor<1, dim> force = soil.nodes.force(node);
+        const Tensor<1, dim> force = problem.state.nodes.force(node);
         for (unsigned int d = 0; d < dim; ++d)
           {
             const unsigned int i = dim * node + d;
@@ -71,9 +75,9 @@ namespace talus
             external += std::pow(unbalanced_[i] + internal_[i], 2);
           }
       }
-    reference_ = std::sqrt(
-      std::max(Utilities::MPI::sum(internal, soil.grid.communicator()),
-               Utilities::MPI::sum(external, soil.grid.communicator())));
+    reference_ = std::sqrt(std::max(
+      Utilities::MPI::sum(internal, problem.state.grid.communicator()),
+      Utilities::MPI::sum(external, problem.state.grid.communicator())));
   }
 
 
@@ -132,9 +136,9 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                                             \
-  template void Newton<dim>::begin(Soil<dim> &, const Parameters &); \
-  template void Newton<dim>::make_pattern();                         \
+#define INSTANTIATE(dim)                                                      \
+  template void Newton<dim>::begin(StaticProblem<dim> &, const Parameters &); \
+  template void Newton<dim>::make_pattern();                                  \
   template void Newton<dim>::make_rigid_modes(const Grid<dim> &);
 
   INSTANTIATE(2)

@@ -11,8 +11,8 @@ namespace talus
 
   template <int dim>
   void
-  StaticContact<dim>::begin(const Soil<dim>     &soil,
-                            const Unknowns<dim> &unknowns)
+  StaticContact<dim>::begin(const StaticProblem<dim> &problem,
+                            const Unknowns<dim>      &unknowns)
   {
     std::map<unsigned int, Contact> known;
     for (const Contact &contact : contacts_)
@@ -21,24 +21,27 @@ namespace talus
     const auto &active = unknowns.active_nodes();
     for (unsigned int k = 0; k < active.size(); ++k)
       for (unsigned int face = 0; face < 2 * dim; ++face)
-        if (const unsigned char faces = soil.grid.faces_of_node(active[k]);
+        if (const unsigned char faces =
+              problem.state.grid.faces_of_node(active[k]);
             (faces & (1u << face)) &&
-            soil.boundaries.condition(face) == FaceCondition::seabed)
+            problem.boundaries.condition(face) == FaceCondition::seabed)
           {
             Contact contact;
             contact.node  = active[k];
             contact.k     = k;
             contact.face  = face;
-            contact.walls = soil.boundaries.components_held_by_walls(faces);
-            contact.area =
-              contact_area(soil.nodes, soil.grid, face, contact.node);
+            contact.walls = problem.boundaries.components_held_by_walls(faces);
+            contact.area  = contact_area(problem.state.nodes,
+                                        problem.state.grid,
+                                        face,
+                                        contact.node);
             if (const auto before = known.find(contact.node);
                 before != known.end() && before->second.face == face)
               {
                 contact.state    = before->second.state;
                 contact.friction = before->second.friction;
                 contact.reaction = before->second.reaction;
-                limit_friction(contact, soil.boundaries.seabed());
+                limit_friction(contact, problem.boundaries.seabed());
               }
             contacts_.push_back(contact);
           }
@@ -48,13 +51,13 @@ namespace talus
 
   template <int dim>
   std::vector<unsigned char>
-  StaticContact<dim>::held(const Soil<dim>     &soil,
-                           const Unknowns<dim> &unknowns) const
+  StaticContact<dim>::held(const StaticProblem<dim> &problem,
+                           const Unknowns<dim>      &unknowns) const
   {
     std::vector<unsigned char> result;
     for (const unsigned int node : unknowns.active_nodes())
-      result.push_back(soil.boundaries.components_held_by_walls(
-        soil.grid.faces_of_node(node)));
+      result.push_back(problem.boundaries.components_held_by_walls(
+        problem.state.grid.faces_of_node(node)));
     for (const Contact &contact : contacts_)
       if (contact.state == State::sticks)
         result[contact.k] = (1u << dim) - 1;
@@ -172,7 +175,7 @@ namespace talus
 
   template <int dim>
   unsigned int
-  StaticContact<dim>::revise(const Soil<dim>           &soil,
+  StaticContact<dim>::revise(const StaticProblem<dim>  &problem,
                              const Unknowns<dim>       &unknowns,
                              const std::vector<double> &reaction,
                              std::vector<double>       &u)
@@ -192,10 +195,13 @@ namespace talus
             contact.reaction[d] = force[d];
         const double weight =
           force.norm() + unknowns.mass(contact.node) *
-                           soil.loads.acceleration_of_body[0].norm();
+                           problem.loads.acceleration_of_body[0].norm();
         const bool was_open = (contact.state == State::open);
-        if (!revise(
-              contact, soil.boundaries.seabed(), force, displacement, weight))
+        if (!revise(contact,
+                    problem.boundaries.seabed(),
+                    force,
+                    displacement,
+                    weight))
           continue;
         ++n_changes;
         if (was_open)

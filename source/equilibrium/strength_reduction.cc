@@ -121,7 +121,7 @@ namespace talus
 
 
   void
-  StrengthReduction::heed(const double factor, const bool stands)
+  StrengthReduction::record(const double factor, const bool stands)
   {
     if (!stands)
       {

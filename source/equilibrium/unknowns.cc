@@ -12,7 +12,7 @@ namespace talus
   void
   Unknowns<dim>::number(const NodalFields<dim> &nodes,
                         const Grid<dim>        &grid,
-                        const double            least_mass)
+                        const double            mass_cutoff)
   {
     communicator_ = grid.communicator();
     n_nodes_      = grid.n_nodes();
@@ -24,7 +24,7 @@ namespace talus
                                        active_nodes_.end(),
                                        [&](const unsigned int node) {
                                          return !(nodes.mass(node) >
-                                                  least_mass);
+                                                  mass_cutoff);
                                        }),
                         active_nodes_.end());
 

@@ -121,7 +121,7 @@ namespace talus
 
   template <int dim>
   void
-  NodalFields<dim>::update_momentum(const double dt, const double least_mass)
+  NodalFields<dim>::update_momentum(const double dt, const double mass_cutoff)
   {
     // The list goes from cell to cell, so that the machine does not see which
     // node will be next: ask for it some nodes before.
@@ -137,7 +137,7 @@ namespace talus
         const double *s            = sum(active_nodes_[i]);
         double       *v            = motion(active_nodes_[i]);
         const double  mass         = s[Sum::mass];
-        const double  inverse_mass = (mass > least_mass ? 1. / mass : 0.);
+        const double  inverse_mass = (mass > mass_cutoff ? 1. / mass : 0.);
         for (unsigned int d = 0; d < dim; ++d)
           {
             const double increment =

@@ -2,7 +2,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <array>
 #include <numeric>
+#include <string>
 
 namespace talus
 {
@@ -37,31 +39,43 @@ namespace talus
 
 
 
+    struct Term
+    {
+      const char *name;
+      double EnergyTerms::*value;
+    };
+
+    /// The terms but for what they leave, in the order of their columns.
+    constexpr std::array<Term, 8> terms = {
+      {{"kinetic energy", &EnergyTerms::kinetic},
+       {"grid kinetic energy", &EnergyTerms::grid_kinetic},
+       {"elastic energy", &EnergyTerms::elastic},
+       {"plastic work", &EnergyTerms::plastic},
+       {"friction work", &EnergyTerms::friction},
+       {"contact work", &EnergyTerms::contact},
+       {"damping work", &EnergyTerms::damping},
+       {"gravity work", &EnergyTerms::gravity}}};
+
+
+
     template <int dim>
     EnergyTerms
-    sum_terms(const Snapshot<dim> &snapshot)
+    sum_terms(const State<dim> &state)
     {
-      const Points<dim>    &points = snapshot.points;
-      std::array<double, 8> sums   = {{kinetic_energy(points),
-                                       snapshot.nodes.kinetic_energy(),
-                                       total(points, points.elastic_energy),
-                                       total(points, points.plastic_work),
-                                       snapshot.boundary_work.friction,
-                                       snapshot.boundary_work.contact,
-                                       snapshot.boundary_work.damping,
-                                       snapshot.gravity_work}};
-      Utilities::MPI::sum(ArrayView<const double>(sums.data(), sums.size()),
-                          snapshot.grid.communicator(),
-                          ArrayView<double>(sums.data(), sums.size()));
-      return {sums[0],
-              sums[1],
-              sums[2],
-              sums[3],
-              sums[4],
-              sums[5],
-              sums[6],
-              sums[7],
-              0.};
+      const Points<dim> &points = state.points;
+      EnergyTerms        result;
+      result.kinetic      = kinetic_energy(points);
+      result.grid_kinetic = state.nodes.kinetic_energy();
+      result.elastic      = total(points, points.elastic_energy);
+      result.plastic      = total(points, points.plastic_work);
+      result.friction     = state.works.friction;
+      result.contact      = state.works.contact;
+      result.damping      = state.works.damping;
+      result.gravity      = state.works.gravity;
+      for (const Term &term : terms)
+        result.*term.value =
+          Utilities::MPI::sum(result.*term.value, state.communicator());
+      return result;
     }
   } // namespace
 
@@ -69,18 +83,18 @@ namespace talus
 
   template <int dim>
   void
-  EnergyBudget<dim>::begin(const Snapshot<dim> &snapshot)
+  EnergyBudget<dim>::begin(const State<dim> &state)
   {
-    start_ = sum_terms(snapshot);
+    start_ = sum_terms(state);
   }
 
 
 
   template <int dim>
   EnergyTerms
-  EnergyBudget<dim>::evaluate(const Snapshot<dim> &snapshot) const
+  EnergyBudget<dim>::evaluate(const State<dim> &state) const
   {
-    EnergyTerms now = sum_terms(snapshot);
+    EnergyTerms now = sum_terms(state);
     now.remainder =
       (now.gravity - start_.gravity) - (now.kinetic - start_.kinetic) -
       (now.elastic - start_.elastic) - (now.plastic - start_.plastic) -
@@ -93,19 +107,26 @@ namespace talus
 
   template <int dim>
   void
+  EnergyBudget<dim>::list_quantities(const State<dim> &state,
+                                     Quantities       &list) const
+  {
+    const EnergyTerms now = evaluate(state);
+    for (const Term &term : terms)
+      list.push_back({term.name, "J", now.*term.value});
+    list.push_back({"energy remainder", "J", now.remainder});
+  }
+
+
+
+  template <int dim>
+  void
   EnergyBudget<dim>::list_state(StateList &list)
   {
-    const auto add = [&list](const std::string &name, double &value) {
-      list.add(name + " at the start", "J", value, Reduction::equal);
-    };
-    add("kinetic energy", start_.kinetic);
-    add("grid kinetic energy", start_.grid_kinetic);
-    add("elastic energy", start_.elastic);
-    add("plastic work", start_.plastic);
-    add("friction work", start_.friction);
-    add("contact work", start_.contact);
-    add("damping work", start_.damping);
-    add("gravity work", start_.gravity);
+    for (const Term &term : terms)
+      list.add(std::string(term.name) + " at the start",
+               "J",
+               start_.*term.value,
+               Reduction::equal);
   }
 
 

@@ -186,8 +186,28 @@ namespace talus
 
 
 
+  template <int dim>
+  void
+  list_fractures(const State<dim> &state, Quantities &list)
+  {
+    const FractureCounts counts = count_fractures(state.points, state.grid);
+    const auto add = [&list](const std::string &name, const double value) {
+      list.push_back({name, "", value});
+    };
+    add("empty interior cells", counts.empty_interior_cells);
+    add("empty columns", counts.empty_columns);
+    add("connected bodies", counts.connected_bodies);
+    add("cells with one point", counts.cells_with_one_point);
+  }
+
+
+
   template FractureCounts
   count_fractures(const Points<2> &, const Grid<2> &);
   template FractureCounts
   count_fractures(const Points<3> &, const Grid<3> &);
+  template void
+  list_fractures(const State<2> &, Quantities &);
+  template void
+  list_fractures(const State<3> &, Quantities &);
 } // namespace talus

@@ -10,9 +10,10 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  Output<dim>::Output(PhaseTimer &timer)
+  Output<dim>::Output(PhaseTimer &timer, Log &log)
     : ParameterAcceptor("/Output")
     , timer_(timer)
+    , log_(log)
   {
     add_parameter("Folder",
                   folder_,
@@ -95,11 +96,11 @@ namespace talus
 
   template <int dim>
   void
-  Output<dim>::begin(const Snapshot<dim> &snapshot,
-                     const double         end_time,
-                     const Beginning      beginning)
+  Output<dim>::begin(const State<dim> &state,
+                     const double      end_time,
+                     const Beginning   beginning)
   {
-    const MPI_Comm communicator = snapshot.grid.communicator();
+    const MPI_Comm communicator = state.grid.communicator();
     if (is_first_rank(communicator))
       {
         make_folder(folder_);
@@ -107,17 +108,17 @@ namespace talus
         // an earlier file only on success.
         write_run_record(std::filesystem::path(folder_) / "parameters.prm",
                          this->prm);
-        log_.open(std::filesystem::path(folder_) / "log.txt", beginning);
       }
+    log_.open(folder_, beginning);
     MPI_Barrier(communicator);
 
-    progress_.begin(snapshot.time, end_time, communicator);
-    row_times_.begin(statistics_interval_, snapshot.time);
-    statistics_.begin(folder_, snapshot, beginning);
+    progress_.begin(state.time, end_time, communicator);
+    row_times_.begin(statistics_interval_, state.time);
+    statistics_.begin(folder_, state, beginning);
 
-    field_times_.begin(field_interval_, snapshot.time);
+    field_times_.begin(field_interval_, state.time);
     if (write_runout_)
-      profile_.begin(folder_, snapshot.grid, beginning);
+      profile_.begin(folder_, state.grid, beginning);
     points_output_.begin(
       folder_, communicator, boxes_as_cells_, format(), beginning);
     grid_output_.begin(folder_, communicator, format(), beginning);
@@ -127,14 +128,14 @@ namespace talus
 
   template <int dim>
   void
-  Output<dim>::start(const Snapshot<dim> &snapshot)
+  Output<dim>::start(const State<dim> &state)
   {
     if (has_started_)
       return;
     has_started_ = true;
-    statistics_.add_first_row(snapshot);
-    step_of_last_row_ = snapshot.step;
-    write_fields(snapshot);
+    statistics_.add_first_row(state);
+    step_of_last_row_ = state.step;
+    write_fields(state);
   }
 
 
@@ -159,11 +160,11 @@ namespace talus
 
   template <int dim>
   void
-  Output<dim>::check_resumable(const Snapshot<dim> &snapshot) const
+  Output<dim>::check_resumable(const State<dim> &state) const
   {
-    const MPI_Comm                 communicator = snapshot.grid.communicator();
+    const MPI_Comm                 communicator = state.grid.communicator();
     const std::filesystem::path    folder       = folder_;
-    const std::vector<std::string> columns      = statistics_.names(snapshot);
+    const std::vector<std::string> columns      = statistics_.names(state);
     std::string                    complaint;
     if (is_first_rank(communicator))
       {
@@ -198,37 +199,24 @@ namespace talus
 
 
   template <int dim>
-  void
-  Output<dim>::note(const std::string &sentence, const bool on_terminal)
-  {
-    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
-      return;
-    log_.add_line(sentence);
-    if (on_terminal && stdout_is_terminal())
-      std::cout << sentence << std::endl;
-  }
-
-
-
-  template <int dim>
   bool
-  Output<dim>::observe(const Snapshot<dim> &snapshot, const bool last)
+  Output<dim>::observe(const State<dim> &state, const bool last)
   {
-    progress_.count_step(snapshot.points.size());
-    const bool row_due = row_times_.reached(snapshot.time) ||
-                         (last && step_of_last_row_ != snapshot.step);
-    const bool fields_due = field_times_.reached(snapshot.time) ||
-                            (last && step_of_last_fields_ != snapshot.step);
+    progress_.count_step(state.points.size());
+    const bool row_due = row_times_.reached(state.time) ||
+                         (last && step_of_last_row_ != state.step);
+    const bool fields_due = field_times_.reached(state.time) ||
+                            (last && step_of_last_fields_ != state.step);
     if (row_due)
-      write_row(snapshot);
+      write_row(state);
     if (fields_due)
-      write_fields(snapshot);
+      write_fields(state);
     if (last)
       {
         for (const std::string &line :
-             phase_times(timer_, snapshot.grid.communicator()))
-          note(line, true);
-        progress_.finish(snapshot.time, snapshot.points.size());
+             phase_times(timer_, state.grid.communicator()))
+          log_.say(LogLevel::info, line);
+        progress_.finish(state.time, state.points.size());
       }
     return fields_due;
   }
@@ -237,28 +225,28 @@ namespace talus
 
   template <int dim>
   void
-  Output<dim>::write_row(const Snapshot<dim> &snapshot)
+  Output<dim>::write_row(const State<dim> &state)
   {
     const PhaseTimer::Scope scope(timer_, "output");
-    statistics_.add_row(snapshot);
-    progress_.print_line(snapshot.time, snapshot.points.size());
-    step_of_last_row_ = snapshot.step;
+    statistics_.add_row(state);
+    progress_.print_line(state.time, state.points.size());
+    step_of_last_row_ = state.step;
   }
 
 
 
   template <int dim>
   void
-  Output<dim>::write_fields(const Snapshot<dim> &snapshot)
+  Output<dim>::write_fields(const State<dim> &state)
   {
     const PhaseTimer::Scope scope(timer_, "output");
     if (write_runout_)
-      profile_.add_rows(snapshot);
+      profile_.add_rows(state);
     if (write_points_)
-      points_output_.write(snapshot);
+      points_output_.write(state);
     if (write_grid_)
-      grid_output_.write(snapshot);
-    step_of_last_fields_ = snapshot.step;
+      grid_output_.write(state);
+    step_of_last_fields_ = state.step;
   }
 
 
@@ -274,18 +262,18 @@ namespace talus
 
   template <int dim>
   void
-  Output<dim>::write_mechanism(const Snapshot<dim>       &snapshot,
+  Output<dim>::write_mechanism(const State<dim>          &state,
                                const std::string         &name,
                                const std::vector<double> &mechanism) const
   {
     PointsOutput<dim> output;
     output.begin(folder_,
-                 snapshot.grid.communicator(),
+                 state.grid.communicator(),
                  boxes_as_cells_,
                  format(),
                  Beginning::anew,
                  name);
-    output.write(snapshot,
+    output.write(state,
                  {{"mechanism [-]",
                    FieldKind::vector,
                    dim,
@@ -299,9 +287,9 @@ namespace talus
 
   template <int dim>
   std::string
-  Output<dim>::write_last_state(const Snapshot<dim> &snapshot) const
+  Output<dim>::write_last_state(const State<dim> &state) const
   {
-    const MPI_Comm    communicator = snapshot.grid.communicator();
+    const MPI_Comm    communicator = state.grid.communicator();
     const std::string rank =
       (Utilities::MPI::n_mpi_processes(communicator) == 1
          ? ""
@@ -310,7 +298,7 @@ namespace talus
     const std::filesystem::path path =
       std::filesystem::path(folder_) / ("last-state" + rank + ".vtu");
     make_folder(folder_);
-    write_points(snapshot, path);
+    write_points(state, path);
     return path.string();
   }
 

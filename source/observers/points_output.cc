@@ -112,7 +112,7 @@ namespace talus
       fields.push_back({"box length [m]",
                         FieldKind::vector,
                         dim,
-                        [snapshot](const unsigned int p, float *values) {
+                        [&snapshot](const unsigned int p, float *values) {
                           const auto lengths = box_lengths(snapshot, p);
                           for (unsigned int d = 0; d < dim; ++d)
                             values[d] = lengths[d];

@@ -109,13 +109,13 @@ namespace talus
     /// Add to @p columns what each has of point @p p.
     template <int dim>
     void
-    add_point(const Snapshot<dim>    &snapshot,
+    add_point(const State<dim>       &state,
               const CellLattice<dim> &lattice,
               const unsigned int      p,
               Columns                &columns)
     {
-      const Points<dim> &points  = snapshot.points;
-      const auto         lengths = box_lengths(snapshot, p);
+      const Points<dim> &points  = state.points;
+      const auto         lengths = box_lengths(state, p);
       const Sums         whole   = whole_point(points, 0.5 * lengths[1], p);
       const auto         along   = [&](const unsigned int d) {
         return shares_along(d,
@@ -143,13 +143,13 @@ namespace talus
 
     template <int dim>
     Columns
-    sum_columns(const Snapshot<dim> &snapshot)
+    sum_columns(const State<dim> &state)
     {
-      const Grid<dim>       &grid = snapshot.grid;
+      const Grid<dim>       &grid = state.grid;
       const CellLattice<dim> lattice(grid);
       Columns                columns;
-      for (unsigned int p = 0; p < snapshot.points.size(); ++p)
-        add_point(snapshot, lattice, p, columns);
+      for (unsigned int p = 0; p < state.points.size(); ++p)
+        add_point(state, lattice, p, columns);
 
       Columns all;
       for (const Columns &part :
@@ -164,12 +164,12 @@ namespace talus
 
   template <int dim>
   std::vector<ProfileColumn>
-  find_profile(const Snapshot<dim> &snapshot)
+  find_profile(const State<dim> &state)
   {
     using Lattice = CellLattice<dim>;
-    const Lattice              lattice(snapshot.grid);
+    const Lattice              lattice(state.grid);
     std::vector<ProfileColumn> profile;
-    for (const auto &[column, sums] : sum_columns(snapshot))
+    for (const auto &[column, sums] : sum_columns(state))
       {
         const typename Lattice::Key cell = Lattice::lowest_cell(column);
         profile.push_back({lattice.center(cell, 0),
@@ -220,14 +220,14 @@ namespace talus
 
   template <int dim>
   void
-  Profile<dim>::add_rows(const Snapshot<dim> &snapshot)
+  Profile<dim>::add_rows(const State<dim> &state)
   {
-    const auto profile = find_profile(snapshot);
-    if (Utilities::MPI::this_mpi_process(snapshot.grid.communicator()) != 0)
+    const auto profile = find_profile(state);
+    if (Utilities::MPI::this_mpi_process(state.grid.communicator()) != 0)
       return;
     for (const ProfileColumn &column : profile)
       {
-        std::vector<double> row = {snapshot.time,
+        std::vector<double> row = {state.time,
                                    column.x,
                                    column.lowest,
                                    column.highest,
@@ -246,9 +246,9 @@ namespace talus
 
 
   template std::vector<ProfileColumn>
-  find_profile(const Snapshot<2> &);
+  find_profile(const State<2> &);
   template std::vector<ProfileColumn>
-  find_profile(const Snapshot<3> &);
+  find_profile(const State<3> &);
   template class Profile<2>;
   template class Profile<3>;
 } // namespace talus

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <iomanip>
 
-#include <unistd.h>
-
 namespace talus
 {
   using namespace dealii;
@@ -36,14 +34,6 @@ namespace talus
       return out.str();
     }
   } // namespace
-
-
-
-  bool
-  stdout_is_terminal()
-  {
-    return isatty(STDOUT_FILENO) == 1;
-  }
 
 
 

@@ -1,53 +1,30 @@
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
-#include <talus/problem/geostatic.h>
+#include <talus/base/interrupt.h>
+#include <talus/checkpoint/parameter_changes.h>
+#include <talus/io/run_record.h>
 #include <talus/simulation/simulation.h>
-#include <talus/transfer/far_points.h>
+#include <talus/version.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
 
 namespace talus
 {
   using namespace dealii;
 
-  namespace
-  {
-    /// Coverage and reach: the weights of every point sum to one. (Used in
-    /// Debug only.)
-    template <int dim>
-    [[maybe_unused]] bool
-    nobody_is_lost(const Points<dim>      &points,
-                   const NodalFields<dim> &nodes,
-                   const MPI_Comm          communicator)
-    {
-      const double *mass = points.data(points.mass);
-      const double  of_points =
-        Utilities::MPI::sum(std::accumulate(mass, mass + points.size(), 0.),
-                            communicator);
-      double of_nodes = 0;
-      for (const unsigned int node : nodes.active_nodes())
-        of_nodes += nodes.mass(node);
-      of_nodes = Utilities::MPI::sum(of_nodes, communicator);
-      return std::abs(of_nodes - of_points) <= 1e-12 * of_points;
-    }
-  } // namespace
-
-
-
   template <int dim>
   Simulation<dim>::Simulation(const Preview &preview)
     : ParameterAcceptor("/")
-    , grid_(MPI_COMM_WORLD)
-    , materials_(preview.materials)
-    , loading_(preview.folder)
-    , output_(timer_)
+    , state_(MPI_COMM_WORLD)
+    , problem_(preview)
+    , mesh_(state_, problem_, transfer_, timer_)
+    , scheme_(state_, problem_, transfer_, mesh_, timer_)
+    , output_(timer_, log_)
+    , static_stages_(
+        state_, problem_, transfer_, mesh_, scheme_.splitter(), output_, log_)
   {
-    for (const std::string &name : preview.bodies)
-      bodies_.push_back(std::make_unique<Body<dim>>(name));
-
     add_parameter("Title", title_, "One line about the case.");
     add_parameter("Dimension",
                   dimension_,
@@ -59,22 +36,9 @@ namespace talus
                   "The simulation runs from time 0 to this time [s].",
                   this->prm,
                   Patterns::Double(0.));
-    add_parameter(
-      "Initial velocity time",
-      initial_velocity_time_,
-      "Velocities live between the steps. 'start': take the initial "
-      "velocity at t = 0; 'half step': at t = -dt/2, which keeps "
-      "second order where the acceleration is not zero at the "
-      "start.",
-      this->prm,
-      Patterns::Selection("start|half step"));
-    enter_subsection("Bodies");
-    add_parameter(
-      "Names",
-      names_of_bodies_,
-      "Names of the bodies, separated by commas; each has a section "
-      "of that name.");
-    leave_subsection();
+    output_.add_quantities([this](const State<dim> &state, Quantities &list) {
+      scheme_.splitter().list_quantities(state, list);
+    });
   }
 
 
@@ -83,10 +47,10 @@ namespace talus
   void
   Simulation<dim>::set_up()
   {
-    set_up_laws();
-    create_mesh();
-    create_bodies();
-    share_out();
+    prepare();
+    mesh_.create();
+    create_points();
+    mesh_.repartition();
   }
 
 
@@ -94,88 +58,18 @@ namespace talus
   /// All that depends on the parameters only.
   template <int dim>
   void
-  Simulation<dim>::set_up_laws()
+  Simulation<dim>::prepare()
   {
-    constants_.values(); // throws, also where no expression needs them
-    stages_.check();
-    grid_.check();
+    static_stages_.check_list();
+    state_.grid.check();
     transfer_.check();
-    output_.check(damping_.coefficient());
-    std::vector<std::string> names, materials;
-    for (const auto &body : bodies_)
-      {
-        names.push_back(body->name());
-        materials.push_back(body->material());
-      }
-    materials_.assign(names, materials);
-    trigger_.check(names, materials_, boundaries_.has_seabed(), end_time_);
-    materials_.add_columns(points_,
-                           trigger_.changes_strength() ||
-                             stages_.contain(Stage::strength_reduction));
-    trigger_.add_columns(points_);
-    loading_.prepare(materials_, bodies_.size(), constants_);
-    boundaries_.prepare(constants_);
-    check_static_stages(names);
-
-    const auto                  may_move = faces_that_may_move();
-    std::array<double, 2 * dim> may_lie_outside;
-    std::vector<bool>           cell_mean;
-    for (unsigned int face = 0; face < 2 * dim; ++face)
-      may_lie_outside[face] = (may_move[face] ? 0. : 0.5);
-    for (unsigned int b = 0; b < bodies_.size(); ++b)
-      cell_mean.push_back(materials_.of_body(b).uses_cell_mean());
-    transfer_.use_cell_mean(cell_mean);
-    relocation_.allow_outside(may_lie_outside);
-  }
-
-
-
-  template <int dim>
-  void
-  Simulation<dim>::create_bodies()
-  {
-    for (unsigned int b = 0; b < bodies_.size(); ++b)
-      {
-        const MaterialModel<dim> &material = materials_.of_body(b);
-        const InitialState<dim>  &initial  = bodies_[b]->initial_state();
-        const unsigned int        begin    = points_.size();
-        initial.check(material);
-        bodies_[b]->create_points(grid_, b, material.density(), points_);
-        initial.set_velocity(points_, b, 0., constants_);
-        initial.deform(points_,
-                       begin,
-                       points_.size(),
-                       material,
-                       transfer_.box_shape().rule,
-                       constants_);
-        material.initialize(points_, begin, points_.size());
-      }
-    start_notes_ =
-      set_geostatic_stress(points_,
-                           bodies_,
-                           materials_,
-                           loading_.share_of_gravity(0.) * loading_.gravity(),
-                           grid_.communicator());
-    for (const auto &body : bodies_)
-      if (body->initial_state().is_displaced())
-        {
-          send_far_points(points_, grid_);
-          break;
-        }
-    trigger_.choose_points(points_, constants_, grid_.communicator());
-    number_points();
-    relocation_.update(points_, grid_);
-    nodes_.activate(grid_, relocation_.occupied_cells());
-
-    if (initial_velocity_time_ == "half step")
-      {
-        const double dt = std::min(allowed_time_step(), end_time_ - time_);
-        for (unsigned int b = 0; b < bodies_.size(); ++b)
-          bodies_[b]->initial_state().set_velocity(points_,
-                                                   b,
-                                                   -0.5 * dt,
-                                                   constants_);
-      }
+    output_.check(scheme_.damping().coefficient());
+    problem_.prepare(state_.points,
+                     static_stages_.stages().contain(Stage::strength_reduction),
+                     end_time_);
+    static_stages_.check();
+    transfer_.use_cell_mean(problem_.bodies_with_cell_mean());
+    state_.box_shape = transfer_.box_shape();
   }
 
 
@@ -183,187 +77,67 @@ namespace talus
   /// Ids are unique over all ranks, now and after splits.
   template <int dim>
   void
-  Simulation<dim>::number_points()
+  Simulation<dim>::create_points()
   {
-    const MPI_Comm     communicator = grid_.communicator();
+    Points<dim> &points = state_.points;
+    problem_.create_points(state_);
+
+    const MPI_Comm     communicator = state_.communicator();
     const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
-    const auto         counts =
-      Utilities::MPI::all_gather(communicator, points_.size());
-    double first = 0, n_points = 0;
+    const auto counts = Utilities::MPI::all_gather(communicator, points.size());
+    double     first = 0, n_points = 0;
     for (unsigned int r = 0; r < counts.size(); ++r)
       {
         first += (r < rank ? counts[r] : 0.);
         n_points += counts[r];
       }
-    for (unsigned int p = 0; p < points_.size(); ++p)
-      points_.data(points_.id)[p] = first + p;
-    splitter_.number_from(n_points + rank, counts.size());
+    for (unsigned int p = 0; p < points.size(); ++p)
+      points.data(points.id)[p] = first + p;
+    scheme_.splitter().number_from(n_points + rank, counts.size());
+
+    mesh_.insert_points();
+    if (problem_.has_velocity_of_half_step())
+      problem_.set_velocity(points,
+                            -0.5 * std::min(scheme_.stable_time_step(),
+                                            end_time_ - state_.time));
   }
 
 
 
   template <int dim>
   void
-  Simulation<dim>::advance()
+  Simulation<dim>::resume()
   {
-    adapt_mesh();
-    if (filter_.is_due(step_))
-      {
-        PhaseTimer::Scope scope(timer_, "filter");
-        filter_.apply(
-          points_, workspace_, grid_, nodes_, transfer_, least_mass_);
-      }
-    points_to_grid();
-    choose_time_step();
-    update_nodes();
-    grid_to_points();
-    split();
-    relocate(); // daughters, too: they may live next door
-    time_ += dt_;
-    ++step_;
-  }
+    prepare();
+    const MPI_Comm communicator = state_.communicator();
+    resumed_from_ = find_checkpoint(output_.folder(), dim, communicator);
+    Hdf5File          file(resumed_from_.path / state_file_name,
+                  Hdf5File::Access::read,
+                  communicator);
+    const std::string parameters = file.read_text("parameters");
+    check_read(file);
+    check_parameter_changes(parameters, parameters_as_text(this->prm));
 
-
-
-  // The step goes over the points twice, here and in grid_to_points(), batch by
-  // batch: what it needs of a point comes from memory once each time.
-  template <int dim>
-  void
-  Simulation<dim>::points_to_grid()
-  {
-    timer_.start_laps();
-    loading_.update(points_, time_);
-    nodes_.clear();
-    timer_.lap(PhaseTimer::points_to_grid);
-    time_step_.begin();
-    points_.for_batches([this](const Batch &batch) {
-      workspace_.reinit(batch.begin, batch.end);
-      time_step_.heed(points_, batch, grid_, materials_, transfer_.box_shape());
-      timer_.lap(PhaseTimer::time_step);
-      transfer_.average_mean_stress(points_, workspace_, batch);
-      transfer_.scatter(
-        points_, workspace_, batch, grid_, loading_.loads(), nodes_);
-      timer_.lap(PhaseTimer::points_to_grid);
-    });
-  }
-
-
-
-  template <int dim>
-  void
-  Simulation<dim>::choose_time_step()
-  {
-    // But for mesh tracking the only operation of all ranks in a step. The
-    // largest wish is the one that becomes the least.
-    PhaseTimer::Scope           scope(timer_, "messages");
-    const std::array<double, 2> local = {
-      {time_step_.of_heeded(points_, materials_),
-       -static_cast<double>(own_wish())}};
-    std::array<double, 2> all;
-    Utilities::MPI::min(ArrayView<const double>(local.data(), 2),
-                        grid_.communicator(),
-                        ArrayView<double>(all.data(), 2));
-    dt_   = std::min(all[0], end_time_ - time_);
-    wish_ = static_cast<Wish>(-all[1]);
-  }
-
-
-
-  template <int dim>
-  void
-  Simulation<dim>::update_nodes()
-  {
-    {
-      PhaseTimer::Scope scope(timer_, "messages");
-      nodes_.sum_over_ranks(grid_);
-    }
-    Assert(nobody_is_lost(points_, nodes_, grid_.communicator()),
-           ExcMessage("The nodes do not carry all mass of the points: a box "
-                      "reaches beyond the cells around its own."));
-    {
-      PhaseTimer::Scope scope(timer_, "nodal update");
-      boundaries_.add_tractions(nodes_, grid_, time_, least_mass_);
-      nodes_.update_momentum(dt_, least_mass_);
-      boundary_work_.damping +=
-        damping_.apply(nodes_, grid_, boundaries_, least_mass_);
-    }
-    {
-      PhaseTimer::Scope scope(timer_, "boundaries");
-      boundaries_.scale_seabed_shear_stress(
-        trigger_.seabed_factor(time_ + dt_));
-      boundary_work_ +=
-        boundaries_.apply(nodes_, grid_, time_, dt_, least_mass_);
-    }
-    PhaseTimer::Scope scope(timer_, "messages");
-    nodes_.share_with_ghosts(grid_);
-  }
-
-
-
-  template <int dim>
-  void
-  Simulation<dim>::grid_to_points()
-  {
-    timer_.start_laps();
-    trigger_.update(points_, materials_.strength_factor(), time_, time_ + dt_);
-    const BoxRule rule = transfer_.box_shape().rule;
-    points_.for_batches([&](const Batch &batch) {
-      workspace_.reinit(batch.begin, batch.end);
-      gravity_work_ += transfer_.gather(
-        nodes_, grid_, loading_.loads(), points_, workspace_, batch, dt_);
-      transfer_.average_dilatation(points_, workspace_, batch);
-      timer_.lap(PhaseTimer::grid_to_points);
-      materials_.update_stress(points_, workspace_, batch, dt_);
-      update_stretch(points_, workspace_, batch.begin, batch.end, rule, dt_);
-      timer_.lap(PhaseTimer::stress_update);
-      splitter_.find(points_, batch, grid_, rule);
-      timer_.lap(PhaseTimer::splitting);
-    });
-  }
-
-
-
-  template <int dim>
-  void
-  Simulation<dim>::split()
-  {
-    PhaseTimer::Scope scope(timer_, "splitting");
-    splitter_.enforce(points_,
-                      transfer_.box_shape().rule,
-                      workspace_.points_out_of_cell());
-  }
-
-
-
-  template <int dim>
-  void
-  Simulation<dim>::relocate()
-  {
-    PhaseTimer::Scope scope(timer_, "relocation");
-    const bool        other_cells =
-      relocation_.update_points_out_of_cell(points_,
-                                            grid_,
-                                            workspace_.points_out_of_cell());
-    if (other_cells)
-      nodes_.activate(grid_, relocation_.occupied_cells());
-  }
-
-
-
-  template <int dim>
-  Snapshot<dim>
-  Simulation<dim>::snapshot() const
-  {
-    return {points_,
-            grid_,
-            nodes_,
-            boundary_work_,
-            splitter_.statistics(),
-            step_,
-            time_,
-            dt_,
-            gravity_work_,
-            transfer_.box_shape()};
+    mesh_.load((resumed_from_.path / mesh_file_name).string(),
+               file,
+               resumed_from_.head);
+    load_state(file, list_state());
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    const unsigned int n_ranks_then = resumed_from_.head.n_ranks;
+    scheme_.splitter().number_on(Utilities::MPI::this_mpi_process(communicator),
+                                 n_ranks,
+                                 n_ranks_then);
+    if (n_ranks != n_ranks_then)
+      mesh_.repartition();
+    AssertThrow(end_time_ >= state_.time,
+                ExcUser(text("The end time is ",
+                             end_time_,
+                             " s, but the checkpoint '",
+                             resumed_from_.path.string(),
+                             "' is at t = ",
+                             state_.time,
+                             " s. Give a later 'End time'.")));
+    output_.check_resumable(state_);
   }
 
 
@@ -375,13 +149,13 @@ namespace talus
     begin_run();
     if (!run_static_stages())
       return false;
-    output_.start(snapshot());
+    output_.start(state_);
     while (!is_finished())
       {
-        advance();
-        if (output_.observe(snapshot(), time_ >= end_time_))
+        const RunRequest request = scheme_.advance(end_time_, own_request());
+        if (output_.observe(state_, state_.time >= end_time_))
           note_time_step();
-        if (act_on(wish_))
+        if (fulfil(request))
           return false;
       }
     return true;
@@ -390,10 +164,232 @@ namespace talus
 
 
   template <int dim>
-  std::string
-  Simulation<dim>::write_last_state()
+  bool
+  Simulation<dim>::run_static_stages()
   {
-    return output_.write_last_state(snapshot());
+    const Stages &stages = static_stages_.stages();
+    while (stages.next_is_static())
+      {
+        {
+          PhaseTimer::Scope scope(timer_, "static stages");
+          static_stages_.run_next();
+        }
+        if (!stages.next_is_static())
+          output_.start(state_);
+        const auto request = static_cast<RunRequest>(
+          Utilities::MPI::max(static_cast<unsigned int>(own_request()),
+                              state_.communicator()));
+        if (fulfil(std::max(request, RunRequest::checkpoint)))
+          return false;
+      }
+    static_stages_.check_soil_stands();
+    return true;
+  }
+
+
+
+  template <int dim>
+  bool
+  Simulation<dim>::is_finished() const
+  {
+    return !static_stages_.stages().next_is_static() &&
+           state_.time >= end_of_run();
+  }
+
+
+
+  /// A run without dynamics ends where it begins.
+  template <int dim>
+  double
+  Simulation<dim>::end_of_run() const
+  {
+    return static_stages_.stages().contain(Stage::dynamics) ? end_time_ : 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::begin_run()
+  {
+    const bool is_resumed = !resumed_from_.path.empty();
+    if (is_resumed && is_finished())
+      {
+        // It may have been killed after its last step.
+        checkpoint_.begin(output_.folder(),
+                          state_.communicator(),
+                          resumed_from_.path);
+        log_.say(LogLevel::result,
+                 text("The run in '",
+                      output_.folder(),
+                      "' has reached its end, t = ",
+                      state_.time,
+                      " s; there is nothing left to do."));
+        return;
+      }
+    begin_files();
+    remember_signals();
+    if (is_resumed)
+      note_resume();
+    else
+      note_start();
+    // The checkpoint of a run that was finished must not look finished now.
+    if (is_resumed && resumed_from_.head.time >= resumed_from_.head.end_time)
+      write_checkpoint();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::begin_files()
+  {
+    const bool      is_resumed = !resumed_from_.path.empty();
+    const Beginning beginning =
+      is_resumed ? Beginning::resumed : Beginning::anew;
+    if (!is_resumed)
+      checkpoint_.check_nothing_is_lost(output_.folder(),
+                                        state_.communicator());
+    output_.begin(state_, end_time_, beginning);
+    static_stages_.begin(output_.folder(), beginning);
+    checkpoint_.begin(output_.folder(),
+                      state_.communicator(),
+                      resumed_from_.path);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::note_start()
+  {
+    if (!title_.empty())
+      log_.say(LogLevel::info, title_);
+    log_.say(LogLevel::info, mesh_.description());
+    for (const std::string &note : problem_.notes(state_.grid.cell_size()))
+      log_.say(LogLevel::info, note);
+    note_time_step();
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::note_time_step()
+  {
+    const std::string sentence = scheme_.description() + mesh_.history();
+    log_.say(state_.step == 0 ? LogLevel::info : LogLevel::detail, sentence);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::note_resume()
+  {
+    const CheckpointHead &head = resumed_from_.head;
+    for (const std::string &complaint : resumed_from_.complaints)
+      log_.say(LogLevel::result,
+               complaint + " The run goes on from the one before.");
+    std::string sentence = text("Resumed at t = ",
+                                state_.time,
+                                " s, step ",
+                                state_.step,
+                                ", from '",
+                                resumed_from_.path.string(),
+                                "'.");
+    if (head.version != TALUS_VERSION || head.revision != TALUS_GIT_REVISION)
+      sentence += text(" That was written by talus ",
+                       head.version,
+                       ", revision '",
+                       head.revision,
+                       "', another one than this.");
+    log_.say(LogLevel::info, sentence);
+    note_time_step();
+  }
+
+
+
+  /// All state besides points, mesh and parameters. What follows from these is
+  /// computed anew; nodes hold nothing between the steps.
+  template <int dim>
+  StateList
+  Simulation<dim>::list_state()
+  {
+    StateList list;
+    state_.list_state(list);
+    problem_.list_state(list);
+    mesh_.list_state(list);
+    scheme_.splitter().list_state(list);
+    static_stages_.list_state(list);
+    output_.list_state(list);
+    return list;
+  }
+
+
+
+  /// What this rank wants to happen after the step that begins.
+  template <int dim>
+  RunRequest
+  Simulation<dim>::own_request() const
+  {
+    if (!remembered_signal().empty() || checkpoint_.limit_is_reached())
+      return RunRequest::stop;
+    return checkpoint_.is_due(state_.step + 1) ? RunRequest::checkpoint
+                                               : RunRequest::none;
+  }
+
+
+
+  /// Do what the ranks agreed on. Returns whether the run is to stop here.
+  template <int dim>
+  bool
+  Simulation<dim>::fulfil(const RunRequest request)
+  {
+    const bool is_end    = is_finished();
+    const bool is_wanted = (is_end ? checkpoint_.is_wanted_at_the_end()
+                                   : request != RunRequest::none);
+    if (!is_wanted)
+      return false;
+    const std::filesystem::path path = write_checkpoint();
+    if (is_end || request != RunRequest::stop)
+      return false;
+
+    const std::string signal = remembered_signal();
+    log_.say(LogLevel::result,
+             text("Stopped at t = ",
+                  state_.time,
+                  " s, step ",
+                  state_.step,
+                  !signal.empty() ? ", after the signal " + signal
+                  : checkpoint_.limit_is_reached()
+                    ? ", after the limit of wall time"
+                    : ", after a signal to another rank",
+                  "; the state is in '",
+                  path.string(),
+                  "'. Go on with the same command and --resume."));
+    return true;
+  }
+
+
+
+  template <int dim>
+  std::filesystem::path
+  Simulation<dim>::write_checkpoint()
+  {
+    PhaseTimer::Scope scope(timer_, "checkpoint");
+    output_.sync();
+    const std::vector<double> cell_weights = mesh_.cell_weights();
+    const StateList           list         = list_state();
+    const std::string         parameters   = parameters_as_text(this->prm);
+    return checkpoint_.write({state_.points,
+                              cell_weights,
+                              list,
+                              parameters,
+                              state_.step,
+                              state_.time,
+                              end_of_run()},
+                             state_.grid);
   }
 
 

@@ -75,41 +75,4 @@ namespace talus
   {
     list.add("static stages done", "-", n_done_, Reduction::equal);
   }
-
-
-
-  void
-  NewtonTable::begin(const std::filesystem::path &folder,
-                     const Beginning              beginning)
-  {
-    file_.open(folder / file_name,
-               {"stage",
-                "strength factor [-]",
-                "load step",
-                "load [-]",
-                "iteration",
-                "residual [-]",
-                "step length [-]",
-                "linear iterations"},
-               beginning);
-  }
-
-
-
-  void
-  NewtonTable::add(const unsigned int         stage,
-                   const double               factor,
-                   const EquilibriumProgress &progress)
-  {
-    const NewtonIteration &iteration = progress.iteration;
-    file_.add_row({1. * stage,
-                   factor,
-                   1. * progress.load_step,
-                   progress.load,
-                   1. * iteration.number,
-                   iteration.residual,
-                   iteration.length,
-                   1. * iteration.n_linear_iterations});
-    file_.flush();
-  }
 } // namespace talus

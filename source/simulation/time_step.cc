@@ -151,11 +151,11 @@ namespace talus
 
   template <int dim>
   void
-  TimeStep<dim>::heed(const Points<dim>    &points,
-                      const Batch          &batch,
-                      const Grid<dim>      &grid,
-                      const Materials<dim> &materials,
-                      const BoxShape       &shape)
+  TimeStep<dim>::add_batch(const Points<dim>    &points,
+                           const Batch          &batch,
+                           const Grid<dim>      &grid,
+                           const Materials<dim> &materials,
+                           const BoxShape       &shape)
   {
     const unsigned int n = batch.end - batch.begin;
     if (wave_modulus_.size() < n + Points<dim>::n_spare)
@@ -221,17 +221,18 @@ namespace talus
                         const BoxShape       &shape)
   {
     begin();
-    points.for_batches(
-      [&](const Batch &batch) { heed(points, batch, grid, materials, shape); });
-    return of_heeded(points, materials);
+    points.for_batches([&](const Batch &batch) {
+      add_batch(points, batch, grid, materials, shape);
+    });
+    return stable_time_step(points, materials);
   }
 
 
 
   template <int dim>
   double
-  TimeStep<dim>::of_heeded(const Points<dim>    &points,
-                           const Materials<dim> &materials) const
+  TimeStep<dim>::stable_time_step(const Points<dim>    &points,
+                                  const Materials<dim> &materials) const
   {
     // Infinite where there are no points.
     const double dt = 1. / std::sqrt(largest_);

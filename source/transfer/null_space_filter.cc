@@ -73,7 +73,7 @@ namespace talus
                           const Grid<dim>     &grid,
                           NodalFields<dim>    &nodes,
                           const Transfer<dim> &transfer,
-                          const double         least_mass)
+                          const double         mass_cutoff)
     {
       // Forces are summed up, too, but no time passes in which they could act.
       const double time_step = 0., flip_fraction = 0.;
@@ -86,7 +86,7 @@ namespace talus
         transfer.scatter(points, workspace, batch, grid, none, nodes);
       });
       nodes.sum_over_ranks(grid);
-      nodes.update_momentum(time_step, least_mass);
+      nodes.update_momentum(time_step, mass_cutoff);
       nodes.share_with_ghosts(grid);
       points.for_batches([&](const Batch &batch) {
         workspace.reinit(batch.begin, batch.end);
@@ -117,7 +117,7 @@ namespace talus
                               const Grid<dim>     &grid,
                               NodalFields<dim>    &nodes,
                               const Transfer<dim> &transfer,
-                              const double         least_mass) const
+                              const double         mass_cutoff) const
   {
     filter_mean_stress(points, workspace, transfer);
     const unsigned int                   n = points.size();
@@ -131,7 +131,7 @@ namespace talus
     for (unsigned int pass = 0; pass < order_; ++pass)
       {
         pass_to_grid_and_back(
-          points, workspace, grid, nodes, transfer, least_mass);
+          points, workspace, grid, nodes, transfer, mass_cutoff);
         for (unsigned int d = 0; d < dim; ++d)
           {
             double *const v = points.data(points.velocity, d);

@@ -87,7 +87,7 @@ namespace talus
 
   template <int dim>
   double
-  Transfer<dim>::least_mass(const double density, const double cell_size) const
+  Transfer<dim>::mass_cutoff(const double density, const double cell_size) const
   {
     return mass_cut_off_ * density * std::pow(cell_size, dim);
   }
@@ -271,9 +271,9 @@ namespace talus
   template void
   Transfer<3>::check() const;
   template double
-  Transfer<2>::least_mass(double, double) const;
+  Transfer<2>::mass_cutoff(double, double) const;
   template double
-  Transfer<3>::least_mass(double, double) const;
+  Transfer<3>::mass_cutoff(double, double) const;
   template void
   Transfer<2>::average_mean_stress(const Points<2> &,
                                    StepWorkspace<2> &,

@@ -54,7 +54,7 @@ KERNELS = {
     "grid to points": (r"(talus::Transfer<2>::gather\(|"
                        r".*interpolate_to_block<2>)", 0.47),
     "stress": (r".*talus::VonMises<2>::update_stress\(", 0.58),
-    "time step": (r"talus::TimeStep<2>::heed\(", 0.35),
+    "time step": (r"talus::TimeStep<2>::add_batch\(", 0.35),
 }
 # Single entries or halves of registers. (Transpositions move halves.)
 MOVES = re.compile(

@@ -146,11 +146,11 @@ TEST(Bar, SplitsWhereAndWhenTheStrainSaysSo)
 {
   Case<2> bar("bar.prm", {});
   double  first_split = 0;
-  while (bar->snapshot().time < period / 4. + 1.)
+  while (bar->state().time < period / 4. + 1.)
     {
       bar->advance();
       if (first_split == 0 && bar.points().size() > 200)
-        first_split = bar->snapshot().time;
+        first_split = bar->state().time;
     }
   const double exact =
     std::asin(0.025 * speed_of_sound / 0.1 / std::cos(M_PI / 50. * 0.125)) /
@@ -160,7 +160,7 @@ TEST(Bar, SplitsWhereAndWhenTheStrainSaysSo)
 
   const Points<2> &points = bar.points();
   EXPECT_EQ(points.size(), 452u);
-  const unsigned long n_splits = bar->snapshot().splits.n_splits;
+  const unsigned long n_splits = bar->state().splits.n_splits;
   gates.holds("points that split, of 200",
               std::to_string(n_splits),
               "84, those with x < 0.4196 L",

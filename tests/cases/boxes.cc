@@ -27,15 +27,15 @@ namespace
            const Overrides   &overrides)
   {
     Case<2> slide(file, overrides);
-    while (slide->snapshot().time < time)
+    while (slide->state().time < time)
       slide->advance();
-    const auto       snapshot = slide->snapshot();
-    const Points<2> &points   = snapshot.points;
+    const auto       state  = slide->state();
+    const Points<2> &points = state.points;
     Boxes            boxes;
     double           area = 0., soil = 0.;
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        const auto lengths = box_lengths(snapshot, p);
+        const auto lengths = box_lengths(state, p);
         area += lengths[0] * lengths[1];
         soil +=
           points.data(points.reference_volume)[p] *
@@ -46,7 +46,7 @@ namespace
             std::max(boxes.longest,
                      points.data(points.stretch, d)[p] *
                        points.data(points.reference_length, d)[p] /
-                       snapshot.grid.cells()[points.cell_of(p)].size);
+                       state.grid.cells()[points.cell_of(p)].size);
       }
     boxes.cover = area / soil;
     return boxes;

@@ -40,7 +40,7 @@ namespace talus::cases
     const Points<dim> &
     points() const
     {
-      return simulation_->snapshot().points;
+      return simulation_->state().points;
     }
 
   private:

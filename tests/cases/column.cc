@@ -19,9 +19,9 @@ namespace talus::cases
 
 
   ColumnAtRest
-  measure_column(const Snapshot<2> &snapshot)
+  measure_column(const State<2> &state)
   {
-    const Points<2> &points = snapshot.points;
+    const Points<2> &points = state.points;
     const double    *Y      = points.data(points.initial_position, 1);
     const double    *stress = points.data(points.stress, stress_index<2>(1, 1));
     std::vector<unsigned int> order(points.size()); // all of one volume
@@ -42,7 +42,7 @@ namespace talus::cases
           (1e-3 * weight * l0) / points.size();
       }
     result.height = points.data(points.position, 1)[order.back()] +
-                    0.5 * box_lengths(snapshot, order.back())[1];
+                    0.5 * box_lengths(state, order.back())[1];
     return result;
   }
 

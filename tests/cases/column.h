@@ -23,7 +23,7 @@ namespace talus::cases
   column_of(unsigned int n);
 
   ColumnAtRest
-  measure_column(const Snapshot<2> &snapshot);
+  measure_column(const State<2> &state);
 
   /// Height at rest of each law, m.
   std::vector<std::pair<std::string, double>>

@@ -110,25 +110,25 @@ namespace
   {
     Case<dim>         block(file, overrides);
     EnergyBudget<dim> budget;
-    budget.begin(block->snapshot());
+    budget.begin(block->state());
     std::vector<double> times, heights;
     double              work = 0, remainder = 0;
     Result              result;
     while (true)
       {
-        const auto snapshot = block->snapshot();
-        times.push_back(snapshot.time);
+        const auto state = block->state();
+        times.push_back(state.time);
         heights.push_back(height_of(block.points(), place, reach));
         if (times.size() % 10 == 1)
           {
-            const EnergyTerms energy = budget.evaluate(snapshot);
+            const EnergyTerms energy = budget.evaluate(state);
             work                     = std::max(work, std::abs(energy.gravity));
             remainder       = std::max(remainder, std::abs(energy.remainder));
             result.n_bodies = std::max<unsigned int>(
               result.n_bodies,
-              count_fractures(snapshot.points, snapshot.grid).connected_bodies);
+              count_fractures(state.points, state.grid).connected_bodies);
           }
-        if (snapshot.time >= end)
+        if (state.time >= end)
           break;
         block->advance();
       }

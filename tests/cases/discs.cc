@@ -40,7 +40,7 @@ namespace
   at_the_end()
   {
     Case<2> discs("verification/discs.prm", {});
-    while (discs->snapshot().time < 3.2)
+    while (discs->state().time < 3.2)
       discs->advance();
     const Points<2>      &points = discs.points();
     std::array<double, 2> speed{}, reach{{-1e300, -1e300}};

@@ -110,11 +110,11 @@ TEST(Driven, TractionStretchesABar)
                "Damping/Local damping=0.5",
                "Output/Runout=false"});
   double  last_work = 0;
-  while (bar->snapshot().time < 40. - 1e-12)
+  while (bar->state().time < 40. - 1e-12)
     {
       bar->advance();
-      EXPECT_GE(bar->snapshot().boundary_work.damping, last_work);
-      last_work = bar->snapshot().boundary_work.damping;
+      EXPECT_GE(bar->state().works.damping, last_work);
+      last_work = bar->state().works.damping;
     }
   const auto &points = bar.points();
   double      stress = 0, stretch = 0;
@@ -139,19 +139,18 @@ TEST(Damped, ColumnComesToRest)
 {
   Case<2> column("column.prm", {});
   double  most_energy = 0, last_work = 0;
-  while (column->snapshot().time < 20. - 1e-12)
+  while (column->state().time < 20. - 1e-12)
     {
-      const double impulse = column->snapshot().boundary_work.wall_impulse[1];
+      const double impulse = column->state().works.wall_impulse[1];
       column->advance();
-      const auto &now = column->snapshot();
+      const auto &now = column->state();
       most_energy     = std::max(most_energy, now.nodes.kinetic_energy());
-      EXPECT_GE(now.boundary_work.damping, last_work);
-      last_work = now.boundary_work.damping;
+      EXPECT_GE(now.works.damping, last_work);
+      last_work = now.works.damping;
       // At rest the rollers bear the whole weight, though there is damping.
       if (now.time > 19.)
         {
-          EXPECT_NEAR((now.boundary_work.wall_impulse[1] - impulse) /
-                        now.time_step,
+          EXPECT_NEAR((now.works.wall_impulse[1] - impulse) / now.time_step,
                       1000. * 10. * 10. * 0.5,
                       50.);
         }
@@ -162,7 +161,7 @@ TEST(Damped, ColumnComesToRest)
     const double depth = 10. - points.data(points.initial_position, 1)[p];
     error = std::max(error, std::abs(StressOf(points, p).yy + 1e4 * depth));
   });
-  const double at_rest = column->snapshot().nodes.kinetic_energy();
+  const double at_rest = column->state().nodes.kinetic_energy();
   std::cout << "column: kinetic energy of the grid " << at_rest
             << " J/m, at most " << most_energy << "; error of the stress "
             << error / 1e5 << " rho g H, damping work " << last_work
@@ -181,15 +180,15 @@ TEST(Damped, UndampedColumnRings)
   Case<2>         column("column.prm", undamped);
   advance_to(column, 10.);
   double most = 0, late = 0;
-  while (column->snapshot().time < 20. - 1e-12)
+  while (column->state().time < 20. - 1e-12)
     {
       column->advance();
-      const double energy = column->snapshot().nodes.kinetic_energy();
+      const double energy = column->state().nodes.kinetic_energy();
       most                = std::max(most, energy);
-      if (column->snapshot().time > 19.)
+      if (column->state().time > 19.)
         late = std::max(late, energy);
     }
-  EXPECT_EQ(column->snapshot().boundary_work.damping, 0.);
+  EXPECT_EQ(column->state().works.damping, 0.);
   EXPECT_GT(late, 0.5 * most);
 }
 

@@ -48,7 +48,7 @@ namespace talus::cases
   inline void
   advance_to(Case<2> &simulation, const double time)
   {
-    while (simulation->snapshot().time < time - 1e-12)
+    while (simulation->state().time < time - 1e-12)
       simulation->advance();
   }
 

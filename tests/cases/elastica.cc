@@ -33,11 +33,11 @@ namespace
     Case<2> cantilever(file,
                        {text("Constants=Q = ", exact.Q, "; T = 71.5"),
                         text("End time=", exact.end)});
-    while (cantilever->snapshot().time < exact.end)
+    while (cantilever->state().time < exact.end)
       cantilever->advance();
 
-    const auto       snapshot = cantilever->snapshot();
-    const Points<2> &points   = snapshot.points;
+    const auto       state  = cantilever->state();
+    const Points<2> &points = state.points;
     double           n = 0, u = 0, w = 0;
     for (unsigned int p = 0; p < points.size(); ++p)
       if (std::abs(points.data(points.initial_position, 0)[p] - L) < 0.5 * h)
@@ -59,7 +59,7 @@ namespace
       };
     compare("w", w, exact.w);
     compare("u", u, exact.u);
-    EXPECT_LT(snapshot.nodes.kinetic_energy() / snapshot.gravity_work, 1e-4);
+    EXPECT_LT(state.nodes.kinetic_energy() / state.works.gravity, 1e-4);
   }
 
 

@@ -63,7 +63,8 @@ TEST(InfiniteSlope, FactorOfSafetyBelowOne)
           slope.factor_of_safety(),
           exact,
           0.01);
-        EXPECT_TRUE((*slope).strength_reduction().is_less_than_one());
+        EXPECT_TRUE(
+          (*slope).static_stages().strength_reduction().is_less_than_one());
       }
 }
 
@@ -97,7 +98,7 @@ TEST(InfiniteSlope, TwoLayersBelowOne)
                              text("Materials/weak/Undrained shear strength=",
                                   strength)});
   gates.near("factor of safety", slope.factor_of_safety(), exact, 0.01);
-  EXPECT_TRUE((*slope).strength_reduction().is_less_than_one());
+  EXPECT_TRUE((*slope).static_stages().strength_reduction().is_less_than_one());
 }
 
 
@@ -241,9 +242,9 @@ TEST(PaperSlopeSafety, ClippedBoxesSettle)
          "Grid/Cell size=0.8",
          text("Bodies/slide/Points per cell and axis=", n_points),
          text("Transfer/Minimum half-size=", least_half)});
-      EXPECT_TRUE((*slope).equilibrium().is_found());
-      EXPECT_LE((*slope).equilibrium().imbalance(), 1e-6);
-      EXPECT_LE((*slope).equilibrium().n_steps(), 30u);
+      EXPECT_TRUE((*slope).static_stages().equilibrium().is_found());
+      EXPECT_LE((*slope).static_stages().equilibrium().imbalance(), 1e-6);
+      EXPECT_LE((*slope).static_stages().equilibrium().n_steps(), 30u);
     }
 }
 

@@ -20,7 +20,7 @@ namespace
   double
   motion(Case<dim> &ground, const double g)
   {
-    while (ground->snapshot().time < 1. - 1e-12)
+    while (ground->state().time < 1. - 1e-12)
       ground->advance();
     const auto &points = ground.points();
     double      sum = 0, mass = 0;

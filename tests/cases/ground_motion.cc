@@ -66,9 +66,9 @@ TEST(GroundMotion, SeenFromTheGround)
   double       v[2] = {0., 0.5}, error = 0, energy_error = 0;
   const double mass = 2000. * 2.;
   const double c = std::cos(M_PI / 6.), s = std::sin(M_PI / 6.);
-  while (block->snapshot().time < 0.5 - 1e-12)
+  while (block->state().time < 0.5 - 1e-12)
     {
-      const double t = block->snapshot().time - 0.05;
+      const double t = block->state().time - 0.05;
       const double h =
         1.5 * linear(t, {{{0., 0.}}, {{0.1, 4.}}, {{0.3, -4.}}, {{0.4, 0.}}});
       const double u =
@@ -76,7 +76,7 @@ TEST(GroundMotion, SeenFromTheGround)
       const double g =
         linear(t, {{{0., 1.}}, {{0.1, 1.}}, {{0.3, 0.5}}, {{0.4, 0.5}}});
       block->advance();
-      const double dt = block->snapshot().time_step;
+      const double dt = block->state().time_step;
       v[0] += dt * (g * s - (h * c - u * s));
       v[1] += dt * (-g * c - (h * s + u * c));
       for_points(block, [&](const unsigned int p) {
@@ -89,7 +89,7 @@ TEST(GroundMotion, SeenFromTheGround)
       const double kinetic = 0.5 * mass * (v[0] * v[0] + v[1] * v[1] - 0.25);
       energy_error =
         std::max(energy_error,
-                 std::abs(block->snapshot().gravity_work - kinetic) / mass);
+                 std::abs(block->state().works.gravity - kinetic) / mass);
     }
   Verification gates("Block that flies above moving ground",
                      "prm/" + block_file + " with a table",
@@ -122,7 +122,7 @@ TEST(GroundMotion, AxesInSpace)
                 "Boundaries/Front=free",
                 "Grid/Lower corner=-0.5, -0.5, -0.5",
                 "Grid/Upper corner=2, 4, 1.5"});
-  while (soil->snapshot().time < 0.1 - 1e-12)
+  while (soil->state().time < 0.1 - 1e-12)
     soil->advance();
   const double c = std::cos(M_PI / 6.), s = std::sin(M_PI / 6.);
   const double exact[3] = {-0.1 * (c - 2. * s), -0.1 * (s + 2. * c), -0.3};

@@ -31,7 +31,7 @@ namespace
   {
     Case<2> block(file, {end_set});
     double  result = 0;
-    while (block->snapshot().time < end)
+    while (block->state().time < end)
       {
         block->advance();
         const Points<2> &points  = block.points();

@@ -52,7 +52,7 @@ TEST(ImplicitColumn, Stress)
   for (const auto &[n, limit] : known)
     {
       const StaticCase<2> found = find_column(n, "Hencky");
-      const double error = measure_column((*found).snapshot()).stress_error;
+      const double        error = measure_column((*found).state()).stress_error;
       gates.at_most(text("mean error of the stress / rho0 g l0, ", n, " cells"),
                     error,
                     limit);
@@ -73,7 +73,7 @@ TEST(ImplicitColumn, Heights)
     {
       const StaticCase<2> found = find_column(64, law);
       gates.near("height at rest [m], " + law,
-                 measure_column((*found).snapshot()).height,
+                 measure_column((*found).state()).height,
                  height,
                  0.005);
     }

@@ -92,9 +92,9 @@ namespace
   {
     Case<2> slide("landslide-quick.prm", stretched + overrides);
     State   state;
-    while (slide->snapshot().time < end)
+    while (slide->state().time < end)
       slide->advance();
-    state.n_steps           = slide->snapshot().step;
+    state.n_steps           = slide->state().step;
     const Points<2> &points = slide.points();
     for (unsigned int d = 0; d < 2; ++d)
       for (unsigned int p = 0; p < points.size(); ++p)

@@ -58,7 +58,7 @@ namespace
   State
   state_at(Case<dim> &slide, const double time)
   {
-    while (slide->snapshot().time < time)
+    while (slide->state().time < time)
       slide->advance();
     const Points<dim> &points = slide.points();
     State              state;

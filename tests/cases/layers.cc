@@ -108,11 +108,11 @@ namespace
     const std::string file = "verification/" + name + "-layer.prm";
     Case<2>           layer(file, {"Output/Write points=false"});
     const double      end = (n < 1. ? 400. : 150.) - 1e-9;
-    while (layer->snapshot().time < end - 1.)
+    while (layer->state().time < end - 1.)
       layer->advance();
-    const double              begin  = layer->snapshot().time;
+    const double              begin  = layer->state().time;
     const std::vector<double> before = distances(layer.points());
-    while (layer->snapshot().time < end)
+    while (layer->state().time < end)
       layer->advance();
     const std::vector<double> after  = distances(layer.points());
     const Points<2>          &points = layer.points();
@@ -120,7 +120,7 @@ namespace
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         const auto id = std::lround(points.data(points.id)[p]);
-        u[p] = (after[id] - before[id]) / (layer->snapshot().time - begin);
+        u[p] = (after[id] - before[id]) / (layer->state().time - begin);
       }
 
     const double S = 600. * 9.81 * slope_sine, h_s = 5. - 1000. / S; // Pa/m, m

@@ -70,12 +70,12 @@ namespace
                                    text("Time step/Maximum=", dt)} +
                            overrides);
     double       error = 0;
-    while (simulation->snapshot().time < exact.end_time * (1. - 1e-9))
+    while (simulation->state().time < exact.end_time * (1. - 1e-9))
       {
         simulation->advance();
         const double now = displacement_error(simulation.points(),
                                               exact,
-                                              simulation->snapshot().time);
+                                              simulation->state().time);
         error            = (now <= error ? error : now);
       }
     return error;

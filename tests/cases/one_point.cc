@@ -20,10 +20,10 @@ TEST(OnePoint, SimpleShear)
   Case<2>          shear("verification/simple-shear.prm", {});
   const double     gamma_yield   = 2. * std::asin(0.5 * s_u / G);
   double           elastic_error = 0, plateau_error = 0, yielded_at = 0;
-  while (shear->snapshot().time < 10. - 1e-12)
+  while (shear->state().time < 10. - 1e-12)
     {
       shear->advance();
-      const double   gamma = gdot * shear->snapshot().time;
+      const double   gamma = gdot * shear->state().time;
       const StressOf s(shear.points(), 0);
       if (gamma < gamma_yield - 1e-5)
         elastic_error = std::max(elastic_error,
@@ -64,10 +64,10 @@ TEST(OnePoint, PlaneStrainCompression)
   Case<2>      sample("verification/plane-strain-compression.prm", {});
   const double first_yield = 2500. * std::sqrt(3. / (1. - 0.49 + 0.49 * 0.49));
   double       before = 0, at = 0, elastic_error = 0;
-  while (sample->snapshot().time < 200. - 1e-12)
+  while (sample->state().time < 200. - 1e-12)
     {
       sample->advance();
-      const double t  = sample->snapshot().time;
+      const double t  = sample->state().time;
       const double yy = -StressOf(sample.points(), 0).yy;
       const bool   has_yielded =
         sample.points().data(sample.points().plastic_work)[0] > 0;

@@ -27,7 +27,7 @@ namespace
     points.data(points.position)[0] = -outside * 0.5;
     try
       {
-        relocation.rebuild(points, bar->snapshot().grid);
+        relocation.rebuild(points, bar->state().grid);
       }
     catch (const ExcPoint &exception)
       {

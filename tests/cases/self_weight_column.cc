@@ -33,11 +33,11 @@ namespace
   come_to_rest(const unsigned int n, const Overrides &overrides = {})
   {
     Case<2> column(file, column_of(n) + overrides);
-    while (column->snapshot().time < 450.)
+    while (column->state().time < 450.)
       column->advance();
-    const auto snapshot = column->snapshot();
-    return {measure_column(snapshot),
-            snapshot.nodes.kinetic_energy() / snapshot.gravity_work};
+    const auto state = column->state();
+    return {measure_column(state),
+            state.nodes.kinetic_energy() / state.works.gravity};
   }
 } // namespace
 

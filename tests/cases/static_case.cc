@@ -58,7 +58,8 @@ namespace talus::cases
   double
   StaticCase<dim>::factor_of_safety() const
   {
-    const StrengthReduction &search = simulation_.strength_reduction();
+    const StrengthReduction &search =
+      simulation_.static_stages().strength_reduction();
     return 0.5 * (search.lower() + search.upper());
   }
 

@@ -63,10 +63,10 @@ TEST(Trigger, YieldStressFollowsInTime)
                  "Trigger/Strength fraction=0.4",
                  "Trigger/Region=y-0.5"});
   double  error = 0;
-  while (shear->snapshot().time < 10. - 1e-12)
+  while (shear->state().time < 10. - 1e-12)
     {
       shear->advance();
-      const double t = shear->snapshot().time;
+      const double t = shear->state().time;
       if (t < 3.)
         continue;
       for_points(shear, [&](const unsigned int p) {
@@ -103,10 +103,10 @@ TEST(Trigger, InterfaceLetsGo)
       const double area    = 0.75;
       const double rest    = momentum(layer.points());
       double       impulse = 0;
-      while (layer->snapshot().time < 5. - 1e-12)
+      while (layer->state().time < 5. - 1e-12)
         {
           layer->advance();
-          const auto  &now = layer->snapshot();
+          const auto  &now = layer->state();
           const double tau =
             tau_max * (1. - 0.75 * progress(now.time, 1., duration));
           impulse += now.time_step * std::max(0., weight * H - tau);

@@ -104,10 +104,10 @@ namespace
     while (time < end && result.settlement < enough &&
            !(time > ramp_time && result.stands()))
       {
-        for (unsigned int i = 0; i < 50 && cut->snapshot().time < end; ++i)
+        for (unsigned int i = 0; i < 50 && cut->state().time < end; ++i)
           cut->advance();
-        time                = cut->snapshot().time;
-        const double energy = cut->snapshot().nodes.kinetic_energy();
+        time                = cut->state().time;
+        const double energy = cut->state().nodes.kinetic_energy();
         most_energy         = std::max(most_energy, energy);
         result.energy       = energy / most_energy;
         result.settlement   = settlement(cut.points(), crest);

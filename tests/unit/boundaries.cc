@@ -61,9 +61,9 @@ namespace
       EXPECT_LT((work.wall_impulse - wall).norm(), 1e-13) << work.wall_impulse;
     }
 
-    unsigned int      node;
-    double            kinetic_energy_before, force_work;
-    BoundaryWork<dim> work;
+    unsigned int node;
+    double       kinetic_energy_before, force_work;
+    Works<dim>   work;
   };
 
   const std::string bottom = "set Bottom = seabed";

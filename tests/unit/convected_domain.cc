@@ -393,7 +393,7 @@ namespace
         const auto   expected = tiling(core, p);
         const double volume   = core.volume(p);
         core.sort();
-        ASSERT_TRUE(core.enforce());
+        ASSERT_TRUE(core.split());
         ASSERT_EQ(core.points.size(), 1u << dim);
         EXPECT_EQ(all_corners(core), expected);
         EXPECT_NEAR(core.volume(p), volume / (1u << dim), 1e-15);
@@ -454,7 +454,7 @@ namespace
         core.points.data(core.points.creation_stretch)[p] = 0.5;
         core.sort();
         const auto before = totals(core);
-        ASSERT_TRUE(core.enforce());
+        ASSERT_TRUE(core.split());
         core.sort();
         const auto after = totals(core);
         EXPECT_LT((after - before).norm(), 1e-13 * before.norm());

@@ -4,6 +4,7 @@
 #include <talus/adaptivity/splitter.h>
 #include <talus/base/errors.h>
 #include <talus/boundaries/boundaries.h>
+#include <talus/state/state.h>
 #include <talus/transfer/relocation.h>
 #include <talus/transfer/transfer.h>
 #include <talus/transfer/weights.h>
@@ -73,8 +74,13 @@ sums_of_node(const talus::NodalFields<dim> &nodes, const unsigned int node)
 
 /// All rooms below the materials, and some points.
 template <int dim>
-struct Core : FreshParameters
+struct Core : FreshParameters, talus::State<dim>
 {
+  using talus::State<dim>::grid;
+  using talus::State<dim>::nodes;
+  using talus::State<dim>::points;
+  using talus::State<dim>::workspace; // of all points
+
   using Vector = dealii::Tensor<1, dim>;
   using Tensor = dealii::Tensor<2, dim>;
 
@@ -82,7 +88,7 @@ struct Core : FreshParameters
   explicit Core(const std::string              &text,
                 const std::array<bool, 2 *dim> &may_move     = {},
                 const MPI_Comm                  communicator = MPI_COMM_WORLD)
-    : grid(communicator)
+    : talus::State<dim>(communicator)
     , random(4711)
   {
     dealii::ParameterAcceptor::declare_all_parameters();
@@ -280,11 +286,11 @@ struct Core : FreshParameters
 
   /// Find and split what violates the criterion, once.
   bool
-  enforce()
+  split()
   {
     const talus::BoxRule rule = transfer.box_shape().rule;
-    splitter.find(points, points.all(), grid, rule);
-    return splitter.enforce(points, rule, workspace.points_out_of_cell());
+    splitter.mark(points, points.all(), grid, rule);
+    return splitter.split_marked(points, rule, workspace.points_out_of_cell());
   }
 
   /// The sums at all nodes of the mesh, hanging nodes condensed; from nothing,
@@ -318,16 +324,12 @@ struct Core : FreshParameters
     return sums;
   }
 
-  talus::Grid<dim>          grid;
-  talus::Transfer<dim>      transfer;
-  talus::Boundaries<dim>    boundaries;
-  talus::Splitter<dim>      splitter;
-  talus::Points<dim>        points;
-  talus::StepWorkspace<dim> workspace; ///< of all points
-  talus::NodalFields<dim>   nodes;
-  talus::Relocation<dim>    relocation;
-  talus::Loads<dim>         loads;
-  std::mt19937              random;
+  talus::Transfer<dim>   transfer;
+  talus::Boundaries<dim> boundaries;
+  talus::Splitter<dim>   splitter;
+  talus::Relocation<dim> relocation;
+  talus::Loads<dim>      loads;
+  std::mt19937           random;
 };
 
 

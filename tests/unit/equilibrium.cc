@@ -56,11 +56,12 @@ namespace
     double
     imbalance()
     {
-      Soil<dim> soil = this->soil();
-      sum_forces(soil);
+      StaticProblem<dim> problem = this->problem();
+      sum_forces(problem);
       double free = 0., weight = 0., internal = 0.;
       for (const unsigned int node : this->nodes.active_nodes())
-        if (const double mass = this->nodes.mass(node); mass > this->least_mass)
+        if (const double mass = this->nodes.mass(node);
+            mass > this->mass_cutoff)
           {
             const Tensor<1, dim> force = this->force(node);
             const Tensor<1, dim> loads = mass * down<dim>();
@@ -255,8 +256,8 @@ TEST(EquilibriumTest, LoadStepsOfElasticSoilAddUp)
       bank.equilibrium.begin(StrainMeasure::small);
       while (!bank.equilibrium.is_found())
         {
-          Soil<2> soil = bank.soil();
-          ASSERT_TRUE(bank.equilibrium.advance(soil, [](const auto &) {}));
+          StaticProblem<2> problem = bank.problem();
+          ASSERT_TRUE(bank.equilibrium.advance(problem, [](const auto &) {}));
           loads.push_back(bank.equilibrium.load());
         }
       EXPECT_EQ(bank.equilibrium.n_steps(), n_steps);

@@ -97,23 +97,14 @@ namespace
       boundaries.locate_nodes(grid);
       for (auto &acceleration : loads.acceleration_of_body)
         acceleration = gravity;
-      least_mass = transfer.least_mass(density, grid.finest_size());
+      this->mass_cutoff = transfer.mass_cutoff(density, grid.finest_size());
       this->sort();
     }
 
-    Soil<dim>
-    soil()
+    StaticProblem<dim>
+    problem()
     {
-      return {points,
-              workspace,
-              grid,
-              nodes,
-              transfer,
-              materials,
-              boundaries,
-              loads,
-              0.,
-              least_mass};
+      return {*this, transfer, materials, boundaries, loads};
     }
 
     /// Search until the end. Returns whether equilibrium is found; residuals by
@@ -125,7 +116,7 @@ namespace
       equilibrium.begin(measure);
       while (!equilibrium.is_found())
         {
-          Soil<dim> all = soil();
+          StaticProblem<dim> all = problem();
           if (!equilibrium.advance(all,
                                    [&](const EquilibriumProgress &progress) {
                                      if (progress.iteration.number == 0)
@@ -148,8 +139,7 @@ namespace
 
     Materials<dim>                            materials;
     Equilibrium<dim>                          equilibrium;
-    double                                    least_mass = 0.;
-    unsigned int                              n_before   = 0;
+    unsigned int                              n_before = 0;
     std::vector<std::vector<NewtonIteration>> runs;
   };
 
@@ -166,12 +156,12 @@ namespace
 
     StepParts(Statics<dim>       &statics,
               const StrainMeasure measure,
-              const double        least_mass = 0.)
+              const double        mass_cutoff = 0.)
       : internal_forces(measure)
     {
-      Soil<dim> soil = statics.soil();
-      sum_forces(soil);
-      unknowns.number(statics.nodes, statics.grid, least_mass);
+      StaticProblem<dim> problem = statics.problem();
+      sum_forces(problem);
+      unknowns.number(statics.nodes, statics.grid, mass_cutoff);
       weights.compute(statics.points,
                       statics.grid,
                       statics.transfer.box_shape(),

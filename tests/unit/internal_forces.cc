@@ -75,11 +75,12 @@ namespace
   expect_work(Statics<dim> &statics, const StrainMeasure measure)
   {
     StepParts<dim> parts(statics, measure);
-    auto           soil   = statics.soil();
-    auto          &points = statics.points;
-    const auto     u      = parts.random_field(statics, 0.01);
-    auto           forces = parts.unknowns.field();
-    ASSERT_TRUE(parts.internal_forces.evaluate(soil, parts.weights, u, forces));
+    auto           problem = statics.problem();
+    auto          &points  = statics.points;
+    const auto     u       = parts.random_field(statics, 0.01);
+    auto           forces  = parts.unknowns.field();
+    ASSERT_TRUE(
+      parts.internal_forces.evaluate(problem, parts.weights, u, forces));
 
     double                          work = 0., scale = 0.;
     std::vector<StressTangent<dim>> answers(points.size());
@@ -111,10 +112,10 @@ namespace
   expect_explicit_forces(Statics<dim> &statics, const StrainMeasure measure)
   {
     StepParts<dim> parts(statics, measure);
-    auto           soil   = statics.soil();
-    auto           forces = parts.unknowns.field();
+    auto           problem = statics.problem();
+    auto           forces  = parts.unknowns.field();
     ASSERT_TRUE(parts.internal_forces.evaluate(
-      soil, parts.weights, parts.unknowns.field(), forces));
+      problem, parts.weights, parts.unknowns.field(), forces));
     const double scale = largest(forces);
     EXPECT_GT(scale, 10.);
     for (const unsigned int node : parts.unknowns.active_nodes())
@@ -133,12 +134,12 @@ namespace
   expect_tangent(Statics<dim> &statics, const StrainMeasure measure)
   {
     StepParts<dim> parts(statics, measure);
-    auto           soil   = statics.soil();
-    const auto     u      = parts.random_field(statics, 0.01);
-    const auto     forces = [&](const std::vector<double> &at) {
+    auto           problem = statics.problem();
+    const auto     u       = parts.random_field(statics, 0.01);
+    const auto     forces  = [&](const std::vector<double> &at) {
       auto result = parts.unknowns.field();
       EXPECT_TRUE(
-        parts.internal_forces.evaluate(soil, parts.weights, at, result));
+        parts.internal_forces.evaluate(problem, parts.weights, at, result));
       return result;
     };
     forces(u);
@@ -203,8 +204,8 @@ namespace
            const Tensor<2, dim> &A)
   {
     StepParts<dim> parts(statics, measure);
-    auto           soil   = statics.soil();
-    const auto     places = places_of_nodes(statics.grid);
+    auto           problem = statics.problem();
+    const auto     places  = places_of_nodes(statics.grid);
     auto           u = parts.unknowns.field(), forces = u;
     for (const unsigned int node : parts.unknowns.active_nodes())
       {
@@ -212,7 +213,8 @@ namespace
         for (unsigned int d = 0; d < dim; ++d)
           u[dim * node + d] = at[d];
       }
-    EXPECT_TRUE(parts.internal_forces.evaluate(soil, parts.weights, u, forces));
+    EXPECT_TRUE(
+      parts.internal_forces.evaluate(problem, parts.weights, u, forces));
     return largest(forces) / 250e3;
   }
 

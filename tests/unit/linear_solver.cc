@@ -28,7 +28,7 @@ namespace
       gravity[0] = 2.;
       gravity[1] = -9.81;
       this->load(gravity);
-      parts.emplace(*this, StrainMeasure::small, this->least_mass);
+      parts.emplace(*this, StrainMeasure::small, this->mass_cutoff);
       auto                      &unknowns = parts->unknowns;
       std::vector<unsigned char> held;
       for (const unsigned int node : unknowns.active_nodes())
@@ -41,9 +41,9 @@ namespace
     assemble()
     {
       const auto &unknowns = parts->unknowns;
-      auto        soil     = this->soil();
+      auto        problem  = this->problem();
       auto        forces   = unknowns.field();
-      parts->internal_forces.evaluate(soil,
+      parts->internal_forces.evaluate(problem,
                                       parts->weights,
                                       unknowns.field(),
                                       forces);

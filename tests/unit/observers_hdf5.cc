@@ -46,7 +46,7 @@ namespace
     {
       PointsOutput<dim> output;
       output.begin(folder, MPI_COMM_WORLD, boxes_as_cells, FieldFormat::hdf5);
-      output.write(s.snapshot());
+      output.write(s);
       return folder / "points-0000.h5";
     }
 
@@ -202,7 +202,7 @@ namespace
         for (unsigned int d = 0; d < dim; ++d)
           EXPECT_EQ(x.values.at(3 * cells.values[p * n + v] + d),
                     float(s.points.data(s.points.position, d)[p] +
-                          0.5 * sign[v][d] * box_lengths(s.snapshot(), p)[d]));
+                          0.5 * sign[v][d] * box_lengths(s, p)[d]));
   }
 
 
@@ -267,16 +267,16 @@ namespace
     add_points(s);
     PointsOutput<2> output;
     output.begin(folder, MPI_COMM_WORLD, true, FieldFormat::hdf5);
-    output.write(s.snapshot());
+    output.write(s);
     s.add({2.5, 2.5});
     s.time = 1. / 3.;
-    output.write(s.snapshot());
+    output.write(s);
     EXPECT_EQ(files_in(folder),
               std::vector<std::string>(
                 {"points-0000.h5", "points-0001.h5", "points.xdmf"}));
 
     std::set<std::string> expected;
-    for (const Field &field : point_fields(s.snapshot()))
+    for (const Field &field : point_fields(s))
       expected.insert(field.name);
     std::vector<double>      times;
     std::vector<std::size_t> n_cells;
@@ -344,7 +344,7 @@ namespace
     s.nodes.set_sums(node, 2., 0., dealii::Point<2>(), dealii::Point<2>());
     GridOutput<2> output;
     output.begin(folder, MPI_COMM_WORLD, FieldFormat::hdf5);
-    output.write(s.snapshot());
+    output.write(s);
 
     const fs::path file = folder / "grid-0000.h5";
     const auto     mass = read_dataset<float>(file, "fields/mass");
@@ -368,7 +368,7 @@ namespace
     add_points(s);
     PointsOutput<2> output;
     output.begin(folder, MPI_COMM_WORLD, false, FieldFormat::hdf5);
-    output.write(s.snapshot());
+    output.write(s);
     // An index made from files alone is the same; one that is gone is left out.
     const auto before = lines("points.xdmf");
     XdmfIndex  index;
@@ -390,7 +390,7 @@ namespace
     add_points(s);
     PointsOutput<2> output;
     output.begin(folder / "gone", MPI_COMM_WORLD, false, FieldFormat::hdf5);
-    EXPECT_THROW(output.write(s.snapshot()), ExcUser);
+    EXPECT_THROW(output.write(s), ExcUser);
     EXPECT_TRUE(files_in(folder).empty());
   }
 } // namespace

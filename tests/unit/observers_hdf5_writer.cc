@@ -265,7 +265,7 @@ namespace
       s.add({0.5 + i, 0.5 + rank});
     PointsOutput<2> output;
     output.begin(folder, MPI_COMM_WORLD, true, FieldFormat::hdf5);
-    output.write(s.snapshot());
+    output.write(s);
 
     const fs::path file  = folder / "points-0000.h5";
     const auto     cells = read_dataset<std::int64_t>(file, "mesh/cells");

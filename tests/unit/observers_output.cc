@@ -29,12 +29,12 @@ namespace
     s.add({0.5, 0.5});
     s.sort();
     output.set_folder(folder / "a" / "b");
-    output.begin(s.snapshot(), 1.25);
-    output.start(s.snapshot());
+    output.begin(s, 1.25);
+    output.start(s);
     for (s.step = 1; s.step <= 12; ++s.step)
       {
         s.time = s.step * 0.1;
-        output.observe(s.snapshot(), s.step == 12);
+        output.observe(s, s.step == 12);
       }
     // Rows at 0, 0.3, 0.5, 0.8, 1 and 1.2; fields at 0, 1 and 1.2.
     const auto rows = lines("a/b/statistics.csv");
@@ -60,15 +60,15 @@ namespace
     s.add({0.5, 0.5});
     s.sort();
     output.set_folder(folder);
-    output.begin(s.snapshot(), 1.);
-    output.start(s.snapshot());
+    output.begin(s, 1.);
+    output.start(s);
     output.note("It begins.", false);
     s.step = 1;
     s.time = 0.1;
-    EXPECT_FALSE(output.observe(s.snapshot(), false));
+    EXPECT_FALSE(output.observe(s, false));
     s.step = 2;
     s.time = 1.;
-    EXPECT_TRUE(output.observe(s.snapshot(), true));
+    EXPECT_TRUE(output.observe(s, true));
     // Before the table of wall times.
     EXPECT_EQ(lines("log.txt").at(0), "It begins.");
     EXPECT_EQ(lines("log.txt").at(1).find("Wall time by phase"), 0u);
@@ -85,8 +85,8 @@ namespace
     s.add({0.5, 0.5});
     s.sort();
     output.set_folder(folder);
-    output.begin(s.snapshot(), 1.);
-    output.start(s.snapshot());
+    output.begin(s, 1.);
+    output.start(s);
     std::string record;
     for (const std::string &line : lines("parameters.prm"))
       record += line + '\n';
@@ -120,7 +120,7 @@ namespace
         s.sort();
         output.set_folder(path);
         const std::string sentence =
-          sentence_thrown_by([&]() { output.begin(s.snapshot(), 1.); });
+          sentence_thrown_by([&]() { output.begin(s, 1.); });
         EXPECT_NE(sentence.find("The output folder '" + path.string()),
                   std::string::npos)
           << sentence;
@@ -139,8 +139,7 @@ namespace
     s.sort();
     output.set_folder(folder);
     fs::create_symlink("/dev/full", folder / "statistics.csv");
-    std::string sentence =
-      sentence_thrown_by([&]() { output.begin(s.snapshot(), 1.); });
+    std::string sentence = sentence_thrown_by([&]() { output.begin(s, 1.); });
     EXPECT_NE(sentence.find("The file '" +
                             (folder / "statistics.csv").string() +
                             "' could not be written (No space left on device"),
@@ -152,8 +151,8 @@ namespace
     fs::remove(folder / "statistics.csv");
     std::ofstream(folder / "points-0000.vtu") << "earlier result\n";
     fs::create_symlink("/dev/full", folder / "points-0000.vtu.part");
-    output.begin(s.snapshot(), 1.);
-    sentence = sentence_thrown_by([&]() { output.start(s.snapshot()); });
+    output.begin(s, 1.);
+    sentence = sentence_thrown_by([&]() { output.start(s); });
     EXPECT_NE(sentence.find("points-0000.vtu' could not be written (No space"),
               std::string::npos)
       << sentence;

@@ -2,7 +2,7 @@
 #define observers_setup_h
 
 #include <talus/base/errors.h>
-#include <talus/observers/snapshot.h>
+#include <talus/observers/boxes.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -38,10 +38,14 @@ sentence_thrown_by(Action &&action)
 
 /// A mesh of cells of 1 m, some points, and all else an observer looks at.
 template <int dim>
-struct Scene
+struct Scene : public talus::State<dim>
 {
+  using talus::State<dim>::grid;
+  using talus::State<dim>::nodes;
+  using talus::State<dim>::points;
+
   Scene(const std::string &lower, const std::string &upper)
-    : grid(MPI_COMM_WORLD)
+    : talus::State<dim>(MPI_COMM_WORLD)
   {
     auto &prm = dealii::ParameterAcceptor::prm;
     dealii::ParameterAcceptor::declare_all_parameters();
@@ -101,32 +105,6 @@ struct Scene
         }
     points.reorder({}, jumps, segments);
   }
-
-  talus::Snapshot<dim>
-  snapshot() const
-  {
-    return {points,
-            grid,
-            nodes,
-            boundary_work,
-            splits,
-            step,
-            time,
-            time_step,
-            gravity_work,
-            box_shape};
-  }
-
-  talus::Points<dim>       points;
-  talus::Grid<dim>         grid;
-  talus::NodalFields<dim>  nodes;
-  talus::BoundaryWork<dim> boundary_work;
-  talus::SplitStatistics   splits;
-  unsigned long            step         = 0;
-  double                   time         = 0;
-  double                   time_step    = 0;
-  double                   gravity_work = 0;
-  talus::BoxShape          box_shape;
 };
 
 

@@ -133,7 +133,7 @@ namespace
     add_points(s);
     s.points.data(s.points.initial_position, 0)[1] = 1.;
     s.points.data(s.points.stretch, 1)[1]          = 3.;
-    write_points(s.snapshot(), folder / "p.vtu");
+    write_points(s, folder / "p.vtu");
     Vtu vtu = read_vtu(folder / "p.vtu");
     EXPECT_EQ(vtu.n_points, 2u);
     EXPECT_EQ(vtu.n_cells, 2u);
@@ -197,7 +197,7 @@ namespace
     s.points.data(s.points.stretch, 1)[1] = 3.;
     PointsOutput<2> output;
     output.begin(folder, MPI_COMM_WORLD, /*boxes_as_cells=*/true);
-    output.write(s.snapshot());
+    output.write(s);
     const Vtu vtu = read_vtu(folder / "points-0000.vtu");
     EXPECT_EQ(vtu.n_points, 8u);
     EXPECT_EQ(vtu.n_cells, 2u);
@@ -266,7 +266,7 @@ namespace
     add_points(s);
     PointsOutput<3> output;
     output.begin(folder, MPI_COMM_WORLD, /*boxes_as_cells=*/true);
-    output.write(s.snapshot());
+    output.write(s);
     Vtu vtu = read_vtu(folder / "points-0000.vtu");
     EXPECT_EQ(vtu.n_points, 16u);
     EXPECT_EQ(vtu.n_cells, 2u);
@@ -289,7 +289,7 @@ namespace
     GridOutput<2> output;
     output.begin(folder, MPI_COMM_WORLD);
     // Before the first step no node is active.
-    output.write(s.snapshot());
+    output.write(s);
     Vtu vtu = read_vtu(folder / "grid-0000.vtu");
     EXPECT_EQ(vtu.n_cells, 2u);
     EXPECT_EQ(vtu.n_points, 8u);
@@ -303,7 +303,7 @@ namespace
       node, 2., 0., dealii::Point<2>(6., 0.), dealii::Point<2>(0., 4.));
     s.nodes.update_momentum(0.5, 1e-9);
     s.time = 0.5;
-    output.write(s.snapshot());
+    output.write(s);
     vtu = read_vtu(folder / "grid-0001.vtu");
     // deal.II's third vertex of the second cell.
     EXPECT_EQ(vtu.n_components["velocity [m/s]"], 3u);
@@ -332,8 +332,8 @@ namespace
     add_points(s);
     PointsOutput<2> output;
     output.begin(folder, MPI_COMM_WORLD, /*boxes_as_cells=*/true);
-    output.write(s.snapshot());
-    output.write(s.snapshot());
+    output.write(s);
+    output.write(s);
     fs::remove(folder / "points-0000.vtu");
     EXPECT_NO_THROW(output.sync());
     EXPECT_EQ(read_vtu(folder / "points-0001.vtu").n_cells, 2u);
@@ -350,8 +350,7 @@ namespace
     s.points.data(s.points.velocity)[0] =
       std::numeric_limits<double>::quiet_NaN();
     output.set_folder(folder);
-    EXPECT_EQ(output.write_last_state(s.snapshot()),
-              (folder / "last-state.vtu").string());
+    EXPECT_EQ(output.write_last_state(s), (folder / "last-state.vtu").string());
     const Vtu vtu = read_vtu(folder / "last-state.vtu");
     EXPECT_EQ(vtu.n_points, 1u);
     EXPECT_TRUE(std::isnan(vtu.values.at("velocity [m/s]")[0]));

@@ -87,7 +87,7 @@ namespace
           }
         core.sort();
         const auto before = sums_by_place(core);
-        core.enforce();
+        core.split();
         core.sort();
         EXPECT_EQ(MPI::sum(core.points.size(), MPI_COMM_WORLD), 4u);
         unsigned int n_across = 0;

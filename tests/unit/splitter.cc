@@ -35,7 +35,7 @@ namespace
     points.data(points.creation_stretch)[p] = creation_stretch;
     points.data(points.generation)[p]       = generation;
     core.sort();
-    const bool has_split = core.enforce();
+    const bool has_split = core.split();
     EXPECT_EQ(has_split, points.size() > 1);
     EXPECT_EQ(core.splitter.statistics().n_splits, has_split ? 1u : 0u);
     return points.size();
@@ -52,7 +52,7 @@ namespace
     const unsigned int p = core.add(Point<2>(1.5, y), length);
     core.points.data(core.points.stretch, 1)[p] = 1.2;
     core.sort();
-    core.enforce();
+    core.split();
     core.sort(); // throws if a daughter is too far outside
     return core.points.size();
   }
@@ -122,7 +122,7 @@ namespace
         points.data(points.stretch)[p] = 1.6;
       }
     core.sort();
-    EXPECT_TRUE(core.enforce());
+    EXPECT_TRUE(core.split());
     EXPECT_EQ(core.splitter.statistics().n_splits, 1u);
     // The daughter in her parent's place may lie in another cell.
     EXPECT_EQ(core.workspace.points_out_of_cell().size(), 1u);
@@ -147,7 +147,7 @@ namespace
     // 4.5 m: one split, then four, then sixteen refusals.
     for (unsigned int n : {4u, 16u, 16u})
       {
-        core.enforce();
+        core.split();
         core.sort();
         EXPECT_EQ(core.points.size(), n);
       }
@@ -168,8 +168,7 @@ namespace
           core.points.data(core.points.stretch)[i] = (i == 1 ? 1.5 : 1.);
         }
       core.sort();
-      const std::string message =
-        message_of<ExcPoint>([&]() { core.enforce(); });
+      const std::string message = message_of<ExcPoint>([&]() { core.split(); });
       EXPECT_EQ(core.points.size(), message.empty() ? 6u : 3u);
       return message;
     };
@@ -305,7 +304,7 @@ namespace
     add_parent(core, axes);
     const unsigned int parent = index_of(core, 2), child = index_of(core, 1);
     const unsigned int n_before = points.size();
-    ASSERT_TRUE(core.enforce());
+    ASSERT_TRUE(core.split());
 
     const unsigned int mask = directions == "all" ? (1u << dim) - 1 : axes;
     const unsigned int n    = 1u << __builtin_popcount(mask);

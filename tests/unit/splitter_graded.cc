@@ -102,18 +102,18 @@ namespace
     add_box(core, start, lengths);
     core.sort();
     ASSERT_EQ(core.grid.cells()[core.points.segments()[0].cell].size, 1.);
-    EXPECT_FALSE(core.enforce());
+    EXPECT_FALSE(core.split());
 
     // Weights of the whole box, from the cell it comes from.
     core.set(core.points.position, 0, x);
     const auto before = core.scatter();
-    ASSERT_TRUE(core.enforce());
+    ASSERT_TRUE(core.split());
     EXPECT_EQ(core.points.size(), n_daughters);
     core.sort();
     expect_boxes_fit(core);
     EXPECT_LT(change<dim>(before, core.scatter()), 1e-12);
     EXPECT_LE(core.splitter.statistics().ledger, 1e-12);
-    EXPECT_FALSE(core.enforce()) << "at once";
+    EXPECT_FALSE(core.split()) << "at once";
   }
 
 
@@ -144,9 +144,9 @@ namespace
     add_box(core, {2.01, 0.8}, Tensor<1, 2>({0.4999, 0.5}));
     core.sort();
     core.set(core.points.position, 0, Point<2>(1.97, 0.8));
-    EXPECT_FALSE(core.enforce());
+    EXPECT_FALSE(core.split());
     core.sort();
-    EXPECT_FALSE(core.enforce());
+    EXPECT_FALSE(core.split());
   }
 
 
@@ -173,7 +173,7 @@ namespace
     core.points.data(core.points.creation_stretch)[p] /= 1.6;
     core.sort();
     const auto before = core.scatter();
-    ASSERT_TRUE(core.enforce());
+    ASSERT_TRUE(core.split());
     core.sort();
     EXPECT_LT(change<dim>(before, core.scatter()), 1e-12)
       << "at " << x << " with " << lengths;

@@ -65,7 +65,7 @@ namespace
     core.sort();
     const auto         before = core.scatter();
     const unsigned int n      = core.points.size();
-    ASSERT_TRUE(core.enforce());
+    ASSERT_TRUE(core.split());
     core.sort();
     EXPECT_EQ(core.splitter.statistics().n_splits, n);
     EXPECT_GE(core.points.size(), 2 * n);
@@ -177,7 +177,7 @@ namespace
       }
     core.sort();
     const auto before = core.scatter();
-    ASSERT_TRUE(core.enforce());
+    ASSERT_TRUE(core.split());
     for (unsigned int q = 0; q < points.size(); ++q)
       for (unsigned int d = 0; d < dim; ++d)
         points.data(points.position, d)[q] =

@@ -103,7 +103,7 @@ namespace
     for (unsigned int step = 1; step <= n_steps; ++step)
       {
         body.step(double(step) / n_steps, 1. / n_steps);
-        ASSERT_FALSE(body.enforce()) << step;
+        ASSERT_FALSE(body.split()) << step;
       }
     EXPECT_EQ(body.points.size(), 50u);
   }
@@ -174,7 +174,7 @@ namespace
           for (unsigned int d = 0; d < dim; ++d)
             points.data(points.stretch, d)[p] *= core.number(0.99, 1.04);
         core.sort();
-        core.enforce();
+        core.split();
       }
     const Totals<dim> after(core);
     EXPECT_GT(core.splitter.statistics().n_splits, 300u);

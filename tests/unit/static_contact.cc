@@ -51,14 +51,14 @@ namespace
     std::map<double, Force>
     reactions()
     {
-      Soil<2> all = soil();
+      StaticProblem<2> all = problem();
       sum_forces(all);
       const auto              places = places_of_nodes(grid);
       std::map<double, Force> result;
       for (const unsigned int node : nodes.active_nodes())
-        if (nodes.mass(node) > least_mass && places[node][1] == 0.)
+        if (nodes.mass(node) > mass_cutoff && places[node][1] == 0.)
           result[places[node][0]] = -force(node);
-        else if (nodes.mass(node) > least_mass && places[node][0] > 0.)
+        else if (nodes.mass(node) > mass_cutoff && places[node][0] > 0.)
           {
             EXPECT_LT(force(node).norm(), 1e-8 * weight.norm());
           }
@@ -208,7 +208,7 @@ TEST(StaticContactTest, FrictionIsWithinItsLimitAtEachLoadStep)
       block.equilibrium.begin(StrainMeasure::small, {4, 1e-3, 1e-9});
       for (unsigned int step = 1; step <= 4; ++step)
         {
-          Soil<2> all = block.soil();
+          StaticProblem<2> all = block.problem();
           ASSERT_TRUE(block.equilibrium.advance(all, [](const auto &) {}))
             << block.equilibrium.failure();
           const double load = block.equilibrium.load();
@@ -218,7 +218,7 @@ TEST(StaticContactTest, FrictionIsWithinItsLimitAtEachLoadStep)
           unsigned int n_limited = 0;
           for (const unsigned int node : block.nodes.active_nodes())
             {
-              if (block.nodes.mass(node) <= block.least_mass)
+              if (block.nodes.mass(node) <= block.mass_cutoff)
                 continue;
               const Force  weight   = block.nodes.mass(node) * Point<2>(0., -g);
               const Force  reaction = (1. - load) * weight - block.force(node);
@@ -269,7 +269,7 @@ namespace
   {
     NodeOnSeabed()
       : BlockOnSeabed(seabed(0.5, 150.), Point<2>(0., -g))
-      , parts(*this, StrainMeasure::small, least_mass)
+      , parts(*this, StrainMeasure::small, mass_cutoff)
     {
       const auto places = places_of_nodes(grid);
       for (unsigned int k = 0; k < parts.unknowns.active_nodes().size(); ++k)
@@ -278,7 +278,7 @@ namespace
             node  = parts.unknowns.active_nodes()[k];
             place = k;
           }
-      const Soil<2> all = soil();
+      const StaticProblem<2> all = problem();
       contact.begin(all, parts.unknowns);
     }
 
@@ -294,8 +294,8 @@ namespace
           forces[2 * node + d] = reaction[d];
           u[2 * node + d]      = displacement[d];
         }
-      const Soil<2>      all = soil();
-      const unsigned int n   = contact.revise(all, parts.unknowns, forces, u);
+      const StaticProblem<2> all = problem();
+      const unsigned int     n = contact.revise(all, parts.unknowns, forces, u);
       for (unsigned int d = 0; d < 2; ++d)
         displacement[d] = u[2 * node + d];
       return n;
@@ -311,7 +311,7 @@ namespace
     unsigned int
     held()
     {
-      const Soil<2> all = soil();
+      const StaticProblem<2> all = problem();
       return contact.held(all, parts.unknowns)[place];
     }
 

@@ -32,7 +32,7 @@ namespace
         {
           const double most = lower() > 0. ? (1. + at_once) * lower() : 1e9;
           tried.push_back(next());
-          heed(tried.back(), tried.back() <= factor && tried.back() <= most);
+          record(tried.back(), tried.back() <= factor && tried.back() <= most);
         }
     }
 
@@ -107,10 +107,10 @@ namespace
         }
     // Also that of the start: it is tried again.
     reduction.begin(INFINITY);
-    reduction.heed(1., false);
+    reduction.record(1., false);
     EXPECT_DOUBLE_EQ(reduction.next(), 1. / 1.5);
     reduction.begin(INFINITY);
-    reduction.heed(1. / 1.5, true);
+    reduction.record(1. / 1.5, true);
     EXPECT_DOUBLE_EQ(reduction.next(), 1.);
   }
 
@@ -124,7 +124,7 @@ namespace
     reduction.begin(INFINITY);
     EXPECT_EQ(reduction.limits(1., own).smallest_step, 1e-3);
     EXPECT_EQ(reduction.limits(1., own).n_load_steps, 7u);
-    reduction.heed(2., true);
+    reduction.record(2., true);
     EXPECT_EQ(reduction.limits(2.1, own).smallest_step, 0.2);
     EXPECT_EQ(reduction.limits(2.1, own).n_load_steps, 1u);
     EXPECT_EQ(reduction.limits(2.02, own).smallest_step, 1e-3);

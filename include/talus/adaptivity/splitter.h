@@ -3,8 +3,10 @@
 
 #include <talus/adaptivity/ledger.h>
 #include <talus/adaptivity/split_statistics.h>
+#include <talus/base/quantity.h>
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
+#include <talus/state/state.h>
 #include <talus/transfer/box_shape.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -36,19 +38,19 @@ namespace talus
     /// Note which points of the batch violate the criterion. They may have left
     /// the cell they are sorted into.
     void
-    find(const Points<dim> &points,
+    mark(const Points<dim> &points,
          const Batch       &batch,
          const Grid<dim>   &grid,
          BoxRule            rule);
 
-    /// Split the points that find() noted, once. Daughters may lie outside
+    /// Split the points that mark() noted, once. Daughters may lie outside
     /// their parent's cell: they wait for Relocation::update(). The first one
     /// takes the parent's place, and is added to those that may be out of their
     /// cell; the others are appended. Returns whether any point was split. Throws ExcPoint if this rank would have too many points.
     bool
-    enforce(Points<dim>               &points,
-            BoxRule                    rule,
-            std::vector<unsigned int> &points_out_of_cell);
+    split_marked(Points<dim>               &points,
+                 BoxRule                    rule,
+                 std::vector<unsigned int> &points_out_of_cell);
 
     /// Throw ExcPoint if there are more points than allowed, over all ranks.
     void
@@ -59,6 +61,11 @@ namespace talus
     {
       return statistics_;
     }
+
+    /// List what was split so far, and how many boxes are clipped now for the
+    /// weights. Collective.
+    void
+    list_quantities(const State<dim> &state, Quantities &list) const;
 
     /// The first new daughter gets the id @p first, the next one that plus
     /// @p stride, ...: so that ids differ over ranks.
@@ -90,10 +97,10 @@ namespace talus
     /// Whether axis @p d of point(s) @p p is too long in cells of this size.
     template <typename Number>
     auto
-    violates(const PointsView<dim, const double> &points,
-             unsigned int                         p,
-             unsigned int                         d,
-             double                               cell_size) const;
+    exceeds_threshold(const PointsView<dim, const double> &points,
+                      unsigned int                         p,
+                      unsigned int                         d,
+                      double                               cell_size) const;
     /// False if no point of [begin, end), in cells of this size or larger ones,
     /// violates the criterion: nearly always, and known from a look at several
     /// points at a time.

@@ -1,7 +1,7 @@
 #ifndef talus_application_parameter_file_h
 #define talus_application_parameter_file_h
 
-#include <talus/simulation/preview.h>
+#include <talus/problem/preview.h>
 
 #include <deal.II/base/parameter_handler.h>
 

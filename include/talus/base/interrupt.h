@@ -5,15 +5,6 @@
 
 namespace talus
 {
-  /// What a rank wants to happen after a step. The largest wish of all ranks is
-  /// what is done, so that they do the same.
-  enum class Wish : unsigned int
-  {
-    none       = 0,
-    checkpoint = 1, ///< write one and go on
-    stop       = 2  ///< write one and end
-  };
-
   /// From now on SIGTERM, SIGINT and SIGUSR1 do not end the program but are
   /// remembered. A second SIGINT (Ctrl-C) ends it at once.
   void

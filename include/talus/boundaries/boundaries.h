@@ -1,7 +1,7 @@
 #ifndef talus_boundaries_boundaries_h
 #define talus_boundaries_boundaries_h
 
-#include <talus/boundaries/boundary_work.h>
+#include <talus/base/works.h>
 #include <talus/boundaries/face_expression.h>
 #include <talus/boundaries/seabed.h>
 #include <talus/grid/nodal_fields.h>
@@ -98,23 +98,23 @@ namespace talus
 
     /// Add the tractions at time @p t, s, to the forces of the active nodes on
     /// the faces, before the momentum update. Nodes with less than
-    /// @p least_mass carry nothing and are left alone, here and in apply().
+    /// @p mass_cutoff carry nothing and are left alone, here and in apply().
     void
     add_tractions(NodalFields<dim> &nodes,
                   const Grid<dim>  &grid,
                   double            t,
-                  double            least_mass);
+                  double            mass_cutoff);
 
     /// Change the velocities of the active nodes on the faces as their
     /// conditions ask, after the momentum update of a step from time @p t over
     /// @p dt; velocities are those of the half step, t + dt/2. Returns what the
     /// boundaries did, the tractions added before included.
-    BoundaryWork<dim>
+    Works<dim>
     apply(NodalFields<dim> &nodes,
           const Grid<dim>  &grid,
           double            t,
           double            dt,
-          double            least_mass);
+          double            mass_cutoff);
 
   private:
     using Expressions =
@@ -146,12 +146,12 @@ namespace talus
     Held
     held_velocity(unsigned char faces, unsigned int node, double t);
     void
-    apply_to_node(NodalFields<dim>  &nodes,
-                  const Grid<dim>   &grid,
-                  unsigned int       node,
-                  double             t,
-                  double             dt,
-                  BoundaryWork<dim> &work);
+    apply_to_node(NodalFields<dim> &nodes,
+                  const Grid<dim>  &grid,
+                  unsigned int      node,
+                  double            t,
+                  double            dt,
+                  Works<dim>       &work);
 
     // Parameters, by face
     std::array<std::string, 2 * dim> names_;

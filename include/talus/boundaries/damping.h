@@ -33,12 +33,12 @@ namespace talus
     /// Damp the motion of the active nodes after the momentum update and before
     /// Boundaries::apply(). Components that @p boundaries may hold are left
     /// alone: their force is no unbalanced one, the boundary bears it. Nor are
-    /// nodes with less than @p least_mass touched. Returns the work taken, J.
+    /// nodes with less than @p mass_cutoff touched. Returns the work taken, J.
     double
     apply(NodalFields<dim>      &nodes,
           const Grid<dim>       &grid,
           const Boundaries<dim> &boundaries,
-          double                 least_mass) const;
+          double                 mass_cutoff) const;
 
   private:
     double coefficient_ = 0.;

@@ -26,6 +26,19 @@ namespace talus
   public:
     Checkpoint();
 
+    /// Let a run start anew over the checkpoints of an unfinished one.
+    void
+    allow_overwriting()
+    {
+      may_overwrite_ = true;
+    }
+
+    /// Throw ExcUser if the folder holds the checkpoint of an unfinished run,
+    /// unless that may be overwritten. Collective.
+    void
+    check_nothing_is_lost(const std::filesystem::path &output_folder,
+                          MPI_Comm                     communicator) const;
+
     /// Start the clock. Checkpoints of an earlier run are removed; a run that
     /// resumes from @p resumed_from keeps that one, the one before it and
     /// those, damaged ones, after it. What is half-written goes.
@@ -88,6 +101,7 @@ namespace talus
     double       wall_time_limit_ = 0.;  // min
     bool         at_the_end_      = true;
 
+    bool                  may_overwrite_ = false;
     std::filesystem::path output_folder_;
     MPI_Comm              communicator_ = MPI_COMM_WORLD;
     Clock::time_point     start_        = Clock::now();

@@ -74,13 +74,13 @@ namespace talus
     /// is not found in the largest number of steps: then failure() says why.
     /// Collective.
     bool
-    advance(Soil<dim> &soil, const Observer &observe);
+    advance(StaticProblem<dim> &problem, const Observer &observe);
 
     /// Return stresses to the yield surface, to be called after begin() if the
     /// strength is less than it was: nothing moves, but what was in balance is
     /// so no more. Collective.
     void
-    return_stress(Soil<dim> &soil);
+    return_stress(StaticProblem<dim> &problem);
 
     /// Whether all load is on and what is out of balance is within tolerance.
     bool
@@ -141,7 +141,7 @@ namespace talus
     bool
     is_settling();
     bool
-    take_step(Soil<dim> &soil, const Observer &observe);
+    take_step(StaticProblem<dim> &problem, const Observer &observe);
 
     // Parameters
     std::string                      measure_           = "small";

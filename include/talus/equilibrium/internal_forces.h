@@ -2,7 +2,7 @@
 #define talus_equilibrium_internal_forces_h
 
 #include <talus/equilibrium/kept_weights.h>
-#include <talus/equilibrium/soil.h>
+#include <talus/equilibrium/static_problem.h>
 
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -33,7 +33,7 @@ namespace talus
     /// Set the displacement gradients that the points hold, to those of the
     /// displacements @p u, m, after the mean, in the workspace.
     void
-    set_gradients(Soil<dim>                 &soil,
+    set_gradients(StaticProblem<dim>        &problem,
                   const KeptWeights<dim>    &weights,
                   const std::vector<double> &u) const;
 
@@ -41,7 +41,7 @@ namespace talus
     /// of this rank's points. Returns false, with nothing added, if a point
     /// of this rank would be turned inside out.
     bool
-    evaluate(Soil<dim>                 &soil,
+    evaluate(StaticProblem<dim>        &problem,
              const KeptWeights<dim>    &weights,
              const std::vector<double> &u,
              std::vector<double>       &forces);

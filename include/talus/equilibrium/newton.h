@@ -61,7 +61,7 @@ namespace talus
 
     /// Set up the unknowns of the soil as it is now. Collective.
     void
-    begin(Soil<dim> &soil, const Parameters &parameters);
+    begin(StaticProblem<dim> &problem, const Parameters &parameters);
 
     /// Force out of balance, as the dynamics would meet it: Euclidean norm over
     /// the free unknowns, of the reference force. Collective.
@@ -75,11 +75,11 @@ namespace talus
     /// Find the displacements. Where that fails the soil is as before.
     /// Collective.
     Outcome
-    solve(Soil<dim> &soil, double share, const Observer &observe);
+    solve(StaticProblem<dim> &problem, double share, const Observer &observe);
 
     /// Make what was found the state of the points; with large strain they move.
     void
-    accept(Soil<dim> &soil);
+    accept(StaticProblem<dim> &problem);
 
     /// How the soil moves where it fails, at the points, dim numbers each,
     /// divided by the largest of all: the displacement of the last load step
@@ -127,18 +127,19 @@ namespace talus
     void
     make_rigid_modes(const Grid<dim> &grid);
     bool
-    evaluate(Soil<dim> &soil, const std::vector<double> &u);
+    evaluate(StaticProblem<dim> &problem, const std::vector<double> &u);
     /// With the state of the seabed's nodes that belongs to it.
     Outcome
-    seek(Soil<dim> &soil, const Observer &observe);
+    seek(StaticProblem<dim> &problem, const Observer &observe);
     /// With the state that they have.
     Outcome
-    iterate(Soil<dim> &soil, const Observer &observe);
+    iterate(StaticProblem<dim> &problem, const Observer &observe);
     /// Returns why there is no next iterate, as the end of a sentence.
     std::string
-    correct(Soil<dim> &soil, NewtonIteration &iteration);
+    correct(StaticProblem<dim> &problem, NewtonIteration &iteration);
     double
-    search_along(Soil<dim> &soil, const std::vector<double> &direction);
+    search_along(StaticProblem<dim>        &problem,
+                 const std::vector<double> &direction);
     std::vector<double>
     at_points(const Points<dim>         &points,
               const std::vector<double> &field) const;

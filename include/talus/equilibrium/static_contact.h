@@ -1,7 +1,7 @@
 #ifndef talus_equilibrium_static_contact_h
 #define talus_equilibrium_static_contact_h
 
-#include <talus/equilibrium/soil.h>
+#include <talus/equilibrium/static_problem.h>
 #include <talus/equilibrium/unknowns.h>
 
 #include <vector>
@@ -18,11 +18,12 @@ namespace talus
     /// Find the nodes. Those that were known before stay as they were, but for
     /// friction that exceeds what the seabed bears now; the others stick.
     void
-    begin(const Soil<dim> &soil, const Unknowns<dim> &unknowns);
+    begin(const StaticProblem<dim> &problem, const Unknowns<dim> &unknowns);
 
     /// Components that are held, by active node.
     std::vector<unsigned char>
-    held(const Soil<dim> &soil, const Unknowns<dim> &unknowns) const;
+    held(const StaticProblem<dim> &problem,
+         const Unknowns<dim>      &unknowns) const;
 
     /// Add the friction of slipping nodes, N.
     void
@@ -38,7 +39,7 @@ namespace talus
     /// soil went into the seabed. Returns how many nodes stick, slip or lift off
     /// now that did not before. Collective.
     unsigned int
-    revise(const Soil<dim>           &soil,
+    revise(const StaticProblem<dim>  &problem,
            const Unknowns<dim>       &unknowns,
            const std::vector<double> &reaction,
            std::vector<double>       &u);

@@ -36,7 +36,7 @@ namespace talus
 
     /// Whether the soil stands with its strength divided by @p factor.
     void
-    heed(double factor, bool stands);
+    record(double factor, bool stands);
 
     /// The result as a sentence or two.
     std::string

@@ -23,12 +23,12 @@ namespace talus
   class Unknowns
   {
   public:
-    /// The nodes with more than @p least_mass, as the owners see them.
+    /// The nodes with more than @p mass_cutoff, as the owners see them.
     /// Collective.
     void
     number(const NodalFields<dim> &nodes,
            const Grid<dim>        &grid,
-           double                  least_mass);
+           double                  mass_cutoff);
 
     /// Nothing is known of the held components of the owned nodes but that they
     /// do not move: bit d of held[k] holds component d of active_nodes()[k].

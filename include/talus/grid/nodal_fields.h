@@ -40,9 +40,9 @@ namespace talus
     sum_over_ranks(const Grid<dim> &grid);
 
     /// v += dt f/m on all active nodes of this rank with more mass than
-    /// @p least_mass; the others carry nothing and get no velocity.
+    /// @p mass_cutoff; the others carry nothing and get no velocity.
     void
-    update_momentum(double dt, double least_mass);
+    update_momentum(double dt, double mass_cutoff);
 
     /// Give ghosts the motion of their owners, and hanging nodes the one that
     /// their masters imply: one message to each neighbour. Collective.

@@ -1,8 +1,8 @@
 #ifndef talus_observers_energy_budget_h
 #define talus_observers_energy_budget_h
 
-#include <talus/base/state.h>
-#include <talus/observers/snapshot.h>
+#include <talus/base/quantity.h>
+#include <talus/state/state.h>
 
 namespace talus
 {
@@ -38,11 +38,15 @@ namespace talus
   public:
     /// Count from here.
     void
-    begin(const Snapshot<dim> &snapshot);
+    begin(const State<dim> &state);
 
     /// The terms now; collective over the ranks of the grid.
     EnergyTerms
-    evaluate(const Snapshot<dim> &snapshot) const;
+    evaluate(const State<dim> &state) const;
+
+    /// List the terms. Collective.
+    void
+    list_quantities(const State<dim> &state, Quantities &list) const;
 
     /// Add the terms at the start to the state of the run.
     void

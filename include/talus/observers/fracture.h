@@ -1,8 +1,8 @@
 #ifndef talus_observers_fracture_h
 #define talus_observers_fracture_h
 
-#include <talus/grid/grid.h>
-#include <talus/points/points.h>
+#include <talus/base/quantity.h>
+#include <talus/state/state.h>
 
 namespace talus
 {
@@ -34,6 +34,13 @@ namespace talus
   template <int dim>
   FractureCounts
   count_fractures(const Points<dim> &points, const Grid<dim> &grid);
+
+
+
+  /// List the counts but for that of the occupied cells. Collective.
+  template <int dim>
+  void
+  list_fractures(const State<dim> &state, Quantities &list);
 } // namespace talus
 
 #endif

@@ -3,12 +3,13 @@
 
 #include <talus/base/phase_timer.h>
 #include <talus/io/files.h>
+#include <talus/io/log.h>
+#include <talus/observers/boxes.h>
 #include <talus/observers/grid_output.h>
 #include <talus/observers/output_times.h>
 #include <talus/observers/points_output.h>
 #include <talus/observers/profile.h>
 #include <talus/observers/progress.h>
-#include <talus/observers/snapshot.h>
 #include <talus/observers/statistics.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -28,8 +29,16 @@ namespace talus
   class Output : public dealii::ParameterAcceptor
   {
   public:
-    /// @p timer gets the section "output"; see phase_times().
-    explicit Output(PhaseTimer &timer);
+    /// @p timer gets the section "output"; see phase_times(). @p log is opened
+    /// in the folder.
+    Output(PhaseTimer &timer, Log &log);
+
+    /// Add columns to statistics.csv.
+    void
+    add_quantities(const typename Statistics<dim>::Source &source)
+    {
+      statistics_.add_source(source);
+    }
 
     /// Write to this folder, whatever the parameter file says; to be called
     /// after parsing.
@@ -52,13 +61,13 @@ namespace talus
     /// @p end_time, s; in a resumed run go on with them. Throws ExcUser if the folder cannot be written; then no file of an
     /// earlier run was touched.
     void
-    begin(const Snapshot<dim> &snapshot,
-          double               end_time,
-          Beginning            beginning = Beginning::anew);
+    begin(const State<dim> &state,
+          double            end_time,
+          Beginning         beginning = Beginning::anew);
 
     /// Write all that is due at the start of the motion, unless that was done.
     void
-    start(const Snapshot<dim> &snapshot);
+    start(const State<dim> &state);
 
     /// Add what was written so far to the state of the run.
     void
@@ -67,41 +76,37 @@ namespace talus
     /// Throw ExcUser if a file is missing that a resumed run is to go on with;
     /// to be called when the state was loaded. Collective.
     void
-    check_resumable(const Snapshot<dim> &snapshot) const;
+    check_resumable(const State<dim> &state) const;
 
     /// Bring all rows and fields written so far to the disk.
     void
     sync();
 
-    /// Add a sentence to log.txt, and show it on the terminal if wanted.
-    void
-    note(const std::string &sentence, bool on_terminal);
-
     /// To be called after each step: write what is due. At the @p last step
     /// everything is due, and the throughput is printed. Returns whether fields
     /// were written. Throws ExcUser if a file cannot be written.
     bool
-    observe(const Snapshot<dim> &snapshot, bool last);
+    observe(const State<dim> &state, bool last);
 
     /// Write the points with how they move in a mechanism of failure, dim
     /// numbers for each, to NAME.pvd and its files (or .xdmf). Collective.
     void
-    write_mechanism(const Snapshot<dim>       &snapshot,
+    write_mechanism(const State<dim>          &state,
                     const std::string         &name,
                     const std::vector<double> &mechanism) const;
 
     /// Write the points as they are, after an error that ends the run, to
     /// last-state.vtu. Returns the path, for the message.
     std::string
-    write_last_state(const Snapshot<dim> &snapshot) const;
+    write_last_state(const State<dim> &state) const;
 
   private:
     FieldFormat
     format() const;
     void
-    write_row(const Snapshot<dim> &snapshot);
+    write_row(const State<dim> &state);
     void
-    write_fields(const Snapshot<dim> &snapshot);
+    write_fields(const State<dim> &state);
 
     // Parameters
     std::string folder_              = "output";
@@ -114,12 +119,12 @@ namespace talus
     bool        write_runout_        = true;
 
     PhaseTimer       &timer_;
+    Log              &log_;
     Statistics<dim>   statistics_;
     Profile<dim>      profile_;
     PointsOutput<dim> points_output_;
     GridOutput<dim>   grid_output_;
     Progress          progress_;
-    LogFile           log_;
     OutputTimes       row_times_;
     OutputTimes       field_times_;
     bool              has_started_         = false;

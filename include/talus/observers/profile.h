@@ -2,7 +2,7 @@
 #define talus_observers_profile_h
 
 #include <talus/io/files.h>
-#include <talus/observers/snapshot.h>
+#include <talus/observers/boxes.h>
 
 #include <vector>
 
@@ -30,7 +30,7 @@ namespace talus
   /// columns. Collective, the result is on the first rank.
   template <int dim>
   std::vector<ProfileColumn>
-  find_profile(const Snapshot<dim> &snapshot);
+  find_profile(const State<dim> &state);
 
 
 
@@ -50,7 +50,7 @@ namespace talus
     /// Append the rows of one output time; collective, the file belongs to the
     /// first rank.
     void
-    add_rows(const Snapshot<dim> &snapshot);
+    add_rows(const State<dim> &state);
 
     /// Names of the columns.
     static std::vector<std::string>

@@ -1,6 +1,8 @@
 #ifndef talus_observers_progress_h
 #define talus_observers_progress_h
 
+#include <talus/io/log.h>
+
 #include <deal.II/base/mpi.h>
 
 #include <chrono>
@@ -8,12 +10,6 @@
 
 namespace talus
 {
-  /// True if standard output is a terminal.
-  bool
-  stdout_is_terminal();
-
-
-
   /// Tells how far the simulation is and how fast: lines on the terminal, and
   /// one line with the throughput at the end, which is printed also where
   /// standard output is no terminal.

@@ -1,84 +1,12 @@
 #ifndef talus_observers_snapshot_h
 #define talus_observers_snapshot_h
 
-#include <talus/adaptivity/split_statistics.h>
-#include <talus/boundaries/boundary_work.h>
-#include <talus/grid/nodal_fields.h>
-#include <talus/points/points.h>
-#include <talus/transfer/box_rule.h>
-
-#include <array>
-#include <cmath>
+#include <talus/observers/boxes.h>
 
 namespace talus
 {
-  /// Everything an observer may look at, after a step. Points are sorted; the
-  /// nodal fields are those of the step that led here (none at the start).
-  /// Points, nodes, work and counts are this rank's share; observers sum up.
   template <int dim>
-  struct Snapshot
-  {
-    const Points<dim>       &points;
-    const Grid<dim>         &grid;
-    const NodalFields<dim>  &nodes;
-    const BoundaryWork<dim> &boundary_work;
-    const SplitStatistics   &splits;
-    unsigned long            step;
-    double                   time;      ///< s
-    double                   time_step; ///< of the last step, s
-    double          gravity_work;       ///< of weight and body forces so far, J
-    const BoxShape &box_shape;
-  };
-
-
-
-  /// The edges of the box of point @p p, m: along the axes, or those of a
-  /// convected domain. A box that is longer than the weights let it be is as long
-  /// as they do: in a shear layer F grows without bound. One that is too thin for
-  /// the weights is as thin as it is, so that boxes cover the soil once. Points
-  /// that are in no cell yet have their whole box.
-  template <int dim>
-  inline std::array<dealii::Tensor<1, dim>, dim>
-  box_edges(const Snapshot<dim> &snapshot, const unsigned int p)
-  {
-    const Points<dim>                      &points = snapshot.points;
-    const BoxShape                         &shape  = snapshot.box_shape;
-    std::array<dealii::Tensor<1, dim>, dim> edges;
-    for (unsigned int d = 0; d < dim; ++d)
-      if (shape.rule != BoxRule::fixed)
-        edges[d] = edge_of_box(points, shape.rule, d, p);
-      else
-        edges[d][d] = points.data(points.reference_length, d)[p];
-    if (p >= points.n_sorted())
-      return edges;
-    const double longest =
-      2. * shape.most_half * snapshot.grid.cells()[points.cell_of(p)].size;
-    for (unsigned int i = 0; i < dim; ++i)
-      {
-        double length = 0;
-        for (const auto &edge : edges)
-          length += std::abs(edge[i]);
-        if (length > longest)
-          for (auto &edge : edges)
-            edge[i] *= longest / length;
-      }
-    return edges;
-  }
-
-
-
-  /// Length of the box of point @p p along each axis, m; of a convected domain,
-  /// from its lowest to its highest corner. See box_edges().
-  template <int dim>
-  inline dealii::Tensor<1, dim>
-  box_lengths(const Snapshot<dim> &snapshot, const unsigned int p)
-  {
-    dealii::Tensor<1, dim> lengths;
-    for (const auto &edge : box_edges(snapshot, p))
-      for (unsigned int d = 0; d < dim; ++d)
-        lengths[d] += std::abs(edge[d]);
-    return lengths;
-  }
+  using Snapshot = State<dim>;
 } // namespace talus
 
 #endif

@@ -1,25 +1,18 @@
 #ifndef talus_observers_statistics_h
 #define talus_observers_statistics_h
 
+#include <talus/base/quantity.h>
 #include <talus/io/files.h>
 #include <talus/observers/energy_budget.h>
-#include <talus/observers/snapshot.h>
+#include <talus/observers/seabed_force.h>
+#include <talus/state/state.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace talus
 {
-  /// Smallest x of a point, m, such that the points up to it have at least the
-  /// share @p fraction of the mass of all. Collective over @p communicator.
-  template <int dim>
-  double
-  front_of_mass(const Points<dim> &points,
-                double             fraction,
-                MPI_Comm           communicator);
-
-
-
   /// statistics.csv: one row of global quantities per output time, for plots
   /// and tests. Places and speeds are those of the points' centres; quantities
   /// of 2-D runs are per metre width.
@@ -35,16 +28,17 @@ namespace talus
   ///   whether the slide has come to rest. It is 0 before the first step.
   /// - `clipped boxes` counts axes of boxes that the weights clip now.
   /// - The energy terms are those of EnergyTerms; the columns from `empty
-  ///   interior cells` on are those of FractureCounts and SplitStatistics.
+  ///   interior cells` on are those of FractureCounts and of the splitter.
   template <int dim>
   class Statistics
   {
   public:
-    struct Quantity
-    {
-      std::string name;
-      double      value;
-    };
+    /// Appends the quantities of somebody; collective.
+    using Source = std::function<void(const State<dim> &, Quantities &)>;
+
+    /// Add columns behind those of motion, seabed, energies and fractures.
+    void
+    add_source(const Source &source);
 
     /// Whether there are the columns of the runout: the two fronts and the
     /// rear. There are unless this says no, before all else.
@@ -58,24 +52,24 @@ namespace talus
     /// cannot be written.
     void
     begin(const std::filesystem::path &folder,
-          const Snapshot<dim>         &snapshot,
+          const State<dim>            &state,
           Beginning                    beginning = Beginning::anew);
 
     /// Count energies from here, and write the row of the start. Collective.
     void
-    add_first_row(const Snapshot<dim> &snapshot);
+    add_first_row(const State<dim> &state);
 
     /// Append a row; collective, the file belongs to the first rank.
     void
-    add_row(const Snapshot<dim> &snapshot);
+    add_row(const State<dim> &state);
 
     /// What a row holds, in the order of the columns; right on the first rank.
-    std::vector<Quantity>
-    evaluate(const Snapshot<dim> &snapshot) const;
+    Quantities
+    evaluate(const State<dim> &state) const;
 
     /// Names of the columns; collective.
     std::vector<std::string>
-    names(const Snapshot<dim> &snapshot) const;
+    names(const State<dim> &state) const;
 
     void
     list_state(StateList &list);
@@ -95,11 +89,11 @@ namespace talus
     static constexpr const char *file_name = "statistics.csv";
 
   private:
-    EnergyBudget<dim> budget_;
-    CsvFile           file_;
-    bool              has_runout_       = true;
-    double            previous_time_    = 0; // s
-    double            previous_impulse_ = 0; // N s, along x
+    SeabedForce<dim>    seabed_force_;
+    EnergyBudget<dim>   budget_;
+    std::vector<Source> sources_;
+    CsvFile             file_;
+    bool                has_runout_ = true;
   };
 } // namespace talus
 

@@ -2,8 +2,6 @@
 #define talus_simulation_stages_h
 
 #include <talus/base/state.h>
-#include <talus/equilibrium/equilibrium.h>
-#include <talus/io/files.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -75,30 +73,6 @@ namespace talus
     std::vector<std::string> names_ = {"dynamics"};
     std::vector<Stage>       stages_;
     unsigned int             n_done_ = 0;
-  };
-
-
-
-  /// newton.csv: one row for each iteration of Newton's method.
-  class NewtonTable
-  {
-  public:
-    void
-    begin(const std::filesystem::path &folder, Beginning beginning);
-
-    void
-    add(unsigned int stage, double factor, const EquilibriumProgress &progress);
-
-    CsvFile &
-    file()
-    {
-      return file_;
-    }
-
-    static constexpr const char *file_name = "newton.csv";
-
-  private:
-    CsvFile file_;
   };
 } // namespace talus
 

@@ -24,7 +24,7 @@ namespace talus
   public:
     TimeStep();
 
-    /// Forget what was heeded.
+    /// Forget all points.
     void
     begin()
     {
@@ -33,16 +33,17 @@ namespace talus
 
     /// Take the points of a batch into account.
     void
-    heed(const Points<dim>    &points,
-         const Batch          &batch,
-         const Grid<dim>      &grid,
-         const Materials<dim> &materials,
-         const BoxShape       &shape);
+    add_batch(const Points<dim>    &points,
+              const Batch          &batch,
+              const Grid<dim>      &grid,
+              const Materials<dim> &materials,
+              const BoxShape       &shape);
 
-    /// The step that the points heeded since begin() allow, s; infinite if there
+    /// The step that the points added since begin() allow, s; infinite if there
     /// are none. Throws ExcPoint if it is not a positive number.
     double
-    of_heeded(const Points<dim> &points, const Materials<dim> &materials) const;
+    stable_time_step(const Points<dim>    &points,
+                     const Materials<dim> &materials) const;
 
     /// The step that all points of this rank allow.
     double

@@ -45,7 +45,7 @@ namespace talus
           const Grid<dim>     &grid,
           NodalFields<dim>    &nodes,
           const Transfer<dim> &transfer,
-          double               least_mass) const;
+          double               mass_cutoff) const;
 
   private:
     std::string  scheme_   = "FLIP";

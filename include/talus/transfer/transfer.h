@@ -109,7 +109,7 @@ namespace talus
     /// Mass below which a node near cells of this size and soil of this density
     /// carries nothing, kg.
     double
-    least_mass(const double density, const double cell_size) const;
+    mass_cutoff(const double density, const double cell_size) const;
 
   private:
     /// Whether any body in the batch is averaged over its cells.

@@ -1,5 +1,5 @@
-#ifndef talus_simulation_preview_h
-#define talus_simulation_preview_h
+#ifndef talus_problem_preview_h
+#define talus_problem_preview_h
 
 #include <talus/materials/materials.h>
 

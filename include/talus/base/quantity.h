@@ -1,0 +1,43 @@
+#ifndef talus_base_quantity_h
+#define talus_base_quantity_h
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// A number that tells of the whole run at one time, for a table.
+  struct Quantity
+  {
+    std::string name;
+    std::string unit; ///< empty for what is counted
+    double      value;
+
+    /// The heading of its column.
+    std::string
+    heading() const
+    {
+      return unit.empty() ? name : name + " [" + unit + "]";
+    }
+  };
+
+  /// Those of whoever has some, in the order of their columns.
+  using Quantities = std::vector<Quantity>;
+
+
+
+  /// Append a vector, one quantity for each axis.
+  template <int dim, typename Vector>
+  void
+  append_vector(Quantities        &list,
+                const std::string &name,
+                const std::string &unit,
+                const Vector      &vector)
+  {
+    const std::string axes = "xyz";
+    for (unsigned int d = 0; d < dim; ++d)
+      list.push_back({name + ' ' + axes[d], unit, vector[d]});
+  }
+} // namespace talus
+
+#endif

@@ -1,0 +1,54 @@
+#ifndef talus_equilibrium_static_problem_h
+#define talus_equilibrium_static_problem_h
+
+#include <talus/boundaries/boundaries.h>
+#include <talus/materials/materials.h>
+#include <talus/state/state.h>
+#include <talus/transfer/transfer.h>
+
+namespace talus
+{
+  /// What is to be brought to equilibrium, and what acts on it at the time of
+  /// the state. Points are sorted, and the nodes near them active.
+  template <int dim>
+  struct StaticProblem
+  {
+    State<dim>           &state;
+    const Transfer<dim>  &transfer;
+    const Materials<dim> &materials;
+    Boundaries<dim>      &boundaries;
+    const Loads<dim>     &loads;
+  };
+
+
+
+  /// Set mass, volume and force at the nodes to those of the explicit scheme:
+  /// the force is what is not in balance before walls and seabed bear their
+  /// share. Collective.
+  template <int dim>
+  inline void
+  sum_forces(StaticProblem<dim> &problem)
+  {
+    State<dim> &state = problem.state;
+    state.nodes.clear();
+    state.points.for_batches([&](const Batch &batch) {
+      state.workspace.reinit(batch.begin, batch.end);
+      problem.transfer.average_mean_stress(state.points,
+                                           state.workspace,
+                                           batch);
+      problem.transfer.scatter(state.points,
+                               state.workspace,
+                               batch,
+                               state.grid,
+                               problem.loads,
+                               state.nodes);
+    });
+    state.nodes.sum_over_ranks(state.grid);
+    problem.boundaries.add_tractions(state.nodes,
+                                     state.grid,
+                                     state.time,
+                                     state.mass_cutoff);
+  }
+} // namespace talus
+
+#endif

@@ -1,0 +1,26 @@
+#ifndef talus_observers_point_motion_h
+#define talus_observers_point_motion_h
+
+#include <talus/base/quantity.h>
+#include <talus/state/state.h>
+
+namespace talus
+{
+  /// Smallest x of a point, m, such that the points up to it have at least the
+  /// share @p fraction of the mass of all. Collective over @p communicator.
+  template <int dim>
+  double
+  front_of_mass(const Points<dim> &points,
+                double             fraction,
+                MPI_Comm           communicator);
+
+
+
+  /// List number, places, speeds, mass and momentum of the points, those of
+  /// front and rear only @p with_runout. Collective.
+  template <int dim>
+  void
+  list_motion(const State<dim> &state, bool with_runout, Quantities &list);
+} // namespace talus
+
+#endif

@@ -1,0 +1,99 @@
+#ifndef talus_problem_problem_h
+#define talus_problem_problem_h
+
+#include <talus/boundaries/boundaries.h>
+#include <talus/problem/body.h>
+#include <talus/problem/loading.h>
+#include <talus/problem/preview.h>
+#include <talus/problem/trigger.h>
+#include <talus/state/state.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// What is simulated: bodies of soil and what they are made of, what bounds
+  /// and loads them, and what sets them in motion.
+  template <int dim>
+  class Problem : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit Problem(const Preview &preview);
+
+    /// To be called after parsing. Throws ExcUser if parameters contradict each
+    /// other. Declares the columns that laws and trigger need, and that of the
+    /// strength factor also if somebody else @p changes_strength.
+    void
+    prepare(Points<dim> &points, bool changes_strength, double end_time);
+
+    /// Fill the bodies with points and set all they start with. Points are in
+    /// no order then. Collective.
+    void
+    create_points(State<dim> &state);
+
+    /// Set the velocities that the points start with to those of time @p t, s.
+    void
+    set_velocity(Points<dim> &points, double t) const;
+
+    /// Whether these are those of half a step before the start.
+    bool
+    has_velocity_of_half_step() const
+    {
+      return initial_velocity_time_ == "half step";
+    }
+
+    /// Whether each face of the mesh may be moved outwards: those that are free.
+    std::array<bool, 2 * dim>
+    faces_that_may_move() const;
+
+    /// The least of the bodies, kg/m^3.
+    double
+    least_density() const;
+
+    std::vector<std::string>
+    names_of_bodies() const;
+
+    /// Boxes around the bodies in a mesh that fills @p domain.
+    std::vector<Box<dim>>
+    bounding_boxes(const Box<dim> &domain) const;
+
+    /// For which bodies the dilatation is averaged over the cells.
+    std::vector<bool>
+    bodies_with_cell_mean() const;
+
+    /// Whether a body is made of a hyperelastic law.
+    bool
+    has_hyperelastic_body() const;
+
+    /// Sentences for the log at the start of a run on cells of @p cell_size m.
+    std::vector<std::string>
+    notes(double cell_size) const;
+
+    void
+    list_state(StateList &list) const
+    {
+      loading.list_state(list);
+    }
+
+  private:
+    Constants                               constants_;
+    std::string                             initial_velocity_time_ = "start";
+    std::vector<std::string>                listed_names_;
+    std::vector<std::unique_ptr<Body<dim>>> bodies_;
+    std::vector<std::string>                notes_; ///< on the initial stress
+
+  public:
+    // The parts, for those who work with them.
+    Materials<dim>  materials;
+    Boundaries<dim> boundaries;
+    Loading<dim>    loading;
+    Trigger<dim>    trigger;
+  };
+} // namespace talus
+
+#endif

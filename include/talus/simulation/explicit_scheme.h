@@ -1,0 +1,88 @@
+#ifndef talus_simulation_explicit_scheme_h
+#define talus_simulation_explicit_scheme_h
+
+#include <talus/adaptivity/splitter.h>
+#include <talus/base/phase_timer.h>
+#include <talus/boundaries/damping.h>
+#include <talus/problem/problem.h>
+#include <talus/simulation/background_mesh.h>
+#include <talus/simulation/step_agreement.h>
+#include <talus/simulation/time_step.h>
+#include <talus/state/state.h>
+#include <talus/transfer/null_space_filter.h>
+#include <talus/transfer/transfer.h>
+
+#include <string>
+
+namespace talus
+{
+  /// The material point method: explicit in time, with generalized
+  /// interpolation, stress updated last, and points split where they were
+  /// stretched too far. @cite bardenhagen2002, @cite esub
+  template <int dim>
+  class ExplicitScheme
+  {
+  public:
+    ExplicitScheme(State<dim>          &state,
+                   Problem<dim>        &problem,
+                   const Transfer<dim> &transfer,
+                   BackgroundMesh<dim> &mesh,
+                   PhaseTimer          &timer);
+
+    /// One step, not beyond @p end_time, s. Returns the greatest of the requests
+    /// of all ranks for after the step; @p own is that of this one. Collective.
+    RunRequest
+    advance(double end_time, RunRequest own);
+
+    /// What the points of all ranks allow in this state, s. Collective.
+    double
+    stable_time_step();
+
+    /// Sentence with that step and what limits it. Collective.
+    std::string
+    description();
+
+    const Damping<dim> &
+    damping() const
+    {
+      return damping_;
+    }
+
+    const Splitter<dim> &
+    splitter() const
+    {
+      return splitter_;
+    }
+
+    Splitter<dim> &
+    splitter()
+    {
+      return splitter_;
+    }
+
+  private:
+    void
+    points_to_grid();
+    RunRequest
+    agree_on_step(double end_time, RunRequest own);
+    void
+    update_nodes();
+    void
+    grid_to_points();
+    void
+    split();
+
+    State<dim>          &state_;
+    Problem<dim>        &problem_;
+    const Transfer<dim> &transfer_;
+    BackgroundMesh<dim> &mesh_;
+    PhaseTimer          &timer_;
+    NullSpaceFilter<dim> filter_;
+    Damping<dim>         damping_;
+    Splitter<dim>        splitter_;
+    TimeStep<dim>        time_step_;
+    StepAgreement        agreement_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,32 @@
+#ifndef talus_simulation_newton_table_h
+#define talus_simulation_newton_table_h
+
+#include <talus/equilibrium/equilibrium.h>
+#include <talus/io/files.h>
+
+namespace talus
+{
+  /// newton.csv: one row for each iteration of Newton's method.
+  class NewtonTable
+  {
+  public:
+    void
+    begin(const std::filesystem::path &folder, Beginning beginning);
+
+    void
+    add(unsigned int stage, double factor, const EquilibriumProgress &progress);
+
+    CsvFile &
+    file()
+    {
+      return file_;
+    }
+
+    static constexpr const char *file_name = "newton.csv";
+
+  private:
+    CsvFile file_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,119 @@
+#ifndef talus_simulation_static_solver_h
+#define talus_simulation_static_solver_h
+
+#include <talus/adaptivity/splitter.h>
+#include <talus/equilibrium/equilibrium.h>
+#include <talus/equilibrium/static_problem.h>
+#include <talus/io/log.h>
+#include <talus/problem/problem.h>
+#include <talus/simulation/background_mesh.h>
+#include <talus/simulation/newton_table.h>
+#include <talus/state/state.h>
+#include <talus/transfer/transfer.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// Brings the soil of a run into balance, load step by load step, tells of
+  /// them, and can take the soil back to where it was.
+  template <int dim>
+  class StaticSolver
+  {
+  public:
+    StaticSolver(State<dim>          &state,
+                 Problem<dim>        &problem,
+                 const Transfer<dim> &transfer,
+                 BackgroundMesh<dim> &mesh,
+                 const Splitter<dim> &splitter,
+                 Log                 &log);
+
+    /// Start newton.csv, or go on with it.
+    void
+    begin(const std::filesystem::path &folder, Beginning beginning);
+
+    /// What is told of a search: the number of its stage and the factor that
+    /// strengths are divided by.
+    struct Label
+    {
+      unsigned int stage;
+      double       strength_factor;
+    };
+
+    /// Search from the state as it is without loads. Returns false if there is
+    /// no balance: then no_equilibrium() says why. Collective.
+    bool
+    find(StrainMeasure measure, const Label &label);
+
+    /// Whether soil in balance with all its load, but with other strengths now,
+    /// finds it again within these limits, in small strain. Collective.
+    bool
+    find_again(const EquilibriumLimits &limits, const Label &label);
+
+    /// Why find() failed, a sentence.
+    std::string
+    no_equilibrium() const;
+
+    /// What a search may change.
+    struct Saved
+    {
+      std::vector<std::vector<double>> columns; ///< of the points
+      StaticContact<dim>               contact;
+    };
+
+    Saved
+    save() const;
+
+    /// Go back; the points are still where they were.
+    void
+    restore(const Saved &saved);
+
+    /// Go back; points may have moved since, the mesh with them, and to other
+    /// ranks. Collective.
+    void
+    bring_back(const Saved &saved);
+
+    const Equilibrium<dim> &
+    equilibrium() const
+    {
+      return equilibrium_;
+    }
+
+    void
+    list_state(StateList &list);
+
+  private:
+    /// What a load step is told of.
+    struct StepNote
+    {
+      unsigned int        step = 0;
+      double              load = 0;
+      std::vector<double> residuals;
+      unsigned int        n_linear_iterations = 0;
+      double              seconds             = 0;
+    };
+
+    StaticProblem<dim>
+    problem();
+    bool
+    take_load_step(const Label &label, StepNote &note);
+    void
+    observe(const EquilibriumProgress &progress,
+            const Label               &label,
+            StepNote                  &note);
+    void
+    tell(const StepNote &note);
+
+    State<dim>          &state_;
+    Problem<dim>        &problem_;
+    const Transfer<dim> &transfer_;
+    BackgroundMesh<dim> &mesh_;
+    const Splitter<dim> &splitter_;
+    Log                 &log_;
+    Equilibrium<dim>     equilibrium_;
+    NewtonTable          table_;
+  };
+} // namespace talus
+
+#endif

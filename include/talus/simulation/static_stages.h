@@ -1,0 +1,115 @@
+#ifndef talus_simulation_static_stages_h
+#define talus_simulation_static_stages_h
+
+#include <talus/equilibrium/strength_reduction.h>
+#include <talus/observers/output.h>
+#include <talus/simulation/stages.h>
+#include <talus/simulation/static_solver.h>
+
+#include <string>
+
+namespace talus
+{
+  /// The stages of a run in which time stands still: the search for
+  /// equilibrium, and that for the factor of safety.
+  template <int dim>
+  class StaticStages
+  {
+  public:
+    StaticStages(State<dim>          &state,
+                 Problem<dim>        &problem,
+                 const Transfer<dim> &transfer,
+                 BackgroundMesh<dim> &mesh,
+                 const Splitter<dim> &splitter,
+                 const Output<dim>   &output,
+                 Log                 &log);
+
+    /// To be called after parsing and before the stages are asked for. Throws
+    /// ExcUser if they are not what they may be.
+    void
+    check_list()
+    {
+      stages_.check();
+    }
+
+    /// Throw ExcUser if a stage could not do its work; the problem has been
+    /// prepared.
+    void
+    check() const;
+
+    /// Start the files of the stages, or go on with them.
+    void
+    begin(const std::filesystem::path &folder, Beginning beginning);
+
+    /// Do the next stage, which is one of these. Collective.
+    void
+    run_next();
+
+    /// Throw ExcUser if the dynamics would start from a balance that takes more
+    /// strength than there is.
+    void
+    check_soil_stands() const;
+
+    const Stages &
+    stages() const
+    {
+      return stages_;
+    }
+
+    const Equilibrium<dim> &
+    equilibrium() const
+    {
+      return solver_.equilibrium();
+    }
+
+    const StrengthReduction &
+    strength_reduction() const
+    {
+      return strength_reduction_;
+    }
+
+    void
+    list_state(StateList &list);
+
+  private:
+    typename StaticSolver<dim>::Label
+    label(const double strength_factor) const
+    {
+      return {stages_.number(), strength_factor};
+    }
+
+    void
+    find_equilibrium();
+    [[noreturn]] void
+    throw_no_equilibrium(const std::string &sentence) const;
+    void
+    find_equilibrium_with_more_strength(
+      const typename StaticSolver<dim>::Saved &before);
+    StrainMeasure
+    measure_of_stronger_soil() const;
+    void
+    divide_strength(double factor);
+    void
+    reduce_strength();
+    void
+    start_reduction();
+    bool
+    stands_with(double factor);
+    void
+    write_mechanism(const std::string &name) const;
+
+    State<dim>        &state_;
+    Problem<dim>      &problem_;
+    const Output<dim> &output_;
+    Log               &log_;
+    Stages             stages_;
+    StaticSolver<dim>  solver_;
+    StrengthReduction  strength_reduction_;
+
+    /// The soil is in balance with its strengths divided by this [-]: 1, or less
+    /// where it does not stand with those that it has.
+    double standing_factor_ = 1.;
+  };
+} // namespace talus
+
+#endif

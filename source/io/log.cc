@@ -1,0 +1,40 @@
+#include <talus/base/agreement.h>
+#include <talus/io/log.h>
+
+#include <iostream>
+
+#include <unistd.h>
+
+namespace talus
+{
+  bool
+  stdout_is_terminal()
+  {
+    return isatty(STDOUT_FILENO);
+  }
+
+
+
+  void
+  Log::open(const std::filesystem::path &folder, const Beginning beginning)
+  {
+    if (!is_first_rank(MPI_COMM_WORLD))
+      return;
+    file_.open(folder / "log.txt", beginning);
+    is_open_ = true;
+  }
+
+
+
+  void
+  Log::say(const LogLevel level, const std::string &sentence)
+  {
+    if (!is_first_rank(MPI_COMM_WORLD))
+      return;
+    if (is_open_)
+      file_.add_line(sentence);
+    if (level == LogLevel::result ||
+        (level == LogLevel::info && stdout_is_terminal()))
+      std::cout << sentence << std::endl;
+  }
+} // namespace talus

@@ -1,0 +1,182 @@
+#include <talus/observers/point_motion.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Sums over the points, and what follows from them.
+    template <int dim>
+    struct PointSums
+    {
+      double         n_points = 0;
+      double         mass     = 0; // kg
+      Tensor<1, dim> moment;       // kg m
+      Tensor<1, dim> momentum;     // kg m/s
+      double         front         = std::numeric_limits<double>::lowest();
+      double         rear          = std::numeric_limits<double>::max();
+      double         top           = std::numeric_limits<double>::lowest();
+      double         maximum_speed = 0; // m/s
+    };
+
+
+
+    template <int dim>
+    PointSums<dim>
+    sum_over_own_points(const Points<dim> &points)
+    {
+      PointSums<dim> result;
+      result.n_points           = points.size();
+      const double *mass        = points.data(points.mass);
+      double        top_speed_2 = 0;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          double speed_2 = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              const double v = points.data(points.velocity, d)[p];
+              result.moment[d] += mass[p] * points.data(points.position, d)[p];
+              result.momentum[d] += mass[p] * v;
+              speed_2 += v * v;
+            }
+          result.mass += mass[p];
+          top_speed_2 = std::max(top_speed_2, speed_2);
+
+          const double x = points.data(points.position, 0)[p];
+          result.front   = std::max(result.front, x);
+          result.rear    = std::min(result.rear, x);
+          result.top = std::max(result.top, points.data(points.position, 1)[p]);
+        }
+      result.maximum_speed = std::sqrt(top_speed_2);
+      return result;
+    }
+
+
+
+    template <int dim>
+    PointSums<dim>
+    sum_over_points(const Points<dim> &points, const MPI_Comm communicator)
+    {
+      PointSums<dim> sum = sum_over_own_points(points);
+      sum.n_points       = Utilities::MPI::sum(sum.n_points, communicator);
+      sum.mass           = Utilities::MPI::sum(sum.mass, communicator);
+      sum.moment         = Utilities::MPI::sum(sum.moment, communicator);
+      sum.momentum       = Utilities::MPI::sum(sum.momentum, communicator);
+      sum.front          = Utilities::MPI::max(sum.front, communicator);
+      sum.rear           = Utilities::MPI::min(sum.rear, communicator);
+      sum.top            = Utilities::MPI::max(sum.top, communicator);
+      sum.maximum_speed  = Utilities::MPI::max(sum.maximum_speed, communicator);
+      return sum;
+    }
+  } // namespace
+
+
+
+  // Finds the place by counting mass in bins and going on with the points of
+  // the one bin that holds it: no sort, and only the bins travel between ranks.
+  template <int dim>
+  double
+  front_of_mass(const Points<dim> &points,
+                const double       fraction,
+                const MPI_Comm     communicator)
+  {
+    constexpr unsigned int n_bins = 1024;
+    struct Candidate
+    {
+      double x, mass;
+    };
+    std::vector<Candidate> candidates(points.size());
+    double                 mass = 0, mass_below = 0;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        candidates[p] = {points.data(points.position, 0)[p],
+                         points.data(points.mass)[p]};
+        mass += candidates[p].mass;
+      }
+    // Less than any point's mass, more than the round-off of the sum: with 200
+    // equal points it is surely the 199th that completes 99.5 %.
+    const double target =
+      (fraction - 1e-12) * Utilities::MPI::sum(mass, communicator);
+
+    while (true)
+      {
+        double lower = std::numeric_limits<double>::max();
+        double upper = std::numeric_limits<double>::lowest();
+        for (const Candidate &c : candidates)
+          {
+            lower = std::min(lower, c.x);
+            upper = std::max(upper, c.x);
+          }
+        lower = Utilities::MPI::min(lower, communicator);
+        upper = Utilities::MPI::max(upper, communicator);
+        if (!(lower < upper))
+          return upper;
+
+        const auto bin = [&](const Candidate &c) {
+          const double at = (c.x - lower) / (upper - lower) * n_bins;
+          return std::min(n_bins - 1, static_cast<unsigned int>(at));
+        };
+        std::vector<double> bins(n_bins, 0.);
+        for (const Candidate &c : candidates)
+          bins[bin(c)] += c.mass;
+        Utilities::MPI::sum(bins, communicator, bins);
+
+        unsigned int b = 0;
+        for (; b + 1 < n_bins && mass_below + bins[b] < target; ++b)
+          mass_below += bins[b];
+        candidates.erase(std::remove_if(candidates.begin(),
+                                        candidates.end(),
+                                        [&](const Candidate &c) {
+                                          return bin(c) != b;
+                                        }),
+                         candidates.end());
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  list_motion(const State<dim> &state, const bool with_runout, Quantities &list)
+  {
+    const PointSums<dim> sums =
+      sum_over_points(state.points, state.communicator());
+    list.push_back({"points", "", sums.n_points});
+    if (with_runout)
+      {
+        list.push_back({"front x", "m", sums.front});
+        list.push_back(
+          {"front of 99.5 % mass x",
+           "m",
+           front_of_mass(state.points, 0.995, state.communicator())});
+        list.push_back({"rear x", "m", sums.rear});
+      }
+    list.push_back({"height", "m", sums.top - state.grid.domain().lower[1]});
+    append_vector<dim>(list, "centre", "m", sums.moment / sums.mass);
+    append_vector<dim>(list,
+                       "centre velocity",
+                       "m/s",
+                       sums.momentum / sums.mass);
+    list.push_back({"maximum speed", "m/s", sums.maximum_speed});
+    list.push_back({"mass", "kg", sums.mass});
+    list.push_back({"momentum x", "kg m/s", sums.momentum[0]});
+  }
+
+
+
+  template double
+  front_of_mass(const Points<2> &, double, MPI_Comm);
+  template double
+  front_of_mass(const Points<3> &, double, MPI_Comm);
+  template void
+  list_motion(const State<2> &, bool, Quantities &);
+  template void
+  list_motion(const State<3> &, bool, Quantities &);
+} // namespace talus

@@ -1,0 +1,61 @@
+#include <talus/observers/seabed_force.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace talus
+{
+  namespace
+  {
+    /// Since the start of the run, N s.
+    template <int dim>
+    double
+    impulse(const State<dim> &state)
+    {
+      return dealii::Utilities::MPI::sum(state.works.seabed_impulse[0],
+                                         state.communicator());
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  SeabedForce<dim>::restart(const State<dim> &state)
+  {
+    previous_time_    = state.time;
+    previous_impulse_ = impulse(state);
+  }
+
+
+
+  template <int dim>
+  void
+  SeabedForce<dim>::list_quantities(const State<dim> &state,
+                                    Quantities       &list) const
+  {
+    const double now      = impulse(state);
+    const double interval = state.time - previous_time_;
+    list.push_back({"seabed force x",
+                    "N",
+                    interval > 0 ? (now - previous_impulse_) / interval : 0.});
+    list.push_back({"seabed impulse x", "N s", now});
+  }
+
+
+
+  template <int dim>
+  void
+  SeabedForce<dim>::list_state(StateList &list)
+  {
+    list.add("time of the last row", "s", previous_time_, Reduction::equal);
+    list.add("seabed impulse at the last row",
+             "N s",
+             previous_impulse_,
+             Reduction::equal);
+  }
+
+
+
+  template class SeabedForce<2>;
+  template class SeabedForce<3>;
+} // namespace talus

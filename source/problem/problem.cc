@@ -1,0 +1,195 @@
+#include <talus/base/errors.h>
+#include <talus/problem/geostatic.h>
+#include <talus/problem/problem.h>
+#include <talus/transfer/far_points.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Problem<dim>::Problem(const Preview &preview)
+    : ParameterAcceptor("/")
+    , materials(preview.materials)
+    , loading(preview.folder)
+  {
+    for (const std::string &name : preview.bodies)
+      bodies_.push_back(std::make_unique<Body<dim>>(name));
+    add_parameter(
+      "Initial velocity time",
+      initial_velocity_time_,
+      "Velocities live between the steps. 'start': take the initial "
+      "velocity at t = 0; 'half step': at t = -dt/2, which keeps "
+      "second order where the acceleration is not zero at the "
+      "start.",
+      this->prm,
+      Patterns::Selection("start|half step"));
+    enter_subsection("Bodies");
+    add_parameter(
+      "Names",
+      listed_names_,
+      "Names of the bodies, separated by commas; each has a section "
+      "of that name.");
+    leave_subsection();
+  }
+
+
+
+  template <int dim>
+  void
+  Problem<dim>::prepare(Points<dim> &points,
+                        const bool   changes_strength,
+                        const double end_time)
+  {
+    constants_.values(); // throws, also where no expression needs them
+    const std::vector<std::string> names = names_of_bodies();
+    std::vector<std::string>       materials_of_bodies;
+    for (const auto &body : bodies_)
+      materials_of_bodies.push_back(body->material());
+    materials.assign(names, materials_of_bodies);
+    trigger.check(names, materials, boundaries.has_seabed(), end_time);
+    materials.add_columns(points,
+                          trigger.changes_strength() || changes_strength);
+    trigger.add_columns(points);
+    loading.prepare(materials, bodies_.size(), constants_);
+    boundaries.prepare(constants_);
+  }
+
+
+
+  template <int dim>
+  void
+  Problem<dim>::create_points(State<dim> &state)
+  {
+    Points<dim> &points = state.points;
+    for (unsigned int b = 0; b < bodies_.size(); ++b)
+      {
+        const MaterialModel<dim> &material = materials.of_body(b);
+        const InitialState<dim>  &initial  = bodies_[b]->initial_state();
+        const unsigned int        begin    = points.size();
+        initial.check(material);
+        bodies_[b]->create_points(state.grid, b, material.density(), points);
+        initial.set_velocity(points, b, 0., constants_);
+        initial.deform(points,
+                       begin,
+                       points.size(),
+                       material,
+                       state.box_shape.rule,
+                       constants_);
+        material.initialize(points, begin, points.size());
+      }
+    notes_ =
+      set_geostatic_stress(points,
+                           bodies_,
+                           materials,
+                           loading.share_of_gravity(0.) * loading.gravity(),
+                           state.communicator());
+    if (std::any_of(bodies_.begin(), bodies_.end(), [](const auto &body) {
+          return body->initial_state().is_displaced();
+        }))
+      send_far_points(points, state.grid);
+    trigger.choose_points(points, constants_, state.communicator());
+  }
+
+
+
+  template <int dim>
+  void
+  Problem<dim>::set_velocity(Points<dim> &points, const double t) const
+  {
+    for (unsigned int b = 0; b < bodies_.size(); ++b)
+      bodies_[b]->initial_state().set_velocity(points, b, t, constants_);
+  }
+
+
+
+  template <int dim>
+  std::array<bool, 2 * dim>
+  Problem<dim>::faces_that_may_move() const
+  {
+    std::array<bool, 2 * dim> result;
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      result[face] = boundaries.condition(face) == FaceCondition::free;
+    return result;
+  }
+
+
+
+  template <int dim>
+  double
+  Problem<dim>::least_density() const
+  {
+    double result = materials.of_body(0).density();
+    for (unsigned int b = 1; b < bodies_.size(); ++b)
+      result = std::min(result, materials.of_body(b).density());
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Problem<dim>::names_of_bodies() const
+  {
+    std::vector<std::string> names;
+    for (const auto &body : bodies_)
+      names.push_back(body->name());
+    return names;
+  }
+
+
+
+  template <int dim>
+  std::vector<Box<dim>>
+  Problem<dim>::bounding_boxes(const Box<dim> &domain) const
+  {
+    std::vector<Box<dim>> boxes;
+    for (const auto &body : bodies_)
+      boxes.push_back(body->bounding_box(domain));
+    return boxes;
+  }
+
+
+
+  template <int dim>
+  std::vector<bool>
+  Problem<dim>::bodies_with_cell_mean() const
+  {
+    std::vector<bool> result;
+    for (unsigned int b = 0; b < bodies_.size(); ++b)
+      result.push_back(materials.of_body(b).uses_cell_mean());
+    return result;
+  }
+
+
+
+  template <int dim>
+  bool
+  Problem<dim>::has_hyperelastic_body() const
+  {
+    for (unsigned int b = 0; b < bodies_.size(); ++b)
+      if (materials.of_body(b).is_hyperelastic())
+        return true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Problem<dim>::notes(const double cell_size) const
+  {
+    std::vector<std::string> result = materials.notes(cell_size);
+    result.insert(result.end(), notes_.begin(), notes_.end());
+    if (!trigger.note().empty())
+      result.push_back(trigger.note());
+    return result;
+  }
+
+
+
+  template class Problem<2>;
+  template class Problem<3>;
+} // namespace talus

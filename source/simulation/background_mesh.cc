@@ -1,0 +1,315 @@
+#include <talus/base/errors.h>
+#include <talus/simulation/background_mesh.h>
+#include <talus/transfer/far_points.h>
+#include <talus/transfer/weights.h>
+
+#include <deal.II/base/mpi.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Coverage and reach, after a change of the mesh: every point lies in its
+    /// cell, or beyond a wall at most half a cell outside, and its weights sum
+    /// to one (which weights_of_point() asserts). (Used in Debug only.)
+    template <int dim>
+    [[maybe_unused]] bool
+    points_are_covered(const State<dim> &state)
+    {
+      const Points<dim>           &points = state.points;
+      const Grid<dim>             &grid   = state.grid;
+      std::vector<NodeWeight<dim>> weights;
+      for (const Segment &segment : points.segments())
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          {
+            const Cell<dim> &cell = grid.cells()[segment.cell];
+            for (unsigned int d = 0; d < dim; ++d)
+              {
+                const double xi =
+                  (points.data(points.position, d)[p] - cell.lower[d]) /
+                  cell.size;
+                const bool first = cell.lower[d] <= grid.domain().lower[d];
+                const bool last =
+                  cell.lower[d] + 1.5 * cell.size > grid.domain().upper[d];
+                if (!(xi >= (first ? -0.5 : -1e-12) &&
+                      xi <= (last ? 1.5 : 1. + 1e-12)))
+                  return false;
+              }
+            weights_of_point(
+              points, grid, state.box_shape, segment.cell, p, weights);
+          }
+      return state.box_shape.most_half <= 0.5;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  BackgroundMesh<dim>::BackgroundMesh(State<dim>          &state,
+                                      Problem<dim>        &problem,
+                                      const Transfer<dim> &transfer,
+                                      PhaseTimer          &timer)
+    : state_(state)
+    , problem_(problem)
+    , transfer_(transfer)
+    , timer_(timer)
+  {}
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::create()
+  {
+    Grid<dim> &grid = state_.grid;
+    grid.create(problem_.faces_that_may_move(),
+                mesh_tracking_.is_enabled(),
+                problem_.boundaries.periodic_axes());
+    if (mesh_tracking_.is_enabled())
+      mesh_tracking_.adapt(
+        grid, problem_.bounding_boxes(grid.domain_before_growth()));
+    else
+      grid.refine();
+    prepare();
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::load(const std::string    &mesh,
+                            Hdf5File             &file,
+                            const CheckpointHead &head)
+  {
+    Grid<dim>         &grid = state_.grid;
+    const unsigned int n_ranks =
+      Utilities::MPI::n_mpi_processes(state_.communicator());
+    grid.create(problem_.faces_that_may_move(),
+                mesh_tracking_.is_enabled(),
+                problem_.boundaries.periodic_axes());
+    grid.load(mesh);
+    if (n_ranks == head.n_ranks && n_ranks > 1)
+      restore_partition(file);
+    prepare();
+    // Not found by their positions: on an edge of a cell these leave a choice.
+    relocation_.rebuild(state_.points,
+                        load_points(file, grid.n_owned_cells(), state_.points));
+    activate_nodes();
+  }
+
+
+
+  /// p4est has shared the cells evenly; the sums over ranks are bit by bit the
+  /// same only if every rank has what it had.
+  template <int dim>
+  void
+  BackgroundMesh<dim>::restore_partition(Hdf5File &file)
+  {
+    const auto weights = [&]() {
+      const auto result =
+        load_cell_weights(file, state_.grid.n_locally_owned_cells());
+      check_read(file);
+      return result;
+    };
+    state_.grid.repartition(weights());
+    load_balance_.set_weights(weights());
+  }
+
+
+
+  /// All that depends on the mesh. Points stay on their rank.
+  template <int dim>
+  void
+  BackgroundMesh<dim>::prepare()
+  {
+    std::array<double, 2 * dim> may_lie_outside;
+    const auto                  is_free = problem_.faces_that_may_move();
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      may_lie_outside[face] = (is_free[face] ? 0. : 0.5);
+    relocation_.allow_outside(may_lie_outside);
+
+    state_.grid.prepare();
+    state_.nodes.prepare(state_.grid);
+    problem_.boundaries.locate_nodes(state_.grid);
+    relocation_.rebuild(state_.points, state_.grid);
+    activate_nodes();
+    state_.mass_cutoff = transfer_.mass_cutoff(problem_.least_density(),
+                                               state_.grid.finest_size());
+  }
+
+
+
+  /// The points are in their new cells.
+  template <int dim>
+  void
+  BackgroundMesh<dim>::activate_nodes()
+  {
+    state_.nodes.activate(state_.grid, relocation_.occupied_cells());
+    Assert(points_are_covered(state_),
+           ExcMessage(
+             "After a change of the mesh a point is not in its cell."));
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::insert_points()
+  {
+    relocation_.update(state_.points, state_.grid);
+    state_.nodes.activate(state_.grid, relocation_.occupied_cells());
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::repartition()
+  {
+    if (Utilities::MPI::n_mpi_processes(state_.communicator()) == 1)
+      return;
+    ++n_repartitions_;
+    const auto cells = load_balance_.repartition(state_.grid, state_.points);
+    state_.nodes.prepare(state_.grid);
+    problem_.boundaries.locate_nodes(state_.grid);
+    relocation_.rebuild(state_.points, cells);
+    activate_nodes();
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::adapt(const Splitter<dim> &splitter)
+  {
+    PhaseTimer::Scope scope(timer_, "mesh");
+    const MPI_Comm    communicator = state_.communicator();
+    const auto       &occupied     = relocation_.occupied_cells();
+    if (mesh_tracking_.is_enabled() &&
+        (mesh_tracking_.is_due(state_.step) ||
+         Utilities::MPI::logical_or(
+           mesh_tracking_.is_urgent(state_.grid, occupied), communicator)))
+      if (mesh_tracking_.adapt(state_.grid, occupied))
+        {
+          ++n_mesh_changes_;
+          prepare();
+          repartition();
+        }
+    if (load_balance_.is_due(state_.step, communicator))
+      {
+        splitter.check_total(
+          Utilities::MPI::sum(1. * state_.points.size(), communicator));
+        if (load_balance_.is_needed(state_.points, communicator))
+          repartition();
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::relocate()
+  {
+    PhaseTimer::Scope scope(timer_, "relocation");
+    if (relocation_.update_points_out_of_cell(
+          state_.points, state_.grid, state_.workspace.points_out_of_cell()))
+      state_.nodes.activate(state_.grid, relocation_.occupied_cells());
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::relocate_all()
+  {
+    if (Utilities::MPI::n_mpi_processes(state_.communicator()) > 1)
+      {
+        state_.points.forget_order();
+        send_far_points(state_.points, state_.grid);
+      }
+    if (relocation_.update(state_.points, state_.grid))
+      state_.nodes.activate(state_.grid, relocation_.occupied_cells());
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  BackgroundMesh<dim>::cell_weights() const
+  {
+    std::vector<double> weights = load_balance_.weights();
+    weights.resize(state_.grid.n_owned_cells(), 1.);
+    return weights;
+  }
+
+
+
+  template <int dim>
+  std::string
+  BackgroundMesh<dim>::description() const
+  {
+    const Grid<dim> &grid    = state_.grid;
+    double           n_cells = 1;
+    for (const long n : grid.extent_of_lattice(grid.base_level()))
+      n_cells *= n;
+    const bool is_uniform = (n_cells == grid.n_global_cells());
+    return text("The mesh fills (",
+                grid.domain().lower,
+                ") to (",
+                grid.domain().upper,
+                ") m with ",
+                grid.n_global_cells(),
+                " cells",
+                is_uniform ? " of " : ", the smallest of ",
+                grid.finest_size(),
+                " m; there are ",
+                Utilities::MPI::sum(state_.points.size(),
+                                    state_.communicator()),
+                " points.",
+                grid.adjustment());
+  }
+
+
+
+  template <int dim>
+  std::string
+  BackgroundMesh<dim>::history() const
+  {
+    const MPI_Comm     communicator = state_.communicator();
+    const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
+    std::string        sentence;
+    if (n_mesh_changes_ > 0)
+      sentence += text(" The mesh changed ",
+                       n_mesh_changes_,
+                       " times and has ",
+                       state_.grid.n_global_cells(),
+                       " cells.");
+    if (n_ranks > 1)
+      sentence += text(" The largest share of points of the ",
+                       n_ranks,
+                       " ranks is ",
+                       LoadBalance<dim>::imbalance(state_.points, communicator),
+                       " times the mean; cells were shared out ",
+                       n_repartitions_,
+                       " times.");
+    return sentence;
+  }
+
+
+
+  template <int dim>
+  void
+  BackgroundMesh<dim>::list_state(StateList &list)
+  {
+    list.add("mesh changes", "-", n_mesh_changes_, Reduction::equal);
+    list.add("repartitions", "-", n_repartitions_, Reduction::equal);
+    load_balance_.list_state(list);
+  }
+
+
+
+  template class BackgroundMesh<2>;
+  template class BackgroundMesh<3>;
+} // namespace talus

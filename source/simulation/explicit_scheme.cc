@@ -1,0 +1,247 @@
+#include <talus/base/errors.h>
+#include <talus/simulation/explicit_scheme.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Coverage and reach: the weights of every point sum to one. (Used in
+    /// Debug only.)
+    template <int dim>
+    [[maybe_unused]] bool
+    nodes_carry_all_mass(const State<dim> &state)
+    {
+      const Points<dim> &points = state.points;
+      const double      *mass   = points.data(points.mass);
+      const double       of_points =
+        Utilities::MPI::sum(std::accumulate(mass, mass + points.size(), 0.),
+                            state.communicator());
+      double of_nodes = 0;
+      for (const unsigned int node : state.nodes.active_nodes())
+        of_nodes += state.nodes.mass(node);
+      of_nodes = Utilities::MPI::sum(of_nodes, state.communicator());
+      return std::abs(of_nodes - of_points) <= 1e-12 * of_points;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  ExplicitScheme<dim>::ExplicitScheme(State<dim>          &state,
+                                      Problem<dim>        &problem,
+                                      const Transfer<dim> &transfer,
+                                      BackgroundMesh<dim> &mesh,
+                                      PhaseTimer          &timer)
+    : state_(state)
+    , problem_(problem)
+    , transfer_(transfer)
+    , mesh_(mesh)
+    , timer_(timer)
+  {}
+
+
+
+  template <int dim>
+  RunRequest
+  ExplicitScheme<dim>::advance(const double end_time, const RunRequest own)
+  {
+    mesh_.adapt(splitter_);
+    if (filter_.is_due(state_.step))
+      {
+        PhaseTimer::Scope scope(timer_, "filter");
+        filter_.apply(state_.points,
+                      state_.workspace,
+                      state_.grid,
+                      state_.nodes,
+                      transfer_,
+                      state_.mass_cutoff);
+      }
+    points_to_grid();
+    const RunRequest request = agree_on_step(end_time, own);
+    update_nodes();
+    grid_to_points();
+    split();
+    mesh_.relocate(); // children, too: they may live next door
+    state_.time += state_.time_step;
+    ++state_.step;
+    return request;
+  }
+
+
+
+  // The step goes over the points twice, here and in grid_to_points(), batch by
+  // batch: what it needs of a point comes from memory once each time.
+  template <int dim>
+  void
+  ExplicitScheme<dim>::points_to_grid()
+  {
+    timer_.start_laps();
+    problem_.loading.update(state_.points, state_.time);
+    state_.nodes.clear();
+    timer_.lap(PhaseTimer::points_to_grid);
+    time_step_.begin();
+    state_.points.for_batches([this](const Batch &batch) {
+      state_.workspace.reinit(batch.begin, batch.end);
+      time_step_.add_batch(state_.points,
+                           batch,
+                           state_.grid,
+                           problem_.materials,
+                           transfer_.box_shape());
+      timer_.lap(PhaseTimer::time_step);
+      transfer_.average_mean_stress(state_.points, state_.workspace, batch);
+      transfer_.scatter(state_.points,
+                        state_.workspace,
+                        batch,
+                        state_.grid,
+                        problem_.loading.loads(),
+                        state_.nodes);
+      timer_.lap(PhaseTimer::points_to_grid);
+    });
+  }
+
+
+
+  template <int dim>
+  RunRequest
+  ExplicitScheme<dim>::agree_on_step(const double     end_time,
+                                     const RunRequest own)
+  {
+    PhaseTimer::Scope scope(timer_, "messages");
+    const StepPlan    plan = agreement_.agree(
+      {time_step_.stable_time_step(state_.points, problem_.materials), own},
+      state_.communicator());
+    state_.time_step = std::min(plan.time_step, end_time - state_.time);
+    return plan.request;
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitScheme<dim>::update_nodes()
+  {
+    const double time = state_.time, dt = state_.time_step;
+    {
+      PhaseTimer::Scope scope(timer_, "messages");
+      state_.nodes.sum_over_ranks(state_.grid);
+    }
+    Assert(nodes_carry_all_mass(state_),
+           ExcMessage("The nodes do not carry all mass of the points: a box "
+                      "reaches beyond the cells around its own."));
+    Boundaries<dim> &boundaries = problem_.boundaries;
+    {
+      PhaseTimer::Scope scope(timer_, "nodal update");
+      boundaries.add_tractions(state_.nodes,
+                               state_.grid,
+                               time,
+                               state_.mass_cutoff);
+      state_.nodes.update_momentum(dt, state_.mass_cutoff);
+      state_.works.damping += damping_.apply(state_.nodes,
+                                             state_.grid,
+                                             boundaries,
+                                             state_.mass_cutoff);
+    }
+    {
+      PhaseTimer::Scope scope(timer_, "boundaries");
+      boundaries.scale_seabed_shear_stress(
+        problem_.trigger.seabed_factor(time + dt));
+      state_.works += boundaries.apply(
+        state_.nodes, state_.grid, time, dt, state_.mass_cutoff);
+    }
+    PhaseTimer::Scope scope(timer_, "messages");
+    state_.nodes.share_with_ghosts(state_.grid);
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitScheme<dim>::grid_to_points()
+  {
+    timer_.start_laps();
+    const double dt = state_.time_step;
+    problem_.trigger.update(state_.points,
+                            problem_.materials.strength_factor(),
+                            state_.time,
+                            state_.time + dt);
+    const BoxRule rule = transfer_.box_shape().rule;
+    state_.points.for_batches([&](const Batch &batch) {
+      state_.workspace.reinit(batch.begin, batch.end);
+      state_.works.gravity += transfer_.gather(state_.nodes,
+                                               state_.grid,
+                                               problem_.loading.loads(),
+                                               state_.points,
+                                               state_.workspace,
+                                               batch,
+                                               dt);
+      transfer_.average_dilatation(state_.points, state_.workspace, batch);
+      timer_.lap(PhaseTimer::grid_to_points);
+      problem_.materials.update_stress(state_.points,
+                                       state_.workspace,
+                                       batch,
+                                       dt);
+      update_stretch(
+        state_.points, state_.workspace, batch.begin, batch.end, rule, dt);
+      timer_.lap(PhaseTimer::stress_update);
+      splitter_.mark(state_.points, batch, state_.grid, rule);
+      timer_.lap(PhaseTimer::splitting);
+    });
+  }
+
+
+
+  template <int dim>
+  void
+  ExplicitScheme<dim>::split()
+  {
+    PhaseTimer::Scope scope(timer_, "splitting");
+    splitter_.split_marked(state_.points,
+                           transfer_.box_shape().rule,
+                           state_.workspace.points_out_of_cell());
+  }
+
+
+
+  template <int dim>
+  double
+  ExplicitScheme<dim>::stable_time_step()
+  {
+    return Utilities::MPI::min(time_step_.choose(state_.points,
+                                                 state_.grid,
+                                                 problem_.materials,
+                                                 transfer_.box_shape()),
+                               state_.communicator());
+  }
+
+
+
+  template <int dim>
+  std::string
+  ExplicitScheme<dim>::description()
+  {
+    const double dt = stable_time_step();
+    return text("t = ",
+                state_.time,
+                " s: the time step is ",
+                dt,
+                " s, limited by ",
+                time_step_.limited_by(state_.points,
+                                      state_.grid,
+                                      problem_.materials,
+                                      transfer_.box_shape()),
+                ".");
+  }
+
+
+
+  template class ExplicitScheme<2>;
+  template class ExplicitScheme<3>;
+} // namespace talus

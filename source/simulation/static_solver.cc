@@ -1,0 +1,222 @@
+#include <talus/base/agreement.h>
+#include <talus/base/errors.h>
+#include <talus/simulation/static_solver.h>
+#include <talus/transfer/far_points.h>
+
+#include <iomanip>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  StaticSolver<dim>::StaticSolver(State<dim>          &state,
+                                  Problem<dim>        &problem,
+                                  const Transfer<dim> &transfer,
+                                  BackgroundMesh<dim> &mesh,
+                                  const Splitter<dim> &splitter,
+                                  Log                 &log)
+    : state_(state)
+    , problem_(problem)
+    , transfer_(transfer)
+    , mesh_(mesh)
+    , splitter_(splitter)
+    , log_(log)
+  {}
+
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::begin(const std::filesystem::path &folder,
+                           const Beginning              beginning)
+  {
+    if (is_first_rank(state_.communicator()))
+      table_.begin(folder, beginning);
+  }
+
+
+
+  /// With all that acts at the time it is now.
+  template <int dim>
+  StaticProblem<dim>
+  StaticSolver<dim>::problem()
+  {
+    problem_.loading.update(state_.points, state_.time);
+    return {state_,
+            transfer_,
+            problem_.materials,
+            problem_.boundaries,
+            problem_.loading.loads()};
+  }
+
+
+
+  template <int dim>
+  bool
+  StaticSolver<dim>::find(const StrainMeasure measure, const Label &label)
+  {
+    equilibrium_.begin(measure);
+    while (!equilibrium_.is_found())
+      {
+        StepNote note;
+        if (!take_load_step(label, note))
+          return false;
+        if (!note.residuals.empty())
+          tell(note);
+        if (measure == StrainMeasure::large)
+          {
+            mesh_.relocate_all();
+            mesh_.adapt(splitter_);
+          }
+      }
+    return true;
+  }
+
+
+
+  template <int dim>
+  bool
+  StaticSolver<dim>::find_again(const EquilibriumLimits &limits,
+                                const Label             &label)
+  {
+    equilibrium_.begin(StrainMeasure::small, limits);
+    StaticProblem<dim> before = problem();
+    equilibrium_.return_stress(before);
+    while (!equilibrium_.is_found())
+      {
+        StepNote note;
+        if (!take_load_step(label, note))
+          return false;
+      }
+    return true;
+  }
+
+
+
+  /// Returns false if no step, however small, succeeds.
+  template <int dim>
+  bool
+  StaticSolver<dim>::take_load_step(const Label &label, StepNote &note)
+  {
+    StaticProblem<dim> now = problem();
+    return equilibrium_.advance(now, [&](const auto &progress) {
+      observe(progress, label, note);
+    });
+  }
+
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::observe(const EquilibriumProgress &progress,
+                             const Label               &label,
+                             StepNote                  &note)
+  {
+    if (is_first_rank(state_.communicator()))
+      table_.add(label.stage, label.strength_factor, progress);
+    if (progress.iteration.number == 0)
+      note.residuals.clear(); // after a cut, or a change at the seabed
+    note.step = progress.load_step;
+    note.load = progress.load;
+    note.residuals.push_back(progress.iteration.residual);
+    note.n_linear_iterations += progress.iteration.n_linear_iterations;
+    note.seconds += progress.iteration.seconds;
+  }
+
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::tell(const StepNote &note)
+  {
+    std::string residuals;
+    for (const double residual : note.residuals)
+      residuals +=
+        text(residuals.empty() ? "" : ", ", std::setprecision(2), residual);
+    log_.say(LogLevel::result,
+             text("  step ",
+                  note.step,
+                  ", load ",
+                  note.load,
+                  ": residuals ",
+                  residuals,
+                  note.n_linear_iterations > 0
+                    ? text("; ", note.n_linear_iterations, " linear iterations")
+                    : std::string(),
+                  ", ",
+                  note.seconds,
+                  " s"));
+  }
+
+
+
+  template <int dim>
+  std::string
+  StaticSolver<dim>::no_equilibrium() const
+  {
+    return text("The stage 'equilibrium' found no balance ",
+                equilibrium_.load() > 0.
+                  ? text("beyond ", equilibrium_.load(), " of the load. ")
+                  : text("with any share of the load that was tried. "),
+                equilibrium_.failure(),
+                ".");
+  }
+
+
+
+  template <int dim>
+  typename StaticSolver<dim>::Saved
+  StaticSolver<dim>::save() const
+  {
+    const Points<dim> &points = state_.points;
+    Saved              saved;
+    for (unsigned int i = 0; i < points.n_arrays(); ++i)
+      saved.columns.emplace_back(points.data(i),
+                                 points.data(i) + points.size());
+    saved.contact = equilibrium_.contact();
+    return saved;
+  }
+
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::restore(const Saved &saved)
+  {
+    Points<dim> &points = state_.points;
+    for (unsigned int i = 0; i < points.n_arrays(); ++i)
+      std::copy(saved.columns[i].begin(),
+                saved.columns[i].end(),
+                points.data(i));
+    equilibrium_.set_contact(saved.contact);
+  }
+
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::bring_back(const Saved &saved)
+  {
+    state_.points.clear();
+    state_.points.append(saved.columns[0].size());
+    restore(saved);
+    send_far_points(state_.points, state_.grid);
+    mesh_.insert_points();
+    mesh_.adapt(splitter_);
+  }
+
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::list_state(StateList &list)
+  {
+    table_.file().list_state(table_.file_name, list);
+  }
+
+
+
+  template class StaticSolver<2>;
+  template class StaticSolver<3>;
+} // namespace talus

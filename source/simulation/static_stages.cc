@@ -1,0 +1,321 @@
+#include <talus/base/errors.h>
+#include <talus/simulation/static_stages.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  StaticStages<dim>::StaticStages(State<dim>          &state,
+                                  Problem<dim>        &problem,
+                                  const Transfer<dim> &transfer,
+                                  BackgroundMesh<dim> &mesh,
+                                  const Splitter<dim> &splitter,
+                                  const Output<dim>   &output,
+                                  Log                 &log)
+    : state_(state)
+    , problem_(problem)
+    , output_(output)
+    , log_(log)
+    , solver_(state, problem, transfer, mesh, splitter, log)
+  {}
+
+
+
+  template <int dim>
+  void
+  StaticStages<dim>::begin(const std::filesystem::path &folder,
+                           const Beginning              beginning)
+  {
+    if (stages_.have_static())
+      solver_.begin(folder, beginning);
+  }
+
+
+
+  template <int dim>
+  void
+  StaticStages<dim>::run_next()
+  {
+    if (stages_.next() == Stage::equilibrium)
+      find_equilibrium();
+    else
+      reduce_strength();
+    state_.workspace.clear();
+    stages_.count_one();
+  }
+
+
+
+  template <int dim>
+  void
+  StaticStages<dim>::list_state(StateList &list)
+  {
+    stages_.list_state(list);
+    list.add("standing factor", "-", standing_factor_, Reduction::equal);
+    solver_.list_state(list);
+  }
+
+
+
+  template <int dim>
+  void
+  StaticStages<dim>::check() const
+  {
+    const std::vector<std::string> names_of_bodies = problem_.names_of_bodies();
+    if (stages_.contain(Stage::equilibrium))
+      equilibrium().check(problem_.materials, names_of_bodies);
+    AssertThrow(!stages_.have_static() ||
+                  problem_.loading.share_of_gravity(0.) > 0.,
+                ExcUser("Stages lists a stage before 'dynamics', which takes "
+                        "the loads of t = 0, but there is no gravity at t = 0. "
+                        "Set 'Gravity/Ramp time' to 0: the load comes on in "
+                        "the steps of the stage."));
+    if (!stages_.contain(Stage::strength_reduction))
+      return;
+    bool has_strength =
+      problem_.boundaries.has_seabed() && strength_reduction_.includes_seabed();
+    for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
+      has_strength |= problem_.materials.of_body(b).has_strength();
+    AssertThrow(has_strength,
+                ExcUser("Stages lists 'strength reduction', but nothing has a "
+                        "strength that could be reduced: all bodies are made "
+                        "of materials as that of section " +
+                        problem_.materials.of_body(0).section() +
+                        ". Choose the law 'von Mises', 'Bingham' or "
+                        "'Herschel-Bulkley', let a face be a seabed with "
+                        "'Strength reduction/Seabed', or remove the stage."));
+  }
+
+
+
+  template <int dim>
+  void
+  StaticStages<dim>::find_equilibrium()
+  {
+    log_.say(LogLevel::result, "Stage 'equilibrium':");
+    const bool may_strengthen = stages_.contain(Stage::strength_reduction);
+    typename StaticSolver<dim>::Saved before;
+    if (may_strengthen)
+      before = solver_.save();
+    if (!solver_.find(equilibrium().measure(), label(1.)))
+      {
+        if (!may_strengthen)
+          throw_no_equilibrium(solver_.no_equilibrium());
+        find_equilibrium_with_more_strength(before);
+      }
+    const auto [largest, place] = equilibrium().newton().largest_imbalance();
+    log_.say(LogLevel::result,
+             text("Equilibrium was found in ",
+                  equilibrium().n_steps(),
+                  " steps with ",
+                  equilibrium().newton().n_unknowns(),
+                  " unknowns (linear solver: ",
+                  equilibrium().newton().linear_solver(),
+                  "). The force out of balance is ",
+                  equilibrium().imbalance(),
+                  " of that of the loads; the largest one of a node is ",
+                  largest,
+                  " N, at ",
+                  place,
+                  "."));
+  }
+
+
+
+  /// Show what moved, and end the run with @p sentence.
+  template <int dim>
+  void
+  StaticStages<dim>::throw_no_equilibrium(const std::string &sentence) const
+  {
+    write_mechanism("no-equilibrium");
+    throw ExcUser(
+      sentence +
+      " 'no-equilibrium' in the output folder shows where it moved. Either "
+      "the soil cannot bear its weight, and needs more strength or support "
+      "before the trigger" +
+      (stages_.contain(Stage::strength_reduction)
+         ? ""
+         : " (the stage 'strength reduction' after this one finds how much)") +
+      "; or the search needs more 'Equilibrium/Load steps'.");
+  }
+
+
+
+  /// Divide all strengths by @p factor.
+  template <int dim>
+  void
+  StaticStages<dim>::divide_strength(const double factor)
+  {
+    double *strength_factor =
+      state_.points.data(problem_.materials.strength_factor());
+    std::fill(strength_factor,
+              strength_factor + state_.points.size(),
+              1. / factor);
+    if (strength_reduction_.includes_seabed())
+      problem_.boundaries.scale_seabed_strength(1. / factor);
+  }
+
+
+
+  /// Small strain, in which the slope keeps the shape whose factor of safety is
+  /// asked for: with large strain a little more strength would let it stand
+  /// after a long way. Hyperelastic laws know large strain only.
+  template <int dim>
+  StrainMeasure
+  StaticStages<dim>::measure_of_stronger_soil() const
+  {
+    return problem_.has_hyperelastic_body() ? StrainMeasure::large
+                                            : StrainMeasure::small;
+  }
+
+
+
+  /// The soil does not stand with the strength that it has. So that the stage
+  /// 'strength reduction' has where to start from, look for a strength with
+  /// which it does; @p before is the state without loads.
+  template <int dim>
+  void
+  StaticStages<dim>::find_equilibrium_with_more_strength(
+    const typename StaticSolver<dim>::Saved &before)
+  {
+    const std::string sentence = solver_.no_equilibrium();
+    log_.say(LogLevel::result,
+             sentence +
+               " The soil seems not to bear its weight. Since the stage "
+               "'strength reduction' follows, one is looked for with more "
+               "strength.");
+    strength_reduction_.begin(problem_.materials.largest_strength_factor());
+    strength_reduction_.record(1., false);
+    while (strength_reduction_.lower() == 0.)
+      {
+        if (strength_reduction_.is_done())
+          throw_no_equilibrium(sentence +
+                               " Nor was one found with more strength. " +
+                               strength_reduction_.result());
+        const double factor = strength_reduction_.next();
+        solver_.bring_back(before);
+        divide_strength(factor);
+        const bool stands =
+          solver_.find(measure_of_stronger_soil(), label(factor));
+        strength_reduction_.record(factor, stands);
+        log_.say(LogLevel::result,
+                 text("  strength x ",
+                      1. / factor,
+                      stands ? ": stands"
+                             : ": fails. " + equilibrium().failure()));
+      }
+    standing_factor_ = strength_reduction_.lower();
+  }
+
+
+
+  /// Every trial goes on from the largest factor with which the soil stood.
+  template <int dim>
+  void
+  StaticStages<dim>::reduce_strength()
+  {
+    log_.say(LogLevel::result, "Stage 'strength reduction':");
+    const auto before = solver_.save();
+    strength_reduction_.begin(problem_.materials.largest_strength_factor());
+    if (stages_.contain(Stage::equilibrium))
+      start_reduction();
+    auto state = solver_.save();
+    while (!strength_reduction_.is_done())
+      {
+        const double factor = strength_reduction_.next();
+        const bool   stands = stands_with(factor);
+        strength_reduction_.record(factor, stands);
+        log_.say(LogLevel::result,
+                 stands ? text("  strength / ", factor, ": stands")
+                        : text("  strength / ",
+                               factor,
+                               ": fails. ",
+                               equilibrium().failure()));
+        if (stands)
+          state = solver_.save();
+        else // of all that fail the last one has the smallest factor
+          write_mechanism("mechanism");
+        solver_.restore(state);
+      }
+    solver_.restore(before);
+    problem_.boundaries.scale_seabed_strength(
+      strength_reduction_.includes_seabed() ? 1. / standing_factor_ : 1.);
+    log_.say(LogLevel::result, strength_reduction_.result());
+  }
+
+
+
+  /// The soil is in equilibrium. By the measure of the reduction it must be so,
+  /// too, or every factor would seem to fell it.
+  template <int dim>
+  void
+  StaticStages<dim>::start_reduction()
+  {
+    strength_reduction_.record(standing_factor_, true);
+    AssertThrow(
+      stands_with(standing_factor_),
+      ExcUser(text(
+        "The stage 'strength reduction' starts from soil that is out of "
+        "balance by its measure, which is small strain, so that there is no "
+        "factor of safety. ",
+        equilibrium().failure(),
+        ". Set 'Equilibrium/Strain' to small or 'Equilibrium/Allowed "
+        "imbalance' to less; or, if that is small against the 'Tolerance' of "
+        "the factor that you need, set 'Strength reduction/Allowed "
+        "imbalance' to more.")));
+  }
+
+
+
+  /// Look for balance with all strengths divided by @p factor.
+  template <int dim>
+  bool
+  StaticStages<dim>::stands_with(const double factor)
+  {
+    divide_strength(factor);
+    return solver_.find_again(
+      strength_reduction_.limits(factor,
+                                 equilibrium().limits(StrainMeasure::small)),
+      label(factor));
+  }
+
+
+
+  template <int dim>
+  void
+  StaticStages<dim>::check_soil_stands() const
+  {
+    AssertThrow(
+      standing_factor_ == 1. || !stages_.contain(Stage::dynamics),
+      ExcUser(text(
+        "The stage 'equilibrium' found no balance with the strength that the "
+        "soil has, only with ",
+        1. / standing_factor_,
+        " times as much, so that there is no state of rest that the stage "
+        "'dynamics' could start from; log.txt has the factor of safety. "
+        "Either the soil cannot bear its weight, and needs more strength or "
+        "support before the trigger; or, if the factor is more than 1, the "
+        "search needs more 'Equilibrium/Load steps'. To let the soil fall "
+        "without stress from t = 0 list 'dynamics' alone.")));
+  }
+
+
+
+  /// Show how the soil moves where the search failed.
+  template <int dim>
+  void
+  StaticStages<dim>::write_mechanism(const std::string &name) const
+  {
+    output_.write_mechanism(state_,
+                            name,
+                            equilibrium().newton().mechanism(state_.points));
+  }
+
+
+
+  template class StaticStages<2>;
+  template class StaticStages<3>;
+} // namespace talus

@@ -1,0 +1,48 @@
+#include <talus/simulation/step_agreement.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  namespace
+  {
+    void
+    combine(void *more, void *all, int *n, MPI_Datatype *)
+    {
+      for (int i = 0; i < *n; ++i)
+        {
+          const StepPlan &one    = static_cast<const StepPlan *>(more)[i];
+          StepPlan       &result = static_cast<StepPlan *>(all)[i];
+          result.time_step       = std::min(result.time_step, one.time_step);
+          result.request         = std::max(result.request, one.request);
+        }
+    }
+  } // namespace
+
+
+
+  StepAgreement::StepAgreement()
+  {
+    MPI_Type_contiguous(sizeof(StepPlan), MPI_BYTE, &type_);
+    MPI_Type_commit(&type_);
+    MPI_Op_create(&combine, /*commute=*/1, &operation_);
+  }
+
+
+
+  StepAgreement::~StepAgreement()
+  {
+    MPI_Op_free(&operation_);
+    MPI_Type_free(&type_);
+  }
+
+
+
+  StepPlan
+  StepAgreement::agree(const StepPlan &own, const MPI_Comm communicator) const
+  {
+    StepPlan all = own;
+    MPI_Allreduce(&own, &all, 1, type_, operation_, communicator);
+    return all;
+  }
+} // namespace talus
