@@ -145,7 +145,7 @@ def files(folder):
 
 
 # What a checkpoint tells of the program and the moment, not of the soil.
-UNLIKE = {"@date", "@revision", "@version", "@parameters", "parameters"}
+UNLIKE = {"@git revision", "@talus version", "parameters"}
 
 
 def differences(before, after, renamed):

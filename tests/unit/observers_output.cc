@@ -18,13 +18,14 @@ namespace
   {
   protected:
     PhaseTimer timer;
+    Log        log;
   };
 
 
 
   TEST_F(OutputTest, WritesWhatIsDueAndNoRowTwice)
   {
-    Output<2> output(timer);
+    Output<2> output(timer, log);
     Scene<2>  s("0, 0", "8, 4");
     s.add({0.5, 0.5});
     s.sort();
@@ -55,14 +56,14 @@ namespace
 
   TEST_F(OutputTest, NoSecondRowIfTheLastStepIsDueAnyway)
   {
-    Output<2> output(timer);
+    Output<2> output(timer, log);
     Scene<2>  s("0, 0", "8, 4");
     s.add({0.5, 0.5});
     s.sort();
     output.set_folder(folder);
     output.begin(s, 1.);
     output.start(s);
-    output.note("It begins.", false);
+    log.say(LogLevel::detail, "It begins.");
     s.step = 1;
     s.time = 0.1;
     EXPECT_FALSE(output.observe(s, false));
@@ -80,7 +81,7 @@ namespace
 
   TEST_F(OutputTest, RecordsParametersAndVersions)
   {
-    Output<2> output(timer);
+    Output<2> output(timer, log);
     Scene<2>  s("0, 0", "8, 4");
     s.add({0.5, 0.5});
     s.sort();
@@ -114,7 +115,7 @@ namespace
     std::ofstream(folder / "file") << "kept\n";
     for (const fs::path &path : {folder / "file", folder / "file" / "below"})
       {
-        Output<2> output(timer);
+        Output<2> output(timer, log);
         Scene<2>  s("0, 0", "8, 4");
         s.add({0.5, 0.5});
         s.sort();
@@ -133,7 +134,7 @@ namespace
 
   TEST_F(OutputTest, FullDisk)
   {
-    Output<2> output(timer);
+    Output<2> output(timer, log);
     Scene<2>  s("0, 0", "8, 4");
     s.add({0.5, 0.5});
     s.sort();
