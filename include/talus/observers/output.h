@@ -96,8 +96,6 @@ namespace talus
     write_last_state(const Snapshot<dim> &snapshot) const;
 
   private:
-    FieldFormat
-    format() const;
     void
     write_row(const Snapshot<dim> &snapshot);
     void
