@@ -1,8 +1,6 @@
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/checkpoint/checkpoint.h>
-#include <talus/checkpoint/checkpoint_folder.h>
-#include <talus/io/disk_space.h>
 #include <talus/version.h>
 
 #include <algorithm>
@@ -78,7 +76,7 @@ namespace talus
     start_ = last_time_ = Clock::now();
     if (!is_first_rank(communicator_))
       return;
-    remove_parts(output_folder_);
+    remove_unfinished(output_folder_);
     if (resumed_from.empty())
       {
         remove_checkpoints_but(output_folder_, {});
@@ -123,15 +121,15 @@ namespace talus
   Checkpoint<dim>::write(const Content &content, const Grid<dim> &grid)
   {
     const fs::path path     = checkpoint_path(output_folder_, content.step);
-    const fs::path part     = part_of(path);
+    const fs::path part     = temporary_path(path);
     const bool     is_first = is_first_rank(communicator_);
 
-    check_all(is_first ? make_part(path) : "");
+    check_on_all_ranks(is_first ? make_temporary_folder(path) : "");
     write_mesh(part, grid);
     write_state(part, content);
     // Every node of a cluster brings its own part to the disk.
-    check_all(sync_folder(part));
-    check_all(is_first ? publish(path) : "");
+    check_on_all_ranks(sync_folder(part));
+    check_on_all_ranks(is_first ? commit(path) : "");
     // Written anew at the same step, it leaves the one before it alone.
     if (is_first && path != last_)
       remove_checkpoints_but(output_folder_, {path, last_});
@@ -144,14 +142,14 @@ namespace talus
 
   template <int dim>
   void
-  Checkpoint<dim>::check_all(const std::string &complaint) const
+  Checkpoint<dim>::check_on_all_ranks(const std::string &error) const
   {
-    const std::string sentence = first_sentence(complaint, communicator_);
+    const std::string sentence = first_sentence(error, communicator_);
     if (sentence.empty())
       return;
     // What was written so far only takes space.
     if (is_first_rank(communicator_))
-      remove_parts(output_folder_);
+      remove_unfinished(output_folder_);
     AssertThrow(false,
                 ExcUser("A checkpoint could not be written to '" +
                         output_folder_.string() + "' (" + sentence +
@@ -164,44 +162,24 @@ namespace talus
 
   template <int dim>
   void
-  Checkpoint<dim>::write_mesh(const fs::path &part, const Grid<dim> &grid) const
+  Checkpoint<dim>::write_mesh(const fs::path  &folder,
+                              const Grid<dim> &grid) const
   {
     // p4est ends the program where the disk is full.
     const double    needed = 1e5 + 64. * grid.n_global_cells();
     std::error_code error;
-    const auto      space = fs::space(part, error);
-    check_all(!error && space.available < needed
-                ? "No space left on device for the mesh"
-                : "");
-    grid.save((part / mesh_file_name).string());
-  }
-
-
-
-  /// Of state.h5, at most; collective.
-  template <int dim>
-  std::uint64_t
-  Checkpoint<dim>::size_in_file(const Content &content) const
-  {
-    std::uint64_t texts = content.parameters.size();
-    for (const StateList::Text &text : content.state.texts())
-      texts += text.get().size();
-    const std::uint64_t own_values =
-      std::uint64_t(content.points.n_arrays()) * content.points.size() +
-      2 * content.cell_weights.size() + content.state.numbers().size();
-    // The library's own structures are about 1 kB for each array.
-    const std::uint64_t n_arrays = content.points.columns().size() +
-                                   content.state.numbers().size() +
-                                   content.state.texts().size();
-    return 8 * Utilities::MPI::sum(own_values, communicator_) +
-           Utilities::MPI::max(texts, communicator_) + 2048 * (n_arrays + 50);
+    const auto      space = fs::space(folder, error);
+    check_on_all_ranks(!error && space.available < needed
+                         ? "No space left on device for the mesh"
+                         : "");
+    grid.save((folder / mesh_file_name).string());
   }
 
 
 
   template <int dim>
   void
-  Checkpoint<dim>::write_state(const fs::path &part,
+  Checkpoint<dim>::write_state(const fs::path &folder,
                                const Content  &content) const
   {
     CheckpointHead head;
@@ -213,21 +191,18 @@ namespace talus
     head.version   = TALUS_VERSION;
     head.revision  = TALUS_GIT_REVISION;
 
-    const fs::path path     = part / state_file_name;
-    const bool     is_first = is_first_rank(communicator_);
-    Hdf5File       file(path, Hdf5File::Access::create, communicator_);
-    // HDF5 does not survive a full disk: on several ranks it waits for ever.
-    const std::uint64_t n_bytes = size_in_file(content);
-    check_all(is_first ? reserve_disk_space(path, n_bytes) : "");
+    Hdf5File file(folder / state_file_name,
+                  Hdf5File::Access::create,
+                  communicator_);
     save_head(file, head);
     save_points(file, content.points, content.cell_weights);
     save_state(file, content.state);
     file.write_text("parameters", content.parameters);
     // The mesh is complete: all ranks have left save().
-    file.write_text("mesh", is_first ? mesh_checksums(part) : "");
+    file.write_text("mesh",
+                    is_first_rank(communicator_) ? mesh_checksums(folder) : "");
     file.close();
-    check_all(file.error());
-    check_all(is_first ? release_disk_space(path) : "");
+    check_on_all_ranks(file.error());
   }
 
 

@@ -1,7 +1,10 @@
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/checkpoint/checkpoint_content.h>
+#include <talus/io/checksum.h>
 
 #include <algorithm>
+#include <fstream>
 #include <numeric>
 
 namespace talus
@@ -36,14 +39,18 @@ namespace talus
 
 
 
-    template <int dim>
-    std::string
-    unit_of(const Column &column)
+    std::uint64_t
+    checksum_of_file(const std::filesystem::path &path)
     {
-      std::string unit = column.unit;
-      if (const auto at = unit.find("dim"); at != std::string::npos)
-        unit.replace(at, 3, std::to_string(dim));
-      return unit;
+      std::ifstream      file(path, std::ios::binary);
+      std::vector<char>  block(1 << 20);
+      boost::crc_32_type crc;
+      do
+        {
+          file.read(block.data(), block.size());
+          crc.process_bytes(block.data(), file.gcount());
+      } while (file);
+      return crc.checksum();
     }
 
 
@@ -130,7 +137,7 @@ namespace talus
             rows[std::size_t(n) * p + c] = points.data(column.first, c)[p];
         const std::string name = "points/" + checked(column.name);
         file.write(name, rows, n);
-        file.set_attribute(name, "unit", unit_of<dim>(column));
+        file.set_attribute(name, "unit", column.unit);
       }
   }
 
@@ -220,6 +227,43 @@ namespace talus
         check_read(file);
         text.set(value);
       }
+  }
+
+
+
+  std::string
+  mesh_checksums(const std::filesystem::path &checkpoint)
+  {
+    std::vector<std::filesystem::path> paths;
+    for (const auto &entry : std::filesystem::directory_iterator(checkpoint))
+      if (entry.path().filename() != state_file_name)
+        paths.push_back(entry.path());
+    std::sort(paths.begin(), paths.end());
+    std::string result;
+    for (const std::filesystem::path &path : paths)
+      result +=
+        text(path.filename().string(), ' ', checksum_of_file(path), '\n');
+    return result;
+  }
+
+
+
+  std::string
+  find_damage(Hdf5File &file)
+  {
+    for (const std::string group : {"cells", "points", "state", "text"})
+      for (const std::string &name : file.names(group))
+        file.verify(group + "/" + name);
+    file.verify("parameters");
+    file.verify("mesh");
+    const std::string saved = file.read_text("mesh");
+    if (!file.error().empty())
+      return file.error();
+    std::string error;
+    if (is_first_rank(file.communicator()) &&
+        mesh_checksums(file.path().parent_path()) != saved)
+      error = "the checksums of its mesh files do not match their content";
+    return first_sentence(error, file.communicator());
   }
 
 

@@ -1,3 +1,5 @@
+#include <talus/base/agreement.h>
+#include <talus/base/errors.h>
 #include <talus/checkpoint/checkpoint_folder.h>
 #include <talus/io/files.h>
 
@@ -7,6 +9,7 @@
 
 namespace talus
 {
+  using namespace dealii;
   namespace fs = std::filesystem;
 
   namespace
@@ -43,6 +46,48 @@ namespace talus
         result.push_back(entry->path());
       return result;
     }
+
+
+    /// All ranks must see the same, whatever their file systems show them.
+    std::vector<fs::path>
+    list_for_all_ranks(const fs::path &output_folder,
+                       const MPI_Comm  communicator)
+    {
+      std::vector<std::string> names;
+      if (is_first_rank(communicator))
+        for (const fs::path &path : find_checkpoints(output_folder))
+          names.push_back(path.string());
+      names = Utilities::MPI::broadcast(communicator, names);
+      return {names.begin(), names.end()};
+    }
+
+
+
+    /// Throw where no older checkpoint would do either.
+    void
+    check_kind(const fs::path       &checkpoint,
+               const CheckpointHead &head,
+               const unsigned int    dimension)
+    {
+      AssertThrow(head.format == checkpoint_format,
+                  ExcUser(text("The checkpoint '",
+                               checkpoint.string(),
+                               "' has the format version ",
+                               head.format,
+                               ", but this talus reads version ",
+                               checkpoint_format,
+                               ". Resume with the version of talus that wrote "
+                               "it.")));
+      AssertThrow(head.dimension == dimension,
+                  ExcUser(text("The checkpoint '",
+                               checkpoint.string(),
+                               "' is of a run with Dimension = ",
+                               head.dimension,
+                               ", but Dimension = ",
+                               dimension,
+                               " was given. Give the parameters of that run, "
+                               "or another output folder.")));
+    }
   } // namespace
 
 
@@ -51,14 +96,13 @@ namespace talus
   checkpoint_path(const fs::path &output_folder, const unsigned long step)
   {
     // As many digits as keep the order of the names that of the steps.
-    return folder_of_all(output_folder) /
-           dealii::Utilities::to_string(step, 10);
+    return folder_of_all(output_folder) / Utilities::to_string(step, 10);
   }
 
 
 
   fs::path
-  part_of(const fs::path &checkpoint)
+  temporary_path(const fs::path &checkpoint)
   {
     return checkpoint.string() + part_ending;
   }
@@ -79,7 +123,7 @@ namespace talus
 
 
   void
-  remove_parts(const fs::path &output_folder)
+  remove_unfinished(const fs::path &output_folder)
   {
     std::error_code ignored;
     for (const fs::path &path : content(folder_of_all(output_folder)))
@@ -90,9 +134,9 @@ namespace talus
 
 
   std::string
-  make_part(const fs::path &checkpoint)
+  make_temporary_folder(const fs::path &checkpoint)
   {
-    const fs::path  part = part_of(checkpoint);
+    const fs::path  part = temporary_path(checkpoint);
     std::error_code error;
     fs::remove_all(part, error);
     if (!error)
@@ -106,28 +150,28 @@ namespace talus
   sync_folder(const fs::path &folder)
   {
     for (const fs::path &path : content(folder))
-      if (const std::string complaint = sync_to_disk(path); !complaint.empty())
-        return complaint;
+      if (const std::string error = sync_to_disk(path); !error.empty())
+        return error;
     return sync_to_disk(folder);
   }
 
 
 
   std::string
-  publish(const fs::path &checkpoint)
+  commit(const fs::path &checkpoint)
   {
     // One of the same step is there if it was damaged and the run resumed from
     // the one before.
     std::error_code error;
     fs::remove_all(checkpoint, error);
     if (!error)
-      fs::rename(part_of(checkpoint), checkpoint, error);
+      fs::rename(temporary_path(checkpoint), checkpoint, error);
     if (error)
       return error.message();
-    const std::string complaint = sync_to_disk(checkpoint.parent_path());
-    return complaint.empty()
-             ? sync_to_disk(checkpoint.parent_path().parent_path())
-             : complaint;
+    const fs::path    folder_of_all = checkpoint.parent_path();
+    const std::string failure       = sync_to_disk(folder_of_all);
+    return failure.empty() ? sync_to_disk(folder_of_all.parent_path())
+                           : failure;
   }
 
 
@@ -141,8 +185,79 @@ namespace talus
       if (std::find(kept.begin(), kept.end(), path) == kept.end())
         {
           // Under another name first: a half-removed one is none.
-          fs::rename(path, part_of(path), ignored);
-          fs::remove_all(part_of(path), ignored);
+          fs::rename(path, temporary_path(path), ignored);
+          fs::remove_all(temporary_path(path), ignored);
         }
+  }
+
+
+
+  FoundCheckpoint
+  find_checkpoint(const fs::path    &output_folder,
+                  const unsigned int dimension,
+                  const MPI_Comm     communicator)
+  {
+    FoundCheckpoint found;
+    for (const fs::path &path : list_for_all_ranks(output_folder, communicator))
+      {
+        Hdf5File file(path / state_file_name,
+                      Hdf5File::Access::read,
+                      communicator);
+        found.head = load_head(file);
+        if (file.error().empty())
+          check_kind(path, found.head, dimension);
+        const std::string damage = find_damage(file);
+        if (damage.empty())
+          {
+            found.path = path;
+            return found;
+          }
+        found.complaints.push_back("The checkpoint '" + path.string() +
+                                   "' is damaged: " + damage + ".");
+      }
+    std::string all;
+    for (const std::string &complaint : found.complaints)
+      all += complaint + ' ';
+    AssertThrow(false,
+                ExcUser(
+                  all.empty()
+                    ? "There is no checkpoint in '" + output_folder.string() +
+                        "' to resume from. Name the output folder of the "
+                        "run with Output/Folder or --output, or start the "
+                        "run without --resume."
+                    : all + "There is no other one to resume from. Start "
+                            "the run anew with --overwrite."));
+    return found;
+  }
+
+
+
+  void
+  check_nothing_unfinished(const fs::path &output_folder,
+                           const MPI_Comm  communicator)
+  {
+    const auto all = list_for_all_ranks(output_folder, communicator);
+    if (all.empty())
+      return;
+    Hdf5File             file(all[0] / state_file_name,
+                  Hdf5File::Access::read,
+                  communicator);
+    const CheckpointHead head = load_head(file);
+    const bool           is_readable =
+      file.error().empty() && head.format == checkpoint_format;
+    AssertThrow(
+      is_readable && head.time >= head.end_time,
+      ExcUser(text(
+        "The output folder '",
+        output_folder.string(),
+        "' holds the checkpoint '",
+        all[0].filename().string(),
+        "' ",
+        is_readable
+          ? text("at t = ", head.time, " s of a run to ", head.end_time, " s")
+          : "of a run, which cannot be read",
+        ". Go on with that run with --resume, or start "
+        "anew over it with --overwrite, or choose another "
+        "folder with --output.")));
   }
 } // namespace talus

@@ -82,10 +82,10 @@ namespace talus
     if (descriptor < 0)
       return reason();
     // Some file systems cannot sync everything, and say so with EINVAL.
-    const bool        is_done   = (::fsync(descriptor) == 0 || errno == EINVAL);
-    const std::string complaint = is_done ? "" : reason();
+    const bool        is_done = (::fsync(descriptor) == 0 || errno == EINVAL);
+    const std::string error   = is_done ? "" : reason();
     ::close(descriptor);
-    return complaint;
+    return error;
   }
 
 

@@ -1,8 +1,11 @@
 #include <talus/base/agreement.h>
-#include <talus/base/errors.h>
 #include <talus/io/checksum.h>
+#include <talus/io/disk_space.h>
+#include <talus/io/files.h>
 #include <talus/io/hdf5_file.h>
-#include <talus/io/hdf5_handle.h>
+
+#include <algorithm>
+#include <type_traits>
 
 namespace talus
 {
@@ -23,32 +26,80 @@ namespace talus
 
 
 
-    Handle
-    group_properties()
+    std::filesystem::path
+    path_while_written(std::filesystem::path path, const bool is_atomic)
     {
-      Handle properties = undated(H5P_GROUP_CREATE);
-      // Names stay in the header, which has a checksum. The other storage, for
-      // many names, has one too, but HDF5 1.10 crashes where it is wrong.
-      H5Pset_link_phase_change(properties, 60000, 50000);
-      return properties;
+      if (is_atomic)
+        path += ".part";
+      return path;
+    }
+
+
+
+    /// How the ranks open a file.
+    Handle
+    access_properties(const MPI_Comm communicator)
+    {
+      Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+      H5Pset_fapl_mpio(access, communicator, MPI_INFO_NULL);
+      H5Pset_all_coll_metadata_ops(access, true);
+      H5Pset_coll_metadata_write(access, true);
+      // From this version on the metadata have checksums.
+      H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
+      return access;
+    }
+
+
+
+    /// With what the library adds to an array for itself: the list of chunks,
+    /// attributes; and a little if the data cannot be compressed.
+    std::uint64_t
+    with_overhead(const std::uint64_t n_bytes)
+    {
+      return n_bytes + n_bytes / 50 + (1 << 14);
+    }
+
+    /// What it adds to something short.
+    constexpr std::uint64_t small_overhead = 1 << 12;
+
+
+
+    /// Types in memory and, the same on all machines, in the file.
+    std::pair<hid_t, hid_t>
+    types_of(double)
+    {
+      return {H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE};
+    }
+
+    std::pair<hid_t, hid_t>
+    types_of(float)
+    {
+      return {H5T_NATIVE_FLOAT, H5T_IEEE_F32LE};
+    }
+
+    std::pair<hid_t, hid_t>
+    types_of(std::int64_t)
+    {
+      return {H5T_NATIVE_INT64, H5T_STD_I64LE};
     }
 
 
 
     /// Write or read (@p transfer is H5Dwrite or H5Dread) the rows
-    /// [first, first + n_rows) of a data set. Returns whether that worked.
-    template <typename Transfer, typename Rows>
+    /// [first, first + n_rows) of an array. Returns whether that worked.
+    template <typename Transfer, typename Values>
     bool
     transfer_rows(const Transfer transfer,
-                  const hid_t    dataset,
+                  const hid_t    array,
+                  const hid_t    type,
                   const hsize_t  first,
                   const hsize_t  n_rows,
                   const hsize_t  n_columns,
-                  Rows          *rows)
+                  Values        *values)
     {
       const hsize_t start[2] = {first, 0}, count[2] = {n_rows, n_columns};
       const int     rank = (n_columns == 1 ? 1 : 2);
-      const Handle  file_space(H5Dget_space(dataset), H5Sclose);
+      const Handle  file_space(H5Dget_space(array), H5Sclose);
       const Handle  memory_space(H5Screate_simple(rank, count, nullptr),
                                 H5Sclose);
       const Handle  together(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
@@ -59,62 +110,95 @@ namespace talus
            : H5Sselect_hyperslab(
                file_space, H5S_SELECT_SET, start, nullptr, count, nullptr));
       // Even if that failed: the others are in this call, too.
-      const herr_t status = transfer(
-        dataset, H5T_NATIVE_DOUBLE, memory_space, file_space, together, rows);
+      const herr_t status =
+        transfer(array, type, memory_space, file_space, together, values);
       return selected >= 0 && status >= 0;
+    }
+
+
+
+    Handle
+    open_array(const hid_t file, const std::string &name)
+    {
+      return {H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose};
+    }
+
+
+
+    Handle
+    open_attribute(const hid_t        file,
+                   const std::string &object,
+                   const std::string &name)
+    {
+      return {H5Aopen_by_name(
+                file, object.c_str(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT),
+              H5Aclose};
+    }
+
+
+
+    std::string
+    is_missing(const std::string &object, const std::string &name)
+    {
+      return "'" + object + "' has no attribute '" + name + "'";
     }
   } // namespace
 
 
 
+  // ------------------------------------------------------- opening and closing
+
   Hdf5File::Hdf5File(const std::filesystem::path &path,
                      const Access                 access,
-                     const MPI_Comm               communicator)
+                     const MPI_Comm               communicator,
+                     const Hdf5Options           &options)
     : path_(path)
+    , is_new_(access == Access::create)
+    , part_(path_while_written(path, is_new_ && options.is_atomic))
     , communicator_(communicator)
+    , is_first_rank_(is_first_rank(communicator))
+    , options_(options)
     , errors_(silent_errors())
   {
-    const Handle properties(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_fapl_mpio(properties, communicator_, MPI_INFO_NULL);
-    H5Pset_all_coll_metadata_ops(properties, true);
-    H5Pset_coll_metadata_write(properties, true);
-    // From this version on the metadata have checksums.
-    H5Pset_libver_bounds(properties, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
-    if (access == Access::create)
-      file_ = H5Fcreate(path_.c_str(),
-                        H5F_ACC_TRUNC,
-                        undated(H5P_FILE_CREATE),
-                        properties);
-    else
-      file_ = H5Fopen(path_.c_str(), H5F_ACC_RDONLY, properties);
-    conclude(file_ >= 0, "it could not be opened");
+    if (is_new_)
+      {
+        create();
+        return;
+      }
+    file_ = Handle(H5Fopen(path_.c_str(),
+                           H5F_ACC_RDONLY,
+                           access_properties(communicator_)),
+                   H5Fclose);
+    check_on_all_ranks(file_.is_valid(), "it could not be opened");
   }
 
 
 
   Hdf5File::~Hdf5File()
   {
-    if (file_ >= 0)
-      H5Fclose(file_);
+    file_.close();
+    std::error_code ignored;
+    if (is_first_rank_ && part_ != path_)
+      std::filesystem::remove(part_, ignored);
   }
 
 
 
   void
-  Hdf5File::remember(const bool success, const std::string &failure)
+  Hdf5File::create()
   {
-    if (!success && own_complaint_.empty())
-      own_complaint_ = failure + " (HDF5: " + errors_.reason() + ")";
-  }
-
-
-
-  bool
-  Hdf5File::conclude(const bool success, const std::string &failure)
-  {
-    remember(success, failure);
-    error_ = first_sentence(own_complaint_, communicator_);
-    return error_.empty();
+    reserve(with_overhead(0));
+    if (!error_.empty())
+      return;
+    file_ = Handle(H5Fcreate(part_.c_str(),
+                             H5F_ACC_TRUNC,
+                             undated(H5P_FILE_CREATE),
+                             access_properties(communicator_)),
+                   H5Fclose);
+    check_on_all_ranks(file_.is_valid(), "it could not be made");
+    // Again: the library has emptied the file.
+    n_reserved_ = 0;
+    reserve(0);
   }
 
 
@@ -125,25 +209,89 @@ namespace talus
     if (!error_.empty())
       return;
     bool success = (H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0);
-    success      = (H5Fclose(file_) >= 0) && success;
-    file_        = -1;
-    conclude(success, "it could not be completed");
+    success      = file_.close() && success;
+    if (!check_on_all_ranks(success, "it could not be completed") || !is_new_)
+      return;
+    if (is_first_rank_)
+      {
+        Assert(std::filesystem::file_size(part_) <= n_bytes_,
+               ExcMessage("More was written than reserved."));
+        own_error_ = release_disk_space(part_);
+        if (own_error_.empty() && part_ != path_)
+          own_error_ = sync_to_disk(part_);
+      }
+    if (!check_on_all_ranks() || part_ == path_)
+      return;
+    std::error_code error;
+    if (is_first_rank_)
+      std::filesystem::rename(part_, path_, error);
+    own_error_ = (error ? error.message() : "");
+    check_on_all_ranks();
+  }
+
+
+
+  // ----------------------------------------------------------------- failures
+
+  void
+  Hdf5File::note_error(const bool success, const std::string &failure)
+  {
+    if (!success && own_error_.empty())
+      own_error_ = failure + " (HDF5: " + errors_.reason() + ")";
+  }
+
+
+
+  bool
+  Hdf5File::check_on_all_ranks()
+  {
+    error_ = first_sentence(own_error_, communicator_);
+    return error_.empty();
+  }
+
+
+
+  bool
+  Hdf5File::check_on_all_ranks(const bool success, const std::string &failure)
+  {
+    note_error(success, failure);
+    return check_on_all_ranks();
   }
 
 
 
   void
+  Hdf5File::reserve(const std::uint64_t n_bytes)
+  {
+    n_bytes_ += n_bytes;
+    if (!error_.empty() || n_bytes_ <= n_reserved_)
+      return;
+    // A little more: many arrays are short.
+    n_reserved_ = n_bytes_ + (1 << 16);
+    if (is_first_rank_ && own_error_.empty())
+      own_error_ = reserve_disk_space(part_, n_reserved_);
+    check_on_all_ranks();
+  }
+
+
+
+  // ------------------------------------------------------ groups and attributes
+
+  void
   Hdf5File::create_group(const std::string &name)
   {
+    reserve(small_overhead);
     if (!error_.empty())
       return;
-    const Handle group(H5Gcreate2(file_,
-                                  name.c_str(),
-                                  H5P_DEFAULT,
-                                  group_properties(),
-                                  H5P_DEFAULT),
-                       H5Gclose);
-    conclude(group >= 0, "the group '" + name + "' could not be made");
+    const Handle properties = undated(H5P_GROUP_CREATE);
+    // Names stay in the header, which has a checksum. The other storage, for
+    // many names, has one too, but HDF5 1.10 crashes where it is wrong.
+    H5Pset_link_phase_change(properties, 60000, 50000);
+    const Handle group(
+      H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT),
+      H5Gclose);
+    check_on_all_ranks(group.is_valid(),
+                       "the group '" + name + "' could not be made");
   }
 
 
@@ -161,14 +309,127 @@ namespace talus
     };
     const Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
     const bool   success =
-      opened >= 0 &&
+      opened.is_valid() &&
       H5Literate(opened, H5_INDEX_NAME, H5_ITER_INC, nullptr, add, &result) >=
         0;
-    conclude(success, "the group '" + group + "' could not be read");
+    check_on_all_ranks(success, "the group '" + group + "' could not be read");
     return result;
   }
 
 
+
+  void
+  Hdf5File::write_attribute(const std::string &object,
+                            const std::string &name,
+                            const hid_t        memory_type,
+                            const hid_t        file_type,
+                            const void        *value)
+  {
+    reserve(256 + name.size() + H5Tget_size(file_type));
+    if (!error_.empty())
+      return;
+    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+    const Handle attribute(H5Acreate_by_name(file_,
+                                             object.c_str(),
+                                             name.c_str(),
+                                             file_type,
+                                             space,
+                                             H5P_DEFAULT,
+                                             H5P_DEFAULT,
+                                             H5P_DEFAULT),
+                           H5Aclose);
+    note_error(attribute.is_valid() &&
+                 H5Awrite(attribute, memory_type, value) >= 0,
+               "the attribute '" + name + "' could not be written");
+  }
+
+
+
+  void
+  Hdf5File::set_attribute(const std::string &object,
+                          const std::string &name,
+                          const std::string &value)
+  {
+    const Handle type = text_type(value);
+    write_attribute(object, name, type, type, value.c_str());
+  }
+
+
+
+  void
+  Hdf5File::set_attribute(const std::string &object,
+                          const std::string &name,
+                          const double       value)
+  {
+    write_attribute(object, name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, &value);
+  }
+
+
+
+  void
+  Hdf5File::set_attribute(const std::string  &object,
+                          const std::string  &name,
+                          const std::uint64_t value)
+  {
+    write_attribute(object, name, H5T_NATIVE_UINT64, H5T_STD_U64LE, &value);
+  }
+
+
+
+  void
+  Hdf5File::read_attribute(const std::string &object,
+                           const std::string &name,
+                           const hid_t        type,
+                           void              *value)
+  {
+    if (!error_.empty())
+      return;
+    const Handle attribute = open_attribute(file_, object, name);
+    check_on_all_ranks(attribute.is_valid() &&
+                         H5Aread(attribute, type, value) >= 0,
+                       is_missing(object, name));
+  }
+
+
+
+  std::string
+  Hdf5File::text_attribute(const std::string &object, const std::string &name)
+  {
+    if (!error_.empty())
+      return "";
+    const Handle attribute = open_attribute(file_, object, name);
+    const Handle type(H5Aget_type(attribute), H5Tclose);
+    std::string  value(H5Tget_size(type), '\0');
+    check_on_all_ranks(H5Tget_class(type) == H5T_STRING &&
+                         H5Aread(attribute, type, value.data()) >= 0,
+                       is_missing(object, name));
+    return value.substr(0, value.find('\0'));
+  }
+
+
+
+  double
+  Hdf5File::number_attribute(const std::string &object, const std::string &name)
+  {
+    double value = 0;
+    read_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
+    return value;
+  }
+
+
+
+  std::uint64_t
+  Hdf5File::integer_attribute(const std::string &object,
+                              const std::string &name)
+  {
+    std::uint64_t value = 0;
+    read_attribute(object, name, H5T_NATIVE_UINT64, &value);
+    return value;
+  }
+
+
+
+  // ------------------------------------------------------------------- arrays
 
   std::pair<std::uint64_t, std::uint64_t>
   Hdf5File::first_and_total(const std::uint64_t n_rows) const
@@ -182,33 +443,154 @@ namespace talus
 
 
 
+  template <typename Number>
   void
   Hdf5File::write(const std::string         &name,
-                  const std::vector<double> &rows,
+                  const std::vector<Number> &rows,
                   const unsigned int         n_columns)
   {
     if (!error_.empty())
       return;
-    const std::uint64_t n_rows = rows.size() / n_columns;
-    const auto [first, total]  = first_and_total(n_rows);
-    const hsize_t extent[2]    = {total, n_columns};
-    const Handle  space(
-      H5Screate_simple(n_columns == 1 ? 1 : 2, extent, nullptr), H5Sclose);
-    const Handle dataset(H5Dcreate2(file_,
-                                    name.c_str(),
-                                    H5T_IEEE_F64LE,
-                                    space,
-                                    H5P_DEFAULT,
-                                    undated(H5P_DATASET_CREATE),
-                                    H5P_DEFAULT),
-                         H5Dclose);
+    const std::uint64_t n           = rows.size() / n_columns;
+    const auto [first, total]       = first_and_total(n);
+    const auto [in_memory, in_file] = types_of(Number());
+    write_rows(
+      name, in_memory, in_file, {first, n, total, n_columns}, rows.data());
+    if constexpr (std::is_same_v<Number, double>)
+      if (options_.has_checksums)
+        {
+          const std::uint64_t own = checksum(rows, first * n_columns);
+          set_attribute(name,
+                        "checksum",
+                        Utilities::MPI::sum(own, communicator_));
+        }
+  }
+
+
+
+  void
+  Hdf5File::write_rows(const std::string &name,
+                       const hid_t        memory_type,
+                       const hid_t        file_type,
+                       const Rows        &rows,
+                       const void        *values)
+  {
+    const std::uint64_t before = n_bytes_;
+    reserve(with_overhead(rows.n_on_all_ranks * rows.n_columns *
+                          H5Tget_size(file_type)));
+    if (!error_.empty())
+      return;
+    // After every step the ranks agree whether to go on: one that gave up
+    // alone would leave the others waiting for it in the next step.
+    const std::string failure = "the array '" + name + "' could not be written";
+    Handle            array =
+      create_array(name, file_type, rows.n_on_all_ranks, rows.n_columns);
+    if (!check_on_all_ranks(array.is_valid(), failure))
+      return;
+    bool success = (rows.n_on_all_ranks == 0 || transfer_rows(H5Dwrite,
+                                                              array,
+                                                              memory_type,
+                                                              rows.first,
+                                                              rows.n,
+                                                              rows.n_columns,
+                                                              values));
+    n_bytes_ =
+      before + with_overhead(Utilities::MPI::broadcast(
+                 communicator_, std::uint64_t(H5Dget_storage_size(array))));
+    success = array.close() && success;
+    check_on_all_ranks(success, failure);
+  }
+
+
+
+  /// With one column it has no columns at all.
+  Hdf5Handle
+  Hdf5File::create_array(const std::string  &name,
+                         const hid_t         type,
+                         const std::uint64_t n_rows,
+                         const unsigned int  n_columns)
+  {
+    const int     rank       = (n_columns == 1 ? 1 : 2);
+    const hsize_t extent[2]  = {n_rows, n_columns};
+    const Handle  properties = undated(H5P_DATASET_CREATE);
+    const Handle  space(H5Screate_simple(rank, extent, nullptr), H5Sclose);
+    bool          success = properties.is_valid() && space.is_valid();
+    if (options_.is_compressed && n_rows > 0)
+      {
+        // Chunks of a quarter of a megabyte: many enough to keep the ranks
+        // busy, and each compresses about as well as the whole.
+        constexpr hsize_t n_values = 1 << 16;
+        const hsize_t     chunk[2] = {std::min<hsize_t>(n_rows,
+                                                    n_values / n_columns),
+                                      n_columns};
+        success = success && H5Pset_chunk(properties, rank, chunk) >= 0 &&
+                  H5Pset_shuffle(properties) >= 0 &&
+                  H5Pset_deflate(properties, 1) >= 0;
+      }
+    if (!success)
+      return {};
+    return {
+      H5Dcreate2(
+        file_, name.c_str(), type, space, H5P_DEFAULT, properties, H5P_DEFAULT),
+      H5Dclose};
+  }
+
+
+
+  void
+  Hdf5File::write_known(const std::string         &name,
+                        const std::vector<double> &values)
+  {
+    const hsize_t extent = values.size();
+    const Handle  space(H5Screate_simple(1, &extent, nullptr), H5Sclose);
+    write_by_first_rank(
+      name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, space, values.data());
+    if (options_.has_checksums)
+      set_attribute(name, "checksum", checksum(values, 0));
+  }
+
+
+
+  void
+  Hdf5File::write_text(const std::string &name, const std::string &text)
+  {
+    if (!error_.empty())
+      return;
+    const std::string same = Utilities::MPI::broadcast(communicator_, text);
+    const Handle      type = text_type(same);
+    const Handle      space(H5Screate(H5S_SCALAR), H5Sclose);
+    write_by_first_rank(name, type, type, space, same.c_str());
+    if (options_.has_checksums)
+      set_attribute(name, "checksum", checksum(same));
+  }
+
+
+
+  void
+  Hdf5File::write_by_first_rank(const std::string &name,
+                                const hid_t        memory_type,
+                                const hid_t        file_type,
+                                const hid_t        space,
+                                const void        *values)
+  {
+    reserve(small_overhead +
+            H5Sget_simple_extent_npoints(space) * H5Tget_size(file_type));
+    if (!error_.empty())
+      return;
+    const Handle array(H5Dcreate2(file_,
+                                  name.c_str(),
+                                  file_type,
+                                  space,
+                                  H5P_DEFAULT,
+                                  undated(H5P_DATASET_CREATE),
+                                  H5P_DEFAULT),
+                       H5Dclose);
     const bool   success =
-      dataset >= 0 &&
-      (total == 0 ||
-       transfer_rows(H5Dwrite, dataset, first, n_rows, n_columns, rows.data()));
-    conclude(success, "the array '" + name + "' could not be written");
-    const std::uint64_t own = checksum(rows, first * n_columns);
-    set_attribute(name, "checksum", Utilities::MPI::sum(own, communicator_));
+      array.is_valid() &&
+      (!is_first_rank_ ||
+       H5Dwrite(array, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >=
+         0);
+    note_error(success, "'" + name + "' could not be written");
   }
 
 
@@ -219,13 +601,13 @@ namespace talus
     if (!error_.empty())
       return {0, 0};
     hsize_t      extent[2] = {0, 1};
-    const Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-    const Handle space(H5Dget_space(dataset), H5Sclose);
+    const Handle array     = open_array(file_, name);
+    const Handle space(H5Dget_space(array), H5Sclose);
     const int    rank = H5Sget_simple_extent_ndims(space);
     const bool   success =
       (rank == 1 || rank == 2) &&
       H5Sget_simple_extent_dims(space, extent, nullptr) == rank;
-    if (!conclude(success, "it has no array '" + name + "'"))
+    if (!check_on_all_ranks(success, "it has no array '" + name + "'"))
       return {0, 0};
     return {extent[0], static_cast<unsigned int>(extent[1])};
   }
@@ -241,66 +623,17 @@ namespace talus
     if (!error_.empty())
       return {};
     std::vector<double> rows(n_rows * n_columns);
-    const Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-    const bool   success =
-      dataset >= 0 &&
-      (total == 0 ||
-       transfer_rows(H5Dread, dataset, first, n_rows, n_columns, rows.data()));
-    conclude(success, "the array '" + name + "' could not be read");
+    const Handle        array = open_array(file_, name);
+    const bool          success =
+      array.is_valid() && (total == 0 || transfer_rows(H5Dread,
+                                                       array,
+                                                       H5T_NATIVE_DOUBLE,
+                                                       first,
+                                                       n_rows,
+                                                       n_columns,
+                                                       rows.data()));
+    check_on_all_ranks(success, "the array '" + name + "' could not be read");
     return rows;
-  }
-
-
-
-  void
-  Hdf5File::write_known(const std::string         &name,
-                        const std::vector<double> &values)
-  {
-    if (!error_.empty())
-      return;
-    const hsize_t extent = values.size();
-    const Handle  space(H5Screate_simple(1, &extent, nullptr), H5Sclose);
-    write_by_first_rank(
-      name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, space, values.data());
-    set_attribute(name, "checksum", checksum(values, 0));
-  }
-
-
-
-  void
-  Hdf5File::write_text(const std::string &name, const std::string &text)
-  {
-    if (!error_.empty())
-      return;
-    const std::string same = Utilities::MPI::broadcast(communicator_, text);
-    const Handle      type = text_type(same);
-    const Handle      space(H5Screate(H5S_SCALAR), H5Sclose);
-    write_by_first_rank(name, type, type, space, same.c_str());
-    set_attribute(name, "checksum", checksum(same));
-  }
-
-
-
-  void
-  Hdf5File::write_by_first_rank(const std::string &name,
-                                const hid_t        file_type,
-                                const hid_t        type,
-                                const hid_t        space,
-                                const void        *values)
-  {
-    const Handle dataset(H5Dcreate2(file_,
-                                    name.c_str(),
-                                    file_type,
-                                    space,
-                                    H5P_DEFAULT,
-                                    undated(H5P_DATASET_CREATE),
-                                    H5P_DEFAULT),
-                         H5Dclose);
-    const bool   success =
-      dataset >= 0 &&
-      (!is_first_rank(communicator_) ||
-       H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
-    remember(success, "'" + name + "' could not be written");
   }
 
 
@@ -310,13 +643,69 @@ namespace talus
   {
     if (!error_.empty())
       return "";
-    const Handle dataset(H5Dopen2(file_, name.c_str(), H5P_DEFAULT), H5Dclose);
-    const Handle type(H5Dget_type(dataset), H5Tclose);
+    const Handle array = open_array(file_, name);
+    const Handle type(H5Dget_type(array), H5Tclose);
     std::string  text(H5Tget_size(type), '\0');
     const bool   success =
       H5Tget_class(type) == H5T_STRING &&
-      H5Dread(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0;
-    conclude(success, "it has no text '" + name + "'");
+      H5Dread(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0;
+    check_on_all_ranks(success, "it has no text '" + name + "'");
     return text.substr(0, text.find('\0'));
   }
+
+
+
+  bool
+  Hdf5File::is_text(const std::string &name)
+  {
+    if (!error_.empty())
+      return false;
+    const Handle array = open_array(file_, name);
+    const Handle type(H5Dget_type(array), H5Tclose);
+    const auto   kind = H5Tget_class(type);
+    check_on_all_ranks(kind == H5T_STRING || kind == H5T_FLOAT,
+                       "'" + name + "' is neither an array nor a text");
+    return kind == H5T_STRING;
+  }
+
+
+
+  void
+  Hdf5File::verify(const std::string &name)
+  {
+    std::uint64_t found = 0;
+    if (is_text(name))
+      found = checksum(read_text(name));
+    else
+      {
+        const std::uint64_t n_ranks =
+          Utilities::MPI::n_mpi_processes(communicator_);
+        const std::uint64_t rank =
+          Utilities::MPI::this_mpi_process(communicator_);
+        const auto [n_rows, n_columns] = shape(name);
+        const std::uint64_t first      = n_rows * rank / n_ranks;
+        const std::uint64_t end        = n_rows * (rank + 1) / n_ranks;
+        const std::uint64_t own =
+          checksum(read(name, first, end - first), first * n_columns);
+        found = Utilities::MPI::sum(own, communicator_);
+      }
+    const std::uint64_t expected = integer_attribute(name, "checksum");
+    if (error_.empty() && found != expected)
+      error_ = "the checksum of '" + name + "' does not match its content";
+  }
+
+
+
+  template void
+  Hdf5File::write(const std::string &,
+                  const std::vector<double> &,
+                  unsigned int);
+  template void
+  Hdf5File::write(const std::string &,
+                  const std::vector<float> &,
+                  unsigned int);
+  template void
+  Hdf5File::write(const std::string &,
+                  const std::vector<std::int64_t> &,
+                  unsigned int);
 } // namespace talus

@@ -1,9 +1,6 @@
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
-#include <talus/io/files.h>
-#include <talus/io/hdf5_output.h>
 #include <talus/io/series.h>
-#include <talus/io/vtu.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -15,43 +12,20 @@ namespace talus
 {
   using namespace dealii;
 
-  namespace
-  {
-    // deal.II's function of this kind writes the date into the file and keeps
-    // only 12 digits of the times.
-    void
-    write_pvd(
-      std::ostream                                      &out,
-      const std::vector<std::pair<double, std::string>> &times_and_names)
-    {
-      out << "<?xml version=\"1.0\"?>\n"
-             "<VTKFile type=\"Collection\" version=\"0.1\">\n"
-             "  <Collection>\n"
-          << std::setprecision(16);
-      for (const auto &[time, name] : times_and_names)
-        out << "    <DataSet timestep=\"" << time
-            << "\" group=\"\" part=\"0\" file=\"" << name << "\"/>\n";
-      out << "  </Collection>\n</VTKFile>\n";
-    }
-  } // namespace
-
-
-
   void
   FieldSeries::begin(const std::filesystem::path &folder,
                      const std::string           &name,
                      const MPI_Comm               communicator,
-                     const FieldFormat            format,
+                     const std::string           &format,
                      const Beginning              beginning)
   {
     folder_       = folder;
     name_         = name;
     communicator_ = communicator;
-    format_       = format;
+    writer_       = make_field_writer(format);
     unsynced_.clear();
-    xdmf_ = XdmfIndex();
     if (beginning == Beginning::anew)
-      times_and_names_.clear();
+      entries_.clear();
   }
 
 
@@ -62,57 +36,37 @@ namespace talus
     const auto get = [this]() {
       std::ostringstream out;
       out << std::setprecision(17);
-      for (const auto &[time, file] : times_and_names_)
-        out << time << ' ' << file << '\n';
+      for (const IndexEntry &entry : entries_)
+        out << entry.time << ' ' << entry.file << '\n' << entry.description;
       return out.str();
     };
     const auto set = [this](const std::string &text) {
-      times_and_names_.clear();
+      entries_.clear();
       std::istringstream in(text);
-      double             time;
-      std::string        file;
-      while (in >> time >> file)
-        times_and_names_.emplace_back(time, file);
+      for (std::string line; std::getline(in, line);)
+        if (line[0] == ' ')
+          entries_.back().description += line + '\n';
+        else
+          {
+            IndexEntry entry;
+            std::istringstream(line) >> entry.time >> entry.file;
+            entries_.push_back(entry);
+          }
     };
     list.add_text({name, get, set});
   }
 
 
 
-  template <int cell_dim, int dim>
   void
-  FieldSeries::write(const OutputCells<cell_dim, dim> &cells,
-                     const double                      time,
-                     const unsigned long               step)
+  FieldSeries::write(const OutputCells &cells)
   {
     const std::string base =
-      name_ + "-" + Utilities::int_to_string(times_and_names_.size(), 4);
-    std::string file = base + ".h5";
-    if (format_ == FieldFormat::hdf5)
-      write_hdf5(folder_ / file, communicator_, cells, time, step);
-    else
-      file =
-        write_vtu(folder_, base, communicator_, cells, time, step, unsynced_);
-    times_and_names_.emplace_back(time, file);
+      name_ + "-" + Utilities::int_to_string(entries_.size(), 4);
+    entries_.push_back(
+      writer_->write(folder_, base, communicator_, cells, unsynced_));
     if (is_first_rank(communicator_))
-      unsynced_.push_back(write_index());
-  }
-
-
-
-  /// Returns its path.
-  std::filesystem::path
-  FieldSeries::write_index()
-  {
-    const bool                  is_hdf5 = (format_ == FieldFormat::hdf5);
-    const std::filesystem::path path =
-      folder_ / (name_ + (is_hdf5 ? ".xdmf" : ".pvd"));
-    if (is_hdf5)
-      xdmf_.write(path, times_and_names_);
-    else
-      write_file(path,
-                 [&](std::ostream &out) { write_pvd(out, times_and_names_); });
-    return path;
+      unsynced_.push_back(writer_->write_index(folder_, name_, entries_));
   }
 
 
@@ -128,23 +82,9 @@ namespace talus
     for (const std::filesystem::path &path : unsynced_)
       if (std::filesystem::exists(path))
         {
-          const std::string complaint = sync_to_disk(path);
-          AssertThrow(complaint.empty(),
-                      ExcUser(failed_write(path, complaint)));
+          const std::string error = sync_to_disk(path);
+          AssertThrow(error.empty(), ExcUser(failed_write(path, error)));
         }
     unsynced_.clear();
   }
-
-
-
-#define INSTANTIATE(cell_dim, dim)                                     \
-  template void FieldSeries::write(const OutputCells<cell_dim, dim> &, \
-                                   double,                             \
-                                   unsigned long);
-
-  INSTANTIATE(0, 2)
-  INSTANTIATE(0, 3)
-  INSTANTIATE(2, 2)
-  INSTANTIATE(3, 3)
-#undef INSTANTIATE
 } // namespace talus

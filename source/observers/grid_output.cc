@@ -43,28 +43,32 @@ namespace talus
     node_fields(const NodalFields<dim>      &nodes,
                 const AlignedVector<double> &sums)
     {
-      const auto add =
-        [](const std::string &name, const unsigned int n, const auto &source) {
-          return Field{name,
-                       n == 1 ? FieldKind::scalar : FieldKind::vector,
-                       n,
-                       [n, source](const unsigned int node, float *values) {
-                         for (unsigned int c = 0; c < n; ++c)
-                           values[c] = source(node)[c];
-                       }};
-        };
+      const auto add = [](const std::string &name,
+                          const std::string &unit,
+                          const unsigned int n,
+                          const auto        &source) {
+        return Field{name,
+                     unit,
+                     n == 1 ? FieldKind::scalar : FieldKind::vector,
+                     [n, source](const unsigned int node, float *values) {
+                       for (unsigned int c = 0; c < n; ++c)
+                         values[c] = source(node)[c];
+                     }};
+      };
       const double *first = sums.data();
-      return {add("mass [kg]",
+      return {add("mass",
+                  "kg",
                   1,
                   [first](const unsigned int node) {
                     return first + n_sent<dim> * std::size_t(node);
                   }),
-              add("velocity [m/s]",
+              add("velocity",
+                  "m/s",
                   dim,
                   [&nodes](const unsigned int node) {
                     return nodes.velocity(node);
                   }),
-              add("force [N]", dim, [first](const unsigned int node) {
+              add("force", "N", dim, [first](const unsigned int node) {
                 return first + n_sent<dim> * std::size_t(node) + 1;
               })};
     }
@@ -74,9 +78,9 @@ namespace talus
     /// Corners of a cell in deal.II's order, and the nodes there.
     template <int dim>
     void
-    add_cell(OutputCells<dim, dim> &cells, const Cell<dim> &cell)
+    add_cell(OutputCells &cells, const Cell<dim> &cell)
     {
-      for (unsigned int v = 0; v < cells.n_vertices; ++v)
+      for (unsigned int v = 0; v < cells.n_vertices_per_cell(); ++v)
         {
           unsigned int at     = 0;
           Point<dim>   corner = cell.lower;
@@ -85,7 +89,7 @@ namespace talus
               corner[d] += ((v >> d) & 1) * cell.size;
               at += (1 + ((v >> d) & 1)) * power(4, d);
             }
-          cells.vertices.push_back(corner);
+          cells.add_vertex(corner);
           cells.items.push_back(cell.patch[at]);
         }
     }
@@ -97,7 +101,7 @@ namespace talus
   void
   GridOutput<dim>::begin(const std::filesystem::path &folder,
                          const MPI_Comm               communicator,
-                         const FieldFormat            format,
+                         const std::string           &format,
                          const Beginning              beginning)
   {
     series_.begin(folder, "grid", communicator, format, beginning);
@@ -128,8 +132,11 @@ namespace talus
   GridOutput<dim>::write(const Snapshot<dim> &snapshot)
   {
     const AlignedVector<double> sums = mass_and_force(snapshot);
-    OutputCells<dim, dim>       cells(node_fields(snapshot.nodes, sums),
-                                ItemsAt::vertices);
+    OutputCells                 cells(node_fields(snapshot.nodes, sums),
+                      ItemsAt::vertices,
+                      dim,
+                      snapshot.time,
+                      snapshot.step);
 
     unsigned int previous = numbers::invalid_unsigned_int;
     for (const Segment &segment : snapshot.points.segments())
@@ -138,7 +145,7 @@ namespace talus
           add_cell(cells, snapshot.grid.cells()[segment.cell]);
           previous = segment.cell;
         }
-    series_.write(cells, snapshot.time, snapshot.step);
+    series_.write(cells);
   }
 
 

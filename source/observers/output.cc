@@ -46,12 +46,10 @@ namespace talus
                   "ParaView shows a continuum, instead of as a dot.");
     add_parameter("Format",
                   format_,
-                  "Files of points and grid: vtu, one file per rank and output "
-                  "time, to be opened by points.pvd and grid.pvd; or hdf5, one "
-                  "file per output time whatever the number of ranks, to be "
-                  "opened by points.xdmf and grid.xdmf.",
+                  "Files of points and grid: " + field_format_documentation() +
+                    ".",
                   this->prm,
-                  Patterns::Selection("vtu|hdf5"));
+                  Patterns::Selection(field_format_names()));
     add_parameter("Runout",
                   write_runout_,
                   "Write what tells the runout: the columns of front and rear "
@@ -120,8 +118,8 @@ namespace talus
     if (write_runout_)
       profile_.begin(folder_, state.grid, beginning);
     points_output_.begin(
-      folder_, communicator, boxes_as_cells_, format(), beginning);
-    grid_output_.begin(folder_, communicator, format(), beginning);
+      folder_, communicator, boxes_as_cells_, format_, beginning);
+    grid_output_.begin(folder_, communicator, format_, beginning);
   }
 
 
@@ -252,15 +250,6 @@ namespace talus
 
 
   template <int dim>
-  FieldFormat
-  Output<dim>::format() const
-  {
-    return format_ == "hdf5" ? FieldFormat::hdf5 : FieldFormat::vtu;
-  }
-
-
-
-  template <int dim>
   void
   Output<dim>::write_mechanism(const State<dim>          &state,
                                const std::string         &name,
@@ -270,13 +259,13 @@ namespace talus
     output.begin(folder_,
                  state.grid.communicator(),
                  boxes_as_cells_,
-                 format(),
+                 format_,
                  Beginning::anew,
                  name);
     output.write(state,
-                 {{"mechanism [-]",
+                 {{"mechanism",
+                   "-",
                    FieldKind::vector,
-                   dim,
                    [&](const unsigned int p, float *values) {
                      for (unsigned int d = 0; d < dim; ++d)
                        values[d] = mechanism[dim * p + d];

@@ -1,5 +1,5 @@
 #include <talus/io/files.h>
-#include <talus/io/vtu.h>
+#include <talus/io/vtu_writer.h>
 #include <talus/observers/points_output.h>
 #include <talus/points/points_kernel.h>
 
@@ -13,67 +13,77 @@ namespace talus
 
   namespace
   {
-    std::string
-    name_with_unit(const std::string &name, std::string unit, const int dim)
-    {
-      if (const auto at = unit.find("dim"); at != std::string::npos)
-        unit.replace(at, 3, std::to_string(dim));
-      return unit.empty() || unit == "-" ? name : name + " [" + unit + "]";
-    }
-
-
-
-    /// 3x3 tensor from the stored components of the stress.
+    /// 3x3 tensor from the components of a symmetric one, xx, yy, zz, xy (xz,
+    /// yz).
     template <int dim>
     void
-    write_stress(const Stress<dim, double> &sigma, float *values)
+    read_symmetric_tensor(const Points<dim> &points,
+                          const unsigned int first,
+                          const unsigned int p,
+                          float             *values)
     {
-      std::fill(values, values + 9, 0.f);
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
           values[3 * i + j] =
-            sigma[stress_index<dim>(std::min(i, j), std::max(i, j))];
-      values[8] = sigma[2];
+            points.data(first,
+                        stress_index<dim>(std::min(i, j), std::max(i, j)))[p];
+      values[8] = points.data(first, 2)[p];
     }
 
 
 
+    /// What output shows of a column: one field, or of a list one per number.
     template <int dim>
-    Field
-    column_field(const Points<dim> &points, const Column &column)
+    void
+    append_column(std::vector<Field> &fields,
+                  const Points<dim>  &points,
+                  const Column       &column)
     {
-      const unsigned int first = column.first, n = column.n_components;
-      const std::string  name = name_with_unit(column.name, column.unit, dim);
-      if (first == points.stress)
-        return {name,
-                FieldKind::tensor,
-                9,
-                [&points](const unsigned int p, float *values) {
-                  write_stress<dim>(load_stress<dim, double>(points, p),
-                                    values);
-                }};
-      if (n == dim * dim)
+      const std::string  unit  = (column.unit == "-" ? "" : column.unit);
+      const unsigned int first = column.first;
+      const auto         add   = [&](const std::string &name,
+                           const FieldKind    kind,
+                           const auto        &evaluate) {
+        fields.push_back({name, unit, kind, evaluate});
+      };
+      switch (column.kind)
         {
-          const bool is_F = (first == points.deformation_gradient);
-          return {name,
-                  FieldKind::tensor,
-                  9,
-                  [&points, first, is_F](const unsigned int p, float *values) {
-                    std::fill(values, values + 9, 0.f);
-                    if (is_F)
-                      values[8] = 1.f;
-                    for (unsigned int c = 0; c < dim * dim; ++c)
-                      values[3 * (c / dim) + c % dim] =
-                        points.data(first, c)[p];
-                  }};
+          case ColumnKind::scalars:
+            for (unsigned int c = 0; c < column.n_components; ++c)
+              add(column.n_components == 1
+                    ? column.name
+                    : column.name + " " + std::to_string(c),
+                  FieldKind::scalar,
+                  [&points, first, c](const unsigned int p, float *values) {
+                    *values = points.data(first, c)[p];
+                  });
+            break;
+          case ColumnKind::vector:
+            add(column.name,
+                FieldKind::vector,
+                [&points, first](const unsigned int p, float *values) {
+                  for (unsigned int d = 0; d < dim; ++d)
+                    values[d] = points.data(first, d)[p];
+                });
+            break;
+          case ColumnKind::symmetric_tensor:
+            add(column.name,
+                FieldKind::tensor,
+                [&points, first](const unsigned int p, float *values) {
+                  read_symmetric_tensor(points, first, p, values);
+                });
+            break;
+          case ColumnKind::tensor:
+          case ColumnKind::deformation:
+            add(column.name,
+                FieldKind::tensor,
+                [&points, first, kind = column.kind](const unsigned int p,
+                                                     float *values) {
+                  values[8] = (kind == ColumnKind::deformation);
+                  for (unsigned int c = 0; c < dim * dim; ++c)
+                    values[3 * (c / dim) + c % dim] = points.data(first, c)[p];
+                });
         }
-      return {name,
-              n == dim ? FieldKind::vector : FieldKind::scalar,
-              n,
-              [&points, first, n](const unsigned int p, float *values) {
-                for (unsigned int c = 0; c < n; ++c)
-                  values[c] = points.data(first, c)[p];
-              }};
     }
 
 
@@ -100,18 +110,18 @@ namespace talus
                            const Snapshot<dim> &snapshot)
     {
       const Points<dim> &points = snapshot.points;
-      fields.push_back({"displacement [m]",
+      fields.push_back({"displacement",
+                        "m",
                         FieldKind::vector,
-                        dim,
                         [&points](const unsigned int p, float *values) {
                           for (unsigned int d = 0; d < dim; ++d)
                             values[d] =
                               points.data(points.position, d)[p] -
                               points.data(points.initial_position, d)[p];
                         }});
-      fields.push_back({"box length [m]",
+      fields.push_back({"box length",
+                        "m",
                         FieldKind::vector,
-                        dim,
                         [&snapshot](const unsigned int p, float *values) {
                           const auto lengths = box_lengths(snapshot, p);
                           for (unsigned int d = 0; d < dim; ++d)
@@ -126,27 +136,29 @@ namespace talus
     append_derived_scalars(std::vector<Field> &fields,
                            const Points<dim>  &points)
     {
-      const auto add = [&fields](const std::string &name, const auto &value) {
+      const auto add = [&fields](const std::string &name,
+                                 const std::string &unit,
+                                 const auto        &value) {
         fields.push_back({name,
+                          unit,
                           FieldKind::scalar,
-                          1,
                           [value](const unsigned int p, float *values) {
                             *values = static_cast<float>(value(p));
                           }});
       };
-      add("speed [m/s]", [&points](const unsigned int p) {
+      add("speed", "m/s", [&points](const unsigned int p) {
         Tensor<1, dim> v;
         for (unsigned int d = 0; d < dim; ++d)
           v[d] = points.data(points.velocity, d)[p];
         return v.norm();
       });
-      add("mean stress [Pa]", [&points](const unsigned int p) {
+      add("mean stress", "Pa", [&points](const unsigned int p) {
         return stress_measures(points, p).first;
       });
-      add("von Mises stress [Pa]", [&points](const unsigned int p) {
+      add("von Mises stress", "Pa", [&points](const unsigned int p) {
         return stress_measures(points, p).second;
       });
-      add("J", [&points](const unsigned int p) {
+      add("J", "", [&points](const unsigned int p) {
         return determinant<dim>(
           load_matrix<dim, double>(points, points.deformation_gradient, p));
       });
@@ -155,53 +167,55 @@ namespace talus
 
 
     /// No vertices yet, the points as items of the cells.
-    template <int cell_dim, int dim>
-    OutputCells<cell_dim, dim>
-    one_cell_per_point(const Snapshot<dim> &snapshot, const ItemsAt items_at)
+    template <int dim>
+    OutputCells
+    one_cell_per_point(const Snapshot<dim> &snapshot,
+                       const ItemsAt        items_at,
+                       const unsigned int   cell_dim)
     {
-      OutputCells<cell_dim, dim> cells(point_fields(snapshot), items_at);
+      OutputCells cells(point_fields(snapshot),
+                        items_at,
+                        cell_dim,
+                        snapshot.time,
+                        snapshot.step);
       cells.items.resize(snapshot.points.size());
       std::iota(cells.items.begin(), cells.items.end(), 0);
-      cells.vertices.reserve(cells.items.size() * cells.n_vertices);
+      cells.vertices.reserve(3 * cells.items.size() *
+                             cells.n_vertices_per_cell());
       return cells;
     }
 
 
 
     template <int dim>
-    OutputCells<0, dim>
+    OutputCells
     points_as_vertices(const Snapshot<dim> &snapshot)
     {
       const Points<dim> &points = snapshot.points;
-      auto cells = one_cell_per_point<0>(snapshot, ItemsAt::vertices);
+      OutputCells cells = one_cell_per_point(snapshot, ItemsAt::vertices, 0);
       for (unsigned int p = 0; p < points.size(); ++p)
-        {
-          Point<dim> x;
-          for (unsigned int d = 0; d < dim; ++d)
-            x[d] = points.data(points.position, d)[p];
-          cells.vertices.push_back(x);
-        }
+        cells.add_vertex(load_place(points, points.position, p));
       return cells;
     }
 
 
 
     template <int dim>
-    OutputCells<dim, dim>
+    OutputCells
     points_as_boxes(const Snapshot<dim> &snapshot)
     {
       const Points<dim> &points = snapshot.points;
-      auto cells = one_cell_per_point<dim>(snapshot, ItemsAt::cells);
+      OutputCells cells = one_cell_per_point(snapshot, ItemsAt::cells, dim);
       for (unsigned int p = 0; p < points.size(); ++p)
         {
           const Point<dim> centre = load_place(points, points.position, p);
           const auto       edges  = box_edges(snapshot, p);
-          for (unsigned int v = 0; v < cells.n_vertices; ++v)
+          for (unsigned int v = 0; v < cells.n_vertices_per_cell(); ++v)
             {
               Point<dim> corner = centre;
               for (unsigned int d = 0; d < dim; ++d)
                 corner += ((v >> d) & 1 ? 0.5 : -0.5) * edges[d];
-              cells.vertices.push_back(corner);
+              cells.add_vertex(corner);
             }
         }
       return cells;
@@ -217,27 +231,7 @@ namespace talus
     const Points<dim> &points = snapshot.points;
     std::vector<Field> fields;
     for (const Column &column : points.columns())
-      {
-        const Field field = column_field(points, column);
-        if (field.kind != FieldKind::scalar || field.n_components == 1)
-          {
-            fields.push_back(field);
-            continue;
-          }
-        for (unsigned int c = 0; c < column.n_components; ++c)
-          {
-            const unsigned int array = column.first + c;
-            fields.push_back(
-              {name_with_unit(column.name + " " + std::to_string(c),
-                              column.unit,
-                              dim),
-               FieldKind::scalar,
-               1,
-               [&points, array](const unsigned int p, float *values) {
-                 *values = points.data(array)[p];
-               }});
-          }
-      }
+      append_column(fields, points, column);
     append_derived_vectors(fields, snapshot);
     append_derived_scalars(fields, points);
     return fields;
@@ -250,7 +244,7 @@ namespace talus
   PointsOutput<dim>::begin(const std::filesystem::path &folder,
                            const MPI_Comm               communicator,
                            const bool                   boxes_as_cells,
-                           const FieldFormat            format,
+                           const std::string           &format,
                            const Beginning              beginning,
                            const std::string           &name)
   {
@@ -283,16 +277,12 @@ namespace talus
   PointsOutput<dim>::write(const Snapshot<dim>      &snapshot,
                            const std::vector<Field> &further_fields)
   {
-    const auto write_cells = [&](auto cells) {
-      cells.fields.insert(cells.fields.end(),
-                          further_fields.begin(),
-                          further_fields.end());
-      series_.write(cells, snapshot.time, snapshot.step);
-    };
-    if (boxes_as_cells_)
-      write_cells(points_as_boxes(snapshot));
-    else
-      write_cells(points_as_vertices(snapshot));
+    OutputCells cells = (boxes_as_cells_ ? points_as_boxes(snapshot)
+                                         : points_as_vertices(snapshot));
+    cells.fields.insert(cells.fields.end(),
+                        further_fields.begin(),
+                        further_fields.end());
+    series_.write(cells);
   }
 
 
@@ -302,10 +292,7 @@ namespace talus
   write_points(const Snapshot<dim> &snapshot, const std::filesystem::path &path)
   {
     write_file(path, [&](std::ostream &out) {
-      write_vtu(out,
-                points_as_vertices(snapshot),
-                snapshot.time,
-                snapshot.step);
+      write_vtu(out, points_as_vertices(snapshot));
     });
   }
 

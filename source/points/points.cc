@@ -13,32 +13,38 @@ namespace talus
     const auto add = [this](const unsigned int expected,
                             const std::string &name,
                             const std::string &unit,
-                            const unsigned int n_components,
+                            const ColumnKind   kind,
                             const Inheritance  inheritance) {
-      const unsigned int first =
-        add_column(name, unit, n_components, inheritance);
+      const unsigned int first = add_column(name, unit, kind, inheritance);
       AssertDimension(first, expected);
       (void)first;
       (void)expected;
     };
     constexpr auto copied = Inheritance::copied, divided = Inheritance::divided;
-    using C = PointColumns<dim>;
-    add(C::position, "position", "m", dim, copied);
-    add(C::velocity, "velocity", "m/s", dim, copied);
-    add(
-      C::deformation_gradient, "deformation gradient", "-", dim * dim, copied);
-    add(C::stress, "stress", "Pa", n_stress_components<dim>, copied);
-    add(C::mass, "mass", "kg", 1, divided);
-    add(C::reference_volume, "reference volume", "m^dim", 1, divided);
-    add(C::reference_length, "reference length", "m", dim, copied);
-    add(C::stretch, "stretch", "-", dim, copied);
-    add(C::elastic_energy, "elastic energy", "J", 1, divided);
-    add(C::plastic_work, "plastic work", "J", 1, divided);
-    add(C::creation_stretch, "creation stretch", "-", dim, copied);
-    add(C::generation, "generation", "-", 1, copied);
-    add(C::initial_position, "initial position", "m", dim, copied);
-    add(C::id, "id", "-", 1, copied);
-    add(C::body, "body", "-", 1, copied);
+    constexpr auto scalar = ColumnKind::scalars, vector = ColumnKind::vector,
+                   symmetric   = ColumnKind::symmetric_tensor,
+                   deformation = ColumnKind::deformation;
+    const std::string volume   = (dim == 2 ? "m^2" : "m^3");
+    using C                    = PointColumns<dim>;
+    add(C::position, "position", "m", vector, copied);
+    add(C::velocity, "velocity", "m/s", vector, copied);
+    add(C::deformation_gradient,
+        "deformation gradient",
+        "-",
+        deformation,
+        copied);
+    add(C::stress, "stress", "Pa", symmetric, copied);
+    add(C::mass, "mass", "kg", scalar, divided);
+    add(C::reference_volume, "reference volume", volume, scalar, divided);
+    add(C::reference_length, "reference length", "m", vector, copied);
+    add(C::stretch, "stretch", "-", vector, copied);
+    add(C::elastic_energy, "elastic energy", "J", scalar, divided);
+    add(C::plastic_work, "plastic work", "J", scalar, divided);
+    add(C::creation_stretch, "creation stretch", "-", vector, copied);
+    add(C::generation, "generation", "-", scalar, copied);
+    add(C::initial_position, "initial position", "m", vector, copied);
+    add(C::id, "id", "-", scalar, copied);
+    add(C::body, "body", "-", scalar, copied);
   }
 
 
@@ -47,22 +53,49 @@ namespace talus
   unsigned int
   Points<dim>::add_column(const std::string &name,
                           const std::string &unit,
-                          const unsigned int n_components,
+                          const ColumnKind   kind,
                           const Inheritance  inheritance)
   {
-    for (const Column &column : columns_)
-      if (column.name == name)
+    const unsigned int n_components =
+      (kind == ColumnKind::scalars            ? 1
+       : kind == ColumnKind::vector           ? dim
+       : kind == ColumnKind::symmetric_tensor ? n_stress_components<dim>
+                                              : dim * dim);
+    return add({name, unit, kind, n_components, inheritance, 0});
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Points<dim>::add_column(const std::string &name,
+                          const std::string &unit,
+                          const unsigned int n_scalars,
+                          const Inheritance  inheritance)
+  {
+    return add({name, unit, ColumnKind::scalars, n_scalars, inheritance, 0});
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Points<dim>::add(const Column &column)
+  {
+    for (const Column &old : columns_)
+      if (old.name == column.name)
         {
-          AssertThrow(column.n_components == n_components &&
-                        column.inheritance == inheritance,
-                      ExcInternalError("Column '" + name +
+          AssertThrow(old.kind == column.kind &&
+                        old.n_components == column.n_components &&
+                        old.inheritance == column.inheritance,
+                      ExcInternalError("Column '" + column.name +
                                        "' exists with another shape."));
-          return column.first;
+          return old.first;
         }
-    const unsigned int first = arrays_.size();
-    columns_.push_back({name, unit, n_components, inheritance, first});
-    arrays_.reshape(first + n_components, capacity_ + n_spare);
-    return first;
+    columns_.push_back(column);
+    columns_.back().first = arrays_.size();
+    arrays_.reshape(arrays_.size() + column.n_components, capacity_ + n_spare);
+    return columns_.back().first;
   }
 
 

@@ -145,7 +145,8 @@ def files(folder):
 
 
 # What a checkpoint tells of the program and the moment, not of the soil.
-UNLIKE = {"@git revision", "@talus version", "parameters"}
+UNLIKE = {"@date", "@git revision", "@talus version", "@format version",
+          "@parameters", "parameters"}
 
 
 def differences(before, after, renamed):

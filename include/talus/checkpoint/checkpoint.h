@@ -2,7 +2,7 @@
 #define talus_checkpoint_checkpoint_h
 
 #include <talus/base/state.h>
-#include <talus/checkpoint/checkpoint_search.h>
+#include <talus/checkpoint/checkpoint_folder.h>
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
 
@@ -85,15 +85,15 @@ namespace talus
   private:
     using Clock = std::chrono::steady_clock;
 
-    std::uint64_t
-    size_in_file(const Content &content) const;
     void
-    write_state(const std::filesystem::path &part,
+    write_state(const std::filesystem::path &folder,
                 const Content               &content) const;
     void
-    write_mesh(const std::filesystem::path &part, const Grid<dim> &grid) const;
+    write_mesh(const std::filesystem::path &folder,
+               const Grid<dim>             &grid) const;
+    /// Throw ExcUser, on all ranks, if there is an error on any.
     void
-    check_all(const std::string &complaint) const;
+    check_on_all_ranks(const std::string &error) const;
 
     // Parameters
     unsigned int step_interval_   = 0;

@@ -5,16 +5,21 @@
 #include <talus/io/hdf5_file.h>
 #include <talus/points/points.h>
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
 namespace talus
 {
-  // What is in the file `state.h5` of a checkpoint; see doc/output.md.
+  // What is in a checkpoint: the mesh in files of p4est, all else in the file
+  // `state.h5`; see doc/output.md.
+
+  constexpr const char *state_file_name = "state.h5";
+  constexpr const char *mesh_file_name  = "mesh";
 
   /// To be raised when a talus of today could not read the file of tomorrow, or
   /// the other way round.
-  constexpr std::uint64_t checkpoint_format = 3;
+  constexpr std::uint64_t checkpoint_format = 4;
 
   /// What one wants to know of a checkpoint first: attributes of the file.
   struct CheckpointHead
@@ -67,6 +72,18 @@ namespace talus
   /// Set what save_state() saved. Throws ExcUser if something is missing.
   void
   load_state(Hdf5File &file, const StateList &list);
+
+
+
+  /// Names and checksums of the mesh files in a checkpoint, one per line; to be
+  /// called on one rank.
+  std::string
+  mesh_checksums(const std::filesystem::path &checkpoint);
+
+  /// What is wrong with the checkpoint of which this is the state, compared with
+  /// its checksums; empty if nothing is. Collective.
+  std::string
+  find_damage(Hdf5File &file);
 
 
 

@@ -43,7 +43,7 @@ namespace talus
 
     /// Whether there is an object.
     bool
-    well() const
+    is_valid() const
     {
       return id_ >= 0;
     }
@@ -73,7 +73,7 @@ namespace talus
   undated(const hid_t kind)
   {
     Hdf5Handle properties(H5Pcreate(kind), H5Pclose);
-    if (!properties.well() || H5Pset_obj_track_times(properties, false) < 0)
+    if (!properties.is_valid() || H5Pset_obj_track_times(properties, false) < 0)
       return {};
     return properties;
   }

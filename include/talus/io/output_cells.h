@@ -6,39 +6,49 @@
 #include <array>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus
 {
-  /// How ParaView is to read the components of a field.
+  /// How ParaView is to read the components of a field, and how many columns
+  /// they take in a file.
   enum class FieldKind
   {
-    scalar, ///< 1 component
-    vector, ///< dim components, shown with 3
-    tensor  ///< 9 components, row by row
+    scalar = 1,
+    vector = 3, ///< also in 2-D
+    tensor = 9  ///< row by row, also in 2-D
   };
 
 
 
-  /// A field of an output file: name with unit, and how to get its values.
+  /// A field of an output file, and how to get its values.
   struct Field
   {
-    std::string  name;
-    FieldKind    kind;
-    unsigned int n_components;
-    /// Write the components at item @p i (a point, a node) to @p values.
+    std::string name;
+    std::string unit; ///< empty if there is none to tell
+    FieldKind   kind;
+    /// Write the components at item @p i (a point, a node) to @p values, where
+    /// zeros are.
     std::function<void(unsigned int i, float *values)> evaluate;
   };
 
 
 
-  /// Number of components in a file: vectors have three, also in 2-D.
   inline unsigned int
   n_columns(const Field &field)
   {
-    return field.kind == FieldKind::scalar   ? 1
-           : field.kind == FieldKind::vector ? 3
-                                             : 9;
+    return static_cast<unsigned int>(field.kind);
+  }
+
+
+
+  /// Name and unit for formats that have one text for both: "velocity [m/s]".
+  inline std::string
+  name_with_unit(const Field &field)
+  {
+    return field.unit.empty() ? field.name
+                              : field.name + " [" + field.unit + "]";
   }
 
 
@@ -69,58 +79,71 @@ namespace talus
 
 
   /// This rank's share of what one output time shows, whatever the format:
-  /// vertex cells (cell_dim = 0) or quads and hexes (cell_dim = dim) that share
-  /// no vertices, and the items (points, nodes) whose fields they carry.
-  template <int cell_dim, int dim>
+  /// cells of dimension 0 (vertices), 2 (quads) or 3 (hexes) that share no
+  /// vertices, and the items (points, nodes) whose fields they carry.
   struct OutputCells
   {
-    static constexpr unsigned int n_vertices = 1 << cell_dim;
-
-    OutputCells(const std::vector<Field> &fields, const ItemsAt items_at)
-      : fields(fields)
+    OutputCells(std::vector<Field>  fields,
+                const ItemsAt       items_at,
+                const unsigned int  cell_dim,
+                const double        time,
+                const unsigned long step)
+      : fields(std::move(fields))
       , items_at(items_at)
+      , cell_dim(cell_dim)
+      , time(time)
+      , step(step)
     {}
+
+    template <int dim>
+    void
+    add_vertex(const dealii::Point<dim> &x)
+    {
+      for (unsigned int d = 0; d < 3; ++d)
+        vertices.push_back(d < dim ? x[d] : 0.);
+    }
+
+    unsigned int
+    n_vertices() const
+    {
+      return vertices.size() / 3;
+    }
+
+    unsigned int
+    n_vertices_per_cell() const
+    {
+      return 1 << cell_dim;
+    }
 
     unsigned int
     size() const
     {
-      return vertices.size() / n_vertices;
+      return n_vertices() / n_vertices_per_cell();
     }
 
-    std::vector<Field>              fields;
-    ItemsAt                         items_at;
-    std::vector<dealii::Point<dim>> vertices; ///< cell by cell, deal.II's order
-    std::vector<unsigned int>       items;    ///< one per vertex or per cell
+    std::vector<Field> fields;
+    ItemsAt            items_at;
+    unsigned int       cell_dim;
+    double             time; ///< s
+    unsigned long      step;
+    /// x, y, z of each vertex, m; z = 0 in 2-D. Cell by cell, deal.II's order.
+    std::vector<float>        vertices;
+    std::vector<unsigned int> items; ///< one per vertex or per cell
   };
-
-
-
-  /// Three coordinates for each vertex, m; z = 0 in 2-D.
-  template <int cell_dim, int dim>
-  std::vector<float>
-  vertex_coordinates(const OutputCells<cell_dim, dim> &cells)
-  {
-    std::vector<float> coordinates(3 * cells.vertices.size());
-    for (std::size_t v = 0; v < cells.vertices.size(); ++v)
-      for (unsigned int d = 0; d < dim; ++d)
-        coordinates[3 * v + d] = cells.vertices[v][d];
-    return coordinates;
-  }
 
 
 
   /// Cell by cell the numbers of its vertices, in VTK's order, if the first
   /// vertex of all has the number @p first. deal.II counts lexicographically,
   /// VTK around each quad.
-  template <typename Number, int cell_dim, int dim>
+  template <typename Number>
   std::vector<Number>
-  corners_of_cells(const OutputCells<cell_dim, dim> &cells,
-                   const Number                      first = 0)
+  corners_of_cells(const OutputCells &cells, const Number first = 0)
   {
     constexpr std::array<unsigned int, 8> vtk_order = {
       {0, 1, 3, 2, 4, 5, 7, 6}};
-    constexpr unsigned int n = OutputCells<cell_dim, dim>::n_vertices;
-    std::vector<Number>    corners(cells.vertices.size());
+    const unsigned int  n = cells.n_vertices_per_cell();
+    std::vector<Number> corners(cells.n_vertices());
     for (std::size_t v = 0; v < corners.size(); ++v)
       corners[v] = first + v - v % n + vtk_order[v % n];
     return corners;

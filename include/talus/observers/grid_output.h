@@ -6,7 +6,7 @@
 
 namespace talus
 {
-  /// grid.pvd and its VTU files, or grid.xdmf and its HDF5 files: the cells of
+  /// The series of files called grid, in one of the formats of FieldWriter: the cells of
   /// the background grid that hold points, with the mass, velocity and force of
   /// the step before at their nodes. All three are zero at nodes the step did
   /// not touch, and at the start; mass and force of a hanging node went to its
@@ -18,7 +18,7 @@ namespace talus
     void
     begin(const std::filesystem::path &folder,
           MPI_Comm                     communicator,
-          FieldFormat                  format    = FieldFormat::vtu,
+          const std::string           &format    = "vtu",
           Beginning                    beginning = Beginning::anew);
 
     void

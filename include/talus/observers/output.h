@@ -101,8 +101,6 @@ namespace talus
     write_last_state(const State<dim> &state) const;
 
   private:
-    FieldFormat
-    format() const;
     void
     write_row(const State<dim> &state);
     void

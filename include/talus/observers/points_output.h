@@ -12,18 +12,17 @@ namespace talus
   /// unit, and derived from them the displacement, speed, mean and von Mises
   /// stress, volume ratio J and current length of the boxes.
   ///
-  /// Columns with dim components are vectors; the stress and columns with
-  /// dim*dim components are 3x3 tensors (in 2-D with the stress out of the
-  /// plane, 1 for the deformation gradient); others are one scalar per
-  /// component, numbered. The points must outlive the fields.
+  /// Tensors are 3x3 (in 2-D with the stress out of the plane, 1 for the
+  /// deformation gradient), a list of scalars is one field per number. The
+  /// points must outlive the fields.
   template <int dim>
   std::vector<Field>
   point_fields(const Snapshot<dim> &snapshot);
 
 
 
-  /// points.pvd and its VTU files, or points.xdmf and its HDF5 files: each
-  /// point as a vertex, or its box as a quad (hex), so that ParaView shows a
+  /// The series of files called points, in one of the formats of FieldWriter:
+  /// each point as a vertex, or its box as a quad (hex), so that ParaView shows a
   /// continuum. Boxes are as long as the weights let them be; see box_edges().
   /// The values of a point are at its vertex or at the cell that is its box.
   template <int dim>
@@ -34,7 +33,7 @@ namespace talus
     begin(const std::filesystem::path &folder,
           MPI_Comm                     communicator,
           bool                         boxes_as_cells,
-          FieldFormat                  format    = FieldFormat::vtu,
+          const std::string           &format    = "vtu",
           Beginning                    beginning = Beginning::anew,
           const std::string           &name      = "points");
 

@@ -21,11 +21,22 @@ namespace talus
     divided
   };
 
-  /// A named property of the points: 1, dim, dim*dim, ... doubles per point.
+  /// What the components of a column are to each other, and in which order.
+  enum class ColumnKind
+  {
+    scalars,          ///< one number, or a list of numbers
+    vector,           ///< dim components
+    symmetric_tensor, ///< xx, yy, zz, xy (xz, yz): also out of the plane
+    tensor,           ///< dim x dim components, row by row; 0 out of the plane
+    deformation       ///< the same, but 1 out of the plane
+  };
+
+  /// A named property of the points.
   struct Column
   {
     std::string  name;
-    std::string  unit;
+    std::string  unit; ///< "-" if there is none
+    ColumnKind   kind;
     unsigned int n_components;
     Inheritance  inheritance;
     /// Index of the first component among the scalar arrays.
@@ -76,7 +87,14 @@ namespace talus
     unsigned int
     add_column(const std::string &name,
                const std::string &unit,
-               unsigned int       n_components,
+               ColumnKind         kind,
+               Inheritance        inheritance);
+
+    /// The same with this many numbers, each a scalar.
+    unsigned int
+    add_column(const std::string &name,
+               const std::string &unit,
+               unsigned int       n_scalars,
                Inheritance        inheritance);
 
     const std::vector<Column> &
@@ -260,6 +278,9 @@ namespace talus
     {
       return s > 0 && segments_[s].cell == segments_[s - 1].cell;
     }
+
+    unsigned int
+    add(const Column &column);
 
     void
     reserve(unsigned int n);

@@ -1,5 +1,5 @@
-#ifndef observers_hdf5_h
-#define observers_hdf5_h
+#ifndef io_hdf5_reading_h
+#define io_hdf5_reading_h
 
 #include <talus/io/hdf5_handle.h>
 
@@ -45,8 +45,8 @@ read_dataset(const std::filesystem::path &path, const std::string &name)
                         H5Fclose);
   const Hdf5Handle dataset(H5Dopen2(file, name.c_str(), H5P_DEFAULT), H5Dclose);
   const Hdf5Handle space(H5Dget_space(dataset), H5Sclose);
-  EXPECT_TRUE(space.well()) << path << ": " << name;
-  if (!space.well())
+  EXPECT_TRUE(space.is_valid()) << path << ": " << name;
+  if (!space.is_valid())
     return result;
   result.extent.resize(H5Sget_simple_extent_ndims(space));
   H5Sget_simple_extent_dims(space, result.extent.data(), nullptr);
@@ -78,8 +78,8 @@ read_attribute(const std::filesystem::path &path,
                                              H5P_DEFAULT),
                              H5Aclose);
   const Hdf5Handle type(H5Aget_type(attribute), H5Tclose);
-  EXPECT_TRUE(type.well()) << object << ": " << name;
-  if (!type.well())
+  EXPECT_TRUE(type.is_valid()) << object << ": " << name;
+  if (!type.is_valid())
     return "";
   std::string text(H5Tget_size(type), ' ');
   EXPECT_GE(H5Aread(attribute, type, text.data()), 0);

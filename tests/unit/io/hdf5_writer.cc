@@ -6,7 +6,7 @@
 
 #include <set>
 
-#include "observers_hdf5.h"
+#include "hdf5_reading.h"
 #include "observers_setup.h"
 
 namespace
@@ -45,7 +45,7 @@ namespace
     write(const Scene<dim> &s, const bool boxes_as_cells)
     {
       PointsOutput<dim> output;
-      output.begin(folder, MPI_COMM_WORLD, boxes_as_cells, FieldFormat::hdf5);
+      output.begin(folder, MPI_COMM_WORLD, boxes_as_cells, "hdf5");
       output.write(s);
       return folder / "points-0000.h5";
     }
@@ -58,8 +58,8 @@ namespace
       for (const Column &column : points.columns())
         {
           const unsigned int n         = column.n_components;
-          const bool         is_vector = (n == dim && n != dim * dim);
-          if (column.first == points.stress || n == dim * dim)
+          const bool         is_vector = (column.kind == ColumnKind::vector);
+          if (!is_vector && column.kind != ColumnKind::scalars)
             continue;
           for (unsigned int c = 0; c < n; ++c)
             {
@@ -266,7 +266,7 @@ namespace
     Scene<2> s("0, 0", "8, 4");
     add_points(s);
     PointsOutput<2> output;
-    output.begin(folder, MPI_COMM_WORLD, true, FieldFormat::hdf5);
+    output.begin(folder, MPI_COMM_WORLD, true, "hdf5");
     output.write(s);
     s.add({2.5, 2.5});
     s.time = 1. / 3.;
@@ -277,7 +277,7 @@ namespace
 
     std::set<std::string> expected;
     for (const Field &field : point_fields(s))
-      expected.insert(field.name);
+      expected.insert(name_with_unit(field));
     std::vector<double>      times;
     std::vector<std::size_t> n_cells;
     for (const auto &[tag, grid] : read_index("points.xdmf"))
@@ -310,23 +310,26 @@ namespace
   // A slash would make a group, and XML has its own use for some characters.
   TEST_F(Hdf5Test, UnusualNames)
   {
-    const std::string name = "a/b <c> & \"d\" [m/s]";
-    OutputCells<0, 2> cells({{name,
-                              FieldKind::scalar,
-                              1,
-                              [](unsigned int, float *value) { *value = 7; }}},
-                            ItemsAt::vertices);
-    cells.vertices = {{1, 2}};
-    cells.items    = {0};
+    OutputCells cells({{"a/b <c> & \"d\"",
+                        "m/s",
+                        FieldKind::scalar,
+                        [](unsigned int, float *value) { *value = 7; }}},
+                      ItemsAt::vertices,
+                      0,
+                      0.,
+                      0);
+    cells.add_vertex(dealii::Point<2>(1, 2));
+    cells.items = {0};
     FieldSeries series;
-    series.begin(folder, "x", MPI_COMM_WORLD, FieldFormat::hdf5);
-    series.write(cells, 0., 0);
+    series.begin(folder, "x", MPI_COMM_WORLD, "hdf5");
+    series.write(cells);
     EXPECT_EQ(read_dataset<float>(folder / "x-0000.h5",
                                   "fields/a_b <c> & \"d\"")
                 .values,
               std::vector<float>({7}));
     const ptree field = read_index("x.xdmf").get_child("Grid.Attribute");
-    EXPECT_EQ(field.get<std::string>("<xmlattr>.Name"), name);
+    EXPECT_EQ(field.get<std::string>("<xmlattr>.Name"),
+              "a/b <c> & \"d\" [m/s]");
     expect_item(field);
   }
 
@@ -343,7 +346,7 @@ namespace
     s.nodes.clear();
     s.nodes.set_sums(node, 2., 0., dealii::Point<2>(), dealii::Point<2>());
     GridOutput<2> output;
-    output.begin(folder, MPI_COMM_WORLD, FieldFormat::hdf5);
+    output.begin(folder, MPI_COMM_WORLD, "hdf5");
     output.write(s);
 
     const fs::path file = folder / "grid-0000.h5";
@@ -362,24 +365,41 @@ namespace
 
 
 
-  TEST_F(Hdf5Test, MissingAndDamagedFiles)
+  // The index of a resumed run is made from its state: the files may hold what
+  // they like. One that is gone is left out.
+  TEST_F(Hdf5Test, IndexOfAResumedRun)
   {
     Scene<2> s("0, 0", "8, 4");
     add_points(s);
-    PointsOutput<2> output;
-    output.begin(folder, MPI_COMM_WORLD, false, FieldFormat::hdf5);
+    StateList       before, after;
+    PointsOutput<2> output, resumed;
+    output.list_state(before);
+    resumed.list_state(after);
+    output.begin(folder, MPI_COMM_WORLD, false, "hdf5");
     output.write(s);
-    // An index made from files alone is the same; one that is gone is left out.
-    const auto before = lines("points.xdmf");
-    XdmfIndex  index;
-    index.write(folder / "points.xdmf",
-                {{0., "points-0000.h5"}, {1., "points-0001.h5"}});
-    EXPECT_EQ(lines("points.xdmf"), before);
+    const std::string state = before.texts().at(0).get();
+    EXPECT_EQ(state.find("0 points-0000.h5\n "), 0u) << state;
+    s.time = 0.1;
+    output.write(s);
+    const auto expected = lines("points.xdmf");
 
-    std::ofstream(folder / "points-0001.h5") << "no HDF5";
-    EXPECT_THROW(index.write(folder / "points.xdmf", {{1., "points-0001.h5"}}),
-                 ExcUser);
-    EXPECT_EQ(lines("points.xdmf"), before);
+    after.texts().at(0).set(state);
+    EXPECT_EQ(after.texts().at(0).get(), state);
+    resumed.begin(folder, MPI_COMM_WORLD, false, "hdf5", Beginning::resumed);
+    std::ofstream(folder / "points-0000.h5") << "no HDF5";
+    resumed.write(s);
+    EXPECT_EQ(lines("points.xdmf"), expected);
+    EXPECT_EQ(files_in(folder),
+              std::vector<std::string>(
+                {"points-0000.h5", "points-0001.h5", "points.xdmf"}));
+
+    fs::remove(folder / "points-0000.h5");
+    resumed.write(s);
+    std::vector<double> times;
+    for (const auto &[tag, grid] : read_index("points.xdmf"))
+      if (tag == "Grid")
+        times.push_back(grid.get<double>("Time.<xmlattr>.Value"));
+    EXPECT_EQ(times, std::vector<double>({0.1, 0.1}));
   }
 
 
@@ -389,7 +409,7 @@ namespace
     Scene<2> s("0, 0", "8, 4");
     add_points(s);
     PointsOutput<2> output;
-    output.begin(folder / "gone", MPI_COMM_WORLD, false, FieldFormat::hdf5);
+    output.begin(folder / "gone", MPI_COMM_WORLD, false, "hdf5");
     EXPECT_THROW(output.write(s), ExcUser);
     EXPECT_TRUE(files_in(folder).empty());
   }

@@ -190,6 +190,34 @@ namespace
 
 
 
+  // In 2-D a symmetric tensor has as many components as a full one.
+  TEST_F(VtuTest, ColumnsAreShownByTheirKind)
+  {
+    Scene<2> s("0, 0", "8, 4");
+    s.add({0.5, 0.5});
+    std::map<std::string, ColumnKind> kinds = {
+      {"symmetric", ColumnKind::symmetric_tensor},
+      {"full", ColumnKind::tensor},
+      {"mapping", ColumnKind::deformation}};
+    for (const auto &[name, kind] : kinds)
+      {
+        const unsigned int column =
+          s.points.add_column(name, "-", kind, Inheritance::copied);
+        for (unsigned int c = 0; c < 4; ++c)
+          s.points.data(column, c)[0] = 5. + c;
+      }
+    s.points.add_column("numbers", "-", 4, Inheritance::copied);
+    write_points(s, folder / "p.vtu");
+    Vtu vtu = read_vtu(folder / "p.vtu");
+    using V = std::vector<float>;
+    EXPECT_EQ(vtu.values["symmetric"], V({5, 8, 0, 8, 6, 0, 0, 0, 7}));
+    EXPECT_EQ(vtu.values["full"], V({5, 6, 0, 7, 8, 0, 0, 0, 0}));
+    EXPECT_EQ(vtu.values["mapping"], V({5, 6, 0, 7, 8, 0, 0, 0, 1}));
+    EXPECT_EQ(vtu.values["numbers 3"], V({0}));
+  }
+
+
+
   TEST_F(VtuTest, BoxesHoldTheirValuesOnce)
   {
     Scene<2> s("0, 0", "8, 4");
@@ -337,6 +365,20 @@ namespace
     fs::remove(folder / "points-0000.vtu");
     EXPECT_NO_THROW(output.sync());
     EXPECT_EQ(read_vtu(folder / "points-0001.vtu").n_cells, 2u);
+  }
+
+
+
+  TEST(FieldFormats, EachNameMakesAWriter)
+  {
+    const std::string names = field_format_names();
+    for (const std::string &name :
+         dealii::Utilities::split_string_list(names, '|'))
+      EXPECT_NE(make_field_writer(name), nullptr);
+    EXPECT_NE(sentence_thrown_by([]() {
+                make_field_writer("vtk");
+              }).find("one of " + names),
+              std::string::npos);
   }
 
 

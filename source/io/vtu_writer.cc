@@ -1,7 +1,7 @@
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
-#include <talus/io/vtu.h>
 #include <talus/io/vtu_arrays.h>
+#include <talus/io/vtu_writer.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -37,7 +37,7 @@ namespace talus
     attributes_of(const Field &field)
     {
       return text("type=\"Float32\" Name=\"",
-                  field.name,
+                  name_with_unit(field),
                   "\" NumberOfComponents=\"",
                   n_columns(field),
                   "\"");
@@ -45,21 +45,20 @@ namespace talus
 
 
 
-    template <int cell_dim, int dim>
     void
-    write_geometry(std::ostream &out, const OutputCells<cell_dim, dim> &cells)
+    write_geometry(std::ostream &out, const OutputCells &cells)
     {
       // Of VTK: a vertex, a quad, a hexahedron.
-      constexpr std::uint8_t type =
-        (cell_dim == 0 ? 1 : (cell_dim == 2 ? 9 : 12));
+      const std::uint8_t type =
+        (cells.cell_dim == 0 ? 1 : (cells.cell_dim == 2 ? 9 : 12));
       std::vector<std::int32_t> offsets(cells.size());
       for (unsigned int c = 0; c < cells.size(); ++c)
-        offsets[c] = (c + 1) * cells.n_vertices;
+        offsets[c] = (c + 1) * cells.n_vertices_per_cell();
 
       out << "<Points>\n";
       write_array(out,
                   "type=\"Float32\" NumberOfComponents=\"3\"",
-                  vertex_coordinates(cells));
+                  cells.vertices);
       out << "</Points>\n<Cells>\n";
       write_array(out,
                   "type=\"Int32\" Name=\"connectivity\"",
@@ -74,9 +73,8 @@ namespace talus
 
 
     /// Kind of data that ParaView is to take the fields for.
-    template <int cell_dim, int dim>
     std::string
-    data_of(const OutputCells<cell_dim, dim> &cells)
+    data_of(const OutputCells &cells)
     {
       return cells.items_at == ItemsAt::cells ? "CellData" : "PointData";
     }
@@ -84,11 +82,10 @@ namespace talus
 
 
     /// What names the files of all ranks.
-    template <int cell_dim, int dim>
     void
-    write_pvtu(std::ostream                     &out,
-               const OutputCells<cell_dim, dim> &cells,
-               const std::vector<std::string>   &pieces)
+    write_pvtu(std::ostream                   &out,
+               const OutputCells              &cells,
+               const std::vector<std::string> &pieces)
     {
       const std::string data = data_of(cells);
       out << "<?xml version=\"1.0\"?>\n"
@@ -113,12 +110,8 @@ namespace talus
 
 
 
-  template <int cell_dim, int dim>
   void
-  write_vtu(std::ostream                     &out,
-            const OutputCells<cell_dim, dim> &cells,
-            const double                      time,
-            const unsigned long               step)
+  write_vtu(std::ostream &out, const OutputCells &cells)
   {
     const std::string data = data_of(cells);
     out << "<?xml version=\"1.0\"?>\n"
@@ -129,12 +122,12 @@ namespace talus
            "<FieldData>\n"
            "<DataArray type=\"Float64\" Name=\"TIME\" NumberOfTuples=\"1\" "
            "format=\"ascii\">"
-        << std::setprecision(16) << time
+        << std::setprecision(16) << cells.time
         << "</DataArray>\n"
            "<DataArray type=\"Int64\" Name=\"CYCLE\" NumberOfTuples=\"1\" "
            "format=\"ascii\">"
-        << step << "</DataArray>\n</FieldData>\n<Piece NumberOfPoints=\""
-        << cells.vertices.size() << "\" NumberOfCells=\"" << cells.size()
+        << cells.step << "</DataArray>\n</FieldData>\n<Piece NumberOfPoints=\""
+        << cells.n_vertices() << "\" NumberOfCells=\"" << cells.size()
         << "\">\n";
     write_geometry(out, cells);
     out << '<' << data << ">\n";
@@ -145,15 +138,12 @@ namespace talus
 
 
 
-  template <int cell_dim, int dim>
-  std::string
-  write_vtu(const std::filesystem::path        &folder,
-            const std::string                  &base,
-            const MPI_Comm                      communicator,
-            const OutputCells<cell_dim, dim>   &cells,
-            const double                        time,
-            const unsigned long                 step,
-            std::vector<std::filesystem::path> &written)
+  IndexEntry
+  VtuWriter::write(const std::filesystem::path        &folder,
+                   const std::string                  &base,
+                   const MPI_Comm                      communicator,
+                   const OutputCells                  &cells,
+                   std::vector<std::filesystem::path> &unsynced) const
   {
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int rank    = Utilities::MPI::this_mpi_process(communicator);
@@ -162,7 +152,7 @@ namespace talus
     };
     const auto write = [&](const std::string &name, const auto &content) {
       write_file(folder / name, content);
-      written.push_back(folder / name);
+      unsynced.push_back(folder / name);
     };
 
     // ParaView has no use for files without cells: only ranks with cells write
@@ -175,10 +165,9 @@ namespace talus
       return n_cells[r] > 0 || (nobody && r == 0);
     };
     if (writes(rank))
-      write(piece(rank),
-            [&](std::ostream &out) { write_vtu(out, cells, time, step); });
+      write(piece(rank), [&](std::ostream &out) { write_vtu(out, cells); });
     if (n_ranks == 1)
-      return piece(0);
+      return {cells.time, piece(0), ""};
 
     std::vector<std::string> pieces;
     for (unsigned int r = 0; r < n_ranks; ++r)
@@ -187,27 +176,29 @@ namespace talus
     if (rank == 0)
       write(base + ".pvtu",
             [&](std::ostream &out) { write_pvtu(out, cells, pieces); });
-    return base + ".pvtu";
+    return {cells.time, base + ".pvtu", ""};
   }
 
 
 
-#define INSTANTIATE(cell_dim, dim)                                   \
-  template void        write_vtu(std::ostream &,                     \
-                                 const OutputCells<cell_dim, dim> &, \
-                                 double,                             \
-                                 unsigned long);                     \
-  template std::string write_vtu(const std::filesystem::path &,      \
-                                 const std::string &,                \
-                                 MPI_Comm,                           \
-                                 const OutputCells<cell_dim, dim> &, \
-                                 double,                             \
-                                 unsigned long,                      \
-                                 std::vector<std::filesystem::path> &);
-
-  INSTANTIATE(0, 2)
-  INSTANTIATE(0, 3)
-  INSTANTIATE(2, 2)
-  INSTANTIATE(3, 3)
-#undef INSTANTIATE
+  // deal.II's function of this kind writes the date into the file and keeps
+  // only 12 digits of the times.
+  std::filesystem::path
+  VtuWriter::write_index(const std::filesystem::path   &folder,
+                         const std::string             &name,
+                         const std::vector<IndexEntry> &entries) const
+  {
+    const std::filesystem::path path = folder / (name + ".pvd");
+    write_file(path, [&](std::ostream &out) {
+      out << "<?xml version=\"1.0\"?>\n"
+             "<VTKFile type=\"Collection\" version=\"0.1\">\n"
+             "  <Collection>\n"
+          << std::setprecision(16);
+      for (const IndexEntry &entry : entries)
+        out << "    <DataSet timestep=\"" << entry.time
+            << "\" group=\"\" part=\"0\" file=\"" << entry.file << "\"/>\n";
+      out << "  </Collection>\n</VTKFile>\n";
+    });
+    return path;
+  }
 } // namespace talus

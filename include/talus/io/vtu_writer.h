@@ -1,0 +1,42 @@
+#ifndef talus_io_vtu_writer_h
+#define talus_io_vtu_writer_h
+
+#include <talus/io/field_writer.h>
+
+#include <ostream>
+
+namespace talus
+{
+  /// Files of VTK: with one rank base.vtu; with several one base.R.vtu per rank
+  /// R that has cells, and base.pvtu. The index is NAME.pvd.
+  class VtuWriter : public FieldWriter
+  {
+  public:
+    static constexpr const char *documentation =
+      "one file per rank and output time, to be opened by points.pvd and "
+      "grid.pvd";
+
+    IndexEntry
+    write(const std::filesystem::path        &folder,
+          const std::string                  &base,
+          MPI_Comm                            communicator,
+          const OutputCells                  &cells,
+          std::vector<std::filesystem::path> &unsynced) const override;
+
+    std::filesystem::path
+    write_index(const std::filesystem::path   &folder,
+                const std::string             &name,
+                const std::vector<IndexEntry> &entries) const override;
+  };
+
+
+
+  /// Write the cells of this rank as a whole VTU file: single precision,
+  /// compressed, without date. The fields become cell or point data, whichever
+  /// their items are at. (deal.II's writer knows point data only, so that each
+  /// box would hold its values at every corner.)
+  void
+  write_vtu(std::ostream &out, const OutputCells &cells);
+} // namespace talus
+
+#endif

@@ -1,0 +1,90 @@
+#include <talus/base/errors.h>
+#include <talus/io/field_writer.h>
+#include <talus/io/hdf5_writer.h>
+#include <talus/io/vtu_writer.h>
+
+namespace talus
+{
+  namespace
+  {
+    struct Format
+    {
+      std::string name;
+      std::string files; ///< that it makes, for the user
+      std::unique_ptr<FieldWriter> (*make)();
+    };
+
+
+
+    template <typename Writer>
+    Format
+    format(const std::string &name)
+    {
+      return {name,
+              Writer::documentation,
+              []() -> std::unique_ptr<FieldWriter> {
+                return std::make_unique<Writer>();
+              }};
+    }
+
+
+
+    /// All formats there are.
+    const std::vector<Format> &
+    formats()
+    {
+      static const std::vector<Format> all = {
+        format<VtuWriter>("vtu"),
+        format<Hdf5Writer>("hdf5"),
+      };
+      return all;
+    }
+
+
+
+    template <typename GetText>
+    std::string
+    joined(const std::string &separator, const GetText &text_of)
+    {
+      std::string result;
+      for (const Format &format : formats())
+        result += (result.empty() ? "" : separator) + text_of(format);
+      return result;
+    }
+  } // namespace
+
+
+
+  std::string
+  field_format_names()
+  {
+    return joined("|", [](const Format &format) { return format.name; });
+  }
+
+
+
+  std::string
+  field_format_documentation()
+  {
+    return joined("; or ", [](const Format &format) {
+      return format.name + ", " + format.files;
+    });
+  }
+
+
+
+  std::unique_ptr<FieldWriter>
+  make_field_writer(const std::string &name)
+  {
+    for (const Format &format : formats())
+      if (format.name == name)
+        return format.make();
+    AssertThrow(false,
+                ExcUser(text("There is no output format `",
+                             name,
+                             "`. Set Output/Format to one of ",
+                             field_format_names(),
+                             ".")));
+    return nullptr;
+  }
+} // namespace talus
