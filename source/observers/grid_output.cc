@@ -18,20 +18,20 @@ namespace talus
     /// Of all nodes this rank knows, those of ghosts from their owners.
     template <int dim>
     AlignedVector<double>
-    mass_and_force(const Snapshot<dim> &snapshot)
+    mass_and_force(const State<dim> &state)
     {
       AlignedVector<double> values(n_sent<dim> *
-                                   std::size_t(snapshot.grid.n_nodes()));
-      for (unsigned int node = 0; node < snapshot.grid.n_nodes(); ++node)
+                                   std::size_t(state.grid.n_nodes()));
+      for (unsigned int node = 0; node < state.grid.n_nodes(); ++node)
         {
           double *const        to    = &values[n_sent<dim> * std::size_t(node)];
-          const Tensor<1, dim> force = snapshot.nodes.force(node);
-          to[0]                      = snapshot.nodes.mass(node);
+          const Tensor<1, dim> force = state.nodes.force(node);
+          to[0]                      = state.nodes.mass(node);
           for (unsigned int d = 0; d < dim; ++d)
             to[1 + d] = force[d];
         }
       NodalExchange<dim> exchange;
-      exchange.prepare(snapshot.grid, n_sent<dim>);
+      exchange.prepare(state.grid, n_sent<dim>);
       exchange.copy_to_ghosts(values.data());
       return values;
     }
@@ -99,12 +99,15 @@ namespace talus
 
   template <int dim>
   void
-  GridOutput<dim>::begin(const std::filesystem::path &folder,
-                         const MPI_Comm               communicator,
-                         const std::string           &format,
-                         const Beginning              beginning)
+  GridOutput<dim>::begin(const OutputSettings &settings,
+                         const State<dim>     &state,
+                         const Beginning       beginning)
   {
-    series_.begin(folder, "grid", communicator, format, beginning);
+    series_.begin(settings.folder,
+                  "grid",
+                  state.communicator(),
+                  settings.format,
+                  beginning);
   }
 
 
@@ -129,20 +132,20 @@ namespace talus
 
   template <int dim>
   void
-  GridOutput<dim>::write(const Snapshot<dim> &snapshot)
+  GridOutput<dim>::observe(const State<dim> &state)
   {
-    const AlignedVector<double> sums = mass_and_force(snapshot);
-    OutputCells                 cells(node_fields(snapshot.nodes, sums),
+    const AlignedVector<double> sums = mass_and_force(state);
+    OutputCells                 cells(node_fields(state.nodes, sums),
                       ItemsAt::vertices,
                       dim,
-                      snapshot.time,
-                      snapshot.step);
+                      state.time,
+                      state.step);
 
     unsigned int previous = numbers::invalid_unsigned_int;
-    for (const Segment &segment : snapshot.points.segments())
+    for (const Segment &segment : state.points.segments())
       if (segment.cell != previous)
         {
-          add_cell(cells, snapshot.grid.cells()[segment.cell]);
+          add_cell(cells, state.grid.cells()[segment.cell]);
           previous = segment.cell;
         }
     series_.write(cells);

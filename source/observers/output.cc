@@ -2,8 +2,11 @@
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
 #include <talus/io/run_record.h>
+#include <talus/observers/grid_output.h>
 #include <talus/observers/output.h>
 #include <talus/observers/phase_times.h>
+#include <talus/observers/points_output.h>
+#include <talus/observers/profile.h>
 
 namespace talus
 {
@@ -20,43 +23,47 @@ namespace talus
                   "Folder for all files of the run, made if it is not there; "
                   "files of an earlier run are overwritten.");
     add_parameter("Statistics interval",
-                  statistics_interval_,
+                  rows_.interval,
                   "Simulated time between two rows of statistics.csv, and "
                   "between two lines on the terminal [s]. Rows are written at "
                   "the first step that reaches a multiple of it.",
                   this->prm,
                   Patterns::Double(1e-12));
     add_parameter("Field interval",
-                  field_interval_,
+                  fields_.interval,
                   "Simulated time between two outputs of points, grid and "
                   "profile [s]; at the first step that reaches a multiple of "
                   "it.",
                   this->prm,
                   Patterns::Double(1e-12));
     add_parameter("Write points",
-                  write_points_,
+                  settings_.write_points,
                   "Write the points with all their columns for ParaView.");
     add_parameter("Write grid",
-                  write_grid_,
+                  settings_.write_grid,
                   "Write the cells of the background grid that hold points, "
                   "with nodal mass, velocity and force, for ParaView.");
     add_parameter("Boxes as cells",
-                  boxes_as_cells_,
+                  settings_.boxes_as_cells,
                   "Write each point as its box, a quad or hex, so that "
                   "ParaView shows a continuum, instead of as a dot.");
     add_parameter("Format",
-                  format_,
+                  settings_.format,
                   "Files of points and grid: " + field_format_documentation() +
                     ".",
                   this->prm,
                   Patterns::Selection(field_format_names()));
     add_parameter("Runout",
-                  write_runout_,
+                  settings_.write_runout,
                   "Write what tells the runout: the columns of front and rear "
                   "in statistics.csv, and profile.csv. Not with damping, which "
                   "falsifies the runout.");
-    parse_parameters_call_back.connect(
-      [this]() { statistics_.show_runout(write_runout_); });
+    auto statistics = std::make_unique<Statistics<dim>>();
+    statistics_     = statistics.get();
+    rows_.observers.push_back(std::move(statistics));
+    fields_.observers.push_back(std::make_unique<Profile<dim>>());
+    fields_.observers.push_back(std::make_unique<PointsOutput<dim>>());
+    fields_.observers.push_back(std::make_unique<GridOutput<dim>>());
   }
 
 
@@ -81,7 +88,7 @@ namespace talus
     AssertThrow(!folder_.empty(),
                 ExcUser("Output/Folder is empty, but the name of a folder is "
                         "expected. Name one there or with --output."));
-    AssertThrow(local_damping == 0 || !write_runout_,
+    AssertThrow(local_damping == 0 || !settings_.write_runout,
                 ExcUser(text("'Damping/Local damping' is ",
                              local_damping,
                              ", but artificial damping falsifies the runout, "
@@ -111,15 +118,14 @@ namespace talus
     MPI_Barrier(communicator);
 
     progress_.begin(state.time, end_time, communicator);
-    row_times_.begin(statistics_interval_, state.time);
-    statistics_.begin(folder_, state, beginning);
-
-    field_times_.begin(field_interval_, state.time);
-    if (write_runout_)
-      profile_.begin(folder_, state.grid, beginning);
-    points_output_.begin(
-      folder_, communicator, boxes_as_cells_, format_, beginning);
-    grid_output_.begin(folder_, communicator, format_, beginning);
+    settings_.folder = folder_;
+    for (Schedule *schedule : {&rows_, &fields_})
+      {
+        schedule->times.begin(schedule->interval, state.time);
+        for (const auto &observer : schedule->observers)
+          if (observer->is_enabled(settings_))
+            observer->begin(settings_, state, beginning);
+      }
   }
 
 
@@ -131,67 +137,12 @@ namespace talus
     if (has_started_)
       return;
     has_started_ = true;
-    statistics_.add_first_row(state);
-    step_of_last_row_ = state.step;
-    write_fields(state);
-  }
-
-
-
-  template <int dim>
-  void
-  Output<dim>::list_state(StateList &list)
-  {
-    list.add("output has started", "-", has_started_, Reduction::equal);
-    list.add("step of the last row", "-", step_of_last_row_, Reduction::equal);
-    list.add("step of the last fields",
-             "-",
-             step_of_last_fields_,
-             Reduction::equal);
-    statistics_.list_state(list);
-    profile_.file().list_state(profile_.file_name, list);
-    points_output_.list_state(list);
-    grid_output_.list_state(list);
-  }
-
-
-
-  template <int dim>
-  void
-  Output<dim>::check_resumable(const State<dim> &state) const
-  {
-    const MPI_Comm                 communicator = state.grid.communicator();
-    const std::filesystem::path    folder       = folder_;
-    const std::vector<std::string> columns      = statistics_.names(state);
-    std::string                    complaint;
-    if (is_first_rank(communicator))
+    for (Schedule *schedule : {&rows_, &fields_})
       {
-        complaint =
-          statistics_.file().cannot_resume(folder / statistics_.file_name,
-                                           columns);
-        if (complaint.empty() && write_runout_)
-          complaint = profile_.file().cannot_resume(folder / profile_.file_name,
-                                                    profile_.names());
+        for (const auto &observer : schedule->observers)
+          observer->start(state);
+        write(*schedule, state);
       }
-    complaint = first_sentence(complaint, communicator);
-    AssertThrow(complaint.empty(), ExcUser(complaint));
-  }
-
-
-
-  template <int dim>
-  void
-  Output<dim>::sync()
-  {
-    points_output_.sync();
-    grid_output_.sync();
-    if (Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) != 0)
-      return;
-    statistics_.file().sync();
-    if (write_runout_)
-      profile_.file().sync();
-    // The names of the field files, which a checkpoint lists.
-    sync_to_disk(folder_);
   }
 
 
@@ -201,50 +152,96 @@ namespace talus
   Output<dim>::observe(const State<dim> &state, const bool last)
   {
     progress_.count_step(state.points.size());
-    const bool row_due = row_times_.reached(state.time) ||
-                         (last && step_of_last_row_ != state.step);
-    const bool fields_due = field_times_.reached(state.time) ||
-                            (last && step_of_last_fields_ != state.step);
-    if (row_due)
-      write_row(state);
-    if (fields_due)
-      write_fields(state);
+    const bool rows_are_due   = rows_.is_due(state, last);
+    const bool fields_are_due = fields_.is_due(state, last);
+    if (rows_are_due)
+      {
+        write(rows_, state);
+        progress_.print_line(state.time, state.points.size());
+      }
+    if (fields_are_due)
+      write(fields_, state);
     if (last)
       {
         for (const std::string &line :
-             phase_times(timer_, state.grid.communicator()))
+             phase_times(timer_, state.communicator()))
           log_.say(LogLevel::info, line);
         progress_.finish(state.time, state.points.size());
       }
-    return fields_due;
+    return fields_are_due;
+  }
+
+
+
+  template <int dim>
+  bool
+  Output<dim>::Schedule::is_due(const State<dim> &state, const bool last)
+  {
+    return times.reached(state.time) || (last && last_step != state.step);
   }
 
 
 
   template <int dim>
   void
-  Output<dim>::write_row(const State<dim> &state)
+  Output<dim>::write(Schedule &schedule, const State<dim> &state)
   {
     const PhaseTimer::Scope scope(timer_, "output");
-    statistics_.add_row(state);
-    progress_.print_line(state.time, state.points.size());
-    step_of_last_row_ = state.step;
+    for (const auto &observer : schedule.observers)
+      if (observer->is_enabled(settings_))
+        observer->observe(state);
+    schedule.last_step = state.step;
   }
 
 
 
   template <int dim>
   void
-  Output<dim>::write_fields(const State<dim> &state)
+  Output<dim>::list_state(StateList &list)
   {
-    const PhaseTimer::Scope scope(timer_, "output");
-    if (write_runout_)
-      profile_.add_rows(state);
-    if (write_points_)
-      points_output_.write(state);
-    if (write_grid_)
-      grid_output_.write(state);
-    step_of_last_fields_ = state.step;
+    list.add("output has started", "-", has_started_, Reduction::equal);
+    list.add("step of the last row", "-", rows_.last_step, Reduction::equal);
+    list.add("step of the last fields",
+             "-",
+             fields_.last_step,
+             Reduction::equal);
+    for (Schedule *schedule : {&rows_, &fields_})
+      for (const auto &observer : schedule->observers)
+        observer->list_state(list);
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::check_resumable(const State<dim> &state) const
+  {
+    OutputSettings settings = settings_;
+    settings.folder         = folder_;
+    for (const Schedule *schedule : {&rows_, &fields_})
+      for (const auto &observer : schedule->observers)
+        if (observer->is_enabled(settings))
+          {
+            const std::string sentence =
+              first_sentence(observer->cannot_resume(settings, state),
+                             state.communicator());
+            AssertThrow(sentence.empty(), ExcUser(sentence));
+          }
+  }
+
+
+
+  template <int dim>
+  void
+  Output<dim>::sync()
+  {
+    for (const Schedule *schedule : {&rows_, &fields_})
+      for (const auto &observer : schedule->observers)
+        if (observer->is_enabled(settings_))
+          observer->sync();
+    // The names of the field files, which a checkpoint lists.
+    if (is_first_rank(MPI_COMM_WORLD))
+      sync_to_disk(folder_);
   }
 
 
@@ -255,13 +252,8 @@ namespace talus
                                const std::string         &name,
                                const std::vector<double> &mechanism) const
   {
-    PointsOutput<dim> output;
-    output.begin(folder_,
-                 state.grid.communicator(),
-                 boxes_as_cells_,
-                 format_,
-                 Beginning::anew,
-                 name);
+    PointsOutput<dim> output(name);
+    output.begin(settings_, state);
     output.write(state,
                  {{"mechanism",
                    "-",
@@ -278,7 +270,7 @@ namespace talus
   std::string
   Output<dim>::write_last_state(const State<dim> &state) const
   {
-    const MPI_Comm    communicator = state.grid.communicator();
+    const MPI_Comm    communicator = state.communicator();
     const std::string rank =
       (Utilities::MPI::n_mpi_processes(communicator) == 1
          ? ""

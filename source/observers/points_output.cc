@@ -1,5 +1,6 @@
 #include <talus/io/files.h>
 #include <talus/io/vtu_writer.h>
+#include <talus/observers/boxes.h>
 #include <talus/observers/points_output.h>
 #include <talus/points/points_kernel.h>
 
@@ -106,10 +107,9 @@ namespace talus
 
     template <int dim>
     void
-    append_derived_vectors(std::vector<Field>  &fields,
-                           const Snapshot<dim> &snapshot)
+    append_derived_vectors(std::vector<Field> &fields, const State<dim> &state)
     {
-      const Points<dim> &points = snapshot.points;
+      const Points<dim> &points = state.points;
       fields.push_back({"displacement",
                         "m",
                         FieldKind::vector,
@@ -122,8 +122,8 @@ namespace talus
       fields.push_back({"box length",
                         "m",
                         FieldKind::vector,
-                        [&snapshot](const unsigned int p, float *values) {
-                          const auto lengths = box_lengths(snapshot, p);
+                        [&state](const unsigned int p, float *values) {
+                          const auto lengths = box_lengths(state, p);
                           for (unsigned int d = 0; d < dim; ++d)
                             values[d] = lengths[d];
                         }});
@@ -169,16 +169,13 @@ namespace talus
     /// No vertices yet, the points as items of the cells.
     template <int dim>
     OutputCells
-    one_cell_per_point(const Snapshot<dim> &snapshot,
-                       const ItemsAt        items_at,
-                       const unsigned int   cell_dim)
+    one_cell_per_point(const State<dim>  &state,
+                       const ItemsAt      items_at,
+                       const unsigned int cell_dim)
     {
-      OutputCells cells(point_fields(snapshot),
-                        items_at,
-                        cell_dim,
-                        snapshot.time,
-                        snapshot.step);
-      cells.items.resize(snapshot.points.size());
+      OutputCells cells(
+        point_fields(state), items_at, cell_dim, state.time, state.step);
+      cells.items.resize(state.points.size());
       std::iota(cells.items.begin(), cells.items.end(), 0);
       cells.vertices.reserve(3 * cells.items.size() *
                              cells.n_vertices_per_cell());
@@ -189,10 +186,10 @@ namespace talus
 
     template <int dim>
     OutputCells
-    points_as_vertices(const Snapshot<dim> &snapshot)
+    points_as_vertices(const State<dim> &state)
     {
-      const Points<dim> &points = snapshot.points;
-      OutputCells cells = one_cell_per_point(snapshot, ItemsAt::vertices, 0);
+      const Points<dim> &points = state.points;
+      OutputCells cells = one_cell_per_point(state, ItemsAt::vertices, 0);
       for (unsigned int p = 0; p < points.size(); ++p)
         cells.add_vertex(load_place(points, points.position, p));
       return cells;
@@ -202,14 +199,14 @@ namespace talus
 
     template <int dim>
     OutputCells
-    points_as_boxes(const Snapshot<dim> &snapshot)
+    points_as_boxes(const State<dim> &state)
     {
-      const Points<dim> &points = snapshot.points;
-      OutputCells cells = one_cell_per_point(snapshot, ItemsAt::cells, dim);
+      const Points<dim> &points = state.points;
+      OutputCells        cells = one_cell_per_point(state, ItemsAt::cells, dim);
       for (unsigned int p = 0; p < points.size(); ++p)
         {
           const Point<dim> centre = load_place(points, points.position, p);
-          const auto       edges  = box_edges(snapshot, p);
+          const auto       edges  = box_edges(state, p);
           for (unsigned int v = 0; v < cells.n_vertices_per_cell(); ++v)
             {
               Point<dim> corner = centre;
@@ -226,13 +223,13 @@ namespace talus
 
   template <int dim>
   std::vector<Field>
-  point_fields(const Snapshot<dim> &snapshot)
+  point_fields(const State<dim> &state)
   {
-    const Points<dim> &points = snapshot.points;
+    const Points<dim> &points = state.points;
     std::vector<Field> fields;
     for (const Column &column : points.columns())
       append_column(fields, points, column);
-    append_derived_vectors(fields, snapshot);
+    append_derived_vectors(fields, state);
     append_derived_scalars(fields, points);
     return fields;
   }
@@ -241,15 +238,13 @@ namespace talus
 
   template <int dim>
   void
-  PointsOutput<dim>::begin(const std::filesystem::path &folder,
-                           const MPI_Comm               communicator,
-                           const bool                   boxes_as_cells,
-                           const std::string           &format,
-                           const Beginning              beginning,
-                           const std::string           &name)
+  PointsOutput<dim>::begin(const OutputSettings &settings,
+                           const State<dim>     &state,
+                           const Beginning       beginning)
   {
-    series_.begin(folder, name, communicator, format, beginning);
-    boxes_as_cells_ = boxes_as_cells;
+    series_.begin(
+      settings.folder, name_, state.communicator(), settings.format, beginning);
+    boxes_as_cells_ = settings.boxes_as_cells;
   }
 
 
@@ -258,7 +253,7 @@ namespace talus
   void
   PointsOutput<dim>::list_state(StateList &list)
   {
-    series_.list_state("files of points", list);
+    series_.list_state("files of " + name_, list);
   }
 
 
@@ -274,11 +269,11 @@ namespace talus
 
   template <int dim>
   void
-  PointsOutput<dim>::write(const Snapshot<dim>      &snapshot,
+  PointsOutput<dim>::write(const State<dim>         &state,
                            const std::vector<Field> &further_fields)
   {
-    OutputCells cells = (boxes_as_cells_ ? points_as_boxes(snapshot)
-                                         : points_as_vertices(snapshot));
+    OutputCells cells =
+      (boxes_as_cells_ ? points_as_boxes(state) : points_as_vertices(state));
     cells.fields.insert(cells.fields.end(),
                         further_fields.begin(),
                         further_fields.end());
@@ -289,23 +284,23 @@ namespace talus
 
   template <int dim>
   void
-  write_points(const Snapshot<dim> &snapshot, const std::filesystem::path &path)
+  write_points(const State<dim> &state, const std::filesystem::path &path)
   {
     write_file(path, [&](std::ostream &out) {
-      write_vtu(out, points_as_vertices(snapshot));
+      write_vtu(out, points_as_vertices(state));
     });
   }
 
 
 
   template std::vector<Field>
-  point_fields(const Snapshot<2> &);
+  point_fields(const State<2> &);
   template std::vector<Field>
-  point_fields(const Snapshot<3> &);
+  point_fields(const State<3> &);
   template class PointsOutput<2>;
   template class PointsOutput<3>;
   template void
-  write_points(const Snapshot<2> &, const std::filesystem::path &);
+  write_points(const State<2> &, const std::filesystem::path &);
   template void
-  write_points(const Snapshot<3> &, const std::filesystem::path &);
+  write_points(const State<3> &, const std::filesystem::path &);
 } // namespace talus

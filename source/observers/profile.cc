@@ -1,3 +1,5 @@
+#include <talus/base/agreement.h>
+#include <talus/observers/boxes.h>
 #include <talus/observers/cell_lattice.h>
 #include <talus/observers/profile.h>
 #include <talus/points/points_kernel.h>
@@ -208,22 +210,53 @@ namespace talus
 
   template <int dim>
   void
-  Profile<dim>::begin(const std::filesystem::path &folder,
-                      const Grid<dim>             &grid,
-                      const Beginning              beginning)
+  Profile<dim>::begin(const OutputSettings &settings,
+                      const State<dim>     &state,
+                      const Beginning       beginning)
   {
-    if (Utilities::MPI::this_mpi_process(grid.communicator()) == 0)
-      file_.open(folder / file_name, names(), beginning);
+    if (is_first_rank(state.communicator()))
+      file_.open(settings.folder / file_name, names(), beginning);
   }
 
 
 
   template <int dim>
   void
-  Profile<dim>::add_rows(const State<dim> &state)
+  Profile<dim>::list_state(StateList &list)
+  {
+    file_.list_state(file_name, list);
+  }
+
+
+
+  template <int dim>
+  std::string
+  Profile<dim>::cannot_resume(const OutputSettings &settings,
+                              const State<dim>     &state) const
+  {
+    return is_first_rank(state.communicator())
+             ? file_.cannot_resume(settings.folder / file_name, names())
+             : "";
+  }
+
+
+
+  template <int dim>
+  void
+  Profile<dim>::sync()
+  {
+    if (is_first_rank(MPI_COMM_WORLD))
+      file_.sync();
+  }
+
+
+
+  template <int dim>
+  void
+  Profile<dim>::observe(const State<dim> &state)
   {
     const auto profile = find_profile(state);
-    if (Utilities::MPI::this_mpi_process(state.grid.communicator()) != 0)
+    if (!is_first_rank(state.communicator()))
       return;
     for (const ProfileColumn &column : profile)
       {

@@ -34,24 +34,41 @@ namespace talus
 
   template <int dim>
   void
-  Statistics<dim>::begin(const std::filesystem::path &folder,
-                         const State<dim>            &state,
-                         const Beginning              beginning)
+  Statistics<dim>::begin(const OutputSettings &settings,
+                         const State<dim>     &state,
+                         const Beginning       beginning)
   {
+    has_runout_                            = settings.write_runout;
     const std::vector<std::string> columns = names(state);
     if (is_first_rank(state.communicator()))
-      file_.open(folder / file_name, columns, beginning);
+      file_.open(settings.folder / file_name, columns, beginning);
   }
 
 
 
   template <int dim>
   void
-  Statistics<dim>::add_first_row(const State<dim> &state)
+  Statistics<dim>::start(const State<dim> &state)
   {
     budget_.begin(state);
     seabed_force_.restart(state);
-    add_row(state);
+  }
+
+
+
+  template <int dim>
+  void
+  Statistics<dim>::observe(const State<dim> &state)
+  {
+    std::vector<double> values;
+    for (const Quantity &quantity : evaluate(state))
+      values.push_back(quantity.value);
+    if (is_first_rank(state.communicator()))
+      {
+        file_.add_row(values);
+        file_.flush();
+      }
+    seabed_force_.restart(state);
   }
 
 
@@ -80,18 +97,24 @@ namespace talus
 
 
   template <int dim>
-  void
-  Statistics<dim>::add_row(const State<dim> &state)
+  std::string
+  Statistics<dim>::cannot_resume(const OutputSettings &settings,
+                                 const State<dim>     &state) const
   {
-    std::vector<double> values;
-    for (const Quantity &quantity : evaluate(state))
-      values.push_back(quantity.value);
-    if (is_first_rank(state.communicator()))
-      {
-        file_.add_row(values);
-        file_.flush();
-      }
-    seabed_force_.restart(state);
+    const std::vector<std::string> columns = names(state);
+    return is_first_rank(state.communicator())
+             ? file_.cannot_resume(settings.folder / file_name, columns)
+             : "";
+  }
+
+
+
+  template <int dim>
+  void
+  Statistics<dim>::sync()
+  {
+    if (is_first_rank(MPI_COMM_WORLD))
+      file_.sync();
   }
 
 

@@ -58,7 +58,7 @@ namespace
       s.add({0.5, 0.5});
       Statistics<2> statistics;
       statistics.add_source(count_nodes<2>);
-      statistics.begin(folder, s);
+      statistics.begin({folder}, s);
       EXPECT_EQ(lines("statistics.csv").at(0),
                 first +
                   "centre x [m],centre y [m],centre velocity x [m/s],"
@@ -71,7 +71,7 @@ namespace
     s.add({0.5, 0.5, 0.5});
     Statistics<3> statistics;
     statistics.add_source(count_nodes<3>);
-    statistics.begin(folder, s);
+    statistics.begin({folder}, s);
     EXPECT_EQ(lines("statistics.csv").at(0),
               first +
                 "centre x [m],centre y [m],centre z [m],"
@@ -95,8 +95,9 @@ namespace
     });
     s.points.data(s.points.stretch, 1)[1] = 3.;
     s.sort();
-    statistics.begin(folder, s);
-    statistics.add_first_row(s);
+    statistics.begin({folder}, s);
+    statistics.start(s);
+    statistics.observe(s);
 
     s.time                 = 0.5;
     s.step                 = 7;
@@ -128,7 +129,7 @@ namespace
     EXPECT_EQ(row["split ledger [-]"], 0);
 
     // The force is the mean since the row before; the impulse goes on.
-    statistics.add_row(s);
+    statistics.observe(s);
     s.time                    = 1.;
     s.works.seabed_impulse[0] = -7.;
     row                       = evaluate(statistics, s);
@@ -145,8 +146,9 @@ namespace
     s.add({1.5, 0.5}, 2., {3., 0.}); // 9 J
     s.points.data(s.points.elastic_energy)[0] = 5.;
     Statistics<2> statistics;
-    statistics.begin(folder, s);
-    statistics.add_first_row(s);
+    statistics.begin({folder}, s);
+    statistics.start(s);
+    statistics.observe(s);
     EXPECT_EQ(evaluate(statistics, s)["energy remainder [J]"], 0.);
 
     s.points.data(s.points.velocity, 1)[0]    = 4.; // 25 J
@@ -203,8 +205,9 @@ namespace
     Scene<2> s("0, 0", "8, 4");
     s.add({1. / 3., 0.5});
     Statistics<2> statistics;
-    statistics.begin(folder, s);
-    statistics.add_first_row(s);
+    statistics.begin({folder}, s);
+    statistics.start(s);
+    statistics.observe(s);
     EXPECT_NE(lines("statistics.csv").at(1).find("0.3333333333333333,"),
               std::string::npos);
   }
@@ -232,9 +235,9 @@ namespace
         s.points.data(s.points.reference_volume)[p]    = 0.25;
       }
     Profile<2> profile;
-    profile.begin(folder, s.grid);
+    profile.begin({folder}, s);
     s.time = 0.5;
-    profile.add_rows(s);
+    profile.observe(s);
     const auto file = lines("profile.csv");
     ASSERT_EQ(file.size(), 4u);
     EXPECT_EQ(file[0],
@@ -265,8 +268,8 @@ namespace
     for (unsigned int p = 0; p < 2; ++p)
       s.points.data(s.points.reference_volume)[p] = 0.125;
     Profile<3> profile;
-    profile.begin(folder, s.grid);
-    profile.add_rows(s);
+    profile.begin({folder}, s);
+    profile.observe(s);
     const auto file = lines("profile.csv");
     ASSERT_EQ(file.size(), 3u);
     EXPECT_EQ(file[0],

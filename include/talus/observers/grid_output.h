@@ -2,7 +2,7 @@
 #define talus_observers_grid_output_h
 
 #include <talus/io/series.h>
-#include <talus/observers/snapshot.h>
+#include <talus/observers/observer.h>
 
 namespace talus
 {
@@ -12,26 +12,28 @@ namespace talus
   /// not touch, and at the start; mass and force of a hanging node went to its
   /// masters.
   template <int dim>
-  class GridOutput
+  class GridOutput : public Observer<dim>
   {
   public:
-    void
-    begin(const std::filesystem::path &folder,
-          MPI_Comm                     communicator,
-          const std::string           &format    = "vtu",
-          Beginning                    beginning = Beginning::anew);
+    bool
+    is_enabled(const OutputSettings &settings) const override
+    {
+      return settings.write_grid;
+    }
 
     void
-    list_state(StateList &list);
+    begin(const OutputSettings &settings,
+          const State<dim>     &state,
+          Beginning             beginning = Beginning::anew) override;
 
-    /// Write the files of one output time; collective. Throws ExcUser if that
-    /// fails.
     void
-    write(const Snapshot<dim> &snapshot);
+    list_state(StateList &list) override;
 
-    /// Bring all files written so far to the disk.
     void
-    sync();
+    observe(const State<dim> &state) override;
+
+    void
+    sync() override;
 
   private:
     FieldSeries series_;

@@ -4,18 +4,16 @@
 #include <talus/base/phase_timer.h>
 #include <talus/io/files.h>
 #include <talus/io/log.h>
-#include <talus/observers/boxes.h>
-#include <talus/observers/grid_output.h>
+#include <talus/observers/observer.h>
 #include <talus/observers/output_times.h>
-#include <talus/observers/points_output.h>
-#include <talus/observers/profile.h>
 #include <talus/observers/progress.h>
 #include <talus/observers/statistics.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
-#include <filesystem>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace talus
 {
@@ -37,7 +35,7 @@ namespace talus
     void
     add_quantities(const typename Statistics<dim>::Source &source)
     {
-      statistics_.add_source(source);
+      statistics_->add_source(source);
     }
 
     /// Write to this folder, whatever the parameter file says; to be called
@@ -101,33 +99,32 @@ namespace talus
     write_last_state(const State<dim> &state) const;
 
   private:
+    /// Observers that look at the same times.
+    struct Schedule
+    {
+      double                                      interval; ///< s
+      OutputTimes                                 times;
+      unsigned long                               last_step = 0;
+      std::vector<std::unique_ptr<Observer<dim>>> observers;
+
+      bool
+      is_due(const State<dim> &state, bool last);
+    };
+
     void
-    write_row(const State<dim> &state);
-    void
-    write_fields(const State<dim> &state);
+    write(Schedule &schedule, const State<dim> &state);
 
     // Parameters
-    std::string folder_              = "output";
-    double      statistics_interval_ = 0.25;
-    double      field_interval_      = 1.;
-    bool        write_points_        = true;
-    bool        write_grid_          = true;
-    bool        boxes_as_cells_      = false;
-    std::string format_              = "vtu";
-    bool        write_runout_        = true;
+    std::string    folder_ = "output";
+    OutputSettings settings_;
 
-    PhaseTimer       &timer_;
-    Log              &log_;
-    Statistics<dim>   statistics_;
-    Profile<dim>      profile_;
-    PointsOutput<dim> points_output_;
-    GridOutput<dim>   grid_output_;
-    Progress          progress_;
-    OutputTimes       row_times_;
-    OutputTimes       field_times_;
-    bool              has_started_         = false;
-    unsigned long     step_of_last_row_    = 0;
-    unsigned long     step_of_last_fields_ = 0;
+    Schedule         rows_{0.25, {}, 0, {}};
+    Schedule         fields_{1., {}, 0, {}};
+    Statistics<dim> *statistics_; ///< one of the observers
+    PhaseTimer      &timer_;
+    Log             &log_;
+    Progress         progress_;
+    bool             has_started_ = false;
   };
 } // namespace talus
 

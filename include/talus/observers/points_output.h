@@ -2,8 +2,9 @@
 #define talus_observers_points_output_h
 
 #include <talus/io/series.h>
-#include <talus/observers/snapshot.h>
+#include <talus/observers/observer.h>
 
+#include <string>
 #include <vector>
 
 namespace talus
@@ -17,7 +18,7 @@ namespace talus
   /// points must outlive the fields.
   template <int dim>
   std::vector<Field>
-  point_fields(const Snapshot<dim> &snapshot);
+  point_fields(const State<dim> &state);
 
 
 
@@ -26,31 +27,45 @@ namespace talus
   /// continuum. Boxes are as long as the weights let them be; see box_edges().
   /// The values of a point are at its vertex or at the cell that is its box.
   template <int dim>
-  class PointsOutput
+  class PointsOutput : public Observer<dim>
   {
   public:
-    void
-    begin(const std::filesystem::path &folder,
-          MPI_Comm                     communicator,
-          bool                         boxes_as_cells,
-          const std::string           &format    = "vtu",
-          Beginning                    beginning = Beginning::anew,
-          const std::string           &name      = "points");
+    /// @p name of the series.
+    explicit PointsOutput(const std::string &name = "points")
+      : name_(name)
+    {}
+
+    bool
+    is_enabled(const OutputSettings &settings) const override
+    {
+      return settings.write_points;
+    }
 
     void
-    list_state(StateList &list);
+    begin(const OutputSettings &settings,
+          const State<dim>     &state,
+          Beginning             beginning = Beginning::anew) override;
+
+    void
+    list_state(StateList &list) override;
+
+    void
+    observe(const State<dim> &state) override
+    {
+      write(state);
+    }
 
     /// Write the files of one output time, with these fields besides
     /// point_fields(); collective. Throws ExcUser if that fails.
     void
-    write(const Snapshot<dim>      &snapshot,
+    write(const State<dim>         &state,
           const std::vector<Field> &further_fields = {});
 
-    /// Bring all files written so far to the disk.
     void
-    sync();
+    sync() override;
 
   private:
+    std::string name_;
     FieldSeries series_;
     bool        boxes_as_cells_ = false;
   };
@@ -61,8 +76,7 @@ namespace talus
   /// need not be sorted, nor their values be numbers.
   template <int dim>
   void
-  write_points(const Snapshot<dim>         &snapshot,
-               const std::filesystem::path &path);
+  write_points(const State<dim> &state, const std::filesystem::path &path);
 } // namespace talus
 
 #endif

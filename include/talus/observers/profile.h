@@ -1,8 +1,7 @@
 #ifndef talus_observers_profile_h
 #define talus_observers_profile_h
 
-#include <talus/io/files.h>
-#include <talus/observers/boxes.h>
+#include <talus/observers/observer.h>
 
 #include <vector>
 
@@ -37,36 +36,37 @@ namespace talus
   /// profile.csv: for each output time, one row per column of the mesh (of
   /// size h) with points.
   template <int dim>
-  class Profile
+  class Profile : public Observer<dim>
   {
   public:
-    /// Start the file, or go on with it. Throws ExcUser if it cannot be
-    /// written.
-    void
-    begin(const std::filesystem::path &folder,
-          const Grid<dim>             &grid,
-          Beginning                    beginning = Beginning::anew);
+    bool
+    is_enabled(const OutputSettings &settings) const override
+    {
+      return settings.write_runout;
+    }
 
-    /// Append the rows of one output time; collective, the file belongs to the
-    /// first rank.
     void
-    add_rows(const State<dim> &state);
+    begin(const OutputSettings &settings,
+          const State<dim>     &state,
+          Beginning             beginning = Beginning::anew) override;
+
+    /// Append the rows of one output time.
+    void
+    observe(const State<dim> &state) override;
+
+    void
+    list_state(StateList &list) override;
+
+    std::string
+    cannot_resume(const OutputSettings &settings,
+                  const State<dim>     &state) const override;
+
+    void
+    sync() override;
 
     /// Names of the columns.
     static std::vector<std::string>
     names();
-
-    CsvFile &
-    file()
-    {
-      return file_;
-    }
-
-    const CsvFile &
-    file() const
-    {
-      return file_;
-    }
 
     static constexpr const char *file_name = "profile.csv";
 

@@ -4,6 +4,7 @@
 #include <talus/base/quantity.h>
 #include <talus/io/files.h>
 #include <talus/observers/energy_budget.h>
+#include <talus/observers/observer.h>
 #include <talus/observers/seabed_force.h>
 #include <talus/state/state.h>
 
@@ -30,7 +31,7 @@ namespace talus
   /// - The energy terms are those of EnergyTerms; the columns from `empty
   ///   interior cells` on are those of FractureCounts and of the splitter.
   template <int dim>
-  class Statistics
+  class Statistics : public Observer<dim>
   {
   public:
     /// Appends the quantities of somebody; collective.
@@ -40,30 +41,21 @@ namespace talus
     void
     add_source(const Source &source);
 
-    /// Whether there are the columns of the runout: the two fronts and the
-    /// rear. There are unless this says no, before all else.
     void
-    show_runout(const bool show)
-    {
-      has_runout_ = show;
-    }
+    begin(const OutputSettings &settings,
+          const State<dim>     &state,
+          Beginning             beginning = Beginning::anew) override;
 
-    /// Start the file; in a resumed run go on with it. Throws ExcUser if it
-    /// cannot be written.
+    /// Count energies from here.
     void
-    begin(const std::filesystem::path &folder,
-          const State<dim>            &state,
-          Beginning                    beginning = Beginning::anew);
+    start(const State<dim> &state) override;
 
-    /// Count energies from here, and write the row of the start. Collective.
+    /// Append a row.
     void
-    add_first_row(const State<dim> &state);
-
-    /// Append a row; collective, the file belongs to the first rank.
-    void
-    add_row(const State<dim> &state);
+    observe(const State<dim> &state) override;
 
     /// What a row holds, in the order of the columns; right on the first rank.
+    /// Collective.
     Quantities
     evaluate(const State<dim> &state) const;
 
@@ -72,19 +64,14 @@ namespace talus
     names(const State<dim> &state) const;
 
     void
-    list_state(StateList &list);
+    list_state(StateList &list) override;
 
-    CsvFile &
-    file()
-    {
-      return file_;
-    }
+    std::string
+    cannot_resume(const OutputSettings &settings,
+                  const State<dim>     &state) const override;
 
-    const CsvFile &
-    file() const
-    {
-      return file_;
-    }
+    void
+    sync() override;
 
     static constexpr const char *file_name = "statistics.csv";
 

@@ -265,7 +265,7 @@ namespace
     for (unsigned int i = 0; i < n_rows(rank, 2); ++i)
       s.add({0.5 + i, 0.5 + rank});
     PointsOutput<2> output;
-    output.begin(folder, MPI_COMM_WORLD, true, "hdf5");
+    output.begin({folder, "hdf5", true}, s);
     output.write(s);
 
     const fs::path file  = folder / "points-0000.h5";

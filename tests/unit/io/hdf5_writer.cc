@@ -45,7 +45,7 @@ namespace
     write(const Scene<dim> &s, const bool boxes_as_cells)
     {
       PointsOutput<dim> output;
-      output.begin(folder, MPI_COMM_WORLD, boxes_as_cells, "hdf5");
+      output.begin({folder, "hdf5", boxes_as_cells}, s);
       output.write(s);
       return folder / "points-0000.h5";
     }
@@ -266,7 +266,7 @@ namespace
     Scene<2> s("0, 0", "8, 4");
     add_points(s);
     PointsOutput<2> output;
-    output.begin(folder, MPI_COMM_WORLD, true, "hdf5");
+    output.begin({folder, "hdf5", true}, s);
     output.write(s);
     s.add({2.5, 2.5});
     s.time = 1. / 3.;
@@ -346,7 +346,7 @@ namespace
     s.nodes.clear();
     s.nodes.set_sums(node, 2., 0., dealii::Point<2>(), dealii::Point<2>());
     GridOutput<2> output;
-    output.begin(folder, MPI_COMM_WORLD, "hdf5");
+    output.begin({folder, "hdf5"}, s);
     output.write(s);
 
     const fs::path file = folder / "grid-0000.h5";
@@ -375,7 +375,7 @@ namespace
     PointsOutput<2> output, resumed;
     output.list_state(before);
     resumed.list_state(after);
-    output.begin(folder, MPI_COMM_WORLD, false, "hdf5");
+    output.begin({folder, "hdf5", false}, s);
     output.write(s);
     const std::string state = before.texts().at(0).get();
     EXPECT_EQ(state.find("0 points-0000.h5\n "), 0u) << state;
@@ -385,7 +385,7 @@ namespace
 
     after.texts().at(0).set(state);
     EXPECT_EQ(after.texts().at(0).get(), state);
-    resumed.begin(folder, MPI_COMM_WORLD, false, "hdf5", Beginning::resumed);
+    resumed.begin({folder, "hdf5", false}, s, Beginning::resumed);
     std::ofstream(folder / "points-0000.h5") << "no HDF5";
     resumed.write(s);
     EXPECT_EQ(lines("points.xdmf"), expected);
@@ -409,7 +409,7 @@ namespace
     Scene<2> s("0, 0", "8, 4");
     add_points(s);
     PointsOutput<2> output;
-    output.begin(folder / "gone", MPI_COMM_WORLD, false, "hdf5");
+    output.begin({folder / "gone", "hdf5", false}, s);
     EXPECT_THROW(output.write(s), ExcUser);
     EXPECT_TRUE(files_in(folder).empty());
   }

@@ -224,7 +224,7 @@ namespace
     add_points(s);
     s.points.data(s.points.stretch, 1)[1] = 3.;
     PointsOutput<2> output;
-    output.begin(folder, MPI_COMM_WORLD, /*boxes_as_cells=*/true);
+    output.begin({folder, "vtu", /*boxes_as_cells=*/true}, s);
     output.write(s);
     const Vtu vtu = read_vtu(folder / "points-0000.vtu");
     EXPECT_EQ(vtu.n_points, 8u);
@@ -293,7 +293,7 @@ namespace
     Scene<3> s("0, 0, 0", "4, 4, 4");
     add_points(s);
     PointsOutput<3> output;
-    output.begin(folder, MPI_COMM_WORLD, /*boxes_as_cells=*/true);
+    output.begin({folder, "vtu", /*boxes_as_cells=*/true}, s);
     output.write(s);
     Vtu vtu = read_vtu(folder / "points-0000.vtu");
     EXPECT_EQ(vtu.n_points, 16u);
@@ -315,7 +315,7 @@ namespace
     add_points(s);
     s.sort();
     GridOutput<2> output;
-    output.begin(folder, MPI_COMM_WORLD);
+    output.begin({folder, "vtu"}, s);
     // Before the first step no node is active.
     output.write(s);
     Vtu vtu = read_vtu(folder / "grid-0000.vtu");
@@ -359,7 +359,7 @@ namespace
     Scene<2> s("0, 0", "8, 4");
     add_points(s);
     PointsOutput<2> output;
-    output.begin(folder, MPI_COMM_WORLD, /*boxes_as_cells=*/true);
+    output.begin({folder, "vtu", /*boxes_as_cells=*/true}, s);
     output.write(s);
     output.write(s);
     fs::remove(folder / "points-0000.vtu");
