@@ -66,6 +66,9 @@ def convert(file, text):
                           part, flags=re.MULTILINE)
             part = LINK.sub(lambda match: link(file, match), part)
             part = re.sub(r"\[(\w+(?:,\s\w+)*)\]", citation, part)
+            # Doxygen ends code in simple backticks at an apostrophe.
+            part = re.sub(r"`[^`]*`", lambda match: "`%s`" % match.group(0)
+                          if "'" in match.group(0) else match.group(0), part)
             # Doxygen takes a colon that follows for a part of the key.
             part = re.sub(r"(\\cite \w+):", r"\1&#58;", part)
         yield part
