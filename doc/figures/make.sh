@@ -32,6 +32,8 @@ run landslide prm/landslide-quick.prm --set "Splitting/Directions=stretched" \
     --set "Output/Field interval=5"
 run landslide-unsplit prm/landslide-quick.prm --set "Splitting/Enabled=false" \
     --set "Output/Field interval=5"
+run first-slope prm/first-slope.prm --set "Output/Boxes as cells=true" \
+    --set "Output/Field interval=5"
 run bar prm/bar.prm --set "Output/Boxes as cells=true" \
     --set "Output/Field interval=0.5"
 run bar-unsplit prm/bar.prm --set "Splitting/Enabled=false" \
@@ -50,6 +52,7 @@ export here scratch
 xvfb-run -a sh -eu -c '
   pvbatch $here/bar.py $here/bar.png $scratch/bar $scratch/bar-unsplit
   pvbatch $here/landslide.py $scratch/landslide $here/landslide.png
+  pvbatch $here/landslide.py $scratch/first-slope $here/first-slope.png
   pvbatch $here/toe.py $here/toe.png $scratch/landslide-unsplit \
           $scratch/landslide
   pvbatch $here/mechanism.py $here/mechanism.png \

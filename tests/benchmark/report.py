@@ -3,6 +3,7 @@
 import os
 import re
 import subprocess
+import textwrap
 
 
 def processor():
@@ -56,7 +57,7 @@ def write_tables(path, sentence, goals, phases, instructions):
     text = replace_between(
         text,
         "goals",
-        sentence + "\n\n" + as_markdown(("what", "measured", "goal", ""), goals),
+        textwrap.fill(sentence, 118) + "\n\n" + as_markdown(("what", "measured", "goal", ""), goals),
     )
     text = replace_between(text, "phases", as_markdown(phases[0], phases[1:]))
     # A sentence where nothing was counted.

@@ -8,7 +8,7 @@
 namespace talus
 {
   /// Local non-viscous damping, with which a quasi-static problem comes to rest
-  /// @cite cundall1987: each component of the unbalanced force f of a node is
+  /// (@cite cundall1987): each component of the unbalanced force f of a node is
   /// changed by alpha |f| against the motion. It vanishes in equilibrium and
   /// knows no time scale. It falsifies a runout, so it is off by default.
   ///

@@ -10,7 +10,7 @@
 namespace talus
 {
   /// One-sided contact with Coulomb friction whose shear stress is capped, on a
-  /// face of the mesh. The cap is the interface law of @cite dong2017: soft
+  /// face of the mesh. The cap is the interface law of (@cite dong2017): soft
   /// soil cannot pass more shear to the seabed than its own remoulded strength.
   template <int dim>
   class Seabed : public dealii::ParameterAcceptor
