@@ -1,5 +1,7 @@
 #include <talus/base/errors.h>
+#include <talus/observers/grid_output.h>
 #include <talus/observers/output.h>
+#include <talus/observers/points_output.h>
 #include <talus/points/points_kernel.h>
 
 #include <boost/property_tree/xml_parser.hpp>
@@ -347,7 +349,7 @@ namespace
     s.nodes.set_sums(node, 2., 0., dealii::Point<2>(), dealii::Point<2>());
     GridOutput<2> output;
     output.begin({folder, "hdf5"}, s);
-    output.write(s);
+    output.observe(s);
 
     const fs::path file = folder / "grid-0000.h5";
     const auto     mass = read_dataset<float>(file, "fields/mass");

@@ -1,5 +1,8 @@
+#include <talus/io/field_writer.h>
 #include <talus/io/vtu_arrays.h>
+#include <talus/observers/grid_output.h>
 #include <talus/observers/output.h>
+#include <talus/observers/points_output.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -317,7 +320,7 @@ namespace
     GridOutput<2> output;
     output.begin({folder, "vtu"}, s);
     // Before the first step no node is active.
-    output.write(s);
+    output.observe(s);
     Vtu vtu = read_vtu(folder / "grid-0000.vtu");
     EXPECT_EQ(vtu.n_cells, 2u);
     EXPECT_EQ(vtu.n_points, 8u);
@@ -331,7 +334,7 @@ namespace
       node, 2., 0., dealii::Point<2>(6., 0.), dealii::Point<2>(0., 4.));
     s.nodes.update_momentum(0.5, 1e-9);
     s.time = 0.5;
-    output.write(s);
+    output.observe(s);
     vtu = read_vtu(folder / "grid-0001.vtu");
     // deal.II's third vertex of the second cell.
     EXPECT_EQ(vtu.n_components["velocity [m/s]"], 3u);
@@ -386,7 +389,8 @@ namespace
   TEST_F(VtuTest, LastState)
   {
     PhaseTimer timer;
-    Output<2>  output(timer);
+    Log        log;
+    Output<2>  output(timer, log);
     Scene<2>   s("0, 0", "8, 4");
     s.add({0.5, 0.5});
     s.points.data(s.points.velocity)[0] =
