@@ -168,10 +168,9 @@ namespace talus
       fs::rename(temporary_path(checkpoint), checkpoint, error);
     if (error)
       return error.message();
-    const fs::path    folder_of_all = checkpoint.parent_path();
-    const std::string failure       = sync_to_disk(folder_of_all);
-    return failure.empty() ? sync_to_disk(folder_of_all.parent_path())
-                           : failure;
+    const fs::path    parent  = checkpoint.parent_path();
+    const std::string failure = sync_to_disk(parent);
+    return failure.empty() ? sync_to_disk(parent.parent_path()) : failure;
   }
 
 

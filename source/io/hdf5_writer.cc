@@ -97,8 +97,9 @@ namespace talus
       {
         const bool at_cells = (cells.items_at == ItemsAt::cells);
         // To HDF5 a slash separates groups.
-        std::string name = "fields/" + field.name;
-        std::replace(name.begin() + 7, name.end(), '/', '_');
+        std::string name = field.name;
+        std::replace(name.begin(), name.end(), '/', '_');
+        name = "fields/" + name;
         const std::string item =
           write(name, values_of(field, cells.items), n_columns(field));
         file.set_attribute(name, "name", name_with_unit(field));

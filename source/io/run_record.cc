@@ -9,8 +9,6 @@
 
 #include <hdf5.h>
 
-#include <array>
-
 namespace talus
 {
   using namespace dealii;
@@ -20,51 +18,33 @@ namespace talus
   {
     // The libraries' own numbers at compile time; HDF5's is asked for at run
     // time, as its library checks that the two agree.
-    std::array<unsigned int, 3> hdf5;
+    unsigned int hdf5[3];
     H5get_libversion(&hdf5[0], &hdf5[1], &hdf5[2]);
     const std::string revision = TALUS_GIT_REVISION;
-    return text(prefix,
-                "talus ",
+    const auto        line     = [&prefix](const auto &...words) {
+      return text(prefix, words..., '\n');
+    };
+    const auto dotted = [](const auto a, const auto b, const auto c) {
+      return text(a, '.', b, '.', c);
+    };
+    return line("talus ",
                 TALUS_VERSION,
                 ", git revision ",
-                revision.empty() ? "unknown" : revision,
-                "\n",
-                prefix,
-                "deal.II ",
-                DEAL_II_PACKAGE_VERSION,
-                "\n",
-                prefix,
-                "Trilinos ",
-                DEAL_II_TRILINOS_VERSION_MAJOR,
-                ".",
-                DEAL_II_TRILINOS_VERSION_MINOR,
-                ".",
-                DEAL_II_TRILINOS_VERSION_SUBMINOR,
-                "\n",
-                prefix,
-                "p4est ",
-                DEAL_II_P4EST_VERSION_MAJOR,
-                ".",
-                DEAL_II_P4EST_VERSION_MINOR,
-                ".",
-                DEAL_II_P4EST_VERSION_SUBMINOR,
-                "\n",
-                prefix,
-                "HDF5 ",
-                hdf5[0],
-                ".",
-                hdf5[1],
-                ".",
-                hdf5[2],
-                "\n",
-                prefix,
-                "Boost ",
-                BOOST_VERSION / 100000,
-                ".",
-                BOOST_VERSION / 100 % 1000,
-                ".",
-                BOOST_VERSION % 100,
-                "\n");
+                revision.empty() ? "unknown" : revision) +
+           line("deal.II ", DEAL_II_PACKAGE_VERSION) +
+           line("Trilinos ",
+                dotted(DEAL_II_TRILINOS_VERSION_MAJOR,
+                       DEAL_II_TRILINOS_VERSION_MINOR,
+                       DEAL_II_TRILINOS_VERSION_SUBMINOR)) +
+           line("p4est ",
+                dotted(DEAL_II_P4EST_VERSION_MAJOR,
+                       DEAL_II_P4EST_VERSION_MINOR,
+                       DEAL_II_P4EST_VERSION_SUBMINOR)) +
+           line("HDF5 ", dotted(hdf5[0], hdf5[1], hdf5[2])) +
+           line("Boost ",
+                dotted(BOOST_VERSION / 100000,
+                       BOOST_VERSION / 100 % 1000,
+                       BOOST_VERSION % 100));
   }
 
 

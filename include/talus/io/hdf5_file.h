@@ -137,7 +137,8 @@ namespace talus
           const std::vector<Number> &rows,
           unsigned int               n_columns);
 
-    /// Write a short array without columns that all ranks know: no message.
+    /// Write a short array without columns that all ranks know: no message but
+    /// for disk space, now and then.
     void
     write_known(const std::string &name, const std::vector<double> &values);
 
