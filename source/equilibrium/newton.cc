@@ -337,11 +337,11 @@ namespace talus
                                [&](const MaterialModel<dim> &model,
                                    const unsigned int        begin,
                                    const unsigned int        end) {
-                                 model.accept(points,
-                                              problem.state.workspace,
-                                              begin,
-                                              end,
-                                              parameters_.measure);
+                                 model.commit_load_step(points,
+                                                        problem.state.workspace,
+                                                        begin,
+                                                        end,
+                                                        parameters_.measure);
                                });
     if (parameters_.measure == StrainMeasure::small)
       return;

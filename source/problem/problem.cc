@@ -159,7 +159,7 @@ namespace talus
   {
     std::vector<bool> result;
     for (unsigned int b = 0; b < bodies_.size(); ++b)
-      result.push_back(materials.of_body(b).uses_cell_mean());
+      result.push_back(materials.of_body(b).uses_bbar());
     return result;
   }
 

@@ -2,19 +2,74 @@
 #define talus_materials_herschel_bulkley_kernel_h
 
 #include <talus/base/wide_simd.h>
-#include <talus/materials/radial_return_kernel.h>
+#include <talus/materials/rate_law_kernel.h>
 #include <talus/materials/viscoplastic_return_kernel.h>
 
+#include <cmath>
 #include <limits>
 
 namespace talus
 {
-  /// Strength at rest, Pa: what remoulding leaves, and what it takes away.
+  /// Strength at rest, which remoulding lowers.
   struct Strength
   {
-    double remoulded;
-    double loss;
+    double undisturbed;       ///< Pa
+    double remoulded_ratio;   ///< share of it that remoulding leaves
+    double strain_to_remould; ///< xi_95
+
+    /// What remoulding leaves, Pa.
+    double
+    remoulded() const
+    {
+      return remoulded_ratio * undisturbed;
+    }
+
+    /// What it takes away, Pa.
+    double
+    loss() const
+    {
+      return (1. - remoulded_ratio) * undisturbed;
+    }
+
+    /// At a plastic shear strain, Pa.
+    double
+    at(const double plastic_shear, const double factor) const
+    {
+      const double r = remoulded_ratio;
+      return factor * undisturbed *
+             (r + (1. - r) * std::exp(-3. * plastic_shear / strain_to_remould));
+    }
   };
+
+
+
+  /// The radial return of Herschel and Bulkley's law. The plastic variable is the
+  /// plastic shear strain.
+  struct HerschelBulkleyFlow
+  {
+    Strength        strength;
+    ShearResistance resistance;
+
+    /// In a load step: there is time for all to flow, so that viscosity takes no
+    /// share. Remoulding follows from one load step to the next.
+    template <std::size_t n, typename Number>
+    Flow<Number>
+    operator()(const std::array<Number, n> &deviator,
+               const double                 plastic_shear,
+               const double                 strength_factor) const
+    {
+      const double mu  = resistance.modulus;
+      const Number tau = sqrt(0.5 * contract(deviator, deviator) +
+                              std::numeric_limits<double>::min());
+      const Number d_xi =
+        max(Number((tau - strength.at(plastic_shear, strength_factor)) / mu),
+            Number{});
+      return {mu * d_xi / tau, d_xi};
+    }
+  };
+
+  template <>
+  constexpr unsigned int n_registers_at_once<HerschelBulkleyFlow> = 4;
 
 
 
@@ -22,13 +77,11 @@ namespace talus
   template <int dim, typename Number>
   struct ViscoplasticTrial
   {
-    Motion<dim, Number>          motion;
-    StrainIncrement<dim, Number> strain;
-    ElasticTrial<dim, Number>    elastic;
-    Number                       shear_stress; ///< of the trial, Pa
-    Number                       old_strain;   ///< plastic shear, before
-    Number                       strength;     ///< at the start of the step, Pa
-    Number                       loss; ///< part of it that remoulding takes, Pa
+    TrialStep<dim, Number> step;
+    Number                 shear_stress; ///< of the trial, Pa
+    Number                 old_strain;   ///< plastic shear, before
+    Number                 strength;     ///< at the start of the step, Pa
+    Number                 loss; ///< part of it that remoulding takes, Pa
   };
 
 
@@ -46,20 +99,16 @@ namespace talus
                                          const Factor             &strength_factor)
   {
     ViscoplasticTrial<dim, Number> trial;
-    trial.motion = advance_deformation<dim, Number>(points, workspace, p, dt);
-    trial.strain = strain_increment(trial.motion);
-    trial.elastic =
-      elastic_trial<dim, Number>(load_stress<dim, Number>(points, p),
-                                 trial.strain,
-                                 moduli);
-    const auto &s = trial.elastic.deviator_after;
+    trial.step    = trial_step<dim, Number>(points, workspace, p, dt, moduli);
+    const auto &s = trial.step.elastic.deviator_after;
     trial.shear_stress =
-      sqrt(0.5 * contract<dim>(s, s) + std::numeric_limits<double>::min());
+      sqrt(0.5 * contract(s, s) + std::numeric_limits<double>::min());
     trial.old_strain = load<Number>(points.data(plastic_shear_strain) + p);
-    trial.loss       = Number(strength.loss) * strength_factor;
+    trial.loss       = Number(strength.loss()) * strength_factor;
     if (decay > 0.)
       trial.loss *= exp(-decay * trial.old_strain);
-    trial.strength = Number(strength.remoulded) * strength_factor + trial.loss;
+    trial.strength =
+      Number(strength.remoulded()) * strength_factor + trial.loss;
     return trial;
   }
 
@@ -78,35 +127,29 @@ namespace talus
   {
     store(points.data(plastic_shear_strain) + p,
           trial.old_strain + plastic_shear);
-    return_radially<dim, Number>(points,
-                                 p,
-                                 trial.motion,
-                                 trial.strain,
-                                 trial.elastic,
-                                 mu,
-                                 mu * plastic_shear / trial.shear_stress);
-    return all(trial.motion.J_after > 0.) && all(plastic_shear >= 0.);
+    return_radially<dim, Number>(
+      points, p, trial.step, mu, mu * plastic_shear / trial.shear_stress);
+    return all(trial.step.motion.J_after > 0.) && all(plastic_shear >= 0.);
   }
 
 
 
-  /// One step of the points that follow @p p, in n_parts registers. What takes
-  /// the time is the iteration for the plastic shear, whose operations wait for
-  /// each other: so it is made for all registers side by side. @p factor as in
-  /// with_strength_factor().
+  /// In explicit steps what takes the time is the iteration for the plastic
+  /// shear, whose operations wait for each other: so it is made for all registers
+  /// side by side. False also if the plastic shear of a point was not found.
   template <int dim, typename Number, unsigned int n_parts, typename Factor>
   TALUS_ALWAYS_INLINE bool
-  update_herschel_bulkley_points(const PointsView<dim>    &points,
-                                 const WorkspaceView<dim> &workspace,
-                                 const unsigned int        p,
-                                 const unsigned int        plastic_shear_strain,
-                                 const double              dt,
-                                 const Moduli             &moduli,
-                                 const Strength           &strength,
-                                 const ShearResistance    &resistance,
-                                 const Factor             &factor)
+  update_rate_law_points(const PointsView<dim>     &points,
+                         const WorkspaceView<dim>  &workspace,
+                         const unsigned int         p,
+                         const unsigned int         plastic_shear_strain,
+                         const double               dt,
+                         const Moduli              &moduli,
+                         const HerschelBulkleyFlow &flow_rule,
+                         const Factor              &factor)
   {
-    constexpr unsigned int         width = sizeof(Number) / sizeof(double);
+    constexpr unsigned int         width      = sizeof(Number) / sizeof(double);
+    const ShearResistance         &resistance = flow_rule.resistance;
     ViscoplasticTrial<dim, Number> trial[n_parts];
     for (unsigned int i = 0; i < n_parts; ++i)
       trial[i] =
@@ -116,7 +159,7 @@ namespace talus
                                         plastic_shear_strain,
                                         dt,
                                         moduli,
-                                        strength,
+                                        flow_rule.strength,
                                         resistance.decay,
                                         factor(p + i * width, Number()));
     bool is_sound = true;
