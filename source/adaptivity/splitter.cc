@@ -25,7 +25,7 @@ namespace talus
                   Patterns::Double(1. + 1e-6));
     add_parameter("Directions",
                   directions_,
-                  "'all': halve every axis (four daughters in 2-D, eight in "
+                  "'all': halve every axis (four children in 2-D, eight in "
                   "3-D), as the paper does; 'stretched': halve only the axes "
                   "that are too long, which needs a fifth to a third of the "
                   "points.",
@@ -124,7 +124,7 @@ namespace talus
                                     const BoxRule      rule) const
   {
     const Box<dim> &domain = grid.domain();
-    Tensor<1, dim>  reach; // of the daughters' centres
+    Tensor<1, dim>  reach; // of the children' centres
     for (unsigned int d = 0; d < dim; ++d)
       if (axes & (1u << d))
         {
@@ -164,7 +164,7 @@ namespace talus
 
 
   // Cells of another size are near. A point that enters a smaller cell is held
-  // against that one at once; and where a daughter would come to lie in a
+  // against that one at once; and where a child would come to lie in a
   // smaller cell, she must be no longer than that along the other axes either,
   // or her box would be clipped and leave gaps.
   template <int dim>
@@ -192,11 +192,11 @@ namespace talus
         grew = false;
         for (unsigned int corner = 0; corner < (1u << dim); ++corner)
           {
-            Point<dim> daughter = x;
+            Point<dim> child = x;
             for (unsigned int d = 0; d < dim; ++d)
               if (axes & (1u << d))
-                daughter += ((corner >> d) & 1 ? 0.25 : -0.25) * edge[d];
-            const double size = size_at(daughter, grid, cell);
+                child += ((corner >> d) & 1 ? 0.25 : -0.25) * edge[d];
+            const double size = size_at(child, grid, cell);
             for (unsigned int d = 0; d < dim; ++d)
               if (!(axes & (1u << d)) && length[d] > (1. + 1e-9) * size)
                 {
@@ -339,7 +339,7 @@ namespace talus
   namespace
   {
     /// Move point @p p by a quarter of the edges of the parent along @p axes;
-    /// bit i of @p daughter says to which side along the i-th of them.
+    /// bit i of @p child says to which side along the i-th of them.
     template <int dim>
     class Offset
     {
@@ -363,12 +363,12 @@ namespace talus
       void
       move(Points<dim>       &points,
            const unsigned int p,
-           const unsigned int daughter) const
+           const unsigned int child) const
       {
         for (unsigned int d = 0, bit = 0; d < dim; ++d)
           if (axes_ & (1u << d))
             {
-              const double sign = ((daughter >> bit++) & 1 ? 1. : -1.);
+              const double sign = ((child >> bit++) & 1 ? 1. : -1.);
               if (convected_)
                 move_along_edge(points, p, d, sign);
               else
@@ -422,7 +422,7 @@ namespace talus
     const unsigned int n_daughters = 1u << __builtin_popcount(axes);
     const Offset<dim>  offset(points, rule, p, axes);
 
-    // The state of every daughter, in the parent's place.
+    // The state of every child, in the parent's place.
     for (const Column &column : points.columns())
       if (column.inheritance == Inheritance::divided)
         for (unsigned int c = 0; c < column.n_components; ++c)

@@ -98,7 +98,7 @@ namespace talus
   document(std::ostream &out)
   {
     // One body, and a material of each law, named after it.
-    Preview preview;
+    ParameterPreview preview;
     preview.bodies = {"slide"};
     for (const std::string &law : material_names<2>())
       preview.materials.push_back({law, law});

@@ -68,7 +68,7 @@ namespace talus
 
     /// The message of the parameter parser, which starts with the place.
     std::string
-    say_anew(const std::string &place, const std::string &complaint)
+    say_anew(const std::string &place, const std::string &error)
     {
       static const std::regex unknown_entry(
         "No entry with name <(.*)> was declared.*");
@@ -80,25 +80,25 @@ namespace talus
       static const std::regex bad_line("The line <(.*)> could not be parsed.*");
 
       std::smatch part;
-      if (std::regex_match(complaint, part, unknown_entry))
+      if (std::regex_match(error, part, unknown_entry))
         return place + "there is no parameter '" + part[1].str() +
                "' in this section; `talus --document` lists all that there "
                "are, and those of bodies and materials are in sections named "
                "in Bodies/Names and Materials/Names.";
-      if (std::regex_match(complaint, part, unknown_section))
+      if (std::regex_match(error, part, unknown_section))
         return place + "there is no section '" + part[1].str() +
                "' here; `talus --document` lists all that there are, and those "
                "of bodies and materials are named in Bodies/Names and "
                "Materials/Names.";
-      if (std::regex_match(complaint, part, bad_value))
+      if (std::regex_match(error, part, bad_value))
         return place + "'" + part[2].str() + "' is '" + part[1].str() +
                "', where " + expected(part[3]) +
                " was expected; correct the value.";
-      if (std::regex_match(complaint, part, bad_line))
+      if (std::regex_match(error, part, bad_line))
         return place + "'" + part[1].str() +
                "' was found, where 'set Entry = value', 'subsection Name' or "
                "'end' was expected; start a comment with #.";
-      return place + complaint;
+      return place + error;
     }
   } // namespace
 

@@ -93,7 +93,7 @@ namespace talus
 
 
 
-  Preview
+  ParameterPreview
   ParameterFile::preview() const
   {
     ParameterHandler prm;
@@ -106,7 +106,7 @@ namespace talus
       }
     parse_into(prm, /*skip_undefined=*/true);
 
-    Preview preview;
+    ParameterPreview preview;
     preview.folder    = std::filesystem::path(file_name_).parent_path();
     preview.dimension = prm.get_integer("Dimension");
     prm.enter_subsection("Bodies");

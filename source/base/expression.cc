@@ -17,7 +17,7 @@ namespace talus
   namespace
   {
     /// muParser reads an expression when it is first used: do that now. Returns
-    /// its complaint, or nothing. Only the caller knows the parameter's name,
+    /// its error, or nothing. Only the caller knows the parameter's name,
     /// hence the catch; deal.II prints details before it throws, hence the
     /// silence.
     template <int dim>
@@ -26,7 +26,7 @@ namespace talus
     {
       std::ostringstream    details;
       std::streambuf *const terminal = std::cerr.rdbuf(details.rdbuf());
-      std::string           complaint;
+      std::string           error;
       try
         {
           for (unsigned int c = 0; c < function.n_components; ++c)
@@ -36,10 +36,10 @@ namespace talus
         {
           std::ostringstream reason;
           exception.print_info(reason);
-          complaint = Utilities::trim(reason.str());
+          error = Utilities::trim(reason.str());
         }
       std::cerr.rdbuf(terminal);
-      return complaint;
+      return error;
     }
 
 
@@ -94,15 +94,15 @@ namespace talus
                                  "semicolons.")));
         FunctionParser<1> value(1);
         value.initialize("x", definition.substr(equals + 1), values);
-        std::string  complaint = complaint_about(value);
-        const double number = complaint.empty() ? value.value(Point<1>()) : 0.;
+        std::string  error  = complaint_about(value);
+        const double number = error.empty() ? value.value(Point<1>()) : 0.;
         if (!std::isfinite(number))
-          complaint = text("it is ", number, '.');
-        AssertThrow(complaint.empty(),
+          error = text("it is ", number, '.');
+        AssertThrow(error.empty(),
                     ExcUser(text("'Constants' contains '",
                                  definition,
                                  "', whose value cannot be understood: ",
-                                 complaint,
+                                 error,
                                  " A finite expression in pi and the constants "
                                  "before it was expected; correct it.")));
         values[name] = number;
@@ -135,13 +135,13 @@ namespace talus
                          expressions,
                          constants.values(),
                          /*time_dependent=*/true);
-    const std::string complaint = complaint_about(function_);
-    AssertThrow(complaint.empty(),
+    const std::string error = complaint_about(function_);
+    AssertThrow(error.empty(),
                 ExcUser(text(name,
                              " = '",
                              expressions,
                              "' cannot be understood: ",
-                             complaint,
+                             error,
                              " An expression in ",
                              dim == 2 ? "x, y, t" : "x, y, z, t",
                              ", pi and the names of 'Constants' was expected; "

@@ -51,7 +51,8 @@ namespace talus
 
   template <int dim>
   unsigned char
-  Boundaries<dim>::components_held_by_walls(const unsigned char faces) const
+  Boundaries<dim>::components_constrained_by_walls(
+    const unsigned char faces) const
   {
     unsigned char result = 0;
     for_faces_with(FaceCondition::fixed, faces, [&](unsigned int) {
@@ -74,9 +75,9 @@ namespace talus
 
   template <int dim>
   unsigned char
-  Boundaries<dim>::held_components(const unsigned char faces) const
+  Boundaries<dim>::constrained_components(const unsigned char faces) const
   {
-    unsigned char result = components_held_by_walls(faces);
+    unsigned char result = components_constrained_by_walls(faces);
     for_faces_with(FaceCondition::seabed, faces, [&](unsigned int) {
       result = (1u << dim) - 1;
     });
@@ -87,22 +88,23 @@ namespace talus
 
   template <int dim>
   void
-  Boundaries<dim>::Held::hold(const unsigned int component, const double value)
+  Boundaries<dim>::PrescribedVelocity::set(const unsigned int component,
+                                           const double       value)
   {
-    is_held[component]  = true;
-    velocity[component] = value;
+    is_prescribed[component] = true;
+    velocity[component]      = value;
   }
 
 
 
   template <int dim>
   Tensor<1, dim>
-  Boundaries<dim>::Held::impose(NodalFields<dim>  &nodes,
-                                const unsigned int node) const
+  Boundaries<dim>::PrescribedVelocity::impose(NodalFields<dim>  &nodes,
+                                              const unsigned int node) const
   {
     Tensor<1, dim> v = nodes.velocity(node);
     for (unsigned int d = 0; d < dim; ++d)
-      if (is_held[d])
+      if (is_prescribed[d])
         v[d] = velocity[d];
     return nodes.set_velocity(node, v);
   }
@@ -111,27 +113,27 @@ namespace talus
 
   /// What walls prescribe for a node on these faces at time @p t.
   template <int dim>
-  typename Boundaries<dim>::Held
-  Boundaries<dim>::held_velocity(const unsigned char faces,
-                                 const unsigned int  node,
-                                 const double        t)
+  typename Boundaries<dim>::PrescribedVelocity
+  Boundaries<dim>::prescribed_velocity(const unsigned char faces,
+                                       const unsigned int  node,
+                                       const double        t)
   {
-    Held held;
+    PrescribedVelocity prescribed;
     for_faces_with(
       FaceCondition::velocity, faces, [&](const unsigned int face) {
         for (unsigned int d = 0; d < dim; ++d)
           if (velocities_[face]->prescribes(d) &&
-              (!held.is_held[d] || d == face / 2))
-            held.hold(d, velocities_[face]->value(places_[node], t, d));
+              (!prescribed.is_prescribed[d] || d == face / 2))
+            prescribed.set(d, velocities_[face]->value(places_[node], t, d));
       });
     for_faces_with(FaceCondition::roller, faces, [&](const unsigned int face) {
-      held.hold(face / 2, 0.);
+      prescribed.set(face / 2, 0.);
     });
     for_faces_with(FaceCondition::fixed, faces, [&](unsigned int) {
       for (unsigned int d = 0; d < dim; ++d)
-        held.hold(d, 0.);
+        prescribed.set(d, 0.);
     });
-    return held;
+    return prescribed;
   }
 
 
@@ -180,8 +182,9 @@ namespace talus
     Tensor<1, dim>      contact, friction, wall;
 
     // Walls before the seabed: what a wall holds must not use up the friction.
-    const Held held = held_velocity(faces, node, t + 0.5 * dt);
-    wall += held.impose(nodes, node);
+    const PrescribedVelocity prescribed =
+      prescribed_velocity(faces, node, t + 0.5 * dt);
+    wall += prescribed.impose(nodes, node);
     for_faces_with(FaceCondition::seabed, faces, [&](const unsigned int face) {
       const auto [normal, tangential] =
         seabed_.apply(nodes, grid, face, node, dt);
@@ -189,7 +192,7 @@ namespace talus
       friction += tangential;
     });
     // Nor does friction brake what a wall drives: the wall takes it up.
-    wall += held.impose(nodes, node);
+    wall += prescribed.impose(nodes, node);
 
     const Tensor<1, dim> v = nodes.mean_velocity(node);
     work.friction -= friction * v;

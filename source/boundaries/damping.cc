@@ -39,7 +39,7 @@ namespace talus
         {
           const unsigned char faces = grid.faces_of_node(node);
           const unsigned char held =
-            (faces == 0 ? 0 : boundaries.held_components(faces));
+            (faces == 0 ? 0 : boundaries.constrained_components(faces));
           const Tensor<1, dim> mean = nodes.mean_velocity(node);
           Tensor<1, dim>       v    = nodes.velocity(node);
           for (unsigned int d = 0; d < dim; ++d)

@@ -211,12 +211,12 @@ namespace talus
             found.path = path;
             return found;
           }
-        found.complaints.push_back("The checkpoint '" + path.string() +
-                                   "' is damaged: " + damage + ".");
+        found.errors.push_back("The checkpoint '" + path.string() +
+                               "' is damaged: " + damage + ".");
       }
     std::string all;
-    for (const std::string &complaint : found.complaints)
-      all += complaint + ' ';
+    for (const std::string &error : found.errors)
+      all += error + ' ';
     AssertThrow(false,
                 ExcUser(
                   all.empty()

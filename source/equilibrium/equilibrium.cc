@@ -128,7 +128,7 @@ namespace talus
   Equilibrium<dim>::return_stress(StaticProblem<dim> &problem)
   {
     newton_.begin(problem, newton_parameters_);
-    newton_.accept(problem); // no displacements
+    newton_.commit(problem); // no displacements
   }
 
 
@@ -224,7 +224,7 @@ namespace talus
             failure_ = outcome.failure;
             continue;
           }
-        newton_.accept(problem);
+        newton_.commit(problem);
         n_settling_ += (load_ >= 1.);
         load_ = after;
         step_ = std::min(1.5 * cut * step_, 1. / limits_.n_load_steps);

@@ -7,9 +7,9 @@ namespace talus
 
   template <int dim>
   void
-  InternalForces<dim>::set_gradients(StaticProblem<dim>        &problem,
-                                     const KeptWeights<dim>    &weights,
-                                     const std::vector<double> &u) const
+  InternalForces<dim>::set_gradients(StaticProblem<dim>            &problem,
+                                     const ShapeFunctionCache<dim> &weights,
+                                     const std::vector<double>     &u) const
   {
     Points<dim> &points = problem.state.points;
     problem.state.workspace.reinit(0, points.size());
@@ -29,39 +29,38 @@ namespace talus
                 problem.state.workspace.velocity_gradient(i, j)[p] = H[i][j];
           }
       }
-    problem.transfer.average_dilatation(points,
-                                        problem.state.workspace,
-                                        points.all());
+    problem.transfer.apply_bbar_to_dilatation(points,
+                                              problem.state.workspace,
+                                              points.all());
   }
 
 
 
   template <int dim>
   bool
-  InternalForces<dim>::evaluate(StaticProblem<dim>        &problem,
-                                const KeptWeights<dim>    &weights,
-                                const std::vector<double> &u,
-                                std::vector<double>       &forces)
+  InternalForces<dim>::evaluate(StaticProblem<dim>            &problem,
+                                const ShapeFunctionCache<dim> &weights,
+                                const std::vector<double>     &u,
+                                std::vector<double>           &forces)
   {
     Points<dim> &points = problem.state.points;
     set_gradients(problem, weights, u);
     answers_.resize(points.size());
     volumes_.resize(points.size());
     bool sound = true;
-    problem.materials.for_runs(points,
-                               points.all(),
-                               [&](const MaterialModel<dim> &model,
-                                   const unsigned int        begin,
-                                   const unsigned int        end) {
-                                 sound =
-                                   sound &&
-                                   model.linearize(points,
-                                                   problem.state.workspace,
-                                                   begin,
-                                                   end,
-                                                   measure_,
-                                                   answers_.data() + begin);
-                               });
+    problem.materials.for_each_material_range(
+      points,
+      points.all(),
+      [&](const MaterialModel<dim> &model,
+          const unsigned int        begin,
+          const unsigned int        end) {
+        sound = sound && model.linearize(points,
+                                         problem.state.workspace,
+                                         begin,
+                                         end,
+                                         measure_,
+                                         answers_.data() + begin);
+      });
     if (!sound)
       return false;
     volumes_of_mean_.resize(points.size());
@@ -73,7 +72,7 @@ namespace talus
             determinant(
               load_matrix<dim, double>(points, points.deformation_gradient, p));
           volumes_of_mean_[p] =
-            problem.transfer.uses_cell_mean(segment.body) ? volumes_[p] : 0.;
+            problem.transfer.uses_bbar(segment.body) ? volumes_[p] : 0.;
         }
     for (unsigned int c = 0; c < weights.cells().size(); ++c)
       add_forces_of_cell(c, weights, forces);
@@ -84,9 +83,10 @@ namespace talus
 
   template <int dim>
   void
-  InternalForces<dim>::add_forces_of_cell(const unsigned int      c,
-                                          const KeptWeights<dim> &weights,
-                                          std::vector<double>    &forces) const
+  InternalForces<dim>::add_forces_of_cell(
+    const unsigned int             c,
+    const ShapeFunctionCache<dim> &weights,
+    std::vector<double>           &forces) const
   {
     const Batch &cell = weights.cells()[c];
     const auto   q    = [this](const unsigned int p) {
@@ -124,9 +124,9 @@ namespace talus
   /// nodes: the rate of volume change of the cell, as a linear form.
   template <int dim>
   void
-  InternalForces<dim>::set_mean_gradient(const unsigned int      c,
-                                         const KeptWeights<dim> &weights,
-                                         Scratch                &scratch) const
+  InternalForces<dim>::set_mean_gradient(const unsigned int             c,
+                                         const ShapeFunctionCache<dim> &weights,
+                                         Scratch &scratch) const
   {
     const Batch &cell  = weights.cells()[c];
     const auto   patch = weights.patch(c);
@@ -152,10 +152,10 @@ namespace talus
   template <int dim>
   void
   InternalForces<dim>::fill_strain(
-    const typename KeptWeights<dim>::Weight *weight,
-    const unsigned int                       n_nodes,
-    const bool                               uses_mean,
-    Scratch                                 &scratch) const
+    const typename ShapeFunctionCache<dim>::Weight *weight,
+    const unsigned int                              n_nodes,
+    const bool                                      uses_mean,
+    Scratch                                        &scratch) const
   {
     const unsigned int n = dim * n_nodes;
     scratch.strain.assign(n_gradients * n, 0.);
@@ -209,7 +209,7 @@ namespace talus
 
   template <int dim>
   void
-  InternalForces<dim>::add_tangent(const KeptWeights<dim>         &weights,
+  InternalForces<dim>::add_tangent(const ShapeFunctionCache<dim>  &weights,
                                    const Unknowns<dim>            &unknowns,
                                    TrilinosWrappers::SparseMatrix &matrix) const
   {

@@ -29,14 +29,15 @@ namespace talus
   {
     double     own = 0;
     Point<dim> place;
-    unknowns_.for_free([&](const unsigned int node, const unsigned int d) {
-      // Not a number counts as large.
-      if (!(std::abs(force[dim * node + d]) <= own))
-        {
-          own   = std::abs(force[dim * node + d]);
-          place = places_[node];
-        }
-    });
+    unknowns_.for_each_free_dof(
+      [&](const unsigned int node, const unsigned int d) {
+        // Not a number counts as large.
+        if (!(std::abs(force[dim * node + d]) <= own))
+          {
+            own   = std::abs(force[dim * node + d]);
+            place = places_[node];
+          }
+      });
     const MPI_Comm communicator = unknowns_.communicator();
     largest                     = Utilities::MPI::max(own, communicator);
     const unsigned int n_ranks  = Utilities::MPI::n_mpi_processes(communicator);
@@ -115,7 +116,7 @@ namespace talus
     contact_.add_contact_force(-(1. - share), target_);
     u_                               = unknowns_.field();
     const StaticContact<dim> before  = contact_;
-    const Outcome            outcome = seek(problem, observe);
+    const Outcome            outcome = solve_with_contact(problem, observe);
     if (!outcome.converged)
       contact_ = before;
     return outcome;
@@ -125,17 +126,18 @@ namespace talus
 
   template <int dim>
   typename Newton<dim>::Outcome
-  Newton<dim>::seek(StaticProblem<dim> &problem, const Observer &observe)
+  Newton<dim>::solve_with_contact(StaticProblem<dim> &problem,
+                                  const Observer     &observe)
   {
     // A node of the seabed may change its mind some times.
     for (unsigned int trial = 0; trial < 50; ++trial)
       {
-        unknowns_.hold(contact_.held(problem, unknowns_));
-        const Outcome outcome = iterate(problem, observe);
+        unknowns_.constrain(contact_.constrained(problem, unknowns_));
+        const Outcome outcome = newton_loop(problem, observe);
         if (!outcome.converged)
           {
             if (moves_freely_ &&
-                contact_.resist(unknowns_, last_correction_) > 0)
+                contact_.stick_again(unknowns_, last_correction_) > 0)
               continue;
             mechanism_ = last_correction_;
             return outcome;
@@ -144,7 +146,7 @@ namespace talus
         std::vector<double> reaction = residual_;
         for (double &force : reaction)
           force = -force;
-        if (contact_.revise(problem, unknowns_, reaction, u_) == 0)
+        if (contact_.update_active_set(problem, unknowns_, reaction, u_) == 0)
           return outcome;
         unknowns_.copy_to_ghosts(u_);
       }
@@ -155,7 +157,7 @@ namespace talus
 
   template <int dim>
   typename Newton<dim>::Outcome
-  Newton<dim>::iterate(StaticProblem<dim> &problem, const Observer &observe)
+  Newton<dim>::newton_loop(StaticProblem<dim> &problem, const Observer &observe)
   {
     if (!evaluate(problem, u_))
       return failure("A point would be turned inside out");
@@ -179,11 +181,11 @@ namespace talus
                                             parameters_.tolerance,
                                             " was asked for"));
           }
-        const std::string complaint = correct(problem, iteration);
+        const std::string error = newton_update(problem, iteration);
         observe(iteration);
-        if (!complaint.empty())
+        if (!error.empty())
           return failure(
-            text("Newton's method has no next iterate, since ", complaint));
+            text("Newton's method has no next iterate, since ", error));
       }
   }
 
@@ -191,7 +193,8 @@ namespace talus
 
   template <int dim>
   std::string
-  Newton<dim>::correct(StaticProblem<dim> &problem, NewtonIteration &iteration)
+  Newton<dim>::newton_update(StaticProblem<dim> &problem,
+                             NewtonIteration    &iteration)
   {
     const auto start = std::chrono::steady_clock::now();
     moves_freely_    = false;
@@ -207,9 +210,10 @@ namespace talus
     TrilinosWrappers::MPI::Vector rhs(unknowns_.owned(),
                                       unknowns_.communicator());
     TrilinosWrappers::MPI::Vector solution(rhs);
-    unknowns_.for_free([&](const unsigned int node, const unsigned int d) {
-      rhs(unknowns_.first(node) + d) = residual_[dim * node + d];
-    });
+    unknowns_.for_each_free_dof(
+      [&](const unsigned int node, const unsigned int d) {
+        rhs(unknowns_.first(node) + d) = residual_[dim * node + d];
+      });
     rhs.compress(VectorOperation::insert);
     RigidModes free_modes = modes_;
     for (auto &mode : free_modes)
@@ -217,7 +221,7 @@ namespace talus
         unsigned int i = 0;
         for (const unsigned int node : unknowns_.active_nodes())
           for (unsigned int d = 0; d < dim; ++d, ++i)
-            if (unknowns_.is_held(node, d))
+            if (unknowns_.is_constrained(node, d))
               mode[i] = 0.;
       }
     const LinearSolution answer = linear_solver_.solve(
@@ -228,11 +232,12 @@ namespace talus
 
     std::vector<double> direction = unknowns_.field();
     double              largest   = 0;
-    unknowns_.for_free([&](const unsigned int node, const unsigned int d) {
-      const double x            = solution(unknowns_.first(node) + d);
-      direction[dim * node + d] = x;
-      largest = (std::abs(x) <= largest ? largest : std::abs(x));
-    });
+    unknowns_.for_each_free_dof(
+      [&](const unsigned int node, const unsigned int d) {
+        const double x            = solution(unknowns_.first(node) + d);
+        direction[dim * node + d] = x;
+        largest = (std::abs(x) <= largest ? largest : std::abs(x));
+      });
     largest = Utilities::MPI::max(largest, unknowns_.communicator());
     unknowns_.copy_to_ghosts(direction);
     if (std::isfinite(largest))
@@ -241,7 +246,7 @@ namespace talus
     if (moves_freely_)
       return "the matrix is singular or nearly so: part of the soil can move "
              "freely";
-    iteration.length = search_along(problem, direction);
+    iteration.length = line_search(problem, direction);
     iteration.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start)
         .count();
@@ -255,8 +260,8 @@ namespace talus
   /// direction; 0 if no point along it is sound.
   template <int dim>
   double
-  Newton<dim>::search_along(StaticProblem<dim>        &problem,
-                            const std::vector<double> &direction)
+  Newton<dim>::line_search(StaticProblem<dim>        &problem,
+                           const std::vector<double> &direction)
   {
     const double        work_before = unknowns_.product(direction, residual_);
     const double        norm_before = unknowns_.norm(residual_);
@@ -328,21 +333,19 @@ namespace talus
 
   template <int dim>
   void
-  Newton<dim>::accept(StaticProblem<dim> &problem)
+  Newton<dim>::commit(StaticProblem<dim> &problem)
   {
     Points<dim> &points = problem.state.points;
     internal_forces_.set_gradients(problem, weights_, u_);
-    problem.materials.for_runs(points,
-                               points.all(),
-                               [&](const MaterialModel<dim> &model,
-                                   const unsigned int        begin,
-                                   const unsigned int        end) {
-                                 model.commit_load_step(points,
-                                                        problem.state.workspace,
-                                                        begin,
-                                                        end,
-                                                        parameters_.measure);
-                               });
+    problem.materials.for_each_material_range(
+      points,
+      points.all(),
+      [&](const MaterialModel<dim> &model,
+          const unsigned int        begin,
+          const unsigned int        end) {
+        model.commit_load_step(
+          points, problem.state.workspace, begin, end, parameters_.measure);
+      });
     if (parameters_.measure == StrainMeasure::small)
       return;
     const std::vector<double> u = at_points(points, u_);

@@ -53,7 +53,7 @@ namespace talus
                       parameters.ghost_penalty,
                       largest_shear_modulus(problem));
     contact_.begin(problem, unknowns_);
-    unknowns_.hold(contact_.held(problem, unknowns_));
+    unknowns_.constrain(contact_.constrained(problem, unknowns_));
     make_pattern();
     make_rigid_modes(problem.state.grid);
 

@@ -27,11 +27,12 @@ namespace talus
             problem.boundaries.condition(face) == FaceCondition::seabed)
           {
             Contact contact;
-            contact.node  = active[k];
-            contact.k     = k;
-            contact.face  = face;
-            contact.walls = problem.boundaries.components_held_by_walls(faces);
-            contact.area  = contact_area(problem.state.nodes,
+            contact.node = active[k];
+            contact.k    = k;
+            contact.face = face;
+            contact.walls =
+              problem.boundaries.components_constrained_by_walls(faces);
+            contact.area = contact_area(problem.state.nodes,
                                         problem.state.grid,
                                         face,
                                         contact.node);
@@ -51,12 +52,12 @@ namespace talus
 
   template <int dim>
   std::vector<unsigned char>
-  StaticContact<dim>::held(const StaticProblem<dim> &problem,
-                           const Unknowns<dim>      &unknowns) const
+  StaticContact<dim>::constrained(const StaticProblem<dim> &problem,
+                                  const Unknowns<dim>      &unknowns) const
   {
     std::vector<unsigned char> result;
     for (const unsigned int node : unknowns.active_nodes())
-      result.push_back(problem.boundaries.components_held_by_walls(
+      result.push_back(problem.boundaries.components_constrained_by_walls(
         problem.state.grid.faces_of_node(node)));
     for (const Contact &contact : contacts_)
       if (contact.state == State::sticks)
@@ -123,11 +124,11 @@ namespace talus
   /// @p weight, N, is what forces are small against.
   template <int dim>
   bool
-  StaticContact<dim>::revise(Contact              &contact,
-                             const Seabed<dim>    &seabed,
-                             const Tensor<1, dim> &reaction,
-                             const Tensor<1, dim> &u,
-                             const double          weight) const
+  StaticContact<dim>::update_active_set(Contact              &contact,
+                                        const Seabed<dim>    &seabed,
+                                        const Tensor<1, dim> &reaction,
+                                        const Tensor<1, dim> &u,
+                                        const double          weight) const
   {
     const unsigned int axis     = contact.face / 2;
     const double       outwards = (contact.face % 2 == 0 ? -1. : 1.);
@@ -175,10 +176,10 @@ namespace talus
 
   template <int dim>
   unsigned int
-  StaticContact<dim>::revise(const StaticProblem<dim>  &problem,
-                             const Unknowns<dim>       &unknowns,
-                             const std::vector<double> &reaction,
-                             std::vector<double>       &u)
+  StaticContact<dim>::update_active_set(const StaticProblem<dim>  &problem,
+                                        const Unknowns<dim>       &unknowns,
+                                        const std::vector<double> &reaction,
+                                        std::vector<double>       &u)
   {
     unsigned int n_changes = 0;
     for (Contact &contact : contacts_)
@@ -197,11 +198,11 @@ namespace talus
           force.norm() + unknowns.mass(contact.node) *
                            problem.loads.acceleration_of_body[0].norm();
         const bool was_open = (contact.state == State::open);
-        if (!revise(contact,
-                    problem.boundaries.seabed(),
-                    force,
-                    displacement,
-                    weight))
+        if (!update_active_set(contact,
+                               problem.boundaries.seabed(),
+                               force,
+                               displacement,
+                               weight))
           continue;
         ++n_changes;
         if (was_open)
@@ -214,8 +215,8 @@ namespace talus
 
   template <int dim>
   unsigned int
-  StaticContact<dim>::resist(const Unknowns<dim>       &unknowns,
-                             const std::vector<double> &direction)
+  StaticContact<dim>::stick_again(const Unknowns<dim>       &unknowns,
+                                  const std::vector<double> &direction)
   {
     unsigned int n_changes = 0;
     for (Contact &contact : contacts_)

@@ -62,7 +62,7 @@ namespace talus
 
   template <int dim>
   void
-  Unknowns<dim>::hold(const std::vector<unsigned char> &held)
+  Unknowns<dim>::constrain(const std::vector<unsigned char> &held)
   {
     AssertDimension(held.size(), active_nodes_.size());
     for (unsigned int k = 0; k < active_nodes_.size(); ++k)
@@ -72,7 +72,7 @@ namespace talus
     for (unsigned int node = 0; node < n_nodes_; ++node)
       if (is_active(node))
         for (unsigned int d = 0; d < dim; ++d)
-          if (is_held(node, d))
+          if (is_constrained(node, d))
             constraints_.add_line(first(node) + d);
     constraints_.close();
   }
@@ -94,7 +94,7 @@ namespace talus
                          const std::vector<double> &b) const
   {
     double sum = 0;
-    for_free([&](const unsigned int node, const unsigned int d) {
+    for_each_free_dof([&](const unsigned int node, const unsigned int d) {
       sum += a[dim * node + d] * b[dim * node + d];
     });
     return Utilities::MPI::sum(sum, communicator_);

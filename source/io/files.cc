@@ -109,8 +109,8 @@ namespace talus
     path_ = path;
     errno = 0;
     file_ = std::ofstream(path,
-                          beginning == Beginning::anew ? std::ios::trunc
-                                                       : std::ios::app);
+                          beginning == Beginning::fresh ? std::ios::trunc
+                                                        : std::ios::app);
     AssertThrow(file_, ExcUser(failed_write(path_)));
   }
 

@@ -24,7 +24,7 @@ namespace talus
     communicator_ = communicator;
     writer_       = make_field_writer(format);
     unsynced_.clear();
-    if (beginning == Beginning::anew)
+    if (beginning == Beginning::fresh)
       entries_.clear();
   }
 

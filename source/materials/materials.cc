@@ -122,13 +122,14 @@ namespace talus
                                 const Batch              &batch,
                                 const double              dt) const
   {
-    for_runs(points,
-             batch,
-             [&](const MaterialModel<dim> &model,
-                 const unsigned int        begin,
-                 const unsigned int        end) {
-               model.update_stress(points, workspace, begin, end, dt);
-             });
+    for_each_material_range(points,
+                            batch,
+                            [&](const MaterialModel<dim> &model,
+                                const unsigned int        begin,
+                                const unsigned int        end) {
+                              model.update_stress(
+                                points, workspace, begin, end, dt);
+                            });
   }
 
 

@@ -153,11 +153,11 @@ namespace talus
 
   template <int dim>
   void
-  Points<dim>::reorder(const std::vector<Shift> &shifts,
-                       const std::vector<Jump>  &jumps,
-                       std::vector<Segment>     &segments)
+  Points<dim>::reorder(const std::vector<BlockMove>   &block_moves,
+                       const std::vector<ElementMove> &element_moves,
+                       std::vector<Segment>           &segments)
   {
-    arrays_.move(shifts, jumps);
+    arrays_.move(block_moves, element_moves);
     segments_.swap(segments);
     Assert(n_sorted() <= size_, ExcInternalError());
     size_ = n_sorted();

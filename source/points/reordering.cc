@@ -30,10 +30,10 @@ namespace talus
 
 
   void
-  Reordering::add_mover(const Mover &mover)
+  Reordering::add_mover(const CellChange &mover)
   {
     open_segment(mover.cell, mover.body);
-    jumps_.push_back({mover.index, n_points_});
+    element_moves_.push_back({mover.index, n_points_});
     segments_.back().end = ++n_points_;
   }
 
@@ -45,11 +45,12 @@ namespace talus
   {
     if (begin != n_points_)
       {
-        if (!shifts_.empty() && shifts_.back().end == begin &&
-            begin - shifts_.back().begin == n_points_ - shifts_.back().to)
-          shifts_.back().end = end;
+        if (!block_moves_.empty() && block_moves_.back().end == begin &&
+            begin - block_moves_.back().begin ==
+              n_points_ - block_moves_.back().to)
+          block_moves_.back().end = end;
         else
-          shifts_.push_back({begin, end, n_points_});
+          block_moves_.push_back({begin, end, n_points_});
       }
     n_points_ += end - begin;
     segments_.back().end = n_points_;
@@ -109,32 +110,35 @@ namespace talus
   // entered or left, all others are copied at once.
   void
   Reordering::merge(const std::vector<Segment>      &segments,
-                    std::vector<Mover>              &movers,
-                    const std::vector<unsigned int> &gone)
+                    std::vector<CellChange>         &changes,
+                    const std::vector<unsigned int> &departed)
   {
     const unsigned int n_sorted = (segments.empty() ? 0 : segments.back().end);
-    leaving_                    = gone;
-    for (const Mover &mover : movers)
+    leaving_                    = departed;
+    for (const CellChange &mover : changes)
       if (mover.index < n_sorted)
         leaving_.push_back(mover.index);
     std::sort(leaving_.begin(), leaving_.end());
-    std::sort(movers.begin(), movers.end(), [](const Mover &a, const Mover &b) {
-      return std::make_pair(key(a), a.index) < std::make_pair(key(b), b.index);
-    });
+    std::sort(changes.begin(),
+              changes.end(),
+              [](const CellChange &a, const CellChange &b) {
+                return std::make_pair(key(a), a.index) <
+                       std::make_pair(key(b), b.index);
+              });
 
-    shifts_.clear();
-    jumps_.clear();
+    block_moves_.clear();
+    element_moves_.clear();
     segments_.clear();
     n_points_         = 0;
     std::size_t skip  = 0;
-    auto        mover = movers.begin();
+    auto        mover = changes.begin();
     for (std::size_t s = 0; s < segments.size(); ++s)
       {
         // The first segment behind the one that is entered next, and the first
         // that is left.
         const auto entered = std::partition_point(
           segments.begin() + s, segments.end(), [&](const Segment &segment) {
-            return mover == movers.end() || key(segment) <= key(*mover);
+            return mover == changes.end() || key(segment) <= key(*mover);
           });
         const auto left = std::partition_point(
           segments.begin() + s, segments.end(), [&](const Segment &segment) {
@@ -145,11 +149,12 @@ namespace talus
         s = next;
         if (s == segments.size())
           break;
-        for (; mover != movers.end() && key(*mover) < key(segments[s]); ++mover)
+        for (; mover != changes.end() && key(*mover) < key(segments[s]);
+             ++mover)
           add_mover(*mover);
         add_staying(segments[s], skip);
       }
-    for (; mover != movers.end(); ++mover)
+    for (; mover != changes.end(); ++mover)
       add_mover(*mover);
   }
 

@@ -64,12 +64,12 @@ namespace talus
     /// that go down, first to last, and then those that go up, last to first,
     /// never overwrite one that is still to move.
     void
-    move_runs(double *row, const std::vector<Shift> &shifts)
+    move_runs(double *row, const std::vector<BlockMove> &block_moves)
     {
-      for (const Shift &s : shifts)
+      for (const BlockMove &s : block_moves)
         if (s.to < s.begin)
           std::copy(row + s.begin, row + s.end, row + s.to);
-      for (auto s = shifts.rbegin(); s != shifts.rend(); ++s)
+      for (auto s = block_moves.rbegin(); s != block_moves.rend(); ++s)
         if (s->to > s->begin)
           std::copy_backward(row + s->begin,
                              row + s->end,
@@ -80,17 +80,18 @@ namespace talus
 
 
   void
-  Rows::move(const std::vector<Shift> &shifts, const std::vector<Jump> &jumps)
+  Rows::move(const std::vector<BlockMove>   &block_moves,
+             const std::vector<ElementMove> &element_moves)
   {
-    jumping_.resize(jumps.size());
+    jumping_.resize(element_moves.size());
     for (unsigned int r = 0; r < n_rows_; ++r)
       {
         double *const row = (*this)[r];
-        for (std::size_t i = 0; i < jumps.size(); ++i)
-          jumping_[i] = row[jumps[i].from];
-        move_runs(row, shifts);
-        for (std::size_t i = 0; i < jumps.size(); ++i)
-          row[jumps[i].to] = jumping_[i];
+        for (std::size_t i = 0; i < element_moves.size(); ++i)
+          jumping_[i] = row[element_moves[i].from];
+        move_runs(row, block_moves);
+        for (std::size_t i = 0; i < element_moves.size(); ++i)
+          row[element_moves[i].to] = jumping_[i];
       }
   }
 } // namespace talus

@@ -1,7 +1,7 @@
 #include <talus/base/errors.h>
 #include <talus/problem/geostatic.h>
 #include <talus/problem/problem.h>
-#include <talus/transfer/far_points.h>
+#include <talus/transfer/send_to_owners.h>
 
 #include <algorithm>
 
@@ -10,7 +10,7 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  Problem<dim>::Problem(const Preview &preview)
+  Problem<dim>::Problem(const ParameterPreview &preview)
     : ParameterAcceptor("/")
     , materials(preview.materials)
     , loading(preview.folder)
@@ -89,7 +89,7 @@ namespace talus
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const auto &body) {
           return body->initial_state().is_displaced();
         }))
-      send_far_points(points, state.grid);
+      send_points_to_owners(points, state.grid);
     trigger.choose_points(points, constants_, state.communicator());
   }
 
@@ -155,7 +155,7 @@ namespace talus
 
   template <int dim>
   std::vector<bool>
-  Problem<dim>::bodies_with_cell_mean() const
+  Problem<dim>::bodies_with_bbar() const
   {
     std::vector<bool> result;
     for (unsigned int b = 0; b < bodies_.size(); ++b)

@@ -105,8 +105,8 @@ namespace talus
         names_of_bodies_.empty() && materials.of_body(b).has_strength();
     const std::string advice =
       ", which has no strength that could fall to 'Trigger/Strength fraction' "
-      "of itself. Choose the law " + names_of_laws_with_strength<dim>() +
-      ", or ";
+      "of itself. Choose the law " +
+      names_of_laws_with_strength<dim>() + ", or ";
     for (const std::string &name : names_of_bodies_)
       {
         const auto found =
@@ -142,7 +142,7 @@ namespace talus
 
 
 
-  // Chosen once: a daughter may lie across the edge of the region, and at
+  // Chosen once: a child may lie across the edge of the region, and at
   // periodic faces initial places are shifted.
   template <int dim>
   void

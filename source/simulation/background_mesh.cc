@@ -1,6 +1,6 @@
 #include <talus/base/errors.h>
 #include <talus/simulation/background_mesh.h>
-#include <talus/transfer/far_points.h>
+#include <talus/transfer/send_to_owners.h>
 #include <talus/transfer/weights.h>
 
 #include <deal.II/base/mpi.h>
@@ -227,7 +227,7 @@ namespace talus
     if (Utilities::MPI::n_mpi_processes(state_.communicator()) > 1)
       {
         state_.points.forget_order();
-        send_far_points(state_.points, state_.grid);
+        send_points_to_owners(state_.points, state_.grid);
       }
     if (relocation_.update(state_.points, state_.grid))
       state_.nodes.activate(state_.grid, relocation_.occupied_cells());

@@ -88,7 +88,7 @@ namespace talus
     state_.nodes.clear();
     timer_.lap(PhaseTimer::points_to_grid);
     time_step_.begin();
-    state_.points.for_batches([this](const Batch &batch) {
+    state_.points.for_each_batch([this](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
       time_step_.add_batch(state_.points,
                            batch,
@@ -96,7 +96,7 @@ namespace talus
                            problem_.materials,
                            transfer_.box_shape());
       timer_.lap(PhaseTimer::time_step);
-      transfer_.average_mean_stress(state_.points, state_.workspace, batch);
+      transfer_.apply_bbar_to_stress(state_.points, state_.workspace, batch);
       transfer_.scatter(state_.points,
                         state_.workspace,
                         batch,
@@ -173,7 +173,7 @@ namespace talus
                             state_.time,
                             state_.time + dt);
     const BoxRule rule = transfer_.box_shape().rule;
-    state_.points.for_batches([&](const Batch &batch) {
+    state_.points.for_each_batch([&](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
       state_.works.gravity += transfer_.gather(state_.nodes,
                                                state_.grid,
@@ -182,7 +182,9 @@ namespace talus
                                                state_.workspace,
                                                batch,
                                                dt);
-      transfer_.average_dilatation(state_.points, state_.workspace, batch);
+      transfer_.apply_bbar_to_dilatation(state_.points,
+                                         state_.workspace,
+                                         batch);
       timer_.lap(PhaseTimer::grid_to_points);
       problem_.materials.update_stress(state_.points,
                                        state_.workspace,

@@ -15,7 +15,7 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  Simulation<dim>::Simulation(const Preview &preview)
+  Simulation<dim>::Simulation(const ParameterPreview &preview)
     : ParameterAcceptor("/")
     , state_(MPI_COMM_WORLD)
     , problem_(preview)
@@ -68,7 +68,7 @@ namespace talus
                      static_stages_.stages().contain(Stage::strength_reduction),
                      end_time_);
     static_stages_.check();
-    transfer_.use_cell_mean(problem_.bodies_with_cell_mean());
+    transfer_.use_bbar(problem_.bodies_with_bbar());
     state_.box_shape = transfer_.box_shape();
   }
 
@@ -152,10 +152,10 @@ namespace talus
     output_.start(state_);
     while (!is_finished())
       {
-        const RunRequest request = scheme_.advance(end_time_, own_request());
+        const RunRequest request = scheme_.advance(end_time_, local_request());
         if (output_.observe(state_, state_.time >= end_time_))
           note_time_step();
-        if (fulfil(request))
+        if (handle_request(request))
           return false;
       }
     return true;
@@ -177,9 +177,9 @@ namespace talus
         if (!stages.next_is_static())
           output_.start(state_);
         const auto request = static_cast<RunRequest>(
-          Utilities::MPI::max(static_cast<unsigned int>(own_request()),
+          Utilities::MPI::max(static_cast<unsigned int>(local_request()),
                               state_.communicator()));
-        if (fulfil(std::max(request, RunRequest::checkpoint)))
+        if (handle_request(std::max(request, RunRequest::checkpoint)))
           return false;
       }
     static_stages_.check_soil_stands();
@@ -246,7 +246,7 @@ namespace talus
   {
     const bool      is_resumed = !resumed_from_.path.empty();
     const Beginning beginning =
-      is_resumed ? Beginning::resumed : Beginning::anew;
+      is_resumed ? Beginning::resumed : Beginning::fresh;
     if (!is_resumed)
       checkpoint_.check_nothing_is_lost(output_.folder(),
                                         state_.communicator());
@@ -288,9 +288,9 @@ namespace talus
   Simulation<dim>::note_resume()
   {
     const CheckpointHead &head = resumed_from_.head;
-    for (const std::string &complaint : resumed_from_.complaints)
+    for (const std::string &error : resumed_from_.errors)
       log_.say(LogLevel::result,
-               complaint + " The run goes on from the one before.");
+               error + " The run goes on from the one before.");
     std::string sentence = text("Resumed at t = ",
                                 state_.time,
                                 " s, step ",
@@ -331,7 +331,7 @@ namespace talus
   /// What this rank wants to happen after the step that begins.
   template <int dim>
   RunRequest
-  Simulation<dim>::own_request() const
+  Simulation<dim>::local_request() const
   {
     if (!remembered_signal().empty() || checkpoint_.limit_is_reached())
       return RunRequest::stop;
@@ -344,7 +344,7 @@ namespace talus
   /// Do what the ranks agreed on. Returns whether the run is to stop here.
   template <int dim>
   bool
-  Simulation<dim>::fulfil(const RunRequest request)
+  Simulation<dim>::handle_request(const RunRequest request)
   {
     const bool is_end    = is_finished();
     const bool is_wanted = (is_end ? checkpoint_.is_wanted_at_the_end()

@@ -1,7 +1,7 @@
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/simulation/static_solver.h>
-#include <talus/transfer/far_points.h>
+#include <talus/transfer/send_to_owners.h>
 
 #include <iomanip>
 
@@ -201,7 +201,7 @@ namespace talus
     state_.points.clear();
     state_.points.append(saved.columns[0].size());
     restore(saved);
-    send_far_points(state_.points, state_.grid);
+    send_points_to_owners(state_.points, state_.grid);
     mesh_.insert_points();
     mesh_.adapt(splitter_);
   }

@@ -163,17 +163,17 @@ namespace talus
         wave_modulus_.resize(n + Points<dim>::n_spare);
         inverse_cell_size_.resize(n + Points<dim>::n_spare);
       }
-    materials.for_runs(points,
-                       batch,
-                       [&](const MaterialModel<dim> &model,
-                           const unsigned int        begin,
-                           const unsigned int        end) {
-                         model.wave_modulus(
-                           points,
-                           begin,
-                           end,
-                           &wave_modulus_[begin - batch.begin]);
-                       });
+    materials.for_each_material_range(points,
+                                      batch,
+                                      [&](const MaterialModel<dim> &model,
+                                          const unsigned int        begin,
+                                          const unsigned int        end) {
+                                        model.wave_modulus(
+                                          points,
+                                          begin,
+                                          end,
+                                          &wave_modulus_[begin - batch.begin]);
+                                      });
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
         // Whole registers; the next segment overwrites what is too much.
@@ -221,7 +221,7 @@ namespace talus
                         const BoxShape       &shape)
   {
     begin();
-    points.for_batches([&](const Batch &batch) {
+    points.for_each_batch([&](const Batch &batch) {
       add_batch(points, batch, grid, materials, shape);
     });
     return stable_time_step(points, materials);

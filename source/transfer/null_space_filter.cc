@@ -49,9 +49,9 @@ namespace talus
                        StepWorkspace<dim>  &workspace,
                        const Transfer<dim> &transfer)
     {
-      points.for_batches([&](const Batch &batch) {
+      points.for_each_batch([&](const Batch &batch) {
         workspace.reinit(batch.begin, batch.end);
-        transfer.average_mean_stress(points, workspace, batch);
+        transfer.apply_bbar_to_stress(points, workspace, batch);
         const double *const shift = workspace.mean_stress_shift();
         for (unsigned int d = 0; d < 3; ++d)
           {
@@ -80,7 +80,7 @@ namespace talus
       Loads<dim>   none;
       none.acceleration_of_body.resize(transfer.n_bodies());
       nodes.clear();
-      points.for_batches([&](const Batch &batch) {
+      points.for_each_batch([&](const Batch &batch) {
         workspace.reinit(batch.begin, batch.end);
         std::fill_n(workspace.mean_stress_shift(), batch.end - batch.begin, 0.);
         transfer.scatter(points, workspace, batch, grid, none, nodes);
@@ -88,7 +88,7 @@ namespace talus
       nodes.sum_over_ranks(grid);
       nodes.update_momentum(time_step, mass_cutoff);
       nodes.share_with_ghosts(grid);
-      points.for_batches([&](const Batch &batch) {
+      points.for_each_batch([&](const Batch &batch) {
         workspace.reinit(batch.begin, batch.end);
         transfer.gather(nodes,
                         grid,

@@ -29,16 +29,16 @@ namespace talus
 
   template <int dim>
   void
-  PointExchange<dim>::send(const std::vector<Traveller> &travellers,
-                           const Grid<dim>              &grid,
-                           const Points<dim>            &points)
+  PointExchange<dim>::send(const std::vector<OutgoingPoint> &outgoing,
+                           const Grid<dim>                  &grid,
+                           const Points<dim>                &points)
   {
     const auto        &ranks = grid.neighbor_ranks();
     const unsigned int n     = points.n_arrays();
     outgoing_.resize(ranks.size());
     for (auto &message : outgoing_)
       message.clear();
-    for (const Traveller &traveller : travellers)
+    for (const OutgoingPoint &traveller : outgoing)
       {
         const unsigned int to = grid.owner_of_cell(traveller.cell);
         auto              &message =
@@ -107,13 +107,13 @@ namespace talus
 
 
   template <int dim>
-  const std::vector<typename PointExchange<dim>::Arrival> &
-  PointExchange<dim>::exchange(const std::vector<Traveller> &travellers,
-                               const Grid<dim>              &grid,
-                               Points<dim>                  &points)
+  const std::vector<typename PointExchange<dim>::IncomingPoint> &
+  PointExchange<dim>::exchange(const std::vector<OutgoingPoint> &outgoing,
+                               const Grid<dim>                  &grid,
+                               Points<dim>                      &points)
   {
     arrivals_.clear();
-    send(travellers, grid, points);
+    send(outgoing, grid, points);
     for (const unsigned int rank : grid.neighbor_ranks())
       receive(rank, grid, points);
     const int error =

@@ -169,15 +169,15 @@ namespace talus
       wrap(points, grid.periodicity(), p);
     const unsigned int c = locate(points, grid, p, segment.cell);
     if (c != segment.cell)
-      movers_.push_back({c, segment.body, p});
+      changes_.push_back({c, segment.body, p});
   }
 
 
 
   template <int dim>
   void
-  Relocation<dim>::find_sorted_movers(Points<dim>     &points,
-                                      const Grid<dim> &grid)
+  Relocation<dim>::find_sorted_changes(Points<dim>     &points,
+                                       const Grid<dim> &grid)
   {
     for (const Segment &segment : points.segments())
       if (!all_inside(points, segment, grid.cells()[segment.cell]))
@@ -189,7 +189,7 @@ namespace talus
 
   template <int dim>
   void
-  Relocation<dim>::find_movers_out_of_cell(
+  Relocation<dim>::find_changes_out_of_cell(
     Points<dim>               &points,
     const Grid<dim>           &grid,
     std::vector<unsigned int> &out_of_cell)
@@ -212,14 +212,14 @@ namespace talus
 
   template <int dim>
   void
-  Relocation<dim>::find_appended_movers(Points<dim>     &points,
-                                        const Grid<dim> &grid)
+  Relocation<dim>::find_appended_changes(Points<dim>     &points,
+                                         const Grid<dim> &grid)
   {
     for (unsigned int p = points.n_sorted(); p < points.size(); ++p)
       {
         if (grid.periodicity().any())
           wrap(points, grid.periodicity(), p);
-        movers_.push_back(
+        changes_.push_back(
           {cell_of(points, grid, p),
            static_cast<unsigned int>(points.data(points.body)[p]),
            p});
@@ -230,11 +230,11 @@ namespace talus
 
   template <int dim>
   void
-  Relocation<dim>::find_all_movers(Points<dim> &points, const Grid<dim> &grid)
+  Relocation<dim>::find_all_changes(Points<dim> &points, const Grid<dim> &grid)
   {
-    movers_.clear();
-    find_sorted_movers(points, grid);
-    find_appended_movers(points, grid);
+    changes_.clear();
+    find_sorted_changes(points, grid);
+    find_appended_changes(points, grid);
   }
 
 
@@ -242,23 +242,23 @@ namespace talus
   /// Let those whose new cell is a ghost travel to its owner.
   template <int dim>
   void
-  Relocation<dim>::send_movers(Points<dim> &points, const Grid<dim> &grid)
+  Relocation<dim>::send_departed(Points<dim> &points, const Grid<dim> &grid)
   {
-    travellers_.clear();
+    outgoing_.clear();
     exchange_.connect(grid.communicator());
     if (grid.neighbor_ranks().empty())
       return;
-    const auto leaves = [&](const Mover &mover) {
+    const auto leaves = [&](const CellChange &mover) {
       return mover.cell >= grid.n_owned_cells();
     };
-    for (const Mover &mover : movers_)
+    for (const CellChange &mover : changes_)
       if (leaves(mover))
-        travellers_.push_back({mover.index, mover.cell});
-    movers_.erase(std::remove_if(movers_.begin(), movers_.end(), leaves),
-                  movers_.end());
+        outgoing_.push_back({mover.index, mover.cell});
+    changes_.erase(std::remove_if(changes_.begin(), changes_.end(), leaves),
+                   changes_.end());
     for (const auto &[index, cell] :
-         exchange_.exchange(travellers_, grid, points))
-      movers_.push_back(
+         exchange_.exchange(outgoing_, grid, points))
+      changes_.push_back(
         {cell,
          static_cast<unsigned int>(points.data(points.body)[index]),
          index});
@@ -270,7 +270,7 @@ namespace talus
   bool
   Relocation<dim>::update(Points<dim> &points, const Grid<dim> &grid)
   {
-    find_all_movers(points, grid);
+    find_all_changes(points, grid);
     return send_and_sort_in(points, grid);
   }
 
@@ -283,10 +283,10 @@ namespace talus
     const Grid<dim>           &grid,
     std::vector<unsigned int> &out_of_cell)
   {
-    movers_.clear();
-    find_movers_out_of_cell(points, grid, out_of_cell);
+    changes_.clear();
+    find_changes_out_of_cell(points, grid, out_of_cell);
     out_of_cell.clear();
-    find_appended_movers(points, grid);
+    find_appended_changes(points, grid);
     return send_and_sort_in(points, grid);
   }
 
@@ -296,8 +296,8 @@ namespace talus
   bool
   Relocation<dim>::send_and_sort_in(Points<dim> &points, const Grid<dim> &grid)
   {
-    send_movers(points, grid);
-    if (movers_.empty() && travellers_.empty())
+    send_departed(points, grid);
+    if (changes_.empty() && outgoing_.empty())
       return false;
     return sort_in(points);
   }
@@ -309,26 +309,26 @@ namespace talus
   bool
   Relocation<dim>::sort_in(Points<dim> &points)
   {
-    gone_.clear();
-    for (const auto &traveller : travellers_)
+    departed_.clear();
+    for (const auto &traveller : outgoing_)
       // Appended points are in no segment that they could leave.
       if (traveller.index < points.n_sorted())
-        gone_.push_back(traveller.index);
-    reordering_.merge(points.segments(), movers_, gone_);
-    AssertThrow(reordering_.n_points() + travellers_.size() == points.size(),
+        departed_.push_back(traveller.index);
+    reordering_.merge(points.segments(), changes_, departed_);
+    AssertThrow(reordering_.n_points() + outgoing_.size() == points.size(),
                 ExcMessage(text("The headcount of the points does not hold: ",
                                 points.size(),
                                 " before sorting, ",
                                 reordering_.n_points(),
                                 " after, and ",
-                                travellers_.size(),
+                                outgoing_.size(),
                                 " went to other ranks.")));
     reordering_.apply(points);
     // At the start and after a change of the mesh all points move, in a step
     // only a few: the long lists would be a waste of memory.
-    if (movers_.size() > points.size() / 8)
+    if (changes_.size() > points.size() / 8)
       {
-        std::vector<Mover>().swap(movers_);
+        std::vector<CellChange>().swap(changes_);
         reordering_.clear();
       }
     return find_occupied_cells(points);
@@ -355,8 +355,8 @@ namespace talus
   Relocation<dim>::rebuild(Points<dim> &points, const Grid<dim> &grid)
   {
     points.forget_order();
-    find_all_movers(points, grid);
-    send_movers(points, grid);
+    find_all_changes(points, grid);
+    send_departed(points, grid);
     sort_in(points);
   }
 
@@ -369,10 +369,10 @@ namespace talus
   {
     AssertDimension(cells.size(), points.size());
     points.forget_order();
-    movers_.clear();
-    travellers_.clear();
+    changes_.clear();
+    outgoing_.clear();
     for (unsigned int p = 0; p < points.size(); ++p)
-      movers_.push_back(
+      changes_.push_back(
         {cells[p], static_cast<unsigned int>(points.data(points.body)[p]), p});
     sort_in(points);
   }

@@ -23,7 +23,7 @@ namespace talus
     add_parameter("Box rule",
                   box_rule_,
                   "How the box of a point follows its deformation: 'fixed' "
-                  "(uniform GIMP; the daughters of a split then do not tile "
+                  "(uniform GIMP; the children of a split then do not tile "
                   "their parent), 'deformation gradient' (F_dd), 'right "
                   "stretch' (U_dd of F = R U, blind to where the material has "
                   "turned) or 'left stretch' (V_dd of F = V R), all of them "
@@ -96,11 +96,10 @@ namespace talus
 
   template <int dim>
   bool
-  Transfer<dim>::takes_cell_mean(const Points<dim> &points,
-                                 const Batch       &batch) const
+  Transfer<dim>::takes_bbar(const Points<dim> &points, const Batch &batch) const
   {
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
-      if (uses_cell_mean(points.segments()[s].body))
+      if (uses_bbar(points.segments()[s].body))
         return true;
     return false;
   }
@@ -124,7 +123,7 @@ namespace talus
     using Number              = Simd<simd_width>;
     const Segment *segment    = points.segments().data() + batch.first_segment;
     const Segment *const last = points.segments().data() + batch.last_segment;
-    const unsigned char *const uses = cell_mean_of_body_.data();
+    const unsigned char *const uses = bbar_of_body_.data();
     while (segment != last)
       {
         const Segment *const first = segment;
@@ -208,11 +207,11 @@ namespace talus
 
   template <int dim>
   void
-  Transfer<dim>::average_mean_stress(const Points<dim>  &points,
-                                     StepWorkspace<dim> &workspace,
-                                     const Batch        &batch) const
+  Transfer<dim>::apply_bbar_to_stress(const Points<dim>  &points,
+                                      StepWorkspace<dim> &workspace,
+                                      const Batch        &batch) const
   {
-    if (!takes_cell_mean(points, batch))
+    if (!takes_bbar(points, batch))
       {
         std::fill_n(workspace.mean_stress_shift(), batch.end - batch.begin, 0.);
         return;
@@ -238,11 +237,11 @@ namespace talus
 
   template <int dim>
   void
-  Transfer<dim>::average_dilatation(const Points<dim>  &points,
-                                    StepWorkspace<dim> &workspace,
-                                    const Batch        &batch) const
+  Transfer<dim>::apply_bbar_to_dilatation(const Points<dim>  &points,
+                                          StepWorkspace<dim> &workspace,
+                                          const Batch        &batch) const
   {
-    if (!takes_cell_mean(points, batch))
+    if (!takes_bbar(points, batch))
       return;
     const auto work = workspace.view(batch.begin, batch.end);
     shift_to_cell_means(
@@ -275,19 +274,19 @@ namespace talus
   template double
   Transfer<3>::mass_cutoff(double, double) const;
   template void
-  Transfer<2>::average_mean_stress(const Points<2> &,
-                                   StepWorkspace<2> &,
-                                   const Batch &) const;
+  Transfer<2>::apply_bbar_to_stress(const Points<2> &,
+                                    StepWorkspace<2> &,
+                                    const Batch &) const;
   template void
-  Transfer<3>::average_mean_stress(const Points<3> &,
-                                   StepWorkspace<3> &,
-                                   const Batch &) const;
+  Transfer<3>::apply_bbar_to_stress(const Points<3> &,
+                                    StepWorkspace<3> &,
+                                    const Batch &) const;
   template void
-  Transfer<2>::average_dilatation(const Points<2> &,
-                                  StepWorkspace<2> &,
-                                  const Batch &) const;
+  Transfer<2>::apply_bbar_to_dilatation(const Points<2> &,
+                                        StepWorkspace<2> &,
+                                        const Batch &) const;
   template void
-  Transfer<3>::average_dilatation(const Points<3> &,
-                                  StepWorkspace<3> &,
-                                  const Batch &) const;
+  Transfer<3>::apply_bbar_to_dilatation(const Points<3> &,
+                                        StepWorkspace<3> &,
+                                        const Batch &) const;
 } // namespace talus

@@ -17,7 +17,7 @@ GROUPS = {
     "stress": r"talus::.*(update_stress|update_by_state|update_stretch)",
     "time step": r"talus::(TimeStep<|.*wave_modulus)",
     "splitting": r"talus::Splitter<",
-    "relocation": r"talus::(Relocation|Reordering|Rows|Shift|Jump)",
+    "relocation": r"talus::(Relocation|Reordering|Rows|BlockMove|ElementMove)",
     "nodes": r"talus::.*(NodalFields|Boundaries|Seabed|Damping|NodalExchange|"
     r"contact_area|Grid<)",
 }

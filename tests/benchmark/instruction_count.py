@@ -306,8 +306,8 @@ def main():
     count = total(result)
     print(f"{steps:.4g} point-steps, {count / steps:.1f} instructions each.")
     status = 0
-    for complaint in list(judge_kernels(program, result, steps)):
-        print("FAILED: " + complaint)
+    for error in list(judge_kernels(program, result, steps)):
+        print("FAILED: " + error)
         status = 1
 
     compiler = compiler_version(cached(build, "CMAKE_CXX_COMPILER"))

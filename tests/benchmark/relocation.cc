@@ -21,7 +21,7 @@ namespace
 
 
   /// 50 x 50 cells of 1 m with four points each; deal.II's parameters are
-  /// global, so the old ones must be gone before the grid declares its own.
+  /// global, so the old ones must be departed before the grid declares its own.
   struct Field : FreshParameters
   {
     Grid<2>       grid{MPI_COMM_WORLD};
@@ -94,4 +94,4 @@ namespace
 } // namespace
 
 BENCHMARK(nobody_moves)->Name("relocation/no mover");
-BENCHMARK(few_move)->Name("relocation/0.1 % movers");
+BENCHMARK(few_move)->Name("relocation/0.1 % changes");

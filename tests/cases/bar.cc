@@ -176,7 +176,7 @@ TEST(Bar, SplitsWhereAndWhenTheStrainSaysSo)
 
 
 // Boxes that follow the bar give the same, whatever the rule. Fixed boxes tile no
-// daughters and do not follow the bar: all errors are up to 0.2 % larger.
+// children and do not follow the bar: all errors are up to 0.2 % larger.
 TEST(Bar, OtherBoxRules)
 {
   Verification gates("Bar of the paper",
@@ -196,7 +196,7 @@ TEST(Bar, OtherBoxRules)
                     fixed.drift,
                     0.003,
                     {0.004,
-                     "daughters of a box that does not follow its stretch do "
+                     "children of a box that does not follow its stretch do "
                      "not tile it"});
 }
 

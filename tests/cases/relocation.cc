@@ -18,7 +18,7 @@ namespace
   /// What is said when point 0 of the bar is @p outside of the wall at x = 0,
   /// in cells; nothing if that is allowed.
   std::string
-  complaint(const double outside)
+  error(const double outside)
   {
     Case<2>       bar("bar.prm", {});
     Points<2>     points = bar.points();
@@ -43,8 +43,8 @@ namespace
 
 TEST(PointBeyondAWall, IsNamedWithPlaceAndCure)
 {
-  EXPECT_EQ(complaint(0.499), "");
-  const std::string message = complaint(0.501);
+  EXPECT_EQ(error(0.499), "");
+  const std::string message = error(0.501);
   std::cout << message;
   for (const std::string words :
        {"Point ", "'Left'", "(-0.2505", "0.25 m are allowed", "CFL number"})

@@ -193,7 +193,7 @@ TEST(Trigger, WeakLayerLetsGo)
 
 
 
-// Points that become weaker do so with all their daughters, and no others.
+// Points that become weaker do so with all their children, and no others.
 TEST(Trigger, DaughtersFollowTheirMother)
 {
   Case<2>            slide("landslide-quick.prm",

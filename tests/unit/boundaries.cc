@@ -348,13 +348,13 @@ namespace
 
   TEST(Boundaries, ExpressionsThatDoNotFit)
   {
-    const auto complaint = [](const std::string &conditions) {
+    const auto error = [](const std::string &conditions) {
       return message_of<ExcUser>([&]() {
         Core<2> core(cube<2>() + in_section("Boundaries", conditions));
         core.boundaries.prepare(Constants());
       });
     };
-    EXPECT_EQ(complaint("set Top = velocity\nset Top velocity = free; -t"), "");
+    EXPECT_EQ(error("set Top = velocity\nset Top velocity = free; -t"), "");
     for (const auto &[conditions, words] :
          std::map<std::string, std::vector<std::string>>{
            {"set Top = velocity",
@@ -370,7 +370,6 @@ namespace
            {"set Top = velocity\nset Top velocity = free; q",
             {"'Boundaries/Top velocity'", "cannot be understood"}}})
       for (const std::string &word : words)
-        EXPECT_TRUE(contains(complaint(conditions), word))
-          << complaint(conditions);
+        EXPECT_TRUE(contains(error(conditions), word)) << error(conditions);
   }
 } // namespace

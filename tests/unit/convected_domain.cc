@@ -354,20 +354,19 @@ namespace
 
 
   /// The lattice of corners that tiles the domain of point @p p: each edge in
-  /// two, inner places belonging to several daughters.
+  /// two, inner places belonging to several children.
   template <int dim>
   std::vector<std::array<double, dim>>
   tiling(const Core<dim> &core, const unsigned int p)
   {
     const auto                           domain = domain_of(core, p);
     std::vector<std::array<double, dim>> corners;
-    for (unsigned int daughter = 0; daughter < (1u << dim); ++daughter)
+    for (unsigned int child = 0; child < (1u << dim); ++child)
       for (unsigned int v = 0; v < (1u << dim); ++v)
         {
-          // Half way between corner of daughter and corner v of the parent.
-          const Point<dim> x =
-            domain.corner(daughter) +
-            0.5 * (domain.corner(v) - domain.corner(daughter));
+          // Half way between corner of child and corner v of the parent.
+          const Point<dim> x = domain.corner(child) +
+                               0.5 * (domain.corner(v) - domain.corner(child));
           corners.push_back(rounded(x));
         }
     std::sort(corners.begin(), corners.end());

@@ -100,7 +100,7 @@ struct Core : FreshParameters, talus::State<dim>
     grid.prepare();
     nodes.prepare(grid);
     loads.acceleration_of_body.resize(3);
-    transfer.use_cell_mean({false, false, false});
+    transfer.use_bbar({false, false, false});
     std::array<double, 2 * dim> half;
     half.fill(0.5);
     relocation.allow_outside(half);
@@ -310,7 +310,7 @@ struct Core : FreshParameters, talus::State<dim>
   scatter_points()
   {
     workspace.reinit(0, points.size());
-    transfer.average_mean_stress(points, workspace, points.all());
+    transfer.apply_bbar_to_stress(points, workspace, points.all());
     transfer.scatter(points, workspace, points.all(), grid, loads, nodes);
   }
 

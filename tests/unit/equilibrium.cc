@@ -66,7 +66,7 @@ namespace
             const Tensor<1, dim> force = this->force(node);
             const Tensor<1, dim> loads = mass * down<dim>();
             const unsigned int   walls =
-              this->boundaries.components_held_by_walls(
+              this->boundaries.components_constrained_by_walls(
                 this->grid.faces_of_node(node));
             weight += loads.norm_square();
             internal += (force - loads).norm_square();
@@ -227,7 +227,7 @@ TEST(EquilibriumTest, QuadraticConvergenceOfYieldingSoil)
     {
       Bank<2> bank({"clay", "von Mises"},
                    stiff + "set Undrained shear strength = 8.5e3\n" + more);
-      bank.transfer.use_cell_mean({true});
+      bank.transfer.use_bbar({true});
       ASSERT_TRUE(bank.find()) << bank.equilibrium.failure();
       const auto *strain = bank.points.data(bank.points.find("plastic strain"));
       unsigned int n_flowing = 0;
@@ -281,7 +281,7 @@ TEST(EquilibriumTest, SoilThatCannotStand)
   Bank<2> bank({"clay", "von Mises"},
                stiff + "set Undrained shear strength = 3e3\n",
                in_section("Equilibrium", "set Smallest load step = 1"));
-  bank.transfer.use_cell_mean({true});
+  bank.transfer.use_bbar({true});
   const auto before = bank.columns();
   EXPECT_FALSE(bank.find());
   EXPECT_FALSE(bank.equilibrium.is_found());
@@ -304,7 +304,7 @@ TEST(EquilibriumTest, StepsAreCutUntilTheSmallest)
                in_section("Equilibrium",
                           "set Smallest load step = 0.05\n"
                           "set Newton iterations = 15"));
-  bank.transfer.use_cell_mean({true});
+  bank.transfer.use_bbar({true});
   EXPECT_FALSE(bank.find());
   EXPECT_GT(bank.equilibrium.load(), 0.2);
   EXPECT_LT(bank.equilibrium.load(), 0.6);
@@ -325,7 +325,7 @@ TEST(EquilibriumTest, LoadStepsSmallerThanTheSmallest)
                    in_section("Equilibrium",
                               "set Load steps = 40\n"
                                  "set Smallest load step = 0.1"));
-      bank.transfer.use_cell_mean({yields});
+      bank.transfer.use_bbar({yields});
       EXPECT_EQ(bank.find(), !yields);
       EXPECT_GE(bank.equilibrium.n_steps(), yields ? 2u : 40u);
       EXPECT_EQ(bank.equilibrium.failure().empty(), !yields);
@@ -334,7 +334,7 @@ TEST(EquilibriumTest, LoadStepsSmallerThanTheSmallest)
 
 
 
-// What nothing holds has no equilibrium: the first complaint is about that.
+// What nothing holds has no equilibrium: the first error is about that.
 TEST(EquilibriumTest, SoilThatNothingHolds)
 {
   Bank<2> bank({"block", "linear elastic"}, stiff, tight, "");

@@ -52,7 +52,7 @@ namespace
     std::vector<unsigned char> held;
     for (const unsigned int node : unknowns.active_nodes())
       held.push_back(mask_of(core.grid, node));
-    unknowns.hold(held);
+    unknowns.constrain(held);
 
     Record record;
     auto   a = unknowns.field(), b = a;
@@ -68,7 +68,7 @@ namespace
     record.norm          = unknowns.norm(a);
     record.product       = unknowns.product(a, b);
     unsigned long n_free = 0;
-    unknowns.for_free([&](const auto, const auto) { ++n_free; });
+    unknowns.for_each_free_dof([&](const auto, const auto) { ++n_free; });
     record.n_free = MPI::sum(n_free, core.grid.communicator());
     return record;
   }
@@ -117,7 +117,7 @@ namespace
         for (unsigned int d = 0; d < dim; ++d)
           {
             const bool held = (it->second[1] >> d) & 1;
-            EXPECT_EQ(unknowns.is_held(node, d), held);
+            EXPECT_EQ(unknowns.is_constrained(node, d), held);
             EXPECT_TRUE(
               unknowns.relevant().is_element(unknowns.first(node) + d));
             EXPECT_EQ(unknowns.constraints().is_constrained(
@@ -266,7 +266,7 @@ namespace
     n[0]       = std::lround(4. * (end - 1.));
     gravity[1] = -9.81;
     bank.fill(lower, upper, n);
-    bank.transfer.use_cell_mean({true});
+    bank.transfer.use_bbar({true});
     bank.load(gravity);
     EXPECT_TRUE(bank.find(task.measure)) << bank.equilibrium.failure();
 

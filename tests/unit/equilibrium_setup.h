@@ -150,9 +150,9 @@ namespace
   template <int dim>
   struct StepParts
   {
-    Unknowns<dim>       unknowns;
-    KeptWeights<dim>    weights;
-    InternalForces<dim> internal_forces;
+    Unknowns<dim>           unknowns;
+    ShapeFunctionCache<dim> weights;
+    InternalForces<dim>     internal_forces;
 
     StepParts(Statics<dim>       &statics,
               const StrainMeasure measure,
@@ -166,7 +166,7 @@ namespace
                       statics.grid,
                       statics.transfer.box_shape(),
                       unknowns);
-      unknowns.hold(
+      unknowns.constrain(
         std::vector<unsigned char>(unknowns.active_nodes().size(), 0));
     }
 
@@ -208,18 +208,20 @@ namespace
       dealii::TrilinosWrappers::MPI::Vector x(unknowns.owned(),
                                               unknowns.communicator());
       auto                                  y = x;
-      unknowns.for_free([&](const unsigned int node, const unsigned int d) {
-        x(unknowns.first(node) + d) = field[dim * node + d];
-      });
+      unknowns.for_each_free_dof(
+        [&](const unsigned int node, const unsigned int d) {
+          x(unknowns.first(node) + d) = field[dim * node + d];
+        });
       x.compress(dealii::VectorOperation::insert);
       // Not vmult(): a template of deal.II whose name clang mangles otherwise.
       matrix.trilinos_matrix().Multiply(false,
                                         x.trilinos_vector(),
                                         y.trilinos_vector());
       auto result = unknowns.field();
-      unknowns.for_free([&](const unsigned int node, const unsigned int d) {
-        result[dim * node + d] = y(unknowns.first(node) + d);
-      });
+      unknowns.for_each_free_dof(
+        [&](const unsigned int node, const unsigned int d) {
+          result[dim * node + d] = y(unknowns.first(node) + d);
+        });
       return result;
     }
   };

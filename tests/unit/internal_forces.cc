@@ -49,7 +49,7 @@ namespace
                                       ? material("mud", clay_constants + weak)
                                       : material("rubber", clay_constants)));
             fill_with_points(statics, hanging_nodes);
-            statics.transfer.use_cell_mean({mean, false, mean});
+            statics.transfer.use_bbar({mean, false, mean});
             statics.loads.varies = false;
             statics.load(Tensor<1, dim>());
             auto &points = statics.points;
@@ -84,7 +84,7 @@ namespace
 
     double                          work = 0., scale = 0.;
     std::vector<StressTangent<dim>> answers(points.size());
-    statics.materials.for_runs(
+    statics.materials.for_each_material_range(
       points,
       points.all(),
       [&](const auto &model, const unsigned int begin, const unsigned int end) {
@@ -187,7 +187,7 @@ namespace
             refine_corner(statics);
           for (unsigned int i = 0; i < 300; ++i)
             statics.add(statics.place(0.51), statics.vector(0.05, 0.9));
-          statics.transfer.use_cell_mean({mean});
+          statics.transfer.use_bbar({mean});
           statics.load(Tensor<1, dim>());
           action(statics);
         }

@@ -33,7 +33,7 @@ namespace
       std::vector<unsigned char> held;
       for (const unsigned int node : unknowns.active_nodes())
         held.push_back(this->grid.faces_of_node(node) & 4 ? 7 : 0);
-      unknowns.hold(held);
+      unknowns.constrain(held);
       assemble();
     }
 
@@ -51,9 +51,10 @@ namespace
       parts->internal_forces.add_tangent(parts->weights, unknowns, matrix);
       matrix.compress(dealii::VectorOperation::add);
       rhs.reinit(unknowns.owned(), unknowns.communicator());
-      unknowns.for_free([&](const unsigned int node, const unsigned int d) {
-        rhs(unknowns.first(node) + d) = this->force(node)[d];
-      });
+      unknowns.for_each_free_dof(
+        [&](const unsigned int node, const unsigned int d) {
+          rhs(unknowns.first(node) + d) = this->force(node)[d];
+        });
       rhs.compress(dealii::VectorOperation::insert);
       // Translations only: enough for multigrid to work.
       modes.assign(dim, {});

@@ -1,4 +1,4 @@
-#include <talus/equilibrium/kept_weights.h>
+#include <talus/equilibrium/shape_function_cache.h>
 #include <talus/transfer/null_space_filter.h>
 
 #include "transfer_setup.h"
@@ -12,7 +12,7 @@ namespace
   template <int dim>
   std::vector<Tensor<1, dim>>
   pass(const Core<dim>                   &core,
-       const KeptWeights<dim>            &kept,
+       const ShapeFunctionCache<dim>     &kept,
        const std::vector<Tensor<1, dim>> &v)
   {
     std::vector<double>         mass(core.grid.n_nodes());
@@ -50,7 +50,7 @@ namespace
     core.scatter();
     Unknowns<dim> unknowns;
     unknowns.number(core.nodes, core.grid, 0.);
-    KeptWeights<dim> kept;
+    ShapeFunctionCache<dim> kept;
     kept.compute(core.points, core.grid, core.transfer.box_shape(), unknowns);
 
     const unsigned int          n = core.points.size();
@@ -133,9 +133,9 @@ namespace
                     before[node][SumIndex<dim>::force + d],
                     1e-11);
     core.workspace.reinit(0, n);
-    core.transfer.average_mean_stress(core.points,
-                                      core.workspace,
-                                      core.points.all());
+    core.transfer.apply_bbar_to_stress(core.points,
+                                       core.workspace,
+                                       core.points.all());
     for (unsigned int p = 0; p < n; ++p)
       EXPECT_NEAR(core.workspace.mean_stress_shift()[p], 0., 1e-13);
   }

@@ -93,17 +93,17 @@ struct Scene : public talus::State<dim>
           x[d] = points.data(points.position, d)[p];
         of_cell[grid.find_cell(x)].push_back(p);
       }
-    std::vector<talus::Jump>    jumps;
-    std::vector<talus::Segment> segments;
+    std::vector<talus::ElementMove> element_moves;
+    std::vector<talus::Segment>     segments;
     for (unsigned int c = 0; c < of_cell.size(); ++c)
       if (!of_cell[c].empty())
         {
-          const unsigned int begin = jumps.size();
+          const unsigned int begin = element_moves.size();
           for (const unsigned int p : of_cell[c])
-            jumps.push_back({p, unsigned(jumps.size())});
-          segments.push_back({c, 0, begin, unsigned(jumps.size())});
+            element_moves.push_back({p, unsigned(element_moves.size())});
+          segments.push_back({c, 0, begin, unsigned(element_moves.size())});
         }
-    points.reorder({}, jumps, segments);
+    points.reorder({}, element_moves, segments);
   }
 };
 

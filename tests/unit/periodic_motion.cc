@@ -70,7 +70,7 @@ namespace
 
 
 
-  // Daughters beyond the seam are legal: the split changes no sum.
+  // Children beyond the seam are legal: the split changes no sum.
   TEST(Periodic, SplitsAcrossTheSeam)
   {
     for (const unsigned int width : {1, 2, 5})
@@ -184,7 +184,7 @@ namespace
       "set Young's modulus = 1e3\nset Poisson's ratio = 0.3\nset Density = 10");
     auto &points = core.points;
     law->add_columns(points);
-    core.transfer.use_cell_mean({true});
+    core.transfer.use_bbar({true});
     add_blob(core, corner, law->density());
     law->initialize(points, 0, points.size());
     core.sort();
@@ -195,7 +195,9 @@ namespace
         core.nodes.update_momentum(dt, 0.);
         core.nodes.share_with_ghosts(core.grid);
         core.gather(dt);
-        core.transfer.average_dilatation(points, core.workspace, points.all());
+        core.transfer.apply_bbar_to_dilatation(points,
+                                               core.workspace,
+                                               points.all());
         law->update_stress(points, core.workspace, 0, points.size(), dt);
         update_stretch(points,
                        core.workspace,

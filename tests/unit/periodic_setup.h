@@ -178,7 +178,7 @@ namespace
           core.randomize(p);
           core.points.data(core.points.id)[p] = i * n_copies + copy;
         }
-    core.transfer.use_cell_mean({true, false, true});
+    core.transfer.use_bbar({true, false, true});
     core.sort();
   }
 } // namespace

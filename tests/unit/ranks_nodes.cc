@@ -288,7 +288,9 @@ namespace
           }
       }
     core.gather(dt);
-    core.transfer.average_dilatation(points, core.workspace, points.all());
+    core.transfer.apply_bbar_to_dilatation(points,
+                                           core.workspace,
+                                           points.all());
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         auto &state = record.points[std::lround(points.data(points.id)[p])];
@@ -309,7 +311,7 @@ namespace
   std::vector<StepRecord>
   some_steps(Core<dim> &core)
   {
-    core.transfer.use_cell_mean({true, false, true});
+    core.transfer.use_bbar({true, false, true});
     core.loads.acceleration_of_body[0][0] = 3.;
     core.loads.acceleration_of_body[1][1] = -9.81;
     add_shared(core, 400, 3, [&]() { return core.place(0.1); });

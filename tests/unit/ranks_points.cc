@@ -55,7 +55,7 @@ namespace
 
 
   /// Some of the first points get a companion with an id of its own, not sorted
-  /// in yet, as the daughters of a split are.
+  /// in yet, as the children of a split are.
   template <int dim>
   void
   add_companions(Core<dim> &core, const unsigned int step)

@@ -49,7 +49,7 @@ namespace
     {
       std::sort(expected_.begin(), expected_.end());
       Reordering reordering;
-      reordering.merge(points.segments(), movers_, gone_);
+      reordering.merge(points.segments(), changes_, departed_);
       EXPECT_EQ(reordering.n_points(), expected_.size());
       reordering.apply(points);
       ASSERT_EQ(points.size(), expected_.size());
@@ -86,11 +86,11 @@ namespace
       const double dice = std::uniform_real_distribution<double>()(random_);
       if (dice < share)
         {
-          movers_.push_back({below(n_cells_), body, p});
-          expected_.emplace_back(movers_.back().cell, body, 1, p);
+          changes_.push_back({below(n_cells_), body, p});
+          expected_.emplace_back(changes_.back().cell, body, 1, p);
         }
       else if (dice < 2. * share)
-        gone_.push_back(p);
+        departed_.push_back(p);
       else
         expected_.emplace_back(cell, body, 0, p);
     }
@@ -119,8 +119,8 @@ namespace
 
     std::mt19937              random_;
     unsigned int              n_cells_;
-    std::vector<Mover>        movers_;
-    std::vector<unsigned int> gone_;
+    std::vector<CellChange>   changes_;
+    std::vector<unsigned int> departed_;
     /// Cell, body, whether it moved, old index: the order to be.
     std::vector<std::tuple<unsigned int, unsigned int, int, unsigned int>>
       expected_;
@@ -151,10 +151,10 @@ namespace
 
   TEST(Reordering, Nobody)
   {
-    Points<2>          points;
-    Reordering         reordering;
-    std::vector<Mover> movers;
-    reordering.merge(points.segments(), movers, {});
+    Points<2>               points;
+    Reordering              reordering;
+    std::vector<CellChange> changes;
+    reordering.merge(points.segments(), changes, {});
     reordering.apply(points);
     EXPECT_EQ(points.size(), 0u);
     EXPECT_TRUE(points.segments().empty());
@@ -176,9 +176,9 @@ namespace
       points.data(points.id)[p] = p;
 
     // The last of cell 3 to cell 5: those of cells 4 and 5 go one down.
-    Reordering         reordering;
-    std::vector<Mover> movers{{5, 0, 15}};
-    reordering.merge(points.segments(), movers, {});
+    Reordering              reordering;
+    std::vector<CellChange> changes{{5, 0, 15}};
+    reordering.merge(points.segments(), changes, {});
     reordering.apply(points);
     for (unsigned int p = 0; p < 40; ++p)
       EXPECT_EQ(points.data(points.id)[p],

@@ -53,7 +53,7 @@ namespace
     core.points.data(core.points.stretch, 1)[p] = 1.2;
     core.sort();
     core.split();
-    core.sort(); // throws if a daughter is too far outside
+    core.sort(); // throws if a child is too far outside
     return core.points.size();
   }
 
@@ -124,7 +124,7 @@ namespace
     core.sort();
     EXPECT_TRUE(core.split());
     EXPECT_EQ(core.splitter.statistics().n_splits, 1u);
-    // The daughter in her parent's place may lie in another cell.
+    // The child in her parent's place may lie in another cell.
     EXPECT_EQ(core.workspace.points_out_of_cell().size(), 1u);
     for (unsigned int p = 0; p < points.size(); ++p)
       EXPECT_EQ(points.data(points.generation)[p],
@@ -184,7 +184,7 @@ namespace
 
 
 
-  // --------------------------------------------------------------- daughters
+  // --------------------------------------------------------------- children
 
   /// A point with id 1 in a random state with columns of both kinds, stretched
   /// along the axes whose bits are set, and its copy with id 2, which is at the
@@ -231,7 +231,7 @@ namespace
 
 
 
-  /// Box and place of daughter @p q. Returns the corner of the parent where it
+  /// Box and place of child @p q. Returns the corner of the parent where it
   /// lies, a bit per axis.
   template <int dim>
   unsigned int
@@ -317,7 +317,7 @@ namespace
         ++corners[expect_box_of_daughter(core, parent, q, mask)];
         expect_state_of_daughter(core, parent, q, n);
       }
-    EXPECT_EQ(corners.size(), n) << "one daughter in each corner";
+    EXPECT_EQ(corners.size(), n) << "one child in each corner";
     EXPECT_EQ(ids.size(), n);
     EXPECT_EQ(ids.count(1), 1u) << "the first keeps its parent's id";
     for (unsigned int k = 0; k + 1 < n; ++k)

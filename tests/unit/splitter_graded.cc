@@ -120,7 +120,7 @@ namespace
 
   TEST(GradedSplits, APointSplitsWhereItEntersASmallerCell)
   {
-    // Daughters at 1.97 -+ 0.23 m: on both sides of the change of size. Boxes
+    // Children at 1.97 -+ 0.23 m: on both sides of the change of size. Boxes
     // end within the cells around the one the point comes from.
     const Point<2> x(1.97, 0.8);
     expect_split_on_entry<2>("all", x, Tensor<1, 2>({0.92, 0.6}), 4);
@@ -152,7 +152,7 @@ namespace
 
 
   /// Points of any length up to that of their cell, stretched along x beyond
-  /// the threshold, where the size of the cells changes: whether daughters lie
+  /// the threshold, where the size of the cells changes: whether children lie
   /// in smaller or larger cells, nodes must not notice.
   template <int dim>
   void
@@ -165,7 +165,7 @@ namespace
     x[seed % 2 == 0 ? 0 : dim - 1] = 2. + core.number(-0.3, 0.3);
     const double   size = core.grid.cells()[core.grid.find_cell(x)].size;
     Tensor<1, dim> lengths;
-    // No daughter is below the floor of her cell, 0.2 m at most.
+    // No child is below the floor of her cell, 0.2 m at most.
     for (unsigned int d = 0; d < dim; ++d)
       lengths[d] = size * core.number(size < 1. ? 0.82 : 0.45, 0.999);
     lengths[0]           = size * core.number(size < 1. ? 0.82 : 0.71, 0.999);

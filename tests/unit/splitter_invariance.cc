@@ -121,7 +121,7 @@ namespace
       x[0] = 2. + core.number(-0.3, 0.3);
       return x;
     });
-    // And where they meet the boundary; boxes and daughters reach outside.
+    // And where they meet the boundary; boxes and children reach outside.
     expect_invariance<dim>(true, [](Core<dim> &core) {
       Point<dim> x(core.vector(0.5, 3.));
       x[dim - 1] = 2. + core.number(-0.2, 0.2);
@@ -157,7 +157,7 @@ namespace
 
 
 
-  /// The control: daughters a (1 + eps)-th farther out leave gaps, which the
+  /// The control: children a (1 + eps)-th farther out leave gaps, which the
   /// test above must see. Place them at (1 + eps) L/4 by hand.
   template <int dim>
   void

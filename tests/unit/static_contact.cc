@@ -282,9 +282,9 @@ namespace
       contact.begin(all, parts.unknowns);
     }
 
-    /// Returns the number of changes; displacement becomes what revise() left.
+    /// Returns the number of changes; displacement becomes what update_active_set() left.
     unsigned int
-    revise(const Force &reaction, Force &displacement)
+    update_active_set(const Force &reaction, Force &displacement)
     {
       auto forces = parts.unknowns.field(), u = forces;
       for (const unsigned int n : parts.unknowns.active_nodes())
@@ -295,17 +295,18 @@ namespace
           u[2 * node + d]      = displacement[d];
         }
       const StaticProblem<2> all = problem();
-      const unsigned int     n = contact.revise(all, parts.unknowns, forces, u);
+      const unsigned int     n =
+        contact.update_active_set(all, parts.unknowns, forces, u);
       for (unsigned int d = 0; d < 2; ++d)
         displacement[d] = u[2 * node + d];
       return n;
     }
 
     unsigned int
-    revise(const Force &reaction)
+    update_active_set(const Force &reaction)
     {
       Force none;
-      return revise(reaction, none);
+      return update_active_set(reaction, none);
     }
 
     unsigned int
@@ -336,19 +337,19 @@ TEST(StaticContactTest, SticksUpToTheLimit)
 {
   NodeOnSeabed one;
   EXPECT_EQ(one.held(), 3u);
-  EXPECT_EQ(one.revise(Point<2>(49.9, 100.)), 0u);
-  EXPECT_EQ(one.revise(Point<2>(-49.9, 100.)), 0u);
+  EXPECT_EQ(one.update_active_set(Point<2>(49.9, 100.)), 0u);
+  EXPECT_EQ(one.update_active_set(Point<2>(-49.9, 100.)), 0u);
   EXPECT_EQ(one.held(), 3u);
   EXPECT_EQ(one.friction(), 0.);
-  EXPECT_EQ(one.revise(Point<2>(-60., 100.)), 1u);
+  EXPECT_EQ(one.update_active_set(Point<2>(-60., 100.)), 1u);
   EXPECT_EQ(one.held(), 2u);
   EXPECT_NEAR(one.friction(), -50., 1e-12);
   // The limit follows the normal force up to the cap times half a metre.
-  EXPECT_EQ(one.revise(Point<2>(0., 120.)), 1u);
+  EXPECT_EQ(one.update_active_set(Point<2>(0., 120.)), 1u);
   EXPECT_NEAR(one.friction(), -60., 1e-12);
-  EXPECT_EQ(one.revise(Point<2>(0., 400.)), 1u);
+  EXPECT_EQ(one.update_active_set(Point<2>(0., 400.)), 1u);
   EXPECT_NEAR(one.friction(), -75., 1e-12);
-  EXPECT_EQ(one.revise(Point<2>(0., 500.)), 0u);
+  EXPECT_EQ(one.update_active_set(Point<2>(0., 500.)), 0u);
 }
 
 
@@ -357,10 +358,10 @@ TEST(StaticContactTest, SlipsAgainstTheFrictionOnly)
 {
   NodeOnSeabed one;
   Force        against = Point<2>(1e-4, 0.), along = Point<2>(-1e-4, 0.);
-  one.revise(Point<2>(-60., 100.));
-  EXPECT_EQ(one.revise(Point<2>(0., 100.), against), 0u);
+  one.update_active_set(Point<2>(-60., 100.));
+  EXPECT_EQ(one.update_active_set(Point<2>(0., 100.), against), 0u);
   EXPECT_EQ(one.held(), 2u);
-  EXPECT_EQ(one.revise(Point<2>(0., 100.), along), 1u);
+  EXPECT_EQ(one.update_active_set(Point<2>(0., 100.), along), 1u);
   EXPECT_EQ(one.held(), 3u);
   EXPECT_EQ(one.friction(), 0.);
 }
@@ -370,12 +371,12 @@ TEST(StaticContactTest, SlipsAgainstTheFrictionOnly)
 TEST(StaticContactTest, LiftsOffAndComesDown)
 {
   NodeOnSeabed one;
-  EXPECT_EQ(one.revise(Point<2>(0., -1.)), 1u);
+  EXPECT_EQ(one.update_active_set(Point<2>(0., -1.)), 1u);
   EXPECT_EQ(one.held(), 0u);
   Force up = Point<2>(1e-3, 1e-3), into = Point<2>(1e-3, -1e-3);
-  EXPECT_EQ(one.revise(Point<2>(0., 0.), up), 0u);
+  EXPECT_EQ(one.update_active_set(Point<2>(0., 0.), up), 0u);
   EXPECT_EQ(one.held(), 0u);
-  EXPECT_EQ(one.revise(Point<2>(0., 0.), into), 1u);
+  EXPECT_EQ(one.update_active_set(Point<2>(0., 0.), into), 1u);
   EXPECT_EQ(one.held(), 3u);
   EXPECT_EQ(into[0], 1e-3);
   EXPECT_EQ(into[1], 0.);

@@ -78,8 +78,8 @@ namespace
     std::vector<Tensor<2, dim>> old;
     for (unsigned int p = 0; p < points.size(); ++p)
       old.push_back(core.velocity_gradient(p));
-    core.transfer.average_mean_stress(points, workspace, points.all());
-    core.transfer.average_dilatation(points, workspace, points.all());
+    core.transfer.apply_bbar_to_stress(points, workspace, points.all());
+    core.transfer.apply_bbar_to_dilatation(points, workspace, points.all());
 
     double rate_averaged = 0, stress_averaged = 0, scale = 0, change = 0;
     for (unsigned int p = 0; p < points.size(); ++p)

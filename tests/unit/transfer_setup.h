@@ -17,7 +17,7 @@ namespace
   {
     if (hanging_nodes)
       refine_corner(core);
-    core.transfer.use_cell_mean({true, false, true});
+    core.transfer.use_bbar({true, false, true});
     core.add_cloud(dim == 2 ? 500 : 700, 3);
     for (unsigned int i = 0; i < 300; ++i)
       {

@@ -55,7 +55,7 @@ namespace
 
   /// What check() says to @p parameters, without line breaks; empty if nothing.
   std::string
-  complaint(const std::string &name, const std::string &parameters)
+  error(const std::string &name, const std::string &parameters)
   {
     std::string line, word;
     try
@@ -310,7 +310,7 @@ TEST(Viscoplastic, BatchEqualsPointByPointWithRemoulding)
 
 TEST(Viscoplastic, ContradictionsAreRefused)
 {
-  EXPECT_NE(complaint("Herschel-Bulkley", "set Flow exponent = 0")
+  EXPECT_NE(error("Herschel-Bulkley", "set Flow exponent = 0")
               .find("Give a positive number"),
             std::string::npos);
   // 3 s_u (1 - r)/G = 3 * 2500 * 0.5/1e5.
@@ -320,9 +320,9 @@ TEST(Viscoplastic, ContradictionsAreRefused)
     "set Plastic shear strain to remould = ";
   for (const std::string name : {"Bingham", "Herschel-Bulkley"})
     {
-      EXPECT_NE(complaint(name, soft + "0.0374").find("give more than 0.0375"),
+      EXPECT_NE(error(name, soft + "0.0374").find("give more than 0.0375"),
                 std::string::npos);
-      EXPECT_EQ(complaint(name, soft + "0.0376"), "");
+      EXPECT_EQ(error(name, soft + "0.0376"), "");
     }
   EXPECT_THROW(make_law<2>("Bingham", "set Consistency = 1"),
                dealii::ExceptionBase);

@@ -192,12 +192,12 @@ def main():
     if options.what == "widths":
         if not has_avx2():
             skip("this processor has no AVX2.")
-        complaints = list(compare_bits(folder))
+        errors = list(compare_bits(folder))
     else:
-        complaints = list(compare_round_off(folder, options.program))
-    for complaint in complaints:
-        print("FAILED: " + complaint)
-    sys.exit(1 if complaints else 0)
+        errors = list(compare_round_off(folder, options.program))
+    for error in errors:
+        print("FAILED: " + error)
+    sys.exit(1 if errors else 0)
 
 
 def has_avx2():

@@ -22,12 +22,12 @@ namespace talus
   /// An axis violates when the stretch along it exceeds `Threshold` times its
   /// value at the point's creation and the point is longer than `Minimum
   /// length` cells, or when the point is longer than a cell whatever the
-  /// threshold says. The daughters inherit the state; what is extensive is
+  /// threshold says. The children inherit the state; what is extensive is
   /// divided (see Inheritance). They tile the box of their parent, so that mass,
   /// momentum and internal force of no node change. @cite esub
   ///
   /// A convected domain is cut along its own edges, and measured along them. Its
-  /// daughters tile it, too; nodal sums change a little, since there are more
+  /// children tile it, too; nodal sums change a little, since there are more
   /// corners then, between which shape functions are interpolated.
   template <int dim>
   class Splitter : public dealii::ParameterAcceptor
@@ -43,7 +43,7 @@ namespace talus
          const Grid<dim>   &grid,
          BoxRule            rule);
 
-    /// Split the points that mark() noted, once. Daughters may lie outside
+    /// Split the points that mark() noted, once. Children may lie outside
     /// their parent's cell: they wait for Relocation::update(). The first one
     /// takes the parent's place, and is added to those that may be out of their
     /// cell; the others are appended. Returns whether any point was split. Throws ExcPoint if this rank would have too many points.
@@ -67,7 +67,7 @@ namespace talus
     void
     list_quantities(const State<dim> &state, Quantities &list) const;
 
-    /// The first new daughter gets the id @p first, the next one that plus
+    /// The first new child gets the id @p first, the next one that plus
     /// @p stride, ...: so that ids differ over ranks.
     void
     number_from(const double first, const double stride)
@@ -114,7 +114,7 @@ namespace talus
     axes_to_split(const Points<dim> &points,
                   unsigned int       p,
                   double             cell_size) const;
-    /// False if a daughter would lie farther outside the mesh than a point may
+    /// False if a child would lie farther outside the mesh than a point may
     /// at a wall: half a cell. Such a split waits; the box is clipped and
     /// counted meanwhile.
     bool

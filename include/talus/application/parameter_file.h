@@ -1,7 +1,7 @@
 #ifndef talus_application_parameter_file_h
 #define talus_application_parameter_file_h
 
-#include <talus/problem/preview.h>
+#include <talus/problem/parameter_preview.h>
 
 #include <deal.II/base/parameter_handler.h>
 
@@ -20,7 +20,7 @@ namespace talus
                   const std::vector<std::string> &overrides);
 
     /// First, tolerant pass: only what decides which parameters there are.
-    Preview
+    ParameterPreview
     preview() const;
 
     /// Second, strict pass into all objects that accept parameters. Throws,

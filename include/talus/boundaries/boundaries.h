@@ -83,7 +83,7 @@ namespace talus
     /// Bit d is set if walls hold a node on these faces (see
     /// Grid::faces_of_node) along axis d, or drive it.
     unsigned char
-    components_held_by_walls(unsigned char faces) const;
+    components_constrained_by_walls(unsigned char faces) const;
 
     const Seabed<dim> &
     seabed() const
@@ -94,7 +94,7 @@ namespace talus
     /// Bit d is set if a node on these faces may be held along axis d, by a
     /// wall or by the seabed.
     unsigned char
-    held_components(unsigned char faces) const;
+    constrained_components(unsigned char faces) const;
 
     /// Add the tractions at time @p t, s, to the forces of the active nodes on
     /// the faces, before the momentum update. Nodes with less than
@@ -121,13 +121,13 @@ namespace talus
       std::array<std::unique_ptr<FaceExpression<dim>>, 2 * dim>;
 
     /// Components of a node's velocity that do not depend on what the soil does.
-    struct Held
+    struct PrescribedVelocity
     {
-      std::array<bool, dim>  is_held = {};
+      std::array<bool, dim>  is_prescribed = {};
       dealii::Tensor<1, dim> velocity; ///< m/s
 
       void
-      hold(unsigned int component, double value);
+      set(unsigned int component, double value);
 
       /// Give them to a node; returns the impulse that this takes, N s.
       dealii::Tensor<1, dim>
@@ -143,8 +143,8 @@ namespace talus
     check_expression(unsigned int       face,
                      FaceCondition      condition,
                      const std::string &text) const;
-    Held
-    held_velocity(unsigned char faces, unsigned int node, double t);
+    PrescribedVelocity
+    prescribed_velocity(unsigned char faces, unsigned int node, double t);
     void
     apply_to_node(NodalFields<dim> &nodes,
                   const Grid<dim>  &grid,

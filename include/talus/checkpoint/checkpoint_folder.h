@@ -59,7 +59,7 @@ namespace talus
     std::filesystem::path path;
     CheckpointHead        head;
     /// One sentence for each newer one that is damaged.
-    std::vector<std::string> complaints;
+    std::vector<std::string> errors;
   };
 
 

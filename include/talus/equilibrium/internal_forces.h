@@ -1,7 +1,7 @@
 #ifndef talus_equilibrium_internal_forces_h
 #define talus_equilibrium_internal_forces_h
 
-#include <talus/equilibrium/kept_weights.h>
+#include <talus/equilibrium/shape_function_cache.h>
 #include <talus/equilibrium/static_problem.h>
 
 #include <deal.II/lac/full_matrix.h>
@@ -33,22 +33,22 @@ namespace talus
     /// Set the displacement gradients that the points hold, to those of the
     /// displacements @p u, m, after the mean, in the workspace.
     void
-    set_gradients(StaticProblem<dim>        &problem,
-                  const KeptWeights<dim>    &weights,
-                  const std::vector<double> &u) const;
+    set_gradients(StaticProblem<dim>            &problem,
+                  const ShapeFunctionCache<dim> &weights,
+                  const std::vector<double>     &u) const;
 
     /// Evaluate stresses and their derivatives, and add to @p forces, N, those
     /// of this rank's points. Returns false, with nothing added, if a point
     /// of this rank would be turned inside out.
     bool
-    evaluate(StaticProblem<dim>        &problem,
-             const KeptWeights<dim>    &weights,
-             const std::vector<double> &u,
-             std::vector<double>       &forces);
+    evaluate(StaticProblem<dim>            &problem,
+             const ShapeFunctionCache<dim> &weights,
+             const std::vector<double>     &u,
+             std::vector<double>           &forces);
 
     /// Add the derivative found by the last evaluate() to @p matrix.
     void
-    add_tangent(const KeptWeights<dim>                 &weights,
+    add_tangent(const ShapeFunctionCache<dim>          &weights,
                 const Unknowns<dim>                    &unknowns,
                 dealii::TrilinosWrappers::SparseMatrix &matrix) const;
 
@@ -65,18 +65,18 @@ namespace talus
     };
 
     void
-    add_forces_of_cell(unsigned int            c,
-                       const KeptWeights<dim> &weights,
-                       std::vector<double>    &forces) const;
+    add_forces_of_cell(unsigned int                   c,
+                       const ShapeFunctionCache<dim> &weights,
+                       std::vector<double>           &forces) const;
     void
-    set_mean_gradient(unsigned int            c,
-                      const KeptWeights<dim> &weights,
-                      Scratch                &scratch) const;
+    set_mean_gradient(unsigned int                   c,
+                      const ShapeFunctionCache<dim> &weights,
+                      Scratch                       &scratch) const;
     void
-    fill_strain(const typename KeptWeights<dim>::Weight *weight,
-                unsigned int                             n_nodes,
-                bool                                     uses_mean,
-                Scratch                                 &scratch) const;
+    fill_strain(const typename ShapeFunctionCache<dim>::Weight *weight,
+                unsigned int                                    n_nodes,
+                bool                                            uses_mean,
+                Scratch                                        &scratch) const;
     void
     add_point(double                    volume,
               const StressTangent<dim> &answer,

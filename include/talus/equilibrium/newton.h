@@ -79,7 +79,7 @@ namespace talus
 
     /// Make what was found the state of the points; with large strain they move.
     void
-    accept(StaticProblem<dim> &problem);
+    commit(StaticProblem<dim> &problem);
 
     /// How the soil moves where it fails, at the points, dim numbers each,
     /// divided by the largest of all: the displacement of the last load step
@@ -130,16 +130,16 @@ namespace talus
     evaluate(StaticProblem<dim> &problem, const std::vector<double> &u);
     /// With the state of the seabed's nodes that belongs to it.
     Outcome
-    seek(StaticProblem<dim> &problem, const Observer &observe);
+    solve_with_contact(StaticProblem<dim> &problem, const Observer &observe);
     /// With the state that they have.
     Outcome
-    iterate(StaticProblem<dim> &problem, const Observer &observe);
+    newton_loop(StaticProblem<dim> &problem, const Observer &observe);
     /// Returns why there is no next iterate, as the end of a sentence.
     std::string
-    correct(StaticProblem<dim> &problem, NewtonIteration &iteration);
+    newton_update(StaticProblem<dim> &problem, NewtonIteration &iteration);
     double
-    search_along(StaticProblem<dim>        &problem,
-                 const std::vector<double> &direction);
+    line_search(StaticProblem<dim>        &problem,
+                const std::vector<double> &direction);
     std::vector<double>
     at_points(const Points<dim>         &points,
               const std::vector<double> &field) const;
@@ -151,7 +151,7 @@ namespace talus
     const LinearSolver     &linear_solver_;
     Parameters              parameters_;
     Unknowns<dim>           unknowns_;
-    KeptWeights<dim>        weights_;
+    ShapeFunctionCache<dim> weights_;
     InternalForces<dim>     internal_forces_{StrainMeasure::small};
     GhostStabilization<dim> ghost_;
     StaticContact<dim>      contact_;

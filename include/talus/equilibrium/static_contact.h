@@ -22,8 +22,8 @@ namespace talus
 
     /// Components that are held, by active node.
     std::vector<unsigned char>
-    held(const StaticProblem<dim> &problem,
-         const Unknowns<dim>      &unknowns) const;
+    constrained(const StaticProblem<dim> &problem,
+                const Unknowns<dim>      &unknowns) const;
 
     /// Add the friction of slipping nodes, N.
     void
@@ -39,16 +39,17 @@ namespace talus
     /// soil went into the seabed. Returns how many nodes stick, slip or lift off
     /// now that did not before. Collective.
     unsigned int
-    revise(const StaticProblem<dim>  &problem,
-           const Unknowns<dim>       &unknowns,
-           const std::vector<double> &reaction,
-           std::vector<double>       &u);
+    update_active_set(const StaticProblem<dim>  &problem,
+                      const Unknowns<dim>       &unknowns,
+                      const std::vector<double> &reaction,
+                      std::vector<double>       &u);
 
     /// The soil can move freely along @p direction. Let those slipping nodes
     /// stick whose friction would push it on: when it moves, friction turns
     /// against the motion. Returns how many there are. Collective.
     unsigned int
-    resist(const Unknowns<dim> &unknowns, const std::vector<double> &direction);
+    stick_again(const Unknowns<dim>       &unknowns,
+                const std::vector<double> &direction);
 
   private:
     enum class State
@@ -74,11 +75,11 @@ namespace talus
     limit_friction(Contact &contact, const Seabed<dim> &seabed) const;
 
     bool
-    revise(Contact                      &contact,
-           const Seabed<dim>            &seabed,
-           const dealii::Tensor<1, dim> &reaction,
-           const dealii::Tensor<1, dim> &u,
-           double                        weight) const;
+    update_active_set(Contact                      &contact,
+                      const Seabed<dim>            &seabed,
+                      const dealii::Tensor<1, dim> &reaction,
+                      const dealii::Tensor<1, dim> &u,
+                      double                        weight) const;
 
     std::vector<Contact> contacts_;
   };

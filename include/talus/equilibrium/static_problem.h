@@ -31,11 +31,11 @@ namespace talus
   {
     State<dim> &state = problem.state;
     state.nodes.clear();
-    state.points.for_batches([&](const Batch &batch) {
+    state.points.for_each_batch([&](const Batch &batch) {
       state.workspace.reinit(batch.begin, batch.end);
-      problem.transfer.average_mean_stress(state.points,
-                                           state.workspace,
-                                           batch);
+      problem.transfer.apply_bbar_to_stress(state.points,
+                                            state.workspace,
+                                            batch);
       problem.transfer.scatter(state.points,
                                state.workspace,
                                batch,

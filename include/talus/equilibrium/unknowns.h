@@ -34,7 +34,7 @@ namespace talus
     /// do not move: bit d of held[k] holds component d of active_nodes()[k].
     /// Collective.
     void
-    hold(const std::vector<unsigned char> &held);
+    constrain(const std::vector<unsigned char> &held);
 
     /// Owned nodes with unknowns, ascending.
     const std::vector<unsigned int> &
@@ -60,7 +60,7 @@ namespace talus
 
     /// Whether component @p d of an owned or ghost node is held.
     bool
-    is_held(const unsigned int node, const unsigned int d) const
+    is_constrained(const unsigned int node, const unsigned int d) const
     {
       return (static_cast<unsigned int>(
                 records_[width * std::size_t(node) + 1]) >>
@@ -137,11 +137,11 @@ namespace talus
     /// held.
     template <typename Action>
     void
-    for_free(const Action &action) const
+    for_each_free_dof(const Action &action) const
     {
       for (const unsigned int node : active_nodes_)
         for (unsigned int d = 0; d < dim; ++d)
-          if (!is_held(node, d))
+          if (!is_constrained(node, d))
             action(node, d);
     }
 

@@ -14,7 +14,7 @@ namespace talus
   /// Whether a run begins at its start or goes on from a checkpoint.
   enum class Beginning
   {
-    anew,
+    fresh,
     resumed
   };
 
@@ -59,7 +59,7 @@ namespace talus
     /// that fails.
     void
     open(const std::filesystem::path &path,
-         Beginning                    beginning = Beginning::anew);
+         Beginning                    beginning = Beginning::fresh);
 
     /// Append a line, at once. Throws ExcUser if that fails.
     void
@@ -81,7 +81,7 @@ namespace talus
     void
     open(const std::filesystem::path    &path,
          const std::vector<std::string> &names,
-         Beginning                       beginning = Beginning::anew);
+         Beginning                       beginning = Beginning::fresh);
 
     /// Why the run cannot go on with the file @p path, which should have these
     /// columns, from the checkpoint that was loaded; empty if it can.

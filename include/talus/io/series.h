@@ -17,7 +17,7 @@ namespace talus
           const std::string           &name,
           MPI_Comm                     communicator,
           const std::string           &format,
-          Beginning                    beginning = Beginning::anew);
+          Beginning                    beginning = Beginning::fresh);
 
     /// Add what the index says to the state of the run, as the text @p name:
     /// per output a line with the time [s], a space and the name of the file,

@@ -74,9 +74,9 @@ namespace talus
     /// material.
     template <typename Action>
     void
-    for_runs(const Points<dim> &points,
-             const Batch       &batch,
-             const Action      &action) const
+    for_each_material_range(const Points<dim> &points,
+                            const Batch       &batch,
+                            const Action      &action) const
     {
       const auto &segments = points.segments();
       for (unsigned int s = batch.first_segment; s < batch.last_segment;)

@@ -61,7 +61,7 @@ namespace talus
     void
     begin(const State<dim> &state,
           double            end_time,
-          Beginning         beginning = Beginning::anew);
+          Beginning         beginning = Beginning::fresh);
 
     /// Write all that is due at the start of the motion, unless that was done.
     void

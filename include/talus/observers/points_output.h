@@ -44,7 +44,7 @@ namespace talus
     void
     begin(const OutputSettings &settings,
           const State<dim>     &state,
-          Beginning             beginning = Beginning::anew) override;
+          Beginning             beginning = Beginning::fresh) override;
 
     void
     list_state(StateList &list) override;

@@ -48,7 +48,7 @@ namespace talus
     void
     begin(const OutputSettings &settings,
           const State<dim>     &state,
-          Beginning             beginning = Beginning::anew) override;
+          Beginning             beginning = Beginning::fresh) override;
 
     /// Append the rows of one output time.
     void

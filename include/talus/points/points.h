@@ -15,9 +15,9 @@ namespace talus
   /// What a column becomes when its point is split.
   enum class Inheritance
   {
-    /// Intensive: every daughter has the parent's value.
+    /// Intensive: every child has the parent's value.
     copied,
-    /// Extensive: the parent's value is shared equally by the daughters.
+    /// Extensive: the parent's value is shared equally by the children.
     divided
   };
 
@@ -160,15 +160,15 @@ namespace talus
     void
     copy(unsigned int from, unsigned int to);
 
-    /// Reorder in place. @p shifts are the runs of points that keep their order
-    /// but not their place: ascending in begin, and so in @p to; @p jumps are
+    /// Reorder in place. @p block_moves are the runs of points that keep their order
+    /// but not their place: ascending in begin, and so in @p to; @p element_moves are
     /// all other points that move. Those named by neither stay where they are,
     /// or, if they went to another rank, are overwritten. @p segments describes
     /// the new order, and is exchanged for the description of the old one.
     void
-    reorder(const std::vector<Shift> &shifts,
-            const std::vector<Jump>  &jumps,
-            std::vector<Segment>     &segments);
+    reorder(const std::vector<BlockMove>   &block_moves,
+            const std::vector<ElementMove> &element_moves,
+            std::vector<Segment>           &segments);
 
     /// Remove all points: they went elsewhere.
     void
@@ -221,7 +221,7 @@ namespace talus
     /// points at a time have few rests.
     template <typename Action>
     void
-    for_batches(const Action &action) const
+    for_each_batch(const Action &action) const
     {
       for (unsigned int s = 0; s < segments_.size();)
         {

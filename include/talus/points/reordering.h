@@ -9,7 +9,7 @@
 namespace talus
 {
   /// A point that changes its segment: its new cell, its body and its index.
-  struct Mover
+  struct CellChange
   {
     unsigned int cell;
     unsigned int body;
@@ -20,24 +20,24 @@ namespace talus
 
   /// Works out how points that change their segment, and those appended, come
   /// into the order of those that stay. For Points::reorder(), which moves the
-  /// data; here nothing but the lists of segments and movers is looked at.
+  /// data; here nothing but the lists of segments and changes is looked at.
   class Reordering
   {
   public:
-    /// The points of @p segments but for the @p movers, which become sorted,
-    /// and for those @p gone elsewhere, merged with the movers. Within a
-    /// segment those that stay come first, then the movers, by their index.
+    /// The points of @p segments but for the @p changes, which become sorted,
+    /// and for those @p departed elsewhere, merged with the changes. Within a
+    /// segment those that stay come first, then the changes, by their index.
     void
     merge(const std::vector<Segment>      &segments,
-          std::vector<Mover>              &movers,
-          const std::vector<unsigned int> &gone);
+          std::vector<CellChange>         &changes,
+          const std::vector<unsigned int> &departed);
 
     /// Let Points::reorder() move the points.
     template <int dim>
     void
     apply(Points<dim> &points)
     {
-      points.reorder(shifts_, jumps_, segments_);
+      points.reorder(block_moves_, element_moves_, segments_);
     }
 
     /// Number of points in the new order.
@@ -55,7 +55,7 @@ namespace talus
     void
     open_segment(unsigned int cell, unsigned int body);
     void
-    add_mover(const Mover &mover);
+    add_mover(const CellChange &mover);
     void
     add_run(unsigned int begin, unsigned int end);
     void
@@ -67,8 +67,8 @@ namespace talus
 
     // Kept between calls so that a step does not allocate.
     std::vector<unsigned int> leaving_; ///< a segment, ascending
-    std::vector<Shift>        shifts_;
-    std::vector<Jump>         jumps_;
+    std::vector<BlockMove>    block_moves_;
+    std::vector<ElementMove>  element_moves_;
     std::vector<Segment>      segments_;
     unsigned int              n_points_ = 0;
   };

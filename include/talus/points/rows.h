@@ -8,7 +8,7 @@
 namespace talus
 {
   /// Entries that a reordering moves as they are: [begin, end) begins at @p to.
-  struct Shift
+  struct BlockMove
   {
     unsigned int begin;
     unsigned int end;
@@ -16,7 +16,7 @@ namespace talus
   };
 
   /// A single entry that changes its place among the others.
-  struct Jump
+  struct ElementMove
   {
     unsigned int from;
     unsigned int to;
@@ -38,10 +38,11 @@ namespace talus
     void
     reshape(unsigned int n_rows, std::size_t length);
 
-    /// Move the same entries of every row: @p shifts ascend in begin and in
+    /// Move the same entries of every row: @p block_moves ascend in begin and in
     /// @p to.
     void
-    move(const std::vector<Shift> &shifts, const std::vector<Jump> &jumps);
+    move(const std::vector<BlockMove>   &block_moves,
+         const std::vector<ElementMove> &element_moves);
 
     unsigned int
     size() const

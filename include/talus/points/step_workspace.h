@@ -51,7 +51,7 @@ namespace talus
       return const_cast<StepWorkspace *>(this)->row(dim * i + j);
     }
 
-    /// Shift of the mean stress by the anti-locking mean, Pa.
+    /// BlockMove of the mean stress by the anti-locking mean, Pa.
     double *
     mean_stress_shift()
     {

@@ -4,7 +4,7 @@
 #include <talus/boundaries/boundaries.h>
 #include <talus/problem/body.h>
 #include <talus/problem/loading.h>
-#include <talus/problem/preview.h>
+#include <talus/problem/parameter_preview.h>
 #include <talus/problem/trigger.h>
 #include <talus/state/state.h>
 
@@ -23,7 +23,7 @@ namespace talus
   class Problem : public dealii::ParameterAcceptor
   {
   public:
-    explicit Problem(const Preview &preview);
+    explicit Problem(const ParameterPreview &preview);
 
     /// To be called after parsing. Throws ExcUser if parameters contradict each
     /// other. Declares the columns that laws and trigger need, and that of the
@@ -64,7 +64,7 @@ namespace talus
 
     /// For which bodies the dilatation is averaged over the cells.
     std::vector<bool>
-    bodies_with_cell_mean() const;
+    bodies_with_bbar() const;
 
     /// Whether a body is made of a hyperelastic law.
     bool

@@ -43,7 +43,7 @@ namespace talus
     add_columns(Points<dim> &points);
 
     /// Decide, by the initial places of the newly made points, which of them
-    /// become weaker; daughters of a split follow their mother. Throws ExcUser
+    /// become weaker; children of a split follow their parent. Throws ExcUser
     /// if none does. Collective.
     void
     choose_points(Points<dim>     &points,

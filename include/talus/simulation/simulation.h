@@ -25,7 +25,7 @@ namespace talus
   class Simulation : public dealii::ParameterAcceptor
   {
   public:
-    explicit Simulation(const Preview &preview);
+    explicit Simulation(const ParameterPreview &preview);
 
     /// Throw ExcUser if the parameters, which have been parsed, contradict each
     /// other. Makes mesh and points, but writes nothing.
@@ -110,9 +110,9 @@ namespace talus
     StateList
     list_state();
     RunRequest
-    own_request() const;
+    local_request() const;
     bool
-    fulfil(RunRequest request);
+    handle_request(RunRequest request);
     std::filesystem::path
     write_checkpoint();
 

@@ -17,13 +17,13 @@ namespace talus
   class PointExchange
   {
   public:
-    struct Traveller
+    struct OutgoingPoint
     {
       unsigned int index; ///< of the point
       unsigned int cell;  ///< a ghost
     };
 
-    struct Arrival
+    struct IncomingPoint
     {
       unsigned int index; ///< of the point, appended
       unsigned int cell;  ///< an owned cell
@@ -36,16 +36,16 @@ namespace talus
 
     /// Send these points, which stay here as dead copies, and append those that
     /// come in, in the order of the ranks and of their lists. Collective.
-    const std::vector<Arrival> &
-    exchange(const std::vector<Traveller> &travellers,
-             const Grid<dim>              &grid,
-             Points<dim>                  &points);
+    const std::vector<IncomingPoint> &
+    exchange(const std::vector<OutgoingPoint> &outgoing,
+             const Grid<dim>                  &grid,
+             Points<dim>                      &points);
 
   private:
     void
-    send(const std::vector<Traveller> &travellers,
-         const Grid<dim>              &grid,
-         const Points<dim>            &points);
+    send(const std::vector<OutgoingPoint> &outgoing,
+         const Grid<dim>                  &grid,
+         const Points<dim>                &points);
     void
     receive(unsigned int rank, const Grid<dim> &grid, Points<dim> &points);
 
@@ -54,7 +54,7 @@ namespace talus
       communicator_;
 
     // Kept between calls so that a step does not allocate.
-    std::vector<Arrival>             arrivals_;
+    std::vector<IncomingPoint>       arrivals_;
     std::vector<std::vector<double>> outgoing_; ///< for each neighbour
     std::vector<double>              incoming_;
     std::vector<MPI_Request>         requests_;

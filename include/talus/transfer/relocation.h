@@ -80,19 +80,19 @@ namespace talus
              const Segment   &segment,
              unsigned int     p);
     void
-    find_sorted_movers(Points<dim> &points, const Grid<dim> &grid);
+    find_sorted_changes(Points<dim> &points, const Grid<dim> &grid);
     void
-    find_movers_out_of_cell(Points<dim>               &points,
-                            const Grid<dim>           &grid,
-                            std::vector<unsigned int> &out_of_cell);
+    find_changes_out_of_cell(Points<dim>               &points,
+                             const Grid<dim>           &grid,
+                             std::vector<unsigned int> &out_of_cell);
     void
-    find_appended_movers(Points<dim> &points, const Grid<dim> &grid);
+    find_appended_changes(Points<dim> &points, const Grid<dim> &grid);
     void
-    find_all_movers(Points<dim> &points, const Grid<dim> &grid);
+    find_all_changes(Points<dim> &points, const Grid<dim> &grid);
     bool
     send_and_sort_in(Points<dim> &points, const Grid<dim> &grid);
     void
-    send_movers(Points<dim> &points, const Grid<dim> &grid);
+    send_departed(Points<dim> &points, const Grid<dim> &grid);
     bool
     sort_in(Points<dim> &points);
     bool
@@ -106,9 +106,9 @@ namespace talus
     Reordering reordering_;
 
     // Kept between calls so that a step does not allocate.
-    std::vector<Mover>                                  movers_;
-    std::vector<typename PointExchange<dim>::Traveller> travellers_;
-    std::vector<unsigned int> gone_; ///< indices of the travellers
+    std::vector<CellChange>                                 changes_;
+    std::vector<typename PointExchange<dim>::OutgoingPoint> outgoing_;
+    std::vector<unsigned int> departed_; ///< indices of the outgoing
     std::vector<unsigned int> formerly_occupied_cells_;
   };
 } // namespace talus

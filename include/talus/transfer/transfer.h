@@ -28,21 +28,21 @@ namespace talus
 
     /// For which bodies the anti-locking mean over cells is on.
     void
-    use_cell_mean(const std::vector<bool> &of_body)
+    use_bbar(const std::vector<bool> &of_body)
     {
-      cell_mean_of_body_.assign(of_body.begin(), of_body.end());
+      bbar_of_body_.assign(of_body.begin(), of_body.end());
     }
 
     unsigned int
     n_bodies() const
     {
-      return cell_mean_of_body_.size();
+      return bbar_of_body_.size();
     }
 
     bool
-    uses_cell_mean(const unsigned int body) const
+    uses_bbar(const unsigned int body) const
     {
-      return cell_mean_of_body_[body] != 0;
+      return bbar_of_body_[body] != 0;
     }
 
     // The workspace must be that of the points of the batch.
@@ -51,9 +51,9 @@ namespace talus
     /// between the mean of q = tr_dim(sigma)/dim over the points of its cell whose
     /// law asks for it, of whatever body, and its own q.
     void
-    average_mean_stress(const Points<dim>  &points,
-                        StepWorkspace<dim> &workspace,
-                        const Batch        &batch) const;
+    apply_bbar_to_stress(const Points<dim>  &points,
+                         StepWorkspace<dim> &workspace,
+                         const Batch        &batch) const;
 
     /// Add mass, momentum, internal and external force and reference volume of
     /// the points to their nodes.
@@ -96,9 +96,9 @@ namespace talus
     /// Second half of the anti-locking pair: replace the rate of volume change
     /// by its mean over the cell.
     void
-    average_dilatation(const Points<dim>  &points,
-                       StepWorkspace<dim> &workspace,
-                       const Batch        &batch) const;
+    apply_bbar_to_dilatation(const Points<dim>  &points,
+                             StepWorkspace<dim> &workspace,
+                             const Batch        &batch) const;
 
     const BoxShape &
     box_shape() const
@@ -114,7 +114,7 @@ namespace talus
   private:
     /// Whether any body in the batch is averaged over its cells.
     bool
-    takes_cell_mean(const Points<dim> &points, const Batch &batch) const;
+    takes_bbar(const Points<dim> &points, const Batch &batch) const;
 
     void
     set_cell_means(const Points<dim> &points,
@@ -136,7 +136,7 @@ namespace talus
     double      mass_cut_off_  = 1e-9;
     BoxShape    box_shape_;
 
-    std::vector<unsigned char> cell_mean_of_body_;
+    std::vector<unsigned char> bbar_of_body_;
   };
 } // namespace talus
 

@@ -123,7 +123,7 @@ namespace
     const fs::path        path  = write(3);
     const FoundCheckpoint found = find();
     EXPECT_EQ(found.path, path);
-    EXPECT_TRUE(found.complaints.empty());
+    EXPECT_TRUE(found.errors.empty());
     EXPECT_EQ(found.head.step, 3u);
     EXPECT_EQ(found.head.end_time, 1.);
     EXPECT_EQ(found.head.dimension, 2u);
@@ -206,9 +206,9 @@ namespace
     FoundCheckpoint found = find();
     EXPECT_EQ(found.path, previous);
     EXPECT_EQ(found.head.step, 1u);
-    ASSERT_EQ(found.complaints.size(), 1u);
-    EXPECT_EQ(found.complaints[0].find("The checkpoint '" + newest.string() +
-                                       "' is damaged: "),
+    ASSERT_EQ(found.errors.size(), 1u);
+    EXPECT_EQ(found.errors[0].find("The checkpoint '" + newest.string() +
+                                   "' is damaged: "),
               0u);
 
     // Resumed from the previous, the run comes to the same step again.

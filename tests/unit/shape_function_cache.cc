@@ -1,4 +1,4 @@
-#include <talus/equilibrium/kept_weights.h>
+#include <talus/equilibrium/shape_function_cache.h>
 
 #include <set>
 
@@ -53,7 +53,7 @@ namespace
     core.scatter();
     Unknowns<dim> unknowns;
     unknowns.number(core.nodes, core.grid, 0.);
-    KeptWeights<dim> kept;
+    ShapeFunctionCache<dim> kept;
     kept.compute(core.points, core.grid, core.transfer.box_shape(), unknowns);
     const auto             places = places_of_nodes(core.grid);
     std::set<unsigned int> hanging;
@@ -112,7 +112,7 @@ namespace
 
 
 
-TEST(KeptWeights, AreThoseOfTheTransfer)
+TEST(ShapeFunctionCache, AreThoseOfTheTransfer)
 {
   on_both_meshes<2>("", expect_weights<2>);
   on_both_meshes<3>("", expect_weights<3>);
@@ -121,7 +121,7 @@ TEST(KeptWeights, AreThoseOfTheTransfer)
 
 
 // Nodes without unknowns have no weight, and the patch none of them.
-TEST(KeptWeights, NothingForNodesThatCarryNothing)
+TEST(ShapeFunctionCache, NothingForNodesThatCarryNothing)
 {
   Core<2> core(cube<2>());
   fill_with_points(core, false);
@@ -136,7 +136,7 @@ TEST(KeptWeights, NothingForNodesThatCarryNothing)
   unknowns.number(core.nodes, core.grid, least);
   EXPECT_EQ(unknowns.active_nodes().size(),
             masses.size() - masses.size() / 2 - 1);
-  KeptWeights<2> kept;
+  ShapeFunctionCache<2> kept;
   kept.compute(core.points, core.grid, core.transfer.box_shape(), unknowns);
   for (unsigned int c = 0; c < kept.cells().size(); ++c)
     {

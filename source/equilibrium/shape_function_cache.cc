@@ -1,4 +1,4 @@
-#include <talus/equilibrium/kept_weights.h>
+#include <talus/equilibrium/shape_function_cache.h>
 
 namespace talus
 {
@@ -6,10 +6,10 @@ namespace talus
 
   template <int dim>
   void
-  KeptWeights<dim>::compute(const Points<dim>   &points,
-                            const Grid<dim>     &grid,
-                            const BoxShape      &shape,
-                            const Unknowns<dim> &unknowns)
+  ShapeFunctionCache<dim>::compute(const Points<dim>   &points,
+                                   const Grid<dim>     &grid,
+                                   const BoxShape      &shape,
+                                   const Unknowns<dim> &unknowns)
   {
     cells_.clear();
     first_node_.assign(1, 0);
@@ -29,11 +29,11 @@ namespace talus
 
   template <int dim>
   void
-  KeptWeights<dim>::add_cell(const Points<dim>   &points,
-                             const Grid<dim>     &grid,
-                             const BoxShape      &shape,
-                             const Batch         &cell,
-                             const Unknowns<dim> &unknowns)
+  ShapeFunctionCache<dim>::add_cell(const Points<dim>   &points,
+                                    const Grid<dim>     &grid,
+                                    const BoxShape      &shape,
+                                    const Batch         &cell,
+                                    const Unknowns<dim> &unknowns)
   {
     std::vector<Share>           shares;
     std::vector<NodeWeight<dim>> weights;
@@ -76,9 +76,9 @@ namespace talus
   /// the bookkeeping for the next cell.
   template <int dim>
   void
-  KeptWeights<dim>::store(const Batch              &cell,
-                          const unsigned int        first_node,
-                          const std::vector<Share> &shares)
+  ShapeFunctionCache<dim>::store(const Batch              &cell,
+                                 const unsigned int        first_node,
+                                 const std::vector<Share> &shares)
   {
     const unsigned int n_nodes = nodes_.size() - first_node;
     const std::size_t  first   = weights_.size();
@@ -100,6 +100,6 @@ namespace talus
 
 
 
-  template class KeptWeights<2>;
-  template class KeptWeights<3>;
+  template class ShapeFunctionCache<2>;
+  template class ShapeFunctionCache<3>;
 } // namespace talus

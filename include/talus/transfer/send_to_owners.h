@@ -1,5 +1,5 @@
-#ifndef talus_transfer_far_points_h
-#define talus_transfer_far_points_h
+#ifndef talus_transfer_send_to_owners_h
+#define talus_transfer_send_to_owners_h
 
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
@@ -11,7 +11,7 @@ namespace talus
   /// neighbours only. Collective.
   template <int dim>
   void
-  send_far_points(Points<dim> &points, const Grid<dim> &grid);
+  send_points_to_owners(Points<dim> &points, const Grid<dim> &grid);
 } // namespace talus
 
 #endif

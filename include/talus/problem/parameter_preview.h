@@ -1,5 +1,5 @@
-#ifndef talus_problem_preview_h
-#define talus_problem_preview_h
+#ifndef talus_problem_parameter_preview_h
+#define talus_problem_parameter_preview_h
 
 #include <talus/materials/materials.h>
 
@@ -10,7 +10,7 @@
 namespace talus
 {
   /// What must be known before the parameters can be declared.
-  struct Preview
+  struct ParameterPreview
   {
     unsigned int              dimension = 2;
     std::vector<std::string>  bodies;

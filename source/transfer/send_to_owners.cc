@@ -1,5 +1,5 @@
 #include <talus/base/errors.h>
-#include <talus/transfer/far_points.h>
+#include <talus/transfer/send_to_owners.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -33,7 +33,7 @@ namespace talus
 
   template <int dim>
   void
-  send_far_points(Points<dim> &points, const Grid<dim> &grid)
+  send_points_to_owners(Points<dim> &points, const Grid<dim> &grid)
   {
     const MPI_Comm communicator = grid.communicator();
     Assert(points.n_sorted() == 0, ExcInternalError());
@@ -74,7 +74,7 @@ namespace talus
 
 
   template void
-  send_far_points(Points<2> &, const Grid<2> &);
+  send_points_to_owners(Points<2> &, const Grid<2> &);
   template void
-  send_far_points(Points<3> &, const Grid<3> &);
+  send_points_to_owners(Points<3> &, const Grid<3> &);
 } // namespace talus

@@ -1,5 +1,5 @@
-#ifndef talus_equilibrium_kept_weights_h
-#define talus_equilibrium_kept_weights_h
+#ifndef talus_equilibrium_shape_function_cache_h
+#define talus_equilibrium_shape_function_cache_h
 
 #include <talus/equilibrium/unknowns.h>
 #include <talus/transfer/weights.h>
@@ -13,7 +13,7 @@ namespace talus
   /// of these. Hanging nodes have passed theirs on to their masters, and nodes
   /// without unknowns have none.
   template <int dim>
-  class KeptWeights
+  class ShapeFunctionCache
   {
   public:
     void
