@@ -61,7 +61,7 @@ namespace
       for (const unsigned int node : unknowns.active_nodes())
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int e = 0; e < dim; ++e)
-            modes[e].push_back(d == e && !unknowns.is_held(node, d) ? 1. : 0.);
+            modes[e].push_back(d == e && !unknowns.is_constrained(node, d) ? 1. : 0.);
     }
 
     LinearSolution
