@@ -160,7 +160,7 @@ TEST(Bar, SplitsWhereAndWhenTheStrainSaysSo)
 
   const Points<2> &points = bar.points();
   EXPECT_EQ(points.size(), 452u);
-  const unsigned long n_splits = bar->state().splits.n_splits;
+  const unsigned long n_splits = bar->scheme().splitter().statistics().n_splits;
   gates.holds("points that split, of 200",
               std::to_string(n_splits),
               "84, those with x < 0.4196 L",

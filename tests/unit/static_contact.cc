@@ -313,7 +313,7 @@ namespace
     held()
     {
       const StaticProblem<2> all = problem();
-      return contact.held(all, parts.unknowns)[place];
+      return contact.constrained(all, parts.unknowns)[place];
     }
 
     double

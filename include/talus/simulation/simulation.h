@@ -82,6 +82,12 @@ namespace talus
       return state_;
     }
 
+    const ExplicitScheme<dim> &
+    scheme() const
+    {
+      return scheme_;
+    }
+
     const StaticStages<dim> &
     static_stages() const
     {
