@@ -3,6 +3,7 @@
 #include "landslide.h"
 
 #include <talus/base/errors.h>
+#include <talus/observers/boxes.h>
 #include <talus/points/points_kernel.h>
 
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@ namespace
     Case<2> slide(file, overrides);
     while (slide->state().time < time)
       slide->advance();
-    const auto       state  = slide->state();
+    const auto      &state  = slide->state();
     const Points<2> &points = state.points;
     Boxes            boxes;
     double           area = 0., soil = 0.;

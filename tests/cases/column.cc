@@ -1,6 +1,7 @@
 #include "column.h"
 
 #include <talus/base/errors.h>
+#include <talus/observers/boxes.h>
 
 #include <algorithm>
 #include <cmath>

@@ -116,7 +116,7 @@ namespace
     Result              result;
     while (true)
       {
-        const auto state = block->state();
+        const auto &state = block->state();
         times.push_back(state.time);
         heights.push_back(height_of(block.points(), place, reach));
         if (times.size() % 10 == 1)

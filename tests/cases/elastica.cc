@@ -36,7 +36,7 @@ namespace
     while (cantilever->state().time < exact.end)
       cantilever->advance();
 
-    const auto       state  = cantilever->state();
+    const auto      &state  = cantilever->state();
     const Points<2> &points = state.points;
     double           n = 0, u = 0, w = 0;
     for (unsigned int p = 0; p < points.size(); ++p)

@@ -51,7 +51,7 @@ TEST(HangingBlock, TearsOnlyWithoutSplitting)
                      "prm/" + file,
                      "a hyperelastic body cannot tear");
   gates.at_least("largest stretch", largest_stretch(), 2.5, "above 2.5");
-  const auto state = [&](const std::string &name, const Overrides &overrides) {
+  const auto &state = [&](const std::string &name, const Overrides &overrides) {
     const Table table = run<2>(file, name, Overrides{end_set} + overrides);
     return std::array<double, 2>{
       {largest(table["empty columns"]), largest(table["connected bodies"])}};

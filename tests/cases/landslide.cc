@@ -77,7 +77,7 @@ TEST(LandslideUnsplit, FracturesAndStillBalances)
 
 namespace
 {
-  struct State
+  struct SlideState
   {
     unsigned long       n_steps = 0;
     std::vector<double> position;     // m
@@ -87,11 +87,11 @@ namespace
 
 
   /// Where the points are at time @p end, s, with splitting.
-  State
+  SlideState
   run_to(const double end, const Overrides &overrides)
   {
-    Case<2> slide("landslide-quick.prm", stretched + overrides);
-    State   state;
+    Case<2>    slide("landslide-quick.prm", stretched + overrides);
+    SlideState state;
     while (slide->state().time < end)
       slide->advance();
     state.n_steps           = slide->state().step;
@@ -112,8 +112,8 @@ namespace
 
   void
   expect_same_path(Verification      &gates,
-                   const State       &a,
-                   const State       &b,
+                   const SlideState  &a,
+                   const SlideState  &b,
                    const std::string &name)
   {
     ASSERT_EQ(a.position.size(), b.position.size());
@@ -135,14 +135,14 @@ namespace
 // Two changes of units that leave the path the same, with splitting.
 TEST(LandslideSimilarity, PathIsTheSame)
 {
-  const double s = 1. / 0.6, end = 2.;
-  const State  reference = run_to(end, {exactly("End time", end)});
-  const State  heavier =
+  const double     s = 1. / 0.6, end = 2.;
+  const SlideState reference = run_to(end, {exactly("End time", end)});
+  const SlideState heavier =
     run_to(end * std::sqrt(s),
            {exactly("End time", end * std::sqrt(s)),
             exactly("Materials/clay/Density", 600. * s),
             exactly("Materials/clay/Submerged density", 600.)});
-  const State stronger =
+  const SlideState stronger =
     run_to(end / std::sqrt(s),
            {exactly("End time", end / std::sqrt(s)),
             exactly("Gravity/Magnitude", 9.81 * s),

@@ -35,7 +35,7 @@ namespace
     Case<2> column(file, column_of(n) + overrides);
     while (column->state().time < 450.)
       column->advance();
-    const auto state = column->state();
+    const auto &state = column->state();
     return {measure_column(state),
             state.nodes.kinetic_energy() / state.works.gravity};
   }
