@@ -331,14 +331,17 @@ namespace talus
   {
     Points<dim> &points = soil.points;
     internal_forces_.set_gradients(soil, weights_, u_);
-    soil.materials.for_runs(
-      points,
-      points.all(),
-      [&](const MaterialModel<dim> &model,
-          const unsigned int        begin,
-          const unsigned int        end) {
-        model.accept(points, soil.workspace, begin, end, parameters_.measure);
-      });
+    soil.materials.for_runs(points,
+                            points.all(),
+                            [&](const MaterialModel<dim> &model,
+                                const unsigned int        begin,
+                                const unsigned int        end) {
+                              model.commit_load_step(points,
+                                                     soil.workspace,
+                                                     begin,
+                                                     end,
+                                                     parameters_.measure);
+                            });
     if (parameters_.measure == StrainMeasure::small)
       return;
     const std::vector<double> u = at_points(points, u_);

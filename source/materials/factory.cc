@@ -15,6 +15,7 @@ namespace talus
     struct Law
     {
       std::string name;
+      bool        has_strength;
       std::function<std::unique_ptr<MaterialModel<dim>>(const std::string &)>
         make;
     };
@@ -22,19 +23,12 @@ namespace talus
 
 
     template <int dim, template <int> class Model>
-    std::unique_ptr<MaterialModel<dim>>
-    make(const std::string &section)
+    Law<dim>
+    law(const std::string &name)
     {
-      return std::make_unique<Model<dim>>(section);
-    }
-
-
-
-    template <int dim, FlowLaw flow_law>
-    std::unique_ptr<MaterialModel<dim>>
-    make_viscoplastic(const std::string &section)
-    {
-      return std::make_unique<HerschelBulkley<dim>>(section, flow_law);
+      return {name, Model<dim>::is_plastic, [](const std::string &section) {
+                return std::make_unique<Model<dim>>(section);
+              }};
     }
 
 
@@ -44,13 +38,12 @@ namespace talus
     std::vector<Law<dim>>
     laws()
     {
-      return {{"linear elastic", make<dim, LinearElastic>},
-              {"von Mises", make<dim, VonMises>},
-              {"Hencky", make<dim, Hencky>},
-              {"neo-Hookean", make<dim, NeoHookean>},
-              {"Herschel-Bulkley",
-               make_viscoplastic<dim, FlowLaw::herschel_bulkley>},
-              {"Bingham", make_viscoplastic<dim, FlowLaw::bingham>}};
+      return {law<dim, LinearElastic>("linear elastic"),
+              law<dim, VonMises>("von Mises"),
+              law<dim, Hencky>("Hencky"),
+              law<dim, NeoHookean>("neo-Hookean"),
+              law<dim, HerschelBulkley>("Herschel-Bulkley"),
+              law<dim, Bingham>("Bingham")};
     }
   } // namespace
 
@@ -64,6 +57,22 @@ namespace talus
     for (const auto &law : laws<dim>())
       names.push_back(law.name);
     return names;
+  }
+
+
+
+  template <int dim>
+  std::string
+  names_of_laws_with_strength()
+  {
+    std::vector<std::string> names;
+    for (const auto &law : laws<dim>())
+      if (law.has_strength)
+        names.push_back("'" + law.name + "'");
+    std::string result = names.front();
+    for (unsigned int i = 1; i < names.size(); ++i)
+      result += (i + 1 < names.size() ? ", " : " or ") + names[i];
+    return result;
   }
 
 
@@ -96,6 +105,10 @@ namespace talus
   material_names<2>();
   template std::vector<std::string>
   material_names<3>();
+  template std::string
+  names_of_laws_with_strength<2>();
+  template std::string
+  names_of_laws_with_strength<3>();
   template std::unique_ptr<MaterialModel<2>>
   make_material(const std::string &, const std::string &);
   template std::unique_ptr<MaterialModel<3>>

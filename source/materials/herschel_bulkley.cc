@@ -1,10 +1,8 @@
 #include <talus/base/errors.h>
 #include <talus/materials/herschel_bulkley.h>
 #include <talus/materials/herschel_bulkley_kernel.h>
-#include <talus/materials/inverted_point.h>
-#include <talus/materials/load_step.h>
+#include <talus/materials/rate_law.templates.h>
 #include <talus/materials/shear_band.h>
-#include <talus/materials/strength_factor.h>
 
 #include <algorithm>
 #include <limits>
@@ -14,38 +12,10 @@ namespace talus
   using dealii::ParameterAcceptor;
   using dealii::Patterns::Double;
 
-  namespace
-  {
-    /// Throw ExcPoint for the first point of [@p begin, @p end) whose plastic
-    /// shear strain was not found.
-    template <int dim>
-    void
-    throw_unsolved_point(const Points<dim> &points,
-                         const unsigned int begin,
-                         const unsigned int end,
-                         const unsigned int plastic_shear_strain)
-    {
-      for (unsigned int p = begin; p < end; ++p)
-        AssertThrow(points.data(plastic_shear_strain)[p] >= 0.,
-                    ExcPoint(
-                      text("The viscoplastic flow of point ",
-                           points.data(points.id)[p],
-                           " at ",
-                           points.data(points.position)[p],
-                           ", ",
-                           points.data(points.position, 1)[p],
-                           " m could not be solved for, which should not be. "
-                           "Look for what throws the points there about, or "
-                           "change the material's consistency.")));
-    }
-  } // namespace
-
-
-
   template <int dim>
   HerschelBulkley<dim>::HerschelBulkley(const std::string &section,
                                         const FlowLaw      flow_law)
-    : MaterialModel<dim>(section)
+    : RateLaw<dim, HerschelBulkleyFlow>(section, "plastic shear strain")
     , flow_law_(flow_law)
   {
     const auto add = [&](const std::string &name,
@@ -54,7 +24,6 @@ namespace talus
                          const Double      &range = Double(0.)) {
       this->add_parameter(name, value, sentence, ParameterAcceptor::prm, range);
     };
-    elasticity_.declare(*this);
     add("Undrained shear strength",
         strength_,
         "Undrained shear strength s_u [Pa]: the shear stress at which the "
@@ -94,8 +63,7 @@ namespace talus
   void
   HerschelBulkley<dim>::check() const
   {
-    MaterialModel<dim>::check();
-    elasticity_.check(this->section());
+    ElasticLaw<dim>::check();
     AssertThrow(exponent_ > 0.,
                 ExcUser(text("Section ",
                              this->section(),
@@ -107,7 +75,7 @@ namespace talus
     if (remoulded_ratio_ == 1.)
       return;
     const double least =
-      3. * strength_ * (1. - remoulded_ratio_) / elasticity_.moduli().mu;
+      3. * strength_ * (1. - remoulded_ratio_) / this->moduli().mu;
     AssertThrow(
       strain_to_remould_ > least,
       ExcUser(text("Section ",
@@ -125,142 +93,15 @@ namespace talus
 
 
   template <int dim>
-  void
-  HerschelBulkley<dim>::add_columns(Points<dim> &points)
+  HerschelBulkleyFlow
+  HerschelBulkley<dim>::flow_rule(const double dt) const
   {
-    plastic_shear_strain_ =
-      points.add_column("plastic shear strain", "-", 1, Inheritance::copied);
-  }
-
-
-
-  template <int dim>
-  void
-  HerschelBulkley<dim>::update_stress(Points<dim>              &points,
-                                      const StepWorkspace<dim> &workspace,
-                                      const unsigned int        begin,
-                                      const unsigned int        end,
-                                      const double              dt) const
-  {
-    Assert(plastic_shear_strain_ != dealii::numbers::invalid_unsigned_int,
-           dealii::ExcMessage("add_columns() was not called."));
-    const Moduli          moduli     = elasticity_.moduli();
-    const double          r          = remoulded_ratio_;
-    const Strength        strength   = {r * strength_, (1. - r) * strength_};
-    const ShearResistance resistance = {moduli.mu,
-                                        consistency_,
-                                        exponent_,
-                                        r < 1. ? 3. / strain_to_remould_ : 0.,
-                                        dt};
-    const auto            columns    = points.view();
-    const auto            work       = workspace.view(begin, end);
-    bool                  sound      = true;
-    with_strength_factor(
-      points, this->strength_factor(), [&](const auto &factor) {
-        const auto update =
-          [&](const unsigned int p, auto number, auto n_parts)
-            TALUS_INLINE_LAMBDA {
-              sound &=
-                update_herschel_bulkley_points<dim, decltype(number), n_parts>(
-                  columns,
-                  work,
-                  p,
-                  plastic_shear_strain_,
-                  dt,
-                  moduli,
-                  strength,
-                  resistance,
-                  factor);
-            };
-        using One      = std::integral_constant<unsigned int, 1>;
-        using Four     = std::integral_constant<unsigned int, 4>;
-        using Bulk     = Simd<simd_width>;
-        unsigned int p = begin;
-        for (; p + 4 * simd_width <= end; p += 4 * simd_width)
-          update(p, Bulk(), Four());
-        for_each_simd(p,
-                      end,
-                      [&](const unsigned int p, auto number)
-                        TALUS_INLINE_LAMBDA { update(p, number, One()); });
-      });
-    if (!sound)
-      {
-        throw_inverted_point(points, begin, end);
-        throw_unsolved_point(points, begin, end, plastic_shear_strain_);
-      }
-  }
-
-
-
-  /// Maps a point and its trial deviator to what flows if there is time enough:
-  /// viscosity takes no share. Remoulding follows from one load step to the
-  /// next.
-  template <int dim>
-  auto
-  HerschelBulkley<dim>::slow_flow_rule(const Points<dim> &points) const
-  {
-    return [this, &points, mu = elasticity_.moduli().mu](const unsigned int p,
-                                                         const auto &deviator) {
-      using Number     = std::decay_t<decltype(deviator[0])>;
-      const Number tau = sqrt(0.5 * contract<dim>(deviator, deviator) +
-                              std::numeric_limits<double>::min());
-      const Number d_xi =
-        max(Number((tau - shear_strength(points, p)) / mu), Number{});
-      return Flow<Number>{mu * d_xi / tau, d_xi};
-    };
-  }
-
-
-
-  template <int dim>
-  bool
-  HerschelBulkley<dim>::linearize(const Points<dim>        &points,
-                                  const StepWorkspace<dim> &workspace,
-                                  const unsigned int        begin,
-                                  const unsigned int        end,
-                                  const StrainMeasure       measure,
-                                  StressTangent<dim>       *answer) const
-  {
-    return linearize_rate_law(points,
-                              workspace,
-                              begin,
-                              end,
-                              measure,
-                              elasticity_.moduli(),
-                              answer,
-                              slow_flow_rule(points));
-  }
-
-
-
-  template <int dim>
-  void
-  HerschelBulkley<dim>::accept(Points<dim>              &points,
-                               const StepWorkspace<dim> &workspace,
-                               const unsigned int        begin,
-                               const unsigned int        end,
-                               const StrainMeasure       measure) const
-  {
-    accept_rate_law(points,
-                    workspace,
-                    begin,
-                    end,
-                    measure,
-                    elasticity_.moduli(),
-                    plastic_shear_strain_,
-                    slow_flow_rule(points));
-  }
-
-
-
-  template <int dim>
-  void
-  HerschelBulkley<dim>::wave_modulus(const Points<dim> & /*points*/,
-                                     const unsigned int begin,
-                                     const unsigned int end,
-                                     double            *modulus) const
-  {
-    std::fill_n(modulus, end - begin, elasticity_.moduli().longitudinal());
+    return {{strength_, remoulded_ratio_, strain_to_remould_},
+            {this->moduli().mu,
+             consistency_,
+             exponent_,
+             remoulded_ratio_ < 1. ? 3. / strain_to_remould_ : 0.,
+             dt}};
   }
 
 
@@ -270,10 +111,9 @@ namespace talus
   HerschelBulkley<dim>::shear_strength(const Points<dim> &points,
                                        const unsigned int p) const
   {
-    const double xi = points.data(plastic_shear_strain_)[p];
-    const double r  = remoulded_ratio_;
-    return this->strength_factor(points, p) * strength_ *
-           (r + (1. - r) * std::exp(-3. * xi / strain_to_remould_));
+    const Strength strength = {strength_, remoulded_ratio_, strain_to_remould_};
+    return strength.at(this->plastic_variable(points, p),
+                       this->strength_factor(points, p));
   }
 
 
@@ -286,7 +126,7 @@ namespace talus
     const double lost = (1. - remoulded_ratio_) * strength_;
     if (lost == 0.)
       return std::numeric_limits<double>::infinity();
-    return 0.99 * elasticity_.moduli().mu * strain_to_remould_ / (3. * lost);
+    return 0.99 * this->moduli().mu * strain_to_remould_ / (3. * lost);
   }
 
 

@@ -37,8 +37,41 @@ namespace talus
 
 
 
+  template <int dim>
+  void
+  throw_unsolved_point(const Points<dim> &points,
+                       const unsigned int begin,
+                       const unsigned int end,
+                       const unsigned int plastic)
+  {
+    for (unsigned int p = begin; p < end; ++p)
+      AssertThrow(points.data(plastic)[p] >= 0.,
+                  ExcPoint(
+                    text("The viscoplastic flow of point ",
+                         points.data(points.id)[p],
+                         " at ",
+                         points.data(points.position)[p],
+                         ", ",
+                         points.data(points.position, 1)[p],
+                         " m could not be solved for, which should not be. "
+                         "Look for what throws the points there about, or "
+                         "change the material's consistency.")));
+  }
+
+
+
   template void
   throw_inverted_point(const Points<2> &, unsigned int, unsigned int);
   template void
   throw_inverted_point(const Points<3> &, unsigned int, unsigned int);
+  template void
+  throw_unsolved_point(const Points<2> &,
+                       unsigned int,
+                       unsigned int,
+                       unsigned int);
+  template void
+  throw_unsolved_point(const Points<3> &,
+                       unsigned int,
+                       unsigned int,
+                       unsigned int);
 } // namespace talus

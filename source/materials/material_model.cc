@@ -29,7 +29,7 @@ namespace talus
                         ParameterAcceptor::prm,
                         Patterns::List(Patterns::Double(0.), 0, 1));
     this->add_parameter("Cell mean",
-                        cell_mean_,
+                        bbar_,
                         "Take the dilatation and the mean stress as their "
                         "averages over a cell, so that nearly incompressible "
                         "material does not lock: on, off, or auto, which is on "
@@ -79,9 +79,9 @@ namespace talus
 
   template <int dim>
   bool
-  MaterialModel<dim>::uses_cell_mean() const
+  MaterialModel<dim>::uses_bbar() const
   {
-    return cell_mean_ == "auto" ? locks() : cell_mean_ == "on";
+    return bbar_ == "auto" ? is_nearly_incompressible() : bbar_ == "on";
   }
 
 

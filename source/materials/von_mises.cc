@@ -1,8 +1,6 @@
 #include <talus/base/errors.h>
-#include <talus/materials/inverted_point.h>
-#include <talus/materials/load_step.h>
+#include <talus/materials/rate_law.templates.h>
 #include <talus/materials/shear_band.h>
-#include <talus/materials/strength_factor.h>
 #include <talus/materials/von_mises.h>
 #include <talus/materials/von_mises_kernel.h>
 
@@ -16,9 +14,8 @@ namespace talus
 
   template <int dim>
   VonMises<dim>::VonMises(const std::string &section)
-    : MaterialModel<dim>(section)
+    : RateLaw<dim, VonMisesFlow>(section, "plastic strain")
   {
-    elasticity_.declare(*this);
     this->add_parameter("Undrained shear strength",
                         strength_,
                         "Undrained shear strength s_u [Pa]: the shear stress "
@@ -47,9 +44,8 @@ namespace talus
   void
   VonMises<dim>::check() const
   {
-    MaterialModel<dim>::check();
-    elasticity_.check(this->section());
-    const double mu = elasticity_.moduli().mu;
+    ElasticLaw<dim>::check();
+    const double mu = this->moduli().mu;
     AssertThrow(
       3. * mu + hardening_ > 0.,
       ExcUser(text("Section ",
@@ -74,128 +70,13 @@ namespace talus
 
 
   template <int dim>
-  void
-  VonMises<dim>::add_columns(Points<dim> &points)
+  VonMisesFlow
+  VonMises<dim>::flow_rule(const double /*dt*/) const
   {
-    plastic_strain_ =
-      points.add_column("plastic strain", "-", 1, Inheritance::copied);
-  }
-
-
-
-  template <int dim>
-  void
-  VonMises<dim>::update_stress(Points<dim>              &points,
-                               const StepWorkspace<dim> &workspace,
-                               const unsigned int        begin,
-                               const unsigned int        end,
-                               const double              dt) const
-  {
-    Assert(plastic_strain_ != dealii::numbers::invalid_unsigned_int,
-           dealii::ExcMessage("add_columns() was not called."));
-    const Moduli      moduli  = elasticity_.moduli();
-    const YieldStress yield   = {std::sqrt(3.) * strength_,
-                                 hardening_,
-                                 std::sqrt(3.) * residual_strength_};
-    const auto        columns = points.view();
-    const auto        work    = workspace.view(begin, end);
-    bool              sound   = true;
-    with_strength_factor(
-      points, this->strength_factor(), [&](const auto &factor) {
-        for_each_simd(
-          begin,
-          end,
-          [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-            sound &=
-              update_von_mises_point<dim, decltype(number)>(columns,
-                                                            work,
-                                                            p,
-                                                            plastic_strain_,
-                                                            dt,
-                                                            moduli,
-                                                            yield,
-                                                            factor(p, number));
-          });
-      });
-    if (!sound)
-      throw_inverted_point(points, begin, end);
-  }
-
-
-
-  /// Maps a point and its trial deviator to what flows.
-  template <int dim>
-  auto
-  VonMises<dim>::flow_rule(const Points<dim> &points) const
-  {
-    const YieldStress yield = {std::sqrt(3.) * strength_,
-                               hardening_,
-                               std::sqrt(3.) * residual_strength_};
-    return [yield,
-            mu = elasticity_.moduli().mu,
-            ep = points.data(plastic_strain_),
-            this,
-            &points](const unsigned int p, const auto &deviator) {
-      using Number      = std::decay_t<decltype(deviator[0])>;
-      const Number q    = sqrt(1.5 * contract<dim>(deviator, deviator) +
-                            std::numeric_limits<double>::min());
-      const Number d_ep = plastic_increment(
-        q, Number(ep[p]), mu, yield, this->strength_factor(points, p));
-      return Flow<Number>{3. * mu * d_ep / q, d_ep};
-    };
-  }
-
-
-
-  template <int dim>
-  bool
-  VonMises<dim>::linearize(const Points<dim>        &points,
-                           const StepWorkspace<dim> &workspace,
-                           const unsigned int        begin,
-                           const unsigned int        end,
-                           const StrainMeasure       measure,
-                           StressTangent<dim>       *answer) const
-  {
-    return linearize_rate_law(points,
-                              workspace,
-                              begin,
-                              end,
-                              measure,
-                              elasticity_.moduli(),
-                              answer,
-                              flow_rule(points));
-  }
-
-
-
-  template <int dim>
-  void
-  VonMises<dim>::accept(Points<dim>              &points,
-                        const StepWorkspace<dim> &workspace,
-                        const unsigned int        begin,
-                        const unsigned int        end,
-                        const StrainMeasure       measure) const
-  {
-    accept_rate_law(points,
-                    workspace,
-                    begin,
-                    end,
-                    measure,
-                    elasticity_.moduli(),
-                    plastic_strain_,
-                    flow_rule(points));
-  }
-
-
-
-  template <int dim>
-  void
-  VonMises<dim>::wave_modulus(const Points<dim> & /*points*/,
-                              const unsigned int begin,
-                              const unsigned int end,
-                              double            *modulus) const
-  {
-    std::fill_n(modulus, end - begin, elasticity_.moduli().longitudinal());
+    return {this->moduli().mu,
+            std::sqrt(3.) * strength_,
+            hardening_,
+            std::sqrt(3.) * residual_strength_};
   }
 
 
@@ -205,8 +86,8 @@ namespace talus
   VonMises<dim>::shear_strength(const Points<dim> &points,
                                 const unsigned int p) const
   {
-    const double on_line =
-      strength_ + hardening_ / std::sqrt(3.) * points.data(plastic_strain_)[p];
+    const double on_line = strength_ + hardening_ / std::sqrt(3.) *
+                                         this->plastic_variable(points, p);
     return this->strength_factor(points, p) *
            std::max(on_line, residual_strength_);
   }
@@ -220,7 +101,7 @@ namespace talus
   {
     if (hardening_ >= 0. || residual_strength_ == strength_)
       return std::numeric_limits<double>::infinity();
-    return -0.99 * 3. * elasticity_.moduli().mu / hardening_;
+    return -0.99 * 3. * this->moduli().mu / hardening_;
   }
 
 

@@ -123,7 +123,7 @@ namespace talus
     for (unsigned int face = 0; face < 2 * dim; ++face)
       may_lie_outside[face] = (may_move[face] ? 0. : 0.5);
     for (unsigned int b = 0; b < bodies_.size(); ++b)
-      cell_mean.push_back(materials_.of_body(b).uses_cell_mean());
+      cell_mean.push_back(materials_.of_body(b).uses_bbar());
     transfer_.use_cell_mean(cell_mean);
     relocation_.allow_outside(may_lie_outside);
   }

@@ -36,8 +36,9 @@ namespace talus
                         "strength that could be reduced: all bodies are made "
                         "of materials as that of section " +
                         materials_.of_body(0).section() +
-                        ". Choose the law 'von Mises', 'Bingham' or "
-                        "'Herschel-Bulkley', let a face be a seabed with "
+                        ". Choose the law " +
+                        names_of_laws_with_strength<dim>() +
+                        ", let a face be a seabed with "
                         "'Strength reduction/Seabed', or remove the stage."));
   }
 

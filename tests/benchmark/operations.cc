@@ -2,7 +2,8 @@
 // a number that counts. Not a measurement of time: the counter "operations" is
 // what matters.
 
-#include <talus/materials/radial_return_kernel.h>
+#include <talus/materials/strength_factor.h>
+#include <talus/materials/von_mises_kernel.h>
 #include <talus/points/points.h>
 #include <talus/points/step_workspace.h>
 #include <talus/transfer/weights_kernel.h>
@@ -150,71 +151,39 @@ namespace
 
 
 
-  /// What both laws begin with.
-  template <int dim>
-  struct Begun
-  {
-    StrainedPoint<dim>            point;
-    PointsView<dim>               points = point.points.view();
-    Motion<dim, Counted>          motion;
-    StrainIncrement<dim, Counted> strain;
-    ElasticTrial<dim, Counted>    trial;
-
-    Begun()
-      : motion(advance_deformation<dim, Counted>(
-          points, point.workspace.view(0, 1), 0, 1.))
-      , strain(strain_increment(motion))
-      , trial(elastic_trial<dim, Counted>(load_stress<dim, Counted>(points, 0),
-                                          strain,
-                                          Moduli{1., 1., 1.}))
-    {}
-  };
-
-
-
-  /// The step of linear_elastic.cc.
-  template <int dim>
+  /// A step of the law with @p flow_rule; some column is its plastic variable.
+  template <int dim, typename FlowRule>
   void
-  elastic_stress()
+  step_of_law(const FlowRule &flow_rule)
   {
-    Begun<dim> step;
-    store_turned_stress<dim, Counted>(step.points,
-                                      0,
-                                      step.strain,
-                                      step.trial.deviator_after,
-                                      step.trial.mean_after);
-    const Counted V0{1.};
-    const auto    force = deviatoric_force<dim, Counted>(
-      step.motion, V0, step.trial, step.trial.deviator_after);
+    StrainedPoint<dim> point;
     benchmark::DoNotOptimize(
-      Counted{0.} + work_of_step<dim, Counted>(
-                      step.motion, V0, step.strain, step.trial, force));
+      update_rate_law_points<dim, Counted, 1>(point.points.view(),
+                                              point.workspace.view(0, 1),
+                                              0,
+                                              Points<dim>::generation,
+                                              1.,
+                                              Moduli{1., 1., 1.},
+                                              flow_rule,
+                                              no_strength_factor));
   }
 
 
 
-  /// The step of von_mises.cc.
+  template <int dim>
+  void
+  elastic_stress()
+  {
+    step_of_law<dim>(NoFlow());
+  }
+
+
+
   template <int dim>
   void
   von_mises_stress()
   {
-    Begun<dim>    step;
-    const auto   &trial = step.trial.deviator_after;
-    const Counted q     = sqrt(1.5 * contract<dim>(trial, trial) + 1e-300);
-    // Yield stress on a line and a residual one, the smaller return, no
-    // negative one; the new plastic strain.
-    Counted       plastic_strain{0.};
-    const Counted on_line     = (q - 1. - 0.1 * plastic_strain) * 0.3;
-    const Counted on_residual = (q - 1.) * 0.3;
-    const Counted increment   = max(min(on_line, on_residual), Counted{});
-    plastic_strain += increment;
-    return_radially<dim, Counted>(step.points,
-                                  0,
-                                  step.motion,
-                                  step.strain,
-                                  step.trial,
-                                  1.,
-                                  3. * increment / q);
+    step_of_law<dim>(VonMisesFlow{1., 1., 0.1, 1.});
   }
 
 

@@ -44,10 +44,10 @@ namespace
     for_load_steps<dim>([](const auto &load_case, auto sample, auto measure) {
       LoadStep<dim> step(load_case, sample);
       const auto    F      = step.F();
-      const auto    stress = step.answer(step.H, measure).stress;
+      const auto    stress = step.linearization(step.H, measure).stress;
       const double  before =
         step.law->has_strength() ? step.plastic_variable() : 0.;
-      step.law->accept(step.points, step.workspace, 0, 1, measure);
+      step.law->commit_load_step(step.points, step.workspace, 0, 1, measure);
       expect_near(nominal_stress(step, measure), stress, 1e-13 * clay.bulk);
 
       if (step.law->has_strength())
@@ -80,7 +80,7 @@ namespace
         return;
       LoadStep<dim> step(load_case, sample);
       const auto    before = step.stress();
-      step.law->accept(step.points, step.workspace, 0, 1, measure);
+      step.law->commit_load_step(step.points, step.workspace, 0, 1, measure);
       double work = 0.;
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
@@ -110,7 +110,8 @@ namespace
       if (measure == StrainMeasure::small || is_viscous)
         return;
       LoadStep<dim> accepted(load_case, sample), updated(load_case, sample);
-      accepted.law->accept(accepted.points, accepted.workspace, 0, 1, measure);
+      accepted.law->commit_load_step(
+        accepted.points, accepted.workspace, 0, 1, measure);
       updated.law->update_stress(updated.points, updated.workspace, 0, 1, 1.);
       for (const Column &column : updated.points.columns())
         for (unsigned int c = 0; c < column.n_components; ++c)
@@ -137,7 +138,7 @@ namespace
     for (unsigned int sample = 1; sample <= n_samples; ++sample)
       {
         LoadStep<dim> accepted(load_case, sample), updated(load_case, sample);
-        accepted.law->accept(
+        accepted.law->commit_load_step(
           accepted.points, accepted.workspace, 0, 1, StrainMeasure::large);
         updated.law->update_stress(updated.points, updated.workspace, 0, 1, 1.);
         expect_near(accepted.stress(), updated.stress(), 1e-13 * clay.mu);

@@ -6,14 +6,14 @@ namespace
 {
   template <int dim>
   double
-  asymmetry(const StressTangent<dim> &answer)
+  asymmetry(const StressTangent<dim> &linearization)
   {
     double result = 0.;
     for (unsigned int k = 0; k < dim * dim; ++k)
       for (unsigned int l = 0; l < k; ++l)
-        result =
-          std::max(result,
-                   std::abs(answer.tangent[k][l] - answer.tangent[l][k]));
+        result = std::max(result,
+                          std::abs(linearization.tangent[k][l] -
+                                   linearization.tangent[l][k]));
     return result / clay.mu;
   }
 
@@ -27,19 +27,20 @@ namespace
     double of_large_rate_laws = 0.;
     for_load_steps<dim>([&](const auto &load_case, auto sample, auto measure) {
       LoadStep<dim> step(load_case, sample);
-      const auto    answer = step.answer(step.H, measure);
+      const auto    linearization = step.linearization(step.H, measure);
       if ((measure == StrainMeasure::large) == load_case.hyperelastic)
-        EXPECT_LT(asymmetry(answer), 1e-13);
+        EXPECT_LT(asymmetry(linearization), 1e-13);
       else
-        of_large_rate_laws = std::max(of_large_rate_laws, asymmetry(answer));
+        of_large_rate_laws =
+          std::max(of_large_rate_laws, asymmetry(linearization));
       if (measure == StrainMeasure::large)
         return;
       // Small strain does not see rotations.
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < i; ++j)
           for (unsigned int k = 0; k < dim * dim; ++k)
-            EXPECT_EQ(answer.tangent[k][dim * i + j],
-                      answer.tangent[k][dim * j + i]);
+            EXPECT_EQ(linearization.tangent[k][dim * i + j],
+                      linearization.tangent[k][dim * j + i]);
     });
     EXPECT_GT(of_large_rate_laws, 1e-3);
   }
@@ -49,13 +50,13 @@ namespace
   /// lambda delta_ij delta_kl + mu (delta_ik delta_jl + delta_il delta_jk)
   template <int dim>
   void
-  expect_hooke(const StressTangent<dim> &answer)
+  expect_hooke(const StressTangent<dim> &linearization)
   {
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
         for (unsigned int k = 0; k < dim; ++k)
           for (unsigned int l = 0; l < dim; ++l)
-            EXPECT_NEAR(answer.tangent[dim * i + j][dim * k + l],
+            EXPECT_NEAR(linearization.tangent[dim * i + j][dim * k + l],
                         clay.lambda * (i == j) * (k == l) +
                           clay.mu * ((i == k) * (j == l) + (i == l) * (j == k)),
                         1e-13 * clay.bulk);
@@ -75,11 +76,11 @@ namespace
         step.set_F(identity<dim, double>());
         for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
           step.points.data(step.points.stress, c)[0] = 0.;
-        const auto answer =
-          step.answer(Matrix<dim, double>{}, StrainMeasure::large);
-        for (const double stress : answer.stress)
+        const auto linearization =
+          step.linearization(Matrix<dim, double>{}, StrainMeasure::large);
+        for (const double stress : linearization.stress)
           EXPECT_EQ(stress, 0.);
-        expect_hooke(answer);
+        expect_hooke(linearization);
         EXPECT_NEAR(step.law->shear_modulus(), clay.mu, 1e-14 * clay.mu);
       }
   }
@@ -99,7 +100,7 @@ namespace
       const double  xi = step.plastic_variable();
       const double  factor =
         load_case.strength_factor > 0. ? load_case.strength_factor : 1.;
-      step.law->accept(step.points, step.workspace, 0, 1, measure);
+      step.law->commit_load_step(step.points, step.workspace, 0, 1, measure);
       const double tau = std::sqrt(0.5 * step.deviator_squared());
       const double strength =
         load_case.law == "von Mises"
@@ -174,7 +175,8 @@ TEST(LoadStep, HenckyWithEqualStretches)
         step.set_F(F);
         step.H = random_matrix<3>(random, size);
         EXPECT_LT(error_of_tangent(step, StrainMeasure::large), 1e-8);
-        EXPECT_LT(asymmetry(step.answer(step.H, StrainMeasure::large)), 1e-13);
+        EXPECT_LT(asymmetry(step.linearization(step.H, StrainMeasure::large)),
+                  1e-13);
       }
 }
 
@@ -203,8 +205,8 @@ TEST(LoadStep, PlaneStrainIsThatOfSpace)
         for (unsigned int c = 0; c < 6; ++c)
           space.points.data(space.points.stress, c)[0] =
             c < 4 ? plane.stress()[c] : 0.;
-        const auto a = plane.answer(plane.H, measure);
-        const auto b = space.answer(space.H, measure);
+        const auto a = plane.linearization(plane.H, measure);
+        const auto b = space.linearization(space.H, measure);
         for (unsigned int k = 0; k < 4; ++k)
           {
             const unsigned int K = 3 * (k / 2) + k % 2;
@@ -224,16 +226,24 @@ TEST(LoadStep, PointsThatAreTurnedInsideOutAreTold)
   for (const LoadCase &load_case : load_cases())
     {
       LoadStep<2>      step(load_case, 1);
-      StressTangent<2> answer;
+      StressTangent<2> linearization;
       step.set_gradient({{{{{-1.5, 0.}}, {{0., 0.}}}}});
-      const bool sound = step.law->linearize(
-        step.points, step.workspace, 0, 1, StrainMeasure::large, &answer);
+      const bool sound = step.law->linearize(step.points,
+                                             step.workspace,
+                                             0,
+                                             1,
+                                             StrainMeasure::large,
+                                             &linearization);
       EXPECT_FALSE(sound) << load_case.name;
       // Small strain does not turn anything.
       if (!load_case.hyperelastic)
         {
-          EXPECT_TRUE(step.law->linearize(
-            step.points, step.workspace, 0, 1, StrainMeasure::small, &answer));
+          EXPECT_TRUE(step.law->linearize(step.points,
+                                          step.workspace,
+                                          0,
+                                          1,
+                                          StrainMeasure::small,
+                                          &linearization));
         }
     }
 }

@@ -121,7 +121,7 @@ namespace
 
     /// At the displacement gradient @p gradient.
     StressTangent<dim>
-    answer(const Gradient &gradient, const StrainMeasure measure)
+    linearization(const Gradient &gradient, const StrainMeasure measure)
     {
       StressTangent<dim> result;
       set_gradient(gradient);
@@ -177,15 +177,15 @@ namespace
   error_of_tangent(LoadStep<dim> &step, const StrainMeasure measure)
   {
     const double eps     = 1e-6;
-    const auto   tangent = step.answer(step.H, measure).tangent;
+    const auto   tangent = step.linearization(step.H, measure).tangent;
     double       error   = 0.;
     for (unsigned int k = 0; k < dim * dim; ++k)
       {
         auto plus = step.H, minus = step.H;
         plus[k / dim][k % dim] += eps;
         minus[k / dim][k % dim] -= eps;
-        const auto P_plus  = step.answer(plus, measure).stress;
-        const auto P_minus = step.answer(minus, measure).stress;
+        const auto P_plus  = step.linearization(plus, measure).stress;
+        const auto P_minus = step.linearization(minus, measure).stress;
         for (unsigned int i = 0; i < dim * dim; ++i)
           error = std::max(error,
                            std::abs(tangent[i][k] -

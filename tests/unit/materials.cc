@@ -105,6 +105,20 @@ TEST(Materials, FactoryKnowsItsLaws)
 
 
 
+// What messages say of the laws is what the laws say of themselves.
+TEST(Materials, LawsWithStrengthAreNamed)
+{
+  const std::string named = names_of_laws_with_strength<3>();
+  EXPECT_EQ(named, names_of_laws_with_strength<2>());
+  EXPECT_EQ(named, "'von Mises', 'Herschel-Bulkley' or 'Bingham'");
+  for (const std::string &name : material_names<3>())
+    EXPECT_EQ(make_law<3>(name, "")->has_strength(),
+              named.find("'" + name + "'") != std::string::npos)
+      << name;
+}
+
+
+
 TEST(Materials, ContradictionsAreRefused)
 {
   EXPECT_NE(sentence_of_failed([] {
@@ -133,16 +147,15 @@ TEST(Materials, CommonParameters)
 {
   const auto plain = make_law<2>("linear elastic", "set Density = 1600");
   EXPECT_EQ(plain->submerged_density(), 1600.);
-  EXPECT_FALSE(plain->uses_cell_mean());
+  EXPECT_FALSE(plain->uses_bbar());
   const auto clay =
     make_law<2>("linear elastic",
                 "set Submerged density = 600\nset Poisson's ratio = 0.49");
   EXPECT_EQ(clay->density(), 1000.);
   EXPECT_EQ(clay->submerged_density(), 600.);
-  EXPECT_TRUE(clay->uses_cell_mean());
-  EXPECT_TRUE(make_law<2>("von Mises", "")->uses_cell_mean());
-  EXPECT_FALSE(
-    make_law<2>("von Mises", "set Cell mean = off")->uses_cell_mean());
+  EXPECT_TRUE(clay->uses_bbar());
+  EXPECT_TRUE(make_law<2>("von Mises", "")->uses_bbar());
+  EXPECT_FALSE(make_law<2>("von Mises", "set Cell mean = off")->uses_bbar());
 }
 
 

@@ -7,7 +7,6 @@
 #include <talus/base/ordered_sum.h>
 #include <talus/materials/hencky_kernel.h>
 #include <talus/materials/herschel_bulkley_kernel.h>
-#include <talus/materials/linear_elastic_kernel.h>
 #include <talus/materials/neo_hookean_kernel.h>
 #include <talus/materials/von_mises_kernel.h>
 #include <talus/transfer/weights_kernel.h>
@@ -58,7 +57,7 @@ namespace
   template <int dim>
   struct State
   {
-    static constexpr unsigned int plastic_strain = PointColumns<dim>::n_arrays;
+    static constexpr unsigned int plastic_strain  = PointColumns<dim>::n_arrays;
     static constexpr unsigned int strength_factor = plastic_strain + 1;
     static constexpr unsigned int n_columns       = strength_factor + 1;
 
@@ -143,24 +142,38 @@ namespace
 
 
 
-  template <int dim>
-  void
-  expect_same_von_mises(const double hardening)
+  /// The points that follow @p p, in @p n_registers of the type of @p number.
+  template <int dim, unsigned int n_registers = 1, typename FlowRule>
+  auto
+  step_of(const FlowRule &flow_rule)
   {
-    expect_same<dim>(
-      [=](const auto points, const auto work, const unsigned int p, auto n) {
-        using Number     = decltype(n);
-        const auto ep    = State<dim>::plastic_strain;
-        return update_von_mises_point<dim, Number>(
-          points,
-          work,
-          p,
-          ep,
-          dt,
-          moduli,
-          {4e3, hardening, 1e3},
-          load<Number>(points.data(State<dim>::strength_factor) + p));
-      });
+    return [=](const auto         points,
+               const auto         work,
+               const unsigned int p,
+               const auto         number) {
+      using Number      = std::decay_t<decltype(number)>;
+      const auto factor = [&](const unsigned int p, const auto number) {
+        return load<std::decay_t<decltype(number)>>(
+          points.data(State<dim>::strength_factor) + p);
+      };
+      return update_rate_law_points<dim, Number, n_registers>(
+        points,
+        work,
+        p,
+        State<dim>::plastic_strain,
+        dt,
+        moduli,
+        flow_rule,
+        factor);
+    };
+  }
+
+
+
+  TEST(Width, LinearElastic)
+  {
+    expect_same<2>(step_of<2>(NoFlow()));
+    expect_same<3>(step_of<3>(NoFlow()));
   }
 
 
@@ -170,8 +183,9 @@ namespace
     for (const double hardening : {0., 2e3, -2e3})
       {
         SCOPED_TRACE(hardening);
-        expect_same_von_mises<2>(hardening);
-        expect_same_von_mises<3>(hardening);
+        const VonMisesFlow flow_rule = {moduli.mu, 4e3, hardening, 1e3};
+        expect_same<2>(step_of<2>(flow_rule));
+        expect_same<3>(step_of<3>(flow_rule));
       }
   }
 
@@ -182,40 +196,15 @@ namespace
   void
   expect_same_herschel_bulkley(const double exponent, const double decay)
   {
-    const ShearResistance resistance = {moduli.mu, 50., exponent, decay, dt};
-    const Strength strength = {1e3, decay > 0. ? 2e3 : 0.};
-    const auto     update   = [&](const auto         points,
-                            const auto         work,
-                            const unsigned int p,
-                            auto               number,
-                            auto               n_parts) {
-      return update_herschel_bulkley_points<dim, decltype(number), n_parts>(
-        points,
-        work,
-        p,
-        State<dim>::plastic_strain,
-        dt,
-        moduli,
-        strength,
-        resistance,
-        [&](const unsigned int p, auto number) {
-          return load<decltype(number)>(
-            points.data(State<dim>::strength_factor) + p);
-        });
-    };
-    const auto in_one =
-      [&](const auto points, const auto work, const unsigned int p, auto n) {
-        return update(
-          points, work, p, n, std::integral_constant<unsigned int, 1>());
-      };
-    const auto in_four =
-      [&](const auto points, const auto work, const unsigned int p, auto n) {
-        return update(
-          points, work, p, n, std::integral_constant<unsigned int, 4>());
-      };
+    const bool                is_remoulded = decay > 0.;
+    const HerschelBulkleyFlow flow_rule    = {
+         {is_remoulded ? 3e3 : 1e3, is_remoulded ? 1. / 3. : 1., 1.},
+         {moduli.mu, 50., exponent, decay, dt}};
+    const auto in_one = step_of<dim>(flow_rule);
     expect_same<dim>(in_one);
     EXPECT_TRUE(same_bits(after<dim, 1>(in_one),
-                          after<dim, simd_width>(in_four, 4 * simd_width)))
+                          after<dim, simd_width>(step_of<dim, 4>(flow_rule),
+                                                 4 * simd_width)))
       << dim << "-D, four registers";
   }
 
@@ -235,36 +224,14 @@ namespace
 
 
 
-  template <int dim>
+  template <int dim, typename StrainEnergy>
   void
-  expect_same_linear_elastic()
-  {
-    expect_same<dim>(
-      [](const auto points, const auto work, const unsigned int p, auto n) {
-        return update_linear_elastic_point<dim, decltype(n)>(
-          points, work, p, dt, moduli);
-      });
-  }
-
-
-
-  TEST(Width, LinearElastic)
-  {
-    expect_same_linear_elastic<2>();
-    expect_same_linear_elastic<3>();
-  }
-
-
-
-  /// @p response as in update_by_state().
-  template <int dim, typename Response>
-  void
-  expect_same_by_state(const Response &response)
+  expect_same_by_state(const StrainEnergy &energy)
   {
     expect_same<dim>(
       [&](const auto points, const auto work, const unsigned int p, auto n) {
         return update_point_by_state<dim, decltype(n)>(
-          points, work, p, dt, response);
+          points, work, p, dt, energy);
       });
   }
 
@@ -272,22 +239,16 @@ namespace
 
   TEST(Width, NeoHookean)
   {
-    const auto response = [](const auto &state) {
-      return neo_hookean(state, moduli);
-    };
-    expect_same_by_state<2>(response);
-    expect_same_by_state<3>(response);
+    expect_same_by_state<2>(NeoHookeanEnergy{moduli});
+    expect_same_by_state<3>(NeoHookeanEnergy{moduli});
   }
 
 
 
   TEST(Width, Hencky)
   {
-    const auto response = [](const auto &state) {
-      return hencky(state, moduli);
-    };
-    expect_same_by_state<2>(response);
-    expect_same_by_state<3>(response);
+    expect_same_by_state<2>(HenckyEnergy{moduli});
+    expect_same_by_state<3>(HenckyEnergy{moduli});
   }
 
 
@@ -305,9 +266,9 @@ namespace
     for (unsigned int p = 0; p < n_points; p += n)
       for (unsigned int d = 0; d < 2; ++d)
         {
-          const auto x    = load<Number>(points.data(points.position, d) + p);
-          const auto half = half_length_in_cells<2, Number>(
-            points, shape, d, p, Number(1.3));
+          const auto x = load<Number>(points.data(points.position, d) + p);
+          const auto half =
+            half_length_in_cells<2, Number>(points, shape, d, p, Number(1.3));
           const auto w  = axis_weights(x, half);
           double    *to = result.data() + 10 * d * n_points + p;
           for (unsigned int i = 0; i < 4; ++i)

@@ -80,7 +80,7 @@ namespace talus
     return 0.5 * reference_volume * strain.volumetric *
              (motion.J_before * trial.mean_before +
               motion.J_after * trial.mean_after) +
-           contract<dim>(force, strain.deviatoric);
+           contract(force, strain.deviatoric);
   }
 
 

@@ -160,45 +160,47 @@ namespace talus
 
 
 
-  template <int dim, typename Number>
-  TALUS_ALWAYS_INLINE StateResponse<dim, Number>
-  hencky(const DeformationState<dim, Number> &state, const Moduli &moduli)
+  struct HenckyEnergy
   {
-    const auto deviator =
-      add_mean(logarithmic_strain(state), Number(-state.log_J * (1. / 3.)));
-    const Number mean = moduli.bulk * state.log_J;
+    Moduli moduli;
 
-    StateResponse<dim, Number> answer;
-    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-      answer.kirchhoff[c] = 2. * moduli.mu * deviator[c];
-    answer.kirchhoff = add_mean(answer.kirchhoff, mean);
-    answer.energy =
-      0.5 * mean * state.log_J + moduli.mu * contract<dim>(deviator, deviator);
-    return answer;
-  }
+    template <int dim, typename Number>
+    StateResponse<dim, Number>
+    response(const DeformationState<dim, Number> &state) const
+    {
+      const auto deviator =
+        add_mean(logarithmic_strain(state), Number(-state.log_J * (1. / 3.)));
+      const Number mean = moduli.bulk * state.log_J;
 
+      StateResponse<dim, Number> result;
+      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+        result.kirchhoff[c] = 2. * moduli.mu * deviator[c];
+      result.kirchhoff = add_mean(result.kirchhoff, mean);
+      result.energy =
+        0.5 * mean * state.log_J + moduli.mu * contract(deviator, deviator);
+      return result;
+    }
 
-
-  /// J times an upper bound of the acoustic tensor's eigenvalues, which is
-  /// lambda + 2 mu in the undeformed state. For direction n and polarisation
-  /// a, with tau = tau_min I + tau', the spatial tangent and the stress give
-  ///   (lambda + mu - tau_min) (n.a)^2 + mu + n.tau'.n
-  /// at most, where tau_min = lambda ln J + 2 mu ln l_min and
-  /// n.tau'.n <= 2 mu ln(l_max/l_min). In 2-D waves run in the plane and see
-  /// the stretches l in the plane only.
-  template <int dim, typename Number>
-  TALUS_ALWAYS_INLINE Number
-  largest_modulus(const DeformationState<dim, Number> &state,
-                  const Moduli                        &moduli)
-  {
-    const EigenvalueRange<dim, Number> strain(logarithmic_strain(state));
-    const Number log_l_max = strain.mean + strain.distance;
-    const Number log_l_min = strain.mean - strain.distance;
-    const Number longitudinal =
-      moduli.lambda * (1. - state.log_J) + moduli.mu * (1. - 2. * log_l_min);
-    return max(longitudinal, Number{}) +
-           moduli.mu * (1. + 2. * (log_l_max - log_l_min));
-  }
+    /// J times an upper bound of the acoustic tensor's eigenvalues, which is
+    /// lambda + 2 mu in the undeformed state. For direction n and polarisation
+    /// a, with tau = tau_min I + tau', the spatial tangent and the stress give
+    ///   (lambda + mu - tau_min) (n.a)^2 + mu + n.tau'.n
+    /// at most, where tau_min = lambda ln J + 2 mu ln l_min and
+    /// n.tau'.n <= 2 mu ln(l_max/l_min). In 2-D waves run in the plane and see
+    /// the stretches l in the plane only.
+    template <int dim, typename Number>
+    Number
+    largest_modulus(const DeformationState<dim, Number> &state) const
+    {
+      const EigenvalueRange<dim, Number> strain(logarithmic_strain(state));
+      const Number log_l_max = strain.mean + strain.distance;
+      const Number log_l_min = strain.mean - strain.distance;
+      const Number longitudinal =
+        moduli.lambda * (1. - state.log_J) + moduli.mu * (1. - 2. * log_l_min);
+      return max(longitudinal, Number{}) +
+             moduli.mu * (1. + 2. * (log_l_max - log_l_min));
+    }
+  };
 } // namespace talus
 
 #endif

@@ -2,19 +2,62 @@
 #define talus_materials_herschel_bulkley_kernel_h
 
 #include <talus/base/wide_simd.h>
-#include <talus/materials/radial_return_kernel.h>
+#include <talus/materials/rate_law_kernel.h>
 #include <talus/materials/viscoplastic_return_kernel.h>
 
+#include <cmath>
 #include <limits>
 
 namespace talus
 {
-  /// Strength at rest, Pa: what remoulding leaves, and what it takes away.
+  /// Strength at rest, which remoulding lowers.
   struct Strength
   {
-    double remoulded;
-    double loss;
+    double undisturbed;       ///< Pa
+    double remoulded_ratio;   ///< share of it that remoulding leaves
+    double strain_to_remould; ///< xi_95
+    double remoulded = remoulded_ratio * undisturbed;        ///< Pa
+    double loss      = (1. - remoulded_ratio) * undisturbed; ///< Pa
+
+    /// At a plastic shear strain, Pa.
+    double
+    at(const double plastic_shear, const double factor) const
+    {
+      const double r = remoulded_ratio;
+      return factor * undisturbed *
+             (r + (1. - r) * std::exp(-3. * plastic_shear / strain_to_remould));
+    }
   };
+
+
+
+  /// The radial return of Herschel and Bulkley's law. The plastic variable is the
+  /// plastic shear strain.
+  struct HerschelBulkleyFlow
+  {
+    Strength        strength;
+    ShearResistance resistance;
+
+    /// In a load step: there is time for all to flow, so that viscosity takes no
+    /// share. Remoulding follows from one load step to the next.
+    template <std::size_t n, typename Number>
+    Flow<Number>
+    operator()(const std::array<Number, n> &deviator,
+               const double                 plastic_shear,
+               const double                 strength_factor) const
+    {
+      const double mu  = resistance.modulus;
+      const Number tau = sqrt(0.5 * contract(deviator, deviator) +
+                              std::numeric_limits<double>::min());
+      const Number d_xi =
+        max(Number((tau - strength.at(plastic_shear, strength_factor)) / mu),
+            Number{});
+      return {mu * d_xi / tau, d_xi};
+    }
+  };
+
+  template <>
+  constexpr unsigned int n_registers_at_once<HerschelBulkleyFlow> = 4;
 
 
 
@@ -54,7 +97,7 @@ namespace talus
                                  moduli);
     const auto &s = trial.elastic.deviator_after;
     trial.shear_stress =
-      sqrt(0.5 * contract<dim>(s, s) + std::numeric_limits<double>::min());
+      sqrt(0.5 * contract(s, s) + std::numeric_limits<double>::min());
     trial.old_strain = load<Number>(points.data(plastic_shear_strain) + p);
     trial.loss       = Number(strength.loss) * strength_factor;
     if (decay > 0.)
@@ -90,23 +133,22 @@ namespace talus
 
 
 
-  /// One step of the points that follow @p p, in n_parts registers. What takes
-  /// the time is the iteration for the plastic shear, whose operations wait for
-  /// each other: so it is made for all registers side by side. @p factor as in
-  /// with_strength_factor().
+  /// In explicit steps what takes the time is the iteration for the plastic
+  /// shear, whose operations wait for each other: so it is made for all registers
+  /// side by side. False also if the plastic shear of a point was not found.
   template <int dim, typename Number, unsigned int n_parts, typename Factor>
   TALUS_ALWAYS_INLINE bool
-  update_herschel_bulkley_points(const PointsView<dim>    &points,
-                                 const WorkspaceView<dim> &workspace,
-                                 const unsigned int        p,
-                                 const unsigned int        plastic_shear_strain,
-                                 const double              dt,
-                                 const Moduli             &moduli,
-                                 const Strength           &strength,
-                                 const ShearResistance    &resistance,
-                                 const Factor             &factor)
+  update_rate_law_points(const PointsView<dim>     &points,
+                         const WorkspaceView<dim>  &workspace,
+                         const unsigned int         p,
+                         const unsigned int         plastic_shear_strain,
+                         const double               dt,
+                         const Moduli              &moduli,
+                         const HerschelBulkleyFlow &flow_rule,
+                         const Factor              &factor)
   {
-    constexpr unsigned int         width = sizeof(Number) / sizeof(double);
+    constexpr unsigned int         width      = sizeof(Number) / sizeof(double);
+    const ShearResistance         &resistance = flow_rule.resistance;
     ViscoplasticTrial<dim, Number> trial[n_parts];
     for (unsigned int i = 0; i < n_parts; ++i)
       trial[i] =
@@ -116,7 +158,7 @@ namespace talus
                                         plastic_shear_strain,
                                         dt,
                                         moduli,
-                                        strength,
+                                        flow_rule.strength,
                                         resistance.decay,
                                         factor(p + i * width, Number()));
     bool is_sound = true;

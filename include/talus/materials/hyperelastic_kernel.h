@@ -17,7 +17,7 @@ namespace talus
 
 
 
-  /// What a hyperelastic law answers, per volume of the undeformed body.
+  /// What a hyperelastic law says, per volume of the undeformed body.
   template <int dim, typename Number>
   struct StateResponse
   {
@@ -54,29 +54,28 @@ namespace talus
 
 
 
-  /// One step of point(s) @p p of a hyperelastic law; @p response maps a
-  /// DeformationState to a StateResponse. False if a point was turned inside
-  /// out.
-  template <int dim, typename Number, typename Response>
+  /// One step of point(s) @p p of a hyperelastic law, with @p energy as in
+  /// HyperelasticLaw. False if a point was turned inside out.
+  template <int dim, typename Number, typename StrainEnergy>
   TALUS_ALWAYS_INLINE bool
   update_point_by_state(const PointsView<dim>    &points,
                         const WorkspaceView<dim> &workspace,
                         const unsigned int        p,
                         const double              dt,
-                        const Response           &response)
+                        const StrainEnergy       &energy)
   {
     const auto motion =
       advance_deformation<dim, Number>(points, workspace, p, dt);
     const auto state = deformation_state<dim, Number>(motion.F);
-    const StateResponse<dim, Number> answer = response(state);
+    const StateResponse<dim, Number> response = energy.response(state);
 
     const Number        scale = 1. / (1. + state.J_minus_1);
-    Stress<dim, Number> sigma = answer.kirchhoff;
+    Stress<dim, Number> sigma = response.kirchhoff;
     for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
       sigma[c] *= scale;
     store_stress<dim, Number>(points, p, sigma);
     const auto V0 = load<Number>(points.data(points.reference_volume) + p);
-    store<Number>(points.data(points.elastic_energy) + p, V0 * answer.energy);
+    store<Number>(points.data(points.elastic_energy) + p, V0 * response.energy);
     return all(motion.J_after > 0.);
   }
 

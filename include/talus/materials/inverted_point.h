@@ -12,6 +12,17 @@ namespace talus
   throw_inverted_point(const Points<dim> &points,
                        unsigned int       begin,
                        unsigned int       end);
+
+
+
+  /// Throw ExcPoint for the first point of [@p begin, @p end) whose plastic
+  /// variable, in column @p plastic, was not found.
+  template <int dim>
+  void
+  throw_unsolved_point(const Points<dim> &points,
+                       unsigned int       begin,
+                       unsigned int       end,
+                       unsigned int       plastic);
 } // namespace talus
 
 #endif

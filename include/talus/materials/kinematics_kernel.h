@@ -56,12 +56,12 @@ namespace talus
 
 
   /// A : B of two symmetric 3x3 tensors.
-  template <int dim, typename Number>
+  template <std::size_t n, typename Number>
   TALUS_ALWAYS_INLINE Number
-  contract(const Stress<dim, Number> &A, const Stress<dim, Number> &B)
+  contract(const std::array<Number, n> &A, const std::array<Number, n> &B)
   {
     Number sum = A[0] * B[0] + A[1] * B[1] + A[2] * B[2];
-    for (unsigned int c = 3; c < n_stress_components<dim>; ++c)
+    for (unsigned int c = 3; c < n; ++c)
       sum += 2. * A[c] * B[c];
     return sum;
   }

@@ -1,8 +1,7 @@
 #ifndef talus_materials_linear_elastic_h
 #define talus_materials_linear_elastic_h
 
-#include <talus/materials/elasticity.h>
-#include <talus/materials/material_model.h>
+#include <talus/materials/rate_law.h>
 
 namespace talus
 {
@@ -11,62 +10,14 @@ namespace talus
   /// stress is G sin(gamma), and only the volumetric part has an energy. See
   /// elastic_trial() for the integration.
   template <int dim>
-  class LinearElastic : public MaterialModel<dim>
+  class LinearElastic : public RateLaw<dim, NoFlow>
   {
   public:
     LinearElastic(const std::string &section);
 
-    void
-    check() const override;
-
-    void
-    update_stress(Points<dim>              &points,
-                  const StepWorkspace<dim> &workspace,
-                  unsigned int              begin,
-                  unsigned int              end,
-                  double                    dt) const override;
-
-    bool
-    linearize(const Points<dim>        &points,
-              const StepWorkspace<dim> &workspace,
-              unsigned int              begin,
-              unsigned int              end,
-              StrainMeasure             measure,
-              StressTangent<dim>       *answer) const override;
-
-    void
-    accept(Points<dim>              &points,
-           const StepWorkspace<dim> &workspace,
-           unsigned int              begin,
-           unsigned int              end,
-           StrainMeasure             measure) const override;
-
-    double
-    shear_modulus() const override
-    {
-      return elasticity_.moduli().mu;
-    }
-
-    void
-    wave_modulus(const Points<dim> &points,
-                 unsigned int       begin,
-                 unsigned int       end,
-                 double            *modulus) const override;
-
-    bool
-    is_hyperelastic() const override
-    {
-      return false;
-    }
-
-    bool
-    locks() const override
-    {
-      return elasticity_.nearly_incompressible();
-    }
-
   private:
-    Elasticity elasticity_;
+    NoFlow
+    flow_rule(double dt) const override;
   };
 } // namespace talus
 

@@ -2,9 +2,8 @@
 #define talus_materials_load_step_h
 
 #include <talus/base/dual.h>
-#include <talus/materials/hyperelastic_kernel.h>
+#include <talus/materials/kinematics_kernel.h>
 #include <talus/materials/material_model.h>
-#include <talus/materials/radial_return_kernel.h>
 
 // One step of a quasi-static load with the same formulas as one of the
 // dynamics, and their derivative: what a law says to the search for equilibrium.
@@ -74,7 +73,7 @@ namespace talus
 
 
 
-  /// Write a stress and its derivative to @p answer as those of the first
+  /// Write a stress and its derivative to @p linearization as those of the first
   /// Piola-Kirchhoff stress seen from the start of the step: @p kirchhoff is
   /// det(I + H) times the Cauchy stress.
   template <int dim>
@@ -82,7 +81,7 @@ namespace talus
   store_nominal(const Stress<dim, Dual<dim * dim>> &kirchhoff,
                 const Matrix<dim, Dual<dim * dim>> &H,
                 const StrainMeasure                 measure,
-                StressTangent<dim>                 &answer)
+                StressTangent<dim>                 &linearization)
   {
     using Number = Dual<dim * dim>;
     const auto inverse_f =
@@ -95,142 +94,9 @@ namespace talus
           for (unsigned int k = 0; k < dim; ++k)
             P += kirchhoff[stress_index<dim>(std::min(i, k), std::max(i, k))] *
                  inverse_f[j][k];
-          answer.stress[dim * i + j]  = P.value;
-          answer.tangent[dim * i + j] = P.derivative;
+          linearization.stress[dim * i + j]  = P.value;
+          linearization.tangent[dim * i + j] = P.derivative;
         }
-  }
-
-
-
-  /// What plastic flow does to the trial deviator.
-  template <typename Number>
-  struct Flow
-  {
-    Number removed;   ///< share of the deviator that goes
-    Number increment; ///< of the law's plastic variable
-  };
-
-
-
-  /// MaterialModel::linearize() for laws in rate form: @p flow maps a point and
-  /// its trial deviator to a Flow. Returns false if a point is turned inside
-  /// out.
-  template <int dim, typename FlowRule>
-  inline bool
-  linearize_rate_law(const Points<dim>        &points,
-                     const StepWorkspace<dim> &workspace,
-                     const unsigned int        begin,
-                     const unsigned int        end,
-                     const StrainMeasure       measure,
-                     const Moduli             &moduli,
-                     StressTangent<dim>       *answer,
-                     const FlowRule           &flow)
-  {
-    using Number    = Dual<dim * dim>;
-    const auto work = workspace.view(begin, end);
-    for (unsigned int p = begin; p < end; ++p)
-      {
-        const auto   H          = load_independent_gradient(work, p);
-        const Number dilatation = determinant_increment(H);
-        if (measure == StrainMeasure::large && !(dilatation.value > -1.))
-          return false;
-        const auto          strain = strain_of_load_step(H, measure);
-        const auto          before = load_stress<dim, double>(points, p);
-        Stress<dim, Number> sigma;
-        std::copy(before.begin(), before.end(), sigma.begin());
-
-        const auto   trial    = elastic_trial<dim>(sigma, strain, moduli);
-        const Number removed  = flow(p, trial.deviator_after).removed;
-        auto         deviator = trial.deviator_after;
-        for (Number &component : deviator)
-          component *= 1. - removed;
-        sigma =
-          add_mean(turn(strain.half_rotation, deviator), trial.mean_after);
-        if (measure == StrainMeasure::large)
-          for (Number &component : sigma)
-            component *= 1. + dilatation;
-        store_nominal(sigma, H, measure, answer[p - begin]);
-      }
-    return true;
-  }
-
-
-
-  /// MaterialModel::accept() for laws in rate form. @p plastic is the column of
-  /// the plastic variable, or invalid_unsigned_int.
-  template <int dim, typename FlowRule>
-  inline void
-  accept_rate_law(Points<dim>              &points,
-                  const StepWorkspace<dim> &workspace,
-                  const unsigned int        begin,
-                  const unsigned int        end,
-                  const StrainMeasure       measure,
-                  const Moduli             &moduli,
-                  const unsigned int        plastic,
-                  const FlowRule           &flow)
-  {
-    const auto columns = points.view();
-    const auto work    = workspace.view(begin, end);
-    for (unsigned int p = begin; p < end; ++p)
-      {
-        Motion<dim, double> motion;
-        if (measure == StrainMeasure::large)
-          motion = advance_deformation<dim, double>(columns, work, p, 1.);
-        else
-          {
-            motion.increment = load_velocity_gradient<dim, double>(work, p);
-            motion.J_before = motion.J_after = determinant(
-              load_matrix<dim, double>(points, points.deformation_gradient, p));
-          }
-        const auto strain = strain_of_load_step(motion.increment, measure);
-        const auto trial =
-          elastic_trial<dim, double>(load_stress<dim, double>(points, p),
-                                     strain,
-                                     moduli);
-        const Flow<double> plastic_flow = flow(p, trial.deviator_after);
-        if (plastic != dealii::numbers::invalid_unsigned_int)
-          points.data(plastic)[p] += plastic_flow.increment;
-        return_radially<dim, double>(
-          columns, p, motion, strain, trial, moduli.mu, plastic_flow.removed);
-      }
-  }
-
-
-
-  /// MaterialModel::linearize() for hyperelastic laws; @p response as in
-  /// update_by_state().
-  template <int dim, typename Response>
-  inline bool
-  linearize_by_state(const Points<dim>        &points,
-                     const StepWorkspace<dim> &workspace,
-                     const unsigned int        begin,
-                     const unsigned int        end,
-                     StressTangent<dim>       *answer,
-                     const Response           &response)
-  {
-    using Number    = Dual<dim * dim>;
-    const auto work = workspace.view(begin, end);
-    for (unsigned int p = begin; p < end; ++p)
-      {
-        const auto H = load_independent_gradient(work, p);
-        if (!(determinant_increment(H).value > -1.))
-          return false;
-        const auto before =
-          load_matrix<dim, double>(points, points.deformation_gradient, p);
-        Matrix<dim, Number> F;
-        for (unsigned int i = 0; i < dim; ++i)
-          std::copy(before[i].begin(), before[i].end(), F[i].begin());
-        F = product(identity_plus(H), F);
-
-        StateResponse<dim, Number> after = response(deformation_state(F));
-        for (Number &component : after.kirchhoff)
-          component *= 1. / determinant(before);
-        store_nominal(after.kirchhoff,
-                      H,
-                      StrainMeasure::large,
-                      answer[p - begin]);
-      }
-    return true;
   }
 } // namespace talus
 

@@ -65,6 +65,9 @@ namespace talus
     virtual void
     initialize(Points<dim> &points, unsigned int begin, unsigned int end) const;
 
+    /// The same as has_strength(), for those who have no object.
+    static constexpr bool is_plastic = false;
+
     /// True if the law has a strength, that is a yield stress.
     virtual bool
     has_strength() const
@@ -116,7 +119,8 @@ namespace talus
     // depends on the rate take the slowest one.
 
     /// Stress of the points at the end of the load step and its derivative,
-    /// written to answer[p - begin]; the points stay as they are. Returns false
+    /// written to
+    /// linearization[p - begin]; the points stay as they are. Returns false
     /// if a point would be turned inside out.
     virtual bool
     linearize(const Points<dim>        &points,
@@ -124,16 +128,16 @@ namespace talus
               unsigned int              begin,
               unsigned int              end,
               StrainMeasure             measure,
-              StressTangent<dim>       *answer) const = 0;
+              StressTangent<dim>       *linearization) const = 0;
 
     /// Make the end of the load step the state of the points: as
     /// update_stress(); with small strain the deformation gradient stays.
     virtual void
-    accept(Points<dim>              &points,
-           const StepWorkspace<dim> &workspace,
-           unsigned int              begin,
-           unsigned int              end,
-           StrainMeasure             measure) const = 0;
+    commit_load_step(Points<dim>              &points,
+                     const StepWorkspace<dim> &workspace,
+                     unsigned int              begin,
+                     unsigned int              end,
+                     StrainMeasure             measure) const = 0;
 
     /// Shear modulus of the undeformed material, Pa.
     virtual double
@@ -156,9 +160,10 @@ namespace talus
     virtual bool
     is_hyperelastic() const = 0;
 
-    /// True if the anti-locking mean should be on unless the user decides.
+    /// True if cells would lock, so that B-bar should be on unless the user
+    /// decides.
     virtual bool
-    locks() const = 0;
+    is_nearly_incompressible() const = 0;
 
     /// What the user should know of the material on cells of @p cell_size
     /// metres before the run starts: whole sentences, or nothing.
@@ -168,9 +173,10 @@ namespace talus
       return "";
     }
 
-    /// True if the anti-locking mean is on: the parameter, or locks().
+    /// True if B-bar, the mean over cells against locking, is on: the parameter
+    /// `Cell mean`, or is_nearly_incompressible().
     bool
-    uses_cell_mean() const;
+    uses_bbar() const;
 
     /// Density that gives inertia, kg/m^3.
     double
@@ -211,14 +217,20 @@ namespace talus
     double      density_ = 1000.;
     // One number, or none where the user gave nothing.
     std::vector<double> submerged_density_;
-    std::string         cell_mean_ = "auto";
-    unsigned int strength_factor_  = dealii::numbers::invalid_unsigned_int;
+    std::string         bbar_     = "auto";
+    unsigned int strength_factor_ = dealii::numbers::invalid_unsigned_int;
   };
 
   /// The laws by the name used in the parameter file, in the order listed.
   template <int dim>
   std::vector<std::string>
   material_names();
+
+  /// Of those, the laws that have a strength, as the end of a sentence asks for
+  /// them: "'von Mises' or 'Bingham'".
+  template <int dim>
+  std::string
+  names_of_laws_with_strength();
 
   /// Make the law @p name with its parameters declared in @p section. Throws
   /// ExcUser, listing the known laws, if there is none of that name.

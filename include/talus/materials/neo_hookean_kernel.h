@@ -6,43 +6,49 @@
 
 namespace talus
 {
-  template <int dim, typename Number>
-  TALUS_ALWAYS_INLINE StateResponse<dim, Number>
-  neo_hookean(const DeformationState<dim, Number> &state, const Moduli &moduli)
+  struct NeoHookeanEnergy
   {
-    const Number pressure = moduli.lambda * state.log_J;
+    Moduli moduli;
 
-    StateResponse<dim, Number> answer;
-    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-      answer.kirchhoff[c] = moduli.mu * state.b_minus_1[c];
-    answer.kirchhoff = add_mean(answer.kirchhoff, pressure);
+    template <int dim, typename Number>
+    TALUS_ALWAYS_INLINE StateResponse<dim, Number>
+    response(const DeformationState<dim, Number> &state) const
+    {
+      const Number pressure = moduli.lambda * state.log_J;
 
-    // tr b - 3 = 2 tr A + A:A, which leaves nothing to cancel but tr A - ln J
-    Number square{};
-    for (unsigned int i = 0; i < dim; ++i)
-      for (unsigned int j = 0; j < dim; ++j)
-        square += state.A[i][j] * state.A[i][j];
-    answer.energy = moduli.mu * (trace(state.A) - state.log_J + 0.5 * square) +
-                    0.5 * pressure * state.log_J;
-    return answer;
-  }
+      StateResponse<dim, Number> result;
+      for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
+        result.kirchhoff[c] = moduli.mu * state.b_minus_1[c];
+      result.kirchhoff = add_mean(result.kirchhoff, pressure);
 
+      // tr b - 3 = 2 tr A + A:A, which leaves nothing to cancel but
+      // tr A - ln J.
+      Number square{};
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = 0; j < dim; ++j)
+          square += state.A[i][j] * state.A[i][j];
+      result.energy =
+        moduli.mu * (trace(state.A) - state.log_J + 0.5 * square) +
+        0.5 * pressure * state.log_J;
+      return result;
+    }
 
-
-  /// J times the largest eigenvalue of the acoustic tensor. In direction n it
-  /// is [(lambda (1 - ln J) + mu) n n + mu (n.b.n) I]/J, so the longitudinal
-  /// wave along the largest stretch is the fastest; far in tension the first
-  /// factor turns negative and the shear wave is. Exact in 2-D, from above in
-  /// 3-D (EigenvalueRange).
-  template <int dim, typename Number>
-  TALUS_ALWAYS_INLINE Number
-  largest_acoustic_modulus(const DeformationState<dim, Number> &state,
-                           const Moduli                        &moduli)
-  {
-    const EigenvalueRange<dim, Number> b(state.b_minus_1);
-    const Number longitudinal = moduli.lambda * (1. - state.log_J) + moduli.mu;
-    return max(longitudinal, Number{}) + moduli.mu * (1. + b.mean + b.distance);
-  }
+    /// J times the largest eigenvalue of the acoustic tensor. In direction n it
+    /// is [(lambda (1 - ln J) + mu) n n + mu (n.b.n) I]/J, so the longitudinal
+    /// wave along the largest stretch is the fastest; far in tension the first
+    /// factor turns negative and the shear wave is. Exact in 2-D, from above in
+    /// 3-D (EigenvalueRange).
+    template <int dim, typename Number>
+    TALUS_ALWAYS_INLINE Number
+    largest_modulus(const DeformationState<dim, Number> &state) const
+    {
+      const EigenvalueRange<dim, Number> b(state.b_minus_1);
+      const Number                       longitudinal =
+        moduli.lambda * (1. - state.log_J) + moduli.mu;
+      return max(longitudinal, Number{}) +
+             moduli.mu * (1. + b.mean + b.distance);
+    }
+  };
 } // namespace talus
 
 #endif

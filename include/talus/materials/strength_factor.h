@@ -21,6 +21,13 @@ namespace talus
 
 
 
+  /// factor(p, number) for points that have none.
+  constexpr auto no_strength_factor = [](unsigned int, auto) {
+    return NoStrengthFactor{};
+  };
+
+
+
   /// Call action(factor) once, where factor(p, number) is what the strength of
   /// point(s) @p p is multiplied with [-]: the value in @p column, or
   /// NoStrengthFactor if that is invalid_unsigned_int. So the loop over points
@@ -33,7 +40,7 @@ namespace talus
                        const Action      &action)
   {
     if (column == dealii::numbers::invalid_unsigned_int)
-      action([](unsigned int, auto) { return NoStrengthFactor{}; });
+      action(no_strength_factor);
     else
       action(
         [factor = points.data(column)](const unsigned int p, auto number)

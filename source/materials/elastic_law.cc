@@ -1,43 +1,47 @@
 #include <talus/base/errors.h>
-#include <talus/materials/elasticity.h>
+#include <talus/materials/elastic_law.h>
 
 namespace talus
 {
   using dealii::ParameterAcceptor;
   using dealii::Patterns::Double;
 
-  void
-  Elasticity::declare(ParameterAcceptor &law)
+  template <int dim>
+  ElasticLaw<dim>::ElasticLaw(const std::string &section)
+    : MaterialModel<dim>(section)
   {
-    law.add_parameter("Young's modulus",
-                      young_modulus_,
-                      "Young's modulus E for small strains [Pa].",
-                      ParameterAcceptor::prm,
-                      Double(0.));
-    law.add_parameter("Poisson's ratio",
-                      poisson_ratio_,
-                      "Poisson's ratio nu for small strains [-]; more than -1 "
-                      "and less than 0.5, which is incompressible and cannot "
-                      "be reached. Undrained clay: 0.49.",
-                      ParameterAcceptor::prm,
-                      Double(-1., 0.5));
+    this->add_parameter("Young's modulus",
+                        young_modulus_,
+                        "Young's modulus E for small strains [Pa].",
+                        ParameterAcceptor::prm,
+                        Double(0.));
+    this->add_parameter(
+      "Poisson's ratio",
+      poisson_ratio_,
+      "Poisson's ratio nu for small strains [-]; more than -1 "
+      "and less than 0.5, which is incompressible and cannot "
+      "be reached. Undrained clay: 0.49.",
+      ParameterAcceptor::prm,
+      Double(-1., 0.5));
   }
 
 
 
+  template <int dim>
   void
-  Elasticity::check(const std::string &section) const
+  ElasticLaw<dim>::check() const
   {
+    MaterialModel<dim>::check();
     AssertThrow(young_modulus_ > 0.,
                 ExcUser(text("Section ",
-                             section,
+                             this->section(),
                              ": `Young's modulus` is ",
                              young_modulus_,
                              " Pa. Give a positive number.")));
     AssertThrow(
       poisson_ratio_ > -1. && poisson_ratio_ < 0.5,
       ExcUser(text("Section ",
-                   section,
+                   this->section(),
                    ": `Poisson's ratio` is ",
                    poisson_ratio_,
                    ", which makes an elastic modulus zero or infinite. Give a "
@@ -47,12 +51,18 @@ namespace talus
 
 
 
+  template <int dim>
   Moduli
-  Elasticity::moduli() const
+  ElasticLaw<dim>::moduli() const
   {
     const double E = young_modulus_, nu = poisson_ratio_;
     return {E * nu / ((1. + nu) * (1. - 2. * nu)),
             E / (2. * (1. + nu)),
             E / (3. * (1. - 2. * nu))};
   }
+
+
+
+  template class ElasticLaw<2>;
+  template class ElasticLaw<3>;
 } // namespace talus

@@ -1,0 +1,44 @@
+#ifndef talus_materials_elastic_law_h
+#define talus_materials_elastic_law_h
+
+#include <talus/materials/material_model.h>
+#include <talus/materials/moduli.h>
+
+namespace talus
+{
+  /// A law with an isotropic elastic part: Young's modulus and Poisson's ratio.
+  template <int dim>
+  class ElasticLaw : public MaterialModel<dim>
+  {
+  public:
+    ElasticLaw(const std::string &section);
+
+    /// Throws ExcUser unless the elastic energy is positive: E > 0 and
+    /// -1 < nu < 1/2.
+    void
+    check() const override;
+
+    double
+    shear_modulus() const override
+    {
+      return moduli().mu;
+    }
+
+    /// Linear cells then respond to shear with pressure, so that they lock.
+    bool
+    is_nearly_incompressible() const override
+    {
+      return poisson_ratio_ > 0.4;
+    }
+
+  protected:
+    Moduli
+    moduli() const;
+
+  private:
+    double young_modulus_ = 1e6;
+    double poisson_ratio_ = 0.3;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,68 @@
+#ifndef talus_materials_hyperelastic_law_h
+#define talus_materials_hyperelastic_law_h
+
+#include <talus/materials/elastic_law.h>
+
+namespace talus
+{
+  /// A law whose stress is the derivative of an energy by the deformation
+  /// gradient. All that differs from law to law is its @p StrainEnergy, a
+  /// trivially copyable structure of the numbers in its formulas, which has for
+  /// any Number
+  ///   StateResponse<dim, Number>
+  ///   response(const DeformationState<dim, Number> &) const,
+  /// energy and Kirchhoff stress, and
+  ///   Number
+  ///   largest_modulus(const DeformationState<dim, Number> &) const,
+  /// J M with M the largest eigenvalue of the acoustic tensor over all
+  /// directions, or an upper bound, Pa. The explicit step calls them with
+  /// several points at once, the static stages with Dual. The functions of
+  /// this class are in hyperelastic_law.templates.h, which the law's .cc
+  /// includes.
+  template <int dim, typename StrainEnergy>
+  class HyperelasticLaw : public ElasticLaw<dim>
+  {
+  public:
+    using ElasticLaw<dim>::ElasticLaw;
+
+    void
+    update_stress(Points<dim>              &points,
+                  const StepWorkspace<dim> &workspace,
+                  unsigned int              begin,
+                  unsigned int              end,
+                  double                    dt) const override;
+
+    bool
+    linearize(const Points<dim>        &points,
+              const StepWorkspace<dim> &workspace,
+              unsigned int              begin,
+              unsigned int              end,
+              StrainMeasure             measure,
+              StressTangent<dim>       *linearization) const override;
+
+    void
+    commit_load_step(Points<dim>              &points,
+                     const StepWorkspace<dim> &workspace,
+                     unsigned int              begin,
+                     unsigned int              end,
+                     StrainMeasure             measure) const override;
+
+    void
+    wave_modulus(const Points<dim> &points,
+                 unsigned int       begin,
+                 unsigned int       end,
+                 double            *modulus) const override;
+
+    bool
+    is_hyperelastic() const override
+    {
+      return true;
+    }
+
+  private:
+    virtual StrainEnergy
+    strain_energy() const = 0;
+  };
+} // namespace talus
+
+#endif

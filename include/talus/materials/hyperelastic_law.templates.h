@@ -1,0 +1,135 @@
+#ifndef talus_materials_hyperelastic_law_templates_h
+#define talus_materials_hyperelastic_law_templates_h
+
+#include <talus/materials/hyperelastic_kernel.h>
+#include <talus/materials/hyperelastic_law.h>
+#include <talus/materials/inverted_point.h>
+#include <talus/materials/load_step.h>
+
+namespace talus
+{
+  /// MaterialModel::linearize() for hyperelastic laws: @p response maps a
+  /// DeformationState to a StateResponse. Returns false if a point is turned
+  /// inside out.
+  template <int dim, typename Response>
+  inline bool
+  linearize_by_state(const Points<dim>        &points,
+                     const StepWorkspace<dim> &workspace,
+                     const unsigned int        begin,
+                     const unsigned int        end,
+                     StressTangent<dim>       *linearization,
+                     const Response           &response)
+  {
+    using Number    = Dual<dim * dim>;
+    const auto work = workspace.view(begin, end);
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        const auto H = load_independent_gradient(work, p);
+        if (!(determinant_increment(H).value > -1.))
+          return false;
+        const auto before =
+          load_matrix<dim, double>(points, points.deformation_gradient, p);
+        Matrix<dim, Number> F;
+        for (unsigned int i = 0; i < dim; ++i)
+          std::copy(before[i].begin(), before[i].end(), F[i].begin());
+        F = product(identity_plus(H), F);
+
+        StateResponse<dim, Number> after = response(deformation_state(F));
+        for (Number &component : after.kirchhoff)
+          component *= 1. / determinant(before);
+        store_nominal(after.kirchhoff,
+                      H,
+                      StrainMeasure::large,
+                      linearization[p - begin]);
+      }
+    return true;
+  }
+
+
+
+  template <int dim, typename StrainEnergy>
+  void
+  HyperelasticLaw<dim, StrainEnergy>::update_stress(
+    Points<dim>              &points,
+    const StepWorkspace<dim> &workspace,
+    const unsigned int        begin,
+    const unsigned int        end,
+    const double              dt) const
+  {
+    const StrainEnergy energy   = strain_energy();
+    const auto         columns  = points.view();
+    const auto         work     = workspace.view(begin, end);
+    bool               is_sound = true;
+    for_each_simd(begin,
+                  end,
+                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+                    is_sound &= update_point_by_state<dim, decltype(number)>(
+                      columns, work, p, dt, energy);
+                  });
+    if (!is_sound)
+      throw_inverted_point(points, begin, end);
+  }
+
+
+
+  template <int dim, typename StrainEnergy>
+  bool
+  HyperelasticLaw<dim, StrainEnergy>::linearize(
+    const Points<dim>        &points,
+    const StepWorkspace<dim> &workspace,
+    const unsigned int        begin,
+    const unsigned int        end,
+    const StrainMeasure       measure,
+    StressTangent<dim>       *linearization) const
+  {
+    Assert(measure == StrainMeasure::large, dealii::ExcInternalError());
+    (void)measure;
+    return linearize_by_state(points,
+                              workspace,
+                              begin,
+                              end,
+                              linearization,
+                              [energy = strain_energy()](const auto &state) {
+                                return energy.response(state);
+                              });
+  }
+
+
+
+  template <int dim, typename StrainEnergy>
+  void
+  HyperelasticLaw<dim, StrainEnergy>::commit_load_step(
+    Points<dim>              &points,
+    const StepWorkspace<dim> &workspace,
+    const unsigned int        begin,
+    const unsigned int        end,
+    const StrainMeasure       measure) const
+  {
+    Assert(measure == StrainMeasure::large, dealii::ExcInternalError());
+    (void)measure;
+    update_stress(points, workspace, begin, end, /*dt=*/1.);
+  }
+
+
+
+  template <int dim, typename StrainEnergy>
+  void
+  HyperelasticLaw<dim, StrainEnergy>::wave_modulus(const Points<dim> &points,
+                                                   const unsigned int begin,
+                                                   const unsigned int end,
+                                                   double *modulus) const
+  {
+    const StrainEnergy energy  = strain_energy();
+    const auto         columns = points.view();
+    for_each_simd(
+      begin, end, [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+        using Number     = decltype(number);
+        const auto state = deformation_state<dim, Number>(
+          load_matrix<dim, Number>(columns, columns.deformation_gradient, p));
+        const Number JM = energy.largest_modulus(state);
+        store<Number>(modulus + (p - begin), JM / (1. + state.J_minus_1));
+      });
+  }
+} // namespace talus
+
+#endif
