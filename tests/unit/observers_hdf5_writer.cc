@@ -13,6 +13,9 @@
 
 #include "observers_hdf5.h"
 #include "observers_setup.h"
+#include "suites.h"
+
+TALUS_ALSO_ON_RANKS(Hdf5WriterTest, 3);
 
 namespace
 {
