@@ -4,9 +4,46 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <iostream>
+
+#include "suites.h"
+
+namespace
+{
+  /// All suites, a line each: the name and the numbers of ranks to run it on.
+  /// The entries of ctest are made of it, so that no suite can be forgotten.
+  int
+  list_suites()
+  {
+    const auto &tests = *testing::UnitTest::GetInstance();
+    auto        ranks = further_ranks();
+    for (int i = 0; i < tests.total_test_suite_count(); ++i)
+      {
+        const std::string suite = tests.GetTestSuite(i)->name();
+        std::cout << suite << " 1";
+        for (const unsigned int n : ranks[suite])
+          std::cout << ' ' << n;
+        std::cout << std::endl;
+        ranks.erase(suite);
+      }
+    for (const auto &rest : ranks)
+      std::cerr << "TALUS_ALSO_ON_RANKS names the suite '" << rest.first
+                << "', which has no tests. Correct the name." << std::endl;
+    return ranks.empty() ? 0 : 1;
+  }
+} // namespace
+
+
+
 int
 main(int argc, char **argv)
 {
+  if (argc == 2 && std::strcmp(argv[1], "--list-suites") == 0)
+    {
+      testing::InitGoogleTest();
+      return list_suites();
+    }
   talus::choose_mpi_io();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   // The other ranks only tell what failed.
@@ -16,7 +53,6 @@ main(int argc, char **argv)
   const int status =
     dealii::Utilities::MPI::max(RUN_ALL_TESTS(), MPI_COMM_WORLD);
   // A filter that names no test any more must not pass for a test.
-  const auto *tests   = testing::UnitTest::GetInstance();
-  const bool  is_rest = testing::GTEST_FLAG(filter)[0] == '-';
-  return !is_rest && tests->test_to_run_count() == 0 ? 1 : status;
+  return testing::UnitTest::GetInstance()->test_to_run_count() == 0 ? 1
+                                                                    : status;
 }

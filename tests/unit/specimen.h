@@ -17,17 +17,26 @@ namespace talus
 
 
 
+  /// For a section of its own: several laws may be alive in one test,
+  /// ParameterAcceptor::clear() must not meet living objects, and what is parsed
+  /// is written to those that died, too.
+  inline std::string
+  name_of_new_soil()
+  {
+    static unsigned int counter = 0;
+    return "soil " + std::to_string(counter++);
+  }
+
+
+
   /// The law @p name with "set ..." lines @p parameters, checked.
   template <int dim>
   std::unique_ptr<MaterialModel<dim>>
   make_law(const std::string &name, const std::string &parameters)
   {
     using dealii::ParameterAcceptor;
-    // A section of its own: several laws may be alive in one test, and
-    // ParameterAcceptor::clear() must not meet living objects.
-    static unsigned int counter = 0;
-    const std::string   soil    = "soil " + std::to_string(counter++);
-    auto                law = make_material<dim>(name, "/Materials/" + soil);
+    const std::string soil = name_of_new_soil();
+    auto              law  = make_material<dim>(name, "/Materials/" + soil);
     ParameterAcceptor::declare_all_parameters();
     ParameterAcceptor::prm.parse_input_from_string(
       "subsection Materials\nsubsection " + soil + "\n" + parameters +

@@ -165,7 +165,7 @@ namespace talus
     Moduli moduli;
 
     template <int dim, typename Number>
-    TALUS_ALWAYS_INLINE StateResponse<dim, Number>
+    StateResponse<dim, Number>
     response(const DeformationState<dim, Number> &state) const
     {
       const auto deviator =
@@ -189,7 +189,7 @@ namespace talus
     /// n.tau'.n <= 2 mu ln(l_max/l_min). In 2-D waves run in the plane and see
     /// the stretches l in the plane only.
     template <int dim, typename Number>
-    TALUS_ALWAYS_INLINE Number
+    Number
     largest_modulus(const DeformationState<dim, Number> &state) const
     {
       const EigenvalueRange<dim, Number> strain(logarithmic_strain(state));

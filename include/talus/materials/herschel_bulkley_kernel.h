@@ -16,20 +16,8 @@ namespace talus
     double undisturbed;       ///< Pa
     double remoulded_ratio;   ///< share of it that remoulding leaves
     double strain_to_remould; ///< xi_95
-
-    /// What remoulding leaves, Pa.
-    double
-    remoulded() const
-    {
-      return remoulded_ratio * undisturbed;
-    }
-
-    /// What it takes away, Pa.
-    double
-    loss() const
-    {
-      return (1. - remoulded_ratio) * undisturbed;
-    }
+    double remoulded = remoulded_ratio * undisturbed;        ///< Pa
+    double loss      = (1. - remoulded_ratio) * undisturbed; ///< Pa
 
     /// At a plastic shear strain, Pa.
     double
@@ -77,11 +65,13 @@ namespace talus
   template <int dim, typename Number>
   struct ViscoplasticTrial
   {
-    TrialStep<dim, Number> step;
-    Number                 shear_stress; ///< of the trial, Pa
-    Number                 old_strain;   ///< plastic shear, before
-    Number                 strength;     ///< at the start of the step, Pa
-    Number                 loss; ///< part of it that remoulding takes, Pa
+    Motion<dim, Number>          motion;
+    StrainIncrement<dim, Number> strain;
+    ElasticTrial<dim, Number>    elastic;
+    Number                       shear_stress; ///< of the trial, Pa
+    Number                       old_strain;   ///< plastic shear, before
+    Number                       strength;     ///< at the start of the step, Pa
+    Number                       loss; ///< part of it that remoulding takes, Pa
   };
 
 
@@ -99,16 +89,20 @@ namespace talus
                                          const Factor             &strength_factor)
   {
     ViscoplasticTrial<dim, Number> trial;
-    trial.step    = trial_step<dim, Number>(points, workspace, p, dt, moduli);
-    const auto &s = trial.step.elastic.deviator_after;
+    trial.motion = advance_deformation<dim, Number>(points, workspace, p, dt);
+    trial.strain = strain_increment(trial.motion);
+    trial.elastic =
+      elastic_trial<dim, Number>(load_stress<dim, Number>(points, p),
+                                 trial.strain,
+                                 moduli);
+    const auto &s = trial.elastic.deviator_after;
     trial.shear_stress =
       sqrt(0.5 * contract(s, s) + std::numeric_limits<double>::min());
     trial.old_strain = load<Number>(points.data(plastic_shear_strain) + p);
-    trial.loss       = Number(strength.loss()) * strength_factor;
+    trial.loss       = Number(strength.loss) * strength_factor;
     if (decay > 0.)
       trial.loss *= exp(-decay * trial.old_strain);
-    trial.strength =
-      Number(strength.remoulded()) * strength_factor + trial.loss;
+    trial.strength = Number(strength.remoulded) * strength_factor + trial.loss;
     return trial;
   }
 
@@ -127,9 +121,14 @@ namespace talus
   {
     store(points.data(plastic_shear_strain) + p,
           trial.old_strain + plastic_shear);
-    return_radially<dim, Number>(
-      points, p, trial.step, mu, mu * plastic_shear / trial.shear_stress);
-    return all(trial.step.motion.J_after > 0.) && all(plastic_shear >= 0.);
+    return_radially<dim, Number>(points,
+                                 p,
+                                 trial.motion,
+                                 trial.strain,
+                                 trial.elastic,
+                                 mu,
+                                 mu * plastic_shear / trial.shear_stress);
+    return all(trial.motion.J_after > 0.) && all(plastic_shear >= 0.);
   }
 
 

@@ -91,7 +91,7 @@ namespace talus
         if (plastic != dealii::numbers::invalid_unsigned_int)
           points.data(plastic)[p] += plastic_flow.increment;
         return_radially<dim, double>(
-          columns, p, {motion, strain, trial}, moduli.mu, plastic_flow.removed);
+          columns, p, motion, strain, trial, moduli.mu, plastic_flow.removed);
       }
   }
 

@@ -7,38 +7,6 @@
 
 namespace talus
 {
-  /// One step of point(s) as if they were elastic.
-  template <int dim, typename Number>
-  struct TrialStep
-  {
-    Motion<dim, Number>          motion;
-    StrainIncrement<dim, Number> strain;
-    ElasticTrial<dim, Number>    elastic;
-  };
-
-
-
-  /// Advances the deformation gradient of point(s) @p p, nothing else.
-  template <int dim, typename Number>
-  TALUS_ALWAYS_INLINE TrialStep<dim, Number>
-                      trial_step(const PointsView<dim>    &points,
-                                 const WorkspaceView<dim> &workspace,
-                                 const unsigned int        p,
-                                 const double              dt,
-                                 const Moduli             &moduli)
-  {
-    TrialStep<dim, Number> step;
-    step.motion = advance_deformation<dim, Number>(points, workspace, p, dt);
-    step.strain = strain_increment(step.motion);
-    step.elastic =
-      elastic_trial<dim, Number>(load_stress<dim, Number>(points, p),
-                                 step.strain,
-                                 moduli);
-    return step;
-  }
-
-
-
   /// What plastic flow does to the trial deviator.
   template <typename Number>
   struct Flow
@@ -67,11 +35,12 @@ namespace talus
   /// The elastic end of a step: stores the stress and books its work.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE void
-  keep_elastic(const PointsView<dim>        &points,
-               const unsigned int            p,
-               const TrialStep<dim, Number> &step)
+  keep_elastic(const PointsView<dim>              &points,
+               const unsigned int                  p,
+               const Motion<dim, Number>          &motion,
+               const StrainIncrement<dim, Number> &strain,
+               const ElasticTrial<dim, Number>    &trial)
   {
-    const auto &[motion, strain, trial] = step;
     store_turned_stress<dim, Number>(
       points, p, strain, trial.deviator_after, trial.mean_after);
 
@@ -92,14 +61,15 @@ namespace talus
   /// elastic.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE void
-  return_radially(const PointsView<dim>        &points,
-                  const unsigned int            p,
-                  const TrialStep<dim, Number> &step,
-                  const double                  mu,
-                  const Number                 &removed)
+  return_radially(const PointsView<dim>              &points,
+                  const unsigned int                  p,
+                  const Motion<dim, Number>          &motion,
+                  const StrainIncrement<dim, Number> &strain,
+                  const ElasticTrial<dim, Number>    &trial,
+                  const double                        mu,
+                  const Number                       &removed)
   {
-    const auto &[motion, strain, trial] = step;
-    auto deviator                       = trial.deviator_after;
+    auto deviator = trial.deviator_after;
     for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
       deviator[c] *= 1. - removed;
     store_turned_stress<dim, Number>(
@@ -147,19 +117,26 @@ namespace talus
                          const Factor             &factor)
   {
     static_assert(n == 1);
-    const auto step = trial_step<dim, Number>(points, workspace, p, dt, moduli);
+    const auto motion =
+      advance_deformation<dim, Number>(points, workspace, p, dt);
+    const auto strain = strain_increment(motion);
+    const auto trial =
+      elastic_trial<dim, Number>(load_stress<dim, Number>(points, p),
+                                 strain,
+                                 moduli);
     if constexpr (std::is_same_v<FlowRule, NoFlow>)
-      keep_elastic<dim, Number>(points, p, step);
+      keep_elastic<dim, Number>(points, p, motion, strain, trial);
     else
       {
         double *const      variable = points.data(plastic) + p;
         const Number       before   = load<Number>(variable);
         const Flow<Number> flow =
-          flow_rule(step.elastic.deviator_after, before, factor(p, Number()));
+          flow_rule(trial.deviator_after, before, factor(p, Number()));
         store(variable, before + flow.increment);
-        return_radially<dim, Number>(points, p, step, moduli.mu, flow.removed);
+        return_radially<dim, Number>(
+          points, p, motion, strain, trial, moduli.mu, flow.removed);
       }
-    return all(step.motion.J_after > 0.);
+    return all(motion.J_after > 0.);
   }
 } // namespace talus
 

@@ -9,6 +9,9 @@
 #include <limits>
 
 #include "observers_setup.h"
+#include "suites.h"
+
+TALUS_ALSO_ON_RANKS(Hdf5FileTest, 3);
 
 namespace
 {

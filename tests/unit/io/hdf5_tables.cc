@@ -14,6 +14,9 @@
 
 #include "hdf5_reading.h"
 #include "observers_setup.h"
+#include "suites.h"
+
+TALUS_ALSO_ON_RANKS(Hdf5TablesTest, 3);
 
 namespace
 {

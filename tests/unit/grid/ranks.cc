@@ -2,6 +2,9 @@
 #include <set>
 
 #include "ranks_setup.h"
+#include "suites.h"
+
+TALUS_ALSO_ON_RANKS(Ranks, 2, 3);
 
 namespace
 {

@@ -2,6 +2,9 @@
 #include <set>
 
 #include "equilibrium_setup.h"
+#include "suites.h"
+
+TALUS_ALSO_ON_RANKS(StaticRanks, 2, 3);
 
 namespace
 {

@@ -1,5 +1,8 @@
 // The suite works on any number of ranks; ctest runs it on 1 and 3.
 #include "mesh_tracking_setup.h"
+#include "suites.h"
+
+TALUS_ALSO_ON_RANKS(MeshTracking, 3);
 
 namespace
 {

@@ -1,5 +1,4 @@
 #include <talus/equilibrium/strength_reduction.h>
-#include <talus/simulation/stages.h>
 
 #include <algorithm>
 #include <cmath>
@@ -203,72 +202,5 @@ namespace
     EXPECT_TRUE(reduction.lower() <= 3.9 && reduction.upper() > 3.9);
     reduction.search(0.21);
     EXPECT_TRUE(reduction.lower() <= 0.21 && reduction.upper() > 0.21);
-  }
-
-
-
-  // ------------------------------------------------------------------ stages
-
-  struct ListedStages : FreshParameters, Stages
-  {
-    explicit ListedStages(const std::string &list)
-    {
-      auto &prm = dealii::ParameterAcceptor::prm;
-      dealii::ParameterAcceptor::declare_all_parameters();
-      prm.parse_input_from_string("set Stages = " + list + "\n");
-      dealii::ParameterAcceptor::parse_all_parameters();
-      check();
-    }
-  };
-
-
-
-  std::string
-  complaint_about(const std::string &list)
-  {
-    return message_of<ExcUser>([&]() { ListedStages stages(list); });
-  }
-
-
-
-  TEST(StagesTest, RunOneAfterTheOther)
-  {
-    ListedStages stages("equilibrium, strength reduction, dynamics");
-    EXPECT_TRUE(stages.have_static());
-    EXPECT_EQ(stages.number(), 1u);
-    EXPECT_EQ(stages.next(), Stage::equilibrium);
-    stages.count_one();
-    EXPECT_TRUE(stages.next_is_static());
-    EXPECT_EQ(stages.next(), Stage::strength_reduction);
-    stages.count_one();
-    EXPECT_FALSE(stages.next_is_static());
-    EXPECT_TRUE(stages.contain(Stage::dynamics));
-  }
-
-
-
-  TEST(StagesTest, StaticOnly)
-  {
-    ListedStages stages("strength reduction");
-    EXPECT_FALSE(stages.contain(Stage::dynamics));
-    EXPECT_FALSE(stages.contain(Stage::equilibrium));
-    stages.count_one();
-    EXPECT_FALSE(stages.next_is_static());
-  }
-
-
-
-  TEST(StagesTest, WrongListsAreRefused)
-  {
-    EXPECT_FALSE(ListedStages("dynamics").have_static());
-    EXPECT_TRUE(contains(complaint_about("equilibrium, rest"),
-                         "Stages lists 'rest', but the stages are "
-                         "'equilibrium', 'strength reduction' and "
-                         "'dynamics'."));
-    EXPECT_TRUE(contains(complaint_about("dynamics, equilibrium"),
-                         "Stages lists 'equilibrium' after 'dynamics'."));
-    EXPECT_TRUE(contains(complaint_about("equilibrium, equilibrium"),
-                         "Give each stage once at most"));
-    EXPECT_TRUE(contains(complaint_about(""), "there is nothing to do"));
   }
 } // namespace

@@ -110,7 +110,8 @@ TEST(Materials, LawsWithStrengthAreNamed)
 {
   const std::string named = names_of_laws_with_strength<3>();
   EXPECT_EQ(named, names_of_laws_with_strength<2>());
-  EXPECT_EQ(named, "'von Mises', 'Herschel-Bulkley' or 'Bingham'");
+  EXPECT_EQ(named.find("'von Mises', 'Herschel-Bulkley'"), 0u) << named;
+  EXPECT_NE(named.find(" or '"), std::string::npos) << named;
   for (const std::string &name : material_names<3>())
     EXPECT_EQ(make_law<3>(name, "")->has_strength(),
               named.find("'" + name + "'") != std::string::npos)

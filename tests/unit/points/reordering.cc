@@ -11,12 +11,12 @@ namespace
   using namespace talus;
 
   /// Points in random segments, sorted and appended ones, of which some move
-  /// and some are gone; and a reference that sorts all of them anew.
+  /// and some are departed; and a reference that sorts all of them anew.
   class RandomOrder
   {
   public:
     /// @p n_cells cells, of which the points of @p share move and as many are
-    /// gone; @p n_appended points more.
+    /// departed; @p n_appended points more.
     RandomOrder(const unsigned int seed,
                 const unsigned int n_cells,
                 const double       share,

@@ -3,6 +3,9 @@
 #include <cstdio>
 
 #include "periodic_setup.h"
+#include "suites.h"
+
+TALUS_ALSO_ON_RANKS(Periodic, 2, 3);
 
 namespace
 {
