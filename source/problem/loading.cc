@@ -35,8 +35,8 @@ namespace talus
 
 
 
-  /// "material" is for forces, as of manufactured solutions, that are given at the
-  /// place that a piece of soil had at the start.
+  /// "material" is for forces, as of manufactured solutions, that are given at
+  /// the place that a piece of soil had at the start.
   template <int dim>
   Loading<dim>::BodyForce::BodyForce()
     : ParameterAcceptor("/Body force")
