@@ -340,8 +340,7 @@ namespace talus
 
 
   /// All ranks give the same value, as collective metadata demand. A failure is
-  /// noted, and told with the next agreement: one message per attribute would
-  /// be most of the time of a small file.
+  /// noted, and told with the next agreement: no rank waits for this one.
   void
   Hdf5File::write_attribute(const std::string &object,
                             const std::string &name,

@@ -58,8 +58,7 @@ namespace talus
     {
     public:
       // With columns as wide as the widest brick a sum goes over three (nine)
-      // of them, not over all bricks: with n points n times the height of a
-      // column in place of n^2. Within a column bricks are sorted, so that sums
+      // of them, and not over all bricks. Within a column bricks are sorted, so that sums
       // do not depend on the ranks that they came from.
       explicit Columns(const std::vector<Brick<dim>> &bricks)
       {
@@ -109,10 +108,10 @@ namespace talus
       static double
       mass_above(const Brick<dim> &brick, const Brick<dim> &other)
       {
+        // Nothing of what lies below, all of what lies above, a part of what
+        // has the same height.
         const double top  = other.centre[1] + 0.5 * other.length[1];
         double       mass = other.density *
-                      // Nothing of what lies below, all of what lies above, a
-                      // part of what has the same height.
                       std::clamp(top - brick.centre[1], 0., other.length[1]);
         for (unsigned int d = 0; d < dim; ++d)
           if (d != 1)
