@@ -58,8 +58,8 @@ namespace talus
     {
     public:
       // With columns as wide as the widest brick a sum goes over three (nine)
-      // of them, and not over all bricks. Within a column bricks are sorted, so that sums
-      // do not depend on the ranks that they came from.
+      // of them, and not over all bricks. Within a column bricks are sorted, so
+      // that sums do not depend on the ranks that they came from.
       explicit Columns(const std::vector<Brick<dim>> &bricks)
       {
         for (const auto &brick : bricks)
