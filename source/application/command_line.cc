@@ -17,6 +17,8 @@ namespace talus
 
   namespace
   {
+    /// What `--help` shows; the values go straight into @p result. The
+    /// parameter file is positional, so it is no option here.
     po::options_description
     visible_options(CommandLine &result)
     {
@@ -47,6 +49,8 @@ namespace talus
 
 
 
+  /// Nothing is returned where all is done when this ends, as after `--help`.
+  /// All ranks parse, so that all know the options, and one of them prints.
   std::optional<CommandLine>
   parse_command_line(const int argc, const char *const *argv)
   {
@@ -65,6 +69,7 @@ namespace talus
               variables);
     po::notify(variables);
 
+    // A stream without buffer drops what it gets.
     std::ostream  nowhere(nullptr);
     std::ostream &out =
       dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout
@@ -94,6 +99,9 @@ namespace talus
 
 
 
+  /// Which parameters there are depends on the names of bodies and materials
+  /// and on the laws, so the reference is that of an example with all of them.
+  /// In 2-D, whose parameters have the same names as those of 3-D.
   void
   document(std::ostream &out)
   {

@@ -13,6 +13,8 @@ namespace talus
   namespace
   {
     /// The information of an exception, without line breaks.
+    /// deal.II's print_info() has what went wrong, without file, line and
+    /// stack, which tell a user nothing.
     std::string
     one_line(const std::exception &exception)
     {
@@ -32,6 +34,8 @@ namespace talus
 
 
     /// deal.II's description of a pattern in plain words.
+    /// deal.II describes patterns in its own language, made for programs. The
+    /// order matters: the special cases come before the general ones.
     std::string
     expected(const std::string &pattern)
     {
@@ -67,6 +71,9 @@ namespace talus
 
 
     /// The message of the parameter parser, which starts with the place.
+    /// Known forms of deal.II's messages get a sentence that says what to do;
+    /// others are passed on as they are, so that another version of deal.II
+    /// only costs words.
     std::string
     say_anew(const std::string &place, const std::string &error)
     {
@@ -104,9 +111,13 @@ namespace talus
 
 
 
+  /// Errors of this program are sentences already and pass unchanged. Those of
+  /// deal.II and of the standard library are translated here, in one place.
   std::string
   message(const std::exception &exception)
   {
+    // deal.II says where it was parsing; the names after "file" are those that
+    // ParameterFile::parse_into() gave.
     static const std::regex in_command(
       "Line <\\d+> of file <(--set .*?)>?: (.*)");
     static const std::regex in_file("Line <(\\d+)> of file <(.*?)>?: (.*)");
@@ -123,6 +134,7 @@ namespace talus
       return "There is not enough memory on this machine; doc/cluster.md says "
              "what points and cells take. Take fewer of them, or more ranks on "
              "more machines.";
+    // Before in_file, whose pattern fits, too.
     if (std::regex_match(line, part, in_command))
       return say_anew(part[1].str() + ": ", part[2]);
     if (std::regex_match(line, part, in_file))

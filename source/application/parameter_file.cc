@@ -16,6 +16,8 @@ namespace talus
   namespace
   {
     /// The override in the language of parameter files.
+    /// "A/B/C=value" becomes C in subsection B of subsection A. The first =
+    /// separates, so that a value, as an expression, may have others.
     std::string
     as_parameter_file(const std::string &override_text)
     {
@@ -40,6 +42,7 @@ namespace talus
 
 
 
+    /// The names become sections, so they may have no slash and must differ.
     std::vector<std::string>
     names(const std::string &list, const std::string &where)
     {
@@ -64,6 +67,7 @@ namespace talus
 
 
 
+  /// Only whether it can be read; deal.II's own message would show its stack.
   ParameterFile::ParameterFile(const std::string              &file_name,
                                const std::vector<std::string> &overrides)
     : file_name_(file_name)
@@ -78,6 +82,9 @@ namespace talus
 
 
 
+  /// What the command line sets comes after the file and so wins, in the same
+  /// language and with the same checks. Errors name the option as they would a
+  /// file.
   void
   ParameterFile::parse_into(ParameterHandler &prm,
                             const bool        skip_undefined) const
@@ -93,6 +100,11 @@ namespace talus
 
 
 
+  /// Which parameters there are depends on parameters: the dimension, the names
+  /// of bodies and materials, and the law of each. These are read first, with
+  /// all others ignored: once for the names, which say in which sections the
+  /// laws are, and then for the laws. After that every object can declare its
+  /// own, and parse() is strict.
   ParameterPreview
   ParameterFile::preview() const
   {
@@ -138,6 +150,7 @@ namespace talus
 
 
 
+  /// An entry that nobody declared is an error here: it is mostly misspelt.
   void
   ParameterFile::parse() const
   {

@@ -36,6 +36,9 @@ namespace
   int
   fail(const std::string &sentence)
   {
+    // A barrier that does not block tells whether all ranks came here: two
+    // seconds are enough for those that fail for the same reason, at the same
+    // time.
     MPI_Request all_failed;
     int         is_complete = 0;
     MPI_Ibarrier(MPI_COMM_WORLD, &all_failed);
@@ -78,6 +81,9 @@ namespace
 
 
 
+  /// Parameters are declared by the objects, so these are made first and then
+  /// filled. Returns the exit status. An error of a point is thrown on with a
+  /// word about where the last state is; only run_program() tells errors.
   template <int dim>
   int
   run(const CommandLine &command_line, const ParameterFile &file)
@@ -110,6 +116,8 @@ namespace
 
 
 
+  /// The dimension is a parameter in the file and a template argument in the
+  /// program: this is where the one becomes the other.
   int
   act(const CommandLine &command_line)
   {
@@ -133,6 +141,7 @@ namespace talus
   int
   run_program(int argc, char **argv)
   {
+    // Before MPI starts, as MPI looks at the environment only then.
     choose_mpi_io();
     dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
     try
@@ -140,6 +149,7 @@ namespace talus
         const auto command_line = parse_command_line(argc, argv);
         return command_line.has_value() ? act(*command_line) : 0;
       }
+    // The only place that ends a run after an error.
     catch (const std::exception &exception)
       {
         return fail(message(exception));

@@ -12,6 +12,7 @@ namespace talus
 
   namespace
   {
+    /// The unit of the parameters.
     double
     minutes(const std::chrono::steady_clock::duration duration)
     {
@@ -64,6 +65,9 @@ namespace talus
 
 
 
+  /// The newest checkpoint is the one the run came from. Those that are newer
+  /// by name are damaged, or it would have been taken; they stay until a good
+  /// one takes their place. Only the first rank touches the folder.
   template <int dim>
   void
   Checkpoint<dim>::begin(const fs::path &output_folder,
@@ -84,6 +88,7 @@ namespace talus
       }
     // The run may have been killed before it removed the third newest.
     std::vector<fs::path> kept = find_checkpoints(output_folder_);
+    // The newest first: behind the one used comes the one before it.
     const auto used = std::find(kept.begin(), kept.end(), resumed_from);
     if (kept.end() - used > 2)
       {
@@ -94,6 +99,9 @@ namespace talus
 
 
 
+  /// By steps all ranks agree; by the clock the first one says so alone, since
+  /// clocks differ and a rank that began to write by itself would wait for the
+  /// others. See StepAgreement.
   template <int dim>
   bool
   Checkpoint<dim>::is_due(const unsigned long step) const
@@ -116,6 +124,11 @@ namespace talus
 
 
 
+  /// A crash at any time leaves the checkpoints before this one whole. For that
+  /// the order is fixed: write all under a temporary name; bring every file to
+  /// the disk; rename; and only then remove the third newest. Errors of one
+  /// rank are told to all after each part. Points and grid are only read, so
+  /// that a run goes on bitwise as it would have without. Collective.
   template <int dim>
   fs::path
   Checkpoint<dim>::write(const Content &content, const Grid<dim> &grid)
@@ -160,6 +173,8 @@ namespace talus
 
 
 
+  /// An estimate from above for the few files of p4est and deal.II; the space
+  /// may be taken by others meanwhile, but that is the exception. Collective.
   template <int dim>
   void
   Checkpoint<dim>::write_mesh(const fs::path  &folder,
@@ -177,6 +192,9 @@ namespace talus
 
 
 
+  /// One HDF5 file for all ranks. The mesh is written before, since its
+  /// checksums are in this file: so one file says whether the whole checkpoint
+  /// is sound. Collective.
   template <int dim>
   void
   Checkpoint<dim>::write_state(const fs::path &folder,

@@ -13,6 +13,7 @@ namespace talus
 
   namespace
   {
+    /// For readers of the file who do not have this program.
     const char *
     name_of(const Reduction reduction)
     {
@@ -29,6 +30,7 @@ namespace talus
 
 
 
+    /// A slash in a name would make a group of its own in HDF5.
     std::string
     checked(const std::string &name)
     {
@@ -39,6 +41,7 @@ namespace talus
 
 
 
+    /// CRC-32, read in pieces of a megabyte: a mesh need not fit into memory.
     std::uint64_t
     checksum_of_file(const std::filesystem::path &path)
     {
@@ -55,6 +58,10 @@ namespace talus
 
 
 
+    /// The file has the components of a point side by side, as h5py wants them;
+    /// points have a row per component. @p first is the first row of this rank.
+    /// The number of rows and columns follows from the file, so what another
+    /// version wrote is noticed. Collective.
     template <int dim>
     void
     load_column(Hdf5File           &file,
@@ -65,6 +72,7 @@ namespace talus
       const unsigned int        n    = column.n_components;
       const std::string         name = "points/" + column.name;
       const std::vector<double> rows = file.read(name, first, points.size());
+      /// HDF5's own error is part of the sentence.
       check_read(file);
       AssertThrow(file.shape(name).second == n,
                   ExcUser("In '" + file.path().string() + "' the column '" +
@@ -79,6 +87,7 @@ namespace talus
 
 
 
+  /// Attributes of the file: h5dump shows them without reading any array.
   void
   save_head(Hdf5File &file, const CheckpointHead &head)
   {
@@ -94,6 +103,8 @@ namespace talus
 
 
 
+  /// The format comes first: of another format the other entries may not be
+  /// there.
   CheckpointHead
   load_head(Hdf5File &file)
   {
@@ -113,6 +124,11 @@ namespace talus
 
 
 
+  /// Columns by name, in the order of the cells, whatever rank owns them:
+  /// another number of ranks reads the same rows in other portions. How many
+  /// points a cell has is saved, too, so that they need not be searched for,
+  /// and the order within a cell, on which sums depend, comes back as it was.
+  /// Collective.
   template <int dim>
   void
   save_points(Hdf5File                  &file,
@@ -127,6 +143,7 @@ namespace talus
     file.write("cells/weight", cell_weights, 1);
 
     file.create_group("points");
+    // One column at a time: a checkpoint takes the memory of the largest one.
     std::vector<double> rows;
     for (const Column &column : points.columns())
       {
@@ -143,6 +160,8 @@ namespace talus
 
 
 
+  /// The partition is state: it decides in which order the sums of ranks are
+  /// taken.
   std::vector<double>
   load_cell_weights(Hdf5File &file, const unsigned int n_cells)
   {
@@ -153,6 +172,10 @@ namespace talus
 
 
 
+  /// Cells of this rank begin where those of the ranks before it end, in the
+  /// file and along p4est's curve alike; points follow from the numbers of
+  /// points per cell. More or fewer columns than now would be state that is
+  /// lost or made up, so both are errors. Collective.
   template <int dim>
   std::vector<unsigned int>
   load_points(Hdf5File &file, const unsigned int n_cells, Points<dim> &points)
@@ -180,6 +203,8 @@ namespace talus
 
 
 
+  /// Each rank's share by itself, not the sum: on the same number of ranks
+  /// every rank gets its own back, and with it the same round-off. Collective.
   void
   save_state(Hdf5File &file, const StateList &list)
   {
@@ -196,6 +221,8 @@ namespace talus
         std::vector<double>      shares;
         for (const std::vector<double> &numbers : of_ranks)
           shares.push_back(numbers[i]);
+        // After the exchange all ranks know all shares: one message for all
+        // numbers.
         file.write_known(name, shares);
         file.set_attribute(name, "unit", number.unit);
         file.set_attribute(name, "over ranks", name_of(number.reduction));
@@ -207,6 +234,9 @@ namespace talus
 
 
 
+  /// What a share becomes on another number of ranks is the business of
+  /// restored_share(): sums and maxima of the whole run stay what they were.
+  /// Collective.
   void
   load_state(Hdf5File &file, const StateList &list)
   {
@@ -216,6 +246,8 @@ namespace talus
     const std::uint64_t n_ranks_then = file.integer_attribute("/", "ranks");
     for (const StateList::Number &number : list.numbers())
       {
+        // A number that this program has and the file has not ends in
+        // check_read().
         const std::vector<double> shares =
           file.read("state/" + number.name, 0, n_ranks_then);
         check_read(file);
@@ -231,6 +263,8 @@ namespace talus
 
 
 
+  /// All files but state.h5, sorted, as the order of a folder is nobody's
+  /// promise.
   std::string
   mesh_checksums(const std::filesystem::path &checkpoint)
   {
@@ -248,6 +282,10 @@ namespace talus
 
 
 
+  /// Every value that would be loaded is read and compared before anything of
+  /// it is used: a damaged checkpoint is then left for the one before it. Costs
+  /// one reading of the file. The mesh files are looked at by the first rank
+  /// only.
   std::string
   find_damage(Hdf5File &file)
   {

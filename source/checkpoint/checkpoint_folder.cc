@@ -16,6 +16,8 @@ namespace talus
   {
     const std::string part_ending = ".part";
 
+    /// In a folder of their own, so that nothing else in the output folder is
+    /// touched.
     fs::path
     folder_of_all(const fs::path &output_folder)
     {
@@ -24,6 +26,7 @@ namespace talus
 
 
 
+    /// Its name is a number; what ends in .part is unfinished or about to go.
     bool
     is_checkpoint(const fs::path &path)
     {
@@ -38,6 +41,8 @@ namespace talus
     std::vector<fs::path>
     content(const fs::path &folder)
     {
+      // Without exceptions: a folder that is not there, or goes meanwhile, has
+      // nothing.
       std::vector<fs::path> result;
       std::error_code       error;
       for (fs::directory_iterator entry(folder, error), end;
@@ -109,6 +114,7 @@ namespace talus
 
 
 
+  /// By name, which has leading zeros, so that the greatest is the newest.
   std::vector<fs::path>
   find_checkpoints(const fs::path &output_folder)
   {
@@ -146,6 +152,7 @@ namespace talus
 
 
 
+  /// First the content of the files, then their names.
   std::string
   sync_folder(const fs::path &folder)
   {
@@ -157,6 +164,8 @@ namespace talus
 
 
 
+  /// A rename is on the disk only when the folder is, and that folder may
+  /// itself be new in the output folder: so both are synced.
   std::string
   commit(const fs::path &checkpoint)
   {
@@ -191,6 +200,9 @@ namespace talus
 
 
 
+  /// From the newest on; one that is damaged (as a copy that was cut off) is
+  /// noted for the log and the one before it is tried. Another format or
+  /// dimension ends the search: older ones are of the same run.
   FoundCheckpoint
   find_checkpoint(const fs::path    &output_folder,
                   const unsigned int dimension,
@@ -231,6 +243,9 @@ namespace talus
 
 
 
+  /// The newest one tells: a run that reached its end has a checkpoint at that
+  /// time, if it was asked for. One that cannot be read counts as unfinished,
+  /// since nobody knows what it holds.
   void
   check_nothing_unfinished(const fs::path &output_folder,
                            const MPI_Comm  communicator)

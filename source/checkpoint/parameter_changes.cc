@@ -20,6 +20,9 @@ namespace talus
     using Values = std::map<std::string, std::string>;
 
     /// Values by path, "Section/Subsection/Entry".
+    /// deal.II's own parser would need the declarations of the program that
+    /// wrote the text; here both texts come from print_parameters(), whose form
+    /// is simple.
     Values
     read_parameters(const std::string &parameters)
     {
@@ -49,6 +52,8 @@ namespace talus
 
 
     /// Whether the state of the run does not depend on it.
+    /// By name, and all others are not: a new parameter is refused until
+    /// somebody has thought about it.
     bool
     is_harmless(const std::string &path)
     {
@@ -56,6 +61,7 @@ namespace talus
       // The columns of a table cannot change.
       if (path == "Output/Format" || path == "Output/Runout")
         return false;
+      // A run may be continued to a later time, and to more points.
       for (const std::string name :
            {"Title", "End time", "Splitting/Maximum number of points"})
         if (path == name)
@@ -102,6 +108,8 @@ namespace talus
 
 
 
+    /// As the message says it: an entry that another version did not have has
+    /// no value.
     std::string
     value_of(const Values &values, const std::string &path)
     {
@@ -112,6 +120,9 @@ namespace talus
 
 
 
+  /// Over the names of both: a parameter that only one of them has differs,
+  /// too. What state depends on must not change on the way, or the result would
+  /// be that of neither parameter file.
   void
   check_parameter_changes(const std::string &saved, const std::string &now)
   {

@@ -79,6 +79,8 @@ namespace talus
   {
     if (measure() == StrainMeasure::large)
       return;
+    // A hyperelastic stress is a function of F alone, and small strain leaves F
+    // as it is: such a body could never take up a load.
     for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
       AssertThrow(!materials.of_body(b).is_hyperelastic(),
                   ExcUser(text("'Equilibrium/Strain' is small, but the stress "
@@ -92,6 +94,9 @@ namespace talus
 
 
 
+  /// With large strain nodes at a free surface settle slowly, since they would
+  /// have to move far; so the default is a thousand times looser than with
+  /// small strain.
   template <int dim>
   EquilibriumLimits
   Equilibrium<dim>::limits(const StrainMeasure measure) const
@@ -123,6 +128,9 @@ namespace talus
 
 
 
+  /// Newton::begin() leaves the displacements at zero, and to commit these
+  /// gives the laws a load step without strain: what lies outside the yield
+  /// surface returns to it, all else stays as it is.
   template <int dim>
   void
   Equilibrium<dim>::return_stress(StaticProblem<dim> &problem)
@@ -133,6 +141,18 @@ namespace talus
 
 
 
+  /// A load step has no memory of the one before but the points: it begins with
+  /// the forces that the explicit scheme would find out of balance now, summed
+  /// by its own kernels and without stabilization. So the errors that a step
+  /// leaves (tolerance of Newton's method, force of the ghost penalty) are part
+  /// of what the next one takes up, and the balance that is found is the one
+  /// from which the dynamics starts. Once all load is on, further steps
+  /// ("settling") take what is left, which falls from step to step; see
+  /// doc/method.md, section 12.
+  ///
+  /// The balance is looked at before a step is taken: points whose soil is in
+  /// balance are not changed again. The result is the same on all ranks, since
+  /// imbalance_ is a sum over them.
   template <int dim>
   bool
   Equilibrium<dim>::advance(StaticProblem<dim> &problem,
@@ -145,6 +165,8 @@ namespace talus
         is_found_ = true;
         return true;
       }
+    // Out of patience: the place of the largest force tells the user where the
+    // soil flows.
     if (!is_settling())
       {
         const auto [largest, place] = newton_.largest_imbalance();
@@ -169,6 +191,8 @@ namespace talus
   /// Nodes with hardly any soil follow their own forces the more slowly the
   /// stiffer the stabilization is against what they have of stiffness: so once
   /// all load is on it gives way. With large strain they would move too far.
+  /// The floor of a thousandth keeps nodes without stiffness of their own from
+  /// making the matrix singular.
   template <int dim>
   typename Newton<dim>::Parameters
   Equilibrium<dim>::parameters_of_step() const
@@ -202,11 +226,23 @@ namespace talus
 
 
   /// One step, as large as it succeeds; the first trial is never too small.
+  /// The load is not held as a force, but as a share of what is out of balance
+  /// now: where load_ is on, a step of the length step_ takes step_/(1 - load_)
+  /// of it. So loads and stress may have changed with the points since, and
+  /// nothing adds up from step to step.
+  ///
+  /// A step that fails has changed nothing (Newton::solve() takes the contact
+  /// back, points change in commit() only), so that it can be tried again with
+  /// half of the share. The next step is at most half as long again as the one
+  /// that succeeded and never longer than the parameter asks for.
   template <int dim>
   bool
   Equilibrium<dim>::take_step(StaticProblem<dim> &problem,
                               const Observer     &observe)
   {
+    // The slack below keeps round-off in load_ from leaving a last step of next
+    // to nothing. In settling steps rest is zero, and each takes all that is
+    // left.
     const double rest = 1. - load_;
     const bool   all  = !(rest > 1.0001 * step_);
     for (double cut = 1.; cut == 1. || cut * step_ >= limits_.smallest_step;
@@ -225,6 +261,8 @@ namespace talus
             continue;
           }
         newton_.commit(problem);
+        // Counted by the load before the step: the step that puts on the last
+        // load does not settle.
         n_settling_ += (load_ >= 1.);
         load_ = after;
         step_ = std::min(1.5 * cut * step_, 1. / limits_.n_load_steps);

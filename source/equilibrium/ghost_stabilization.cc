@@ -9,6 +9,9 @@ namespace talus
   namespace
   {
     /// How much of a node's share of the mesh soil fills.
+    /// A node inside has a share of one cell's volume, which each face of the
+    /// mesh that it lies on cuts in half. In units of the share, so that a node
+    /// on a full wall counts as full.
     template <int dim>
     double
     filling(const Grid<dim>     &grid,
@@ -26,6 +29,17 @@ namespace talus
 
 
 
+  /// Each face belongs to the rank that owns the cell below it, and is found
+  /// with that cell. Its rows of three nodes (below, on and above the face) are
+  /// in the cell's patch of 4^dim nodes, which is complete in uniform cells
+  /// only: at the seam between cell sizes nothing is stabilized.
+  ///
+  /// A face takes part if all its nodes have unknowns, as one without has no
+  /// row, and if one of them has little soil. All other faces are left alone: a
+  /// penalty within full cells would stiffen the soil, and cost entries of the
+  /// matrix. The jump of the normal derivative of bilinear functions is (1, -2,
+  /// 1)/h times the nodal displacements of a row, interpolated along the face
+  /// by its own shape functions.
   template <int dim>
   void
   GhostStabilization<dim>::find_faces(const Grid<dim>     &grid,
@@ -45,12 +59,16 @@ namespace talus
         for (unsigned int axis = 0; axis < dim; ++axis)
           {
             constexpr unsigned int middle = power(3, dim) / 2;
+            // No cell beyond: a face of the mesh, or one where cells of another
+            // size begin.
             if (cell.neighbors[middle + power(3, axis)] ==
                 numbers::invalid_unsigned_int)
               continue;
             Face face;
             bool has_unknowns = true, needs_it = false;
             for (unsigned int row = 0; row < n_rows; ++row)
+              // Entry 1 of a patch is the cell's lower node, 2 its upper one,
+              // which lies on the face, and 3 that of the next cell.
               for (unsigned int k = 0; k < 3; ++k)
                 {
                   unsigned int at = (1 + k) * power(4, axis), bit = 0;
@@ -76,6 +94,10 @@ namespace talus
 
 
 
+  /// Product of the jump's coefficients of both nodes in their rows, (1, -2,
+  /// 1), and of the face's mass matrix over its area: per axis 1/3 where the
+  /// rows are the same, 1/6 where they are neighbours. The rows sum up to zero,
+  /// so rigid motions and all displacements linear in space meet no force.
   template <int dim>
   double
   GhostStabilization<dim>::coupling(const unsigned int a, const unsigned int b)
@@ -91,6 +113,8 @@ namespace talus
 
 
 
+  /// K_g u, one component after the other: the penalty does not couple them. At
+  /// ghost nodes it adds, too; the caller sends these to their owners.
   template <int dim>
   void
   GhostStabilization<dim>::add_forces(const std::vector<double> &u,
@@ -108,6 +132,9 @@ namespace talus
 
 
 
+  /// The penalty may reach farther than the points of either cell: without
+  /// these entries the matrix would have no room for it. Held unknowns keep
+  /// their entries, since constraints change within a load step.
   template <int dim>
   void
   GhostStabilization<dim>::add_to_pattern(
@@ -128,6 +155,8 @@ namespace talus
 
 
 
+  /// The same matrix for each component. What is at ghost nodes travels to the
+  /// owners of the rows when the caller compresses the matrix.
   template <int dim>
   void
   GhostStabilization<dim>::add_to_matrix(

@@ -5,6 +5,11 @@ namespace talus
 {
   using namespace dealii;
 
+  /// H = sum_i u_i (x) grad S_i goes into the columns of the workspace in which
+  /// the dynamics has the velocity gradient, here with a step of length 1:
+  /// kernels of B-bar and laws then serve both. The weights are those of the
+  /// beginning of the load step, so H is linear in u, and the derivative of the
+  /// forces has no part from the weights.
   template <int dim>
   void
   InternalForces<dim>::set_gradients(StaticProblem<dim>            &problem,
@@ -36,6 +41,11 @@ namespace talus
 
 
 
+  /// Stress and tangent first, by the laws, over ranges of points of one
+  /// material; then the forces, cell by cell, as the mean of B-bar couples the
+  /// points of a cell, of whatever body. The tangent is kept for add_tangent():
+  /// laws give both at once (numbers that carry their derivatives), so that no
+  /// second pass over them is needed and the two cannot disagree.
   template <int dim>
   bool
   InternalForces<dim>::evaluate(StaticProblem<dim>            &problem,
@@ -61,16 +71,20 @@ namespace talus
                                          measure_,
                                          answers_.data() + begin);
       });
+    // Nothing was added so far, so the caller may try a shorter step.
     if (!sound)
       return false;
     volumes_of_mean_.resize(points.size());
     for (const Segment &segment : points.segments())
       for (unsigned int p = segment.begin; p < segment.end; ++p)
         {
+          // At the start of the load step: F is changed in commit() only.
           volumes_[p] =
             points.data(points.reference_volume)[p] *
             determinant(
               load_matrix<dim, double>(points, points.deformation_gradient, p));
+          // Zero marks the points that neither give to the mean nor take it;
+          // the sums below need no further question.
           volumes_of_mean_[p] =
             problem.transfer.uses_bbar(segment.body) ? volumes_[p] : 0.;
         }
@@ -81,6 +95,12 @@ namespace talus
 
 
 
+  /// f_i += sum_p V (P + (qm - q) I) grad S_ip, with q the mean of the dim
+  /// normal components in the plane and qm its mean over the cell, weighted by
+  /// volumes: the derivative of V P : H' by u (doc/method.md, sections 3 and
+  /// 12). With the pressure in place of q the two halves of B-bar would not be
+  /// adjoint, and the tangent below would not be the derivative of these
+  /// forces.
   template <int dim>
   void
   InternalForces<dim>::add_forces_of_cell(
@@ -122,6 +142,8 @@ namespace talus
 
   /// The mean over the points of a cell that take it of the gradients at its
   /// nodes: the rate of volume change of the cell, as a linear form.
+  /// It is the part of B that couples each point with nodes that its own box
+  /// does not touch.
   template <int dim>
   void
   InternalForces<dim>::set_mean_gradient(const unsigned int             c,
@@ -149,6 +171,9 @@ namespace talus
 
   /// Row k of B: displacement gradient k of a point, after the mean, as a linear
   /// form of the displacements of the patch.
+  /// Row (i, j) has dS_a/dx_j at component i of node a. With B-bar the rows of
+  /// the normal components get (mean - own)/dim of the divergence besides, as
+  /// D' in doc/method.md, section 3.
   template <int dim>
   void
   InternalForces<dim>::fill_strain(
@@ -175,6 +200,9 @@ namespace talus
 
 
   /// B^T V A B of one point.
+  /// In two products, V A B and then its product with B^T: dim^4 n + dim^2 n^2
+  /// multiplications in place of dim^4 n^2. The inner loops run over rows that
+  /// lie in one piece.
   template <int dim>
   void
   InternalForces<dim>::add_point(const double              volume,
@@ -196,6 +224,7 @@ namespace talus
       for (unsigned int a = 0; a < n; ++a)
         {
           const double B = scratch.strain[k * n + a];
+          // Without the mean only each dim-th entry of a row is not zero.
           if (B == 0.)
             continue;
           const double *from = &scratch.stressed[k * n];
@@ -207,6 +236,11 @@ namespace talus
 
 
 
+  /// One element matrix per cell, over all nodes that any of its points
+  /// touches: with B-bar all of these are coupled anyway, and one per point
+  /// would be some times as many insertions into the sparse matrix. It is
+  /// symmetric where the tangents of the laws are. The constraints drop rows
+  /// and columns of held unknowns and leave a number on their diagonal.
   template <int dim>
   void
   InternalForces<dim>::add_tangent(const ShapeFunctionCache<dim>  &weights,

@@ -39,6 +39,12 @@ namespace talus
 
 
 
+  /// A direct solver does not mind nearly incompressible soil or nodes with
+  /// hardly any stiffness, and is the faster one while its fill is small: that
+  /// grows much faster with the number of unknowns in 3-D than in 2-D, hence
+  /// two limits. Beyond, multigrid: its iterations hardly grow with the mesh
+  /// (doc/performance.md, "Multigrid"). The tangent of large strain need not be
+  /// symmetric, as CG demands.
   std::string
   LinearSolver::choice(const unsigned long n_unknowns,
                        const unsigned int  dim,
@@ -63,6 +69,10 @@ namespace talus
                          const unsigned int   n_modes)
     {
       Teuchos::ParameterList list;
+      // All levels need the near null space of the elastic operator, the rigid
+      // motions: with translations only (ML's default for several equations per
+      // node) rotations would be left to the smoother, and iterations grow with
+      // the mesh.
       ML_Epetra::SetDefaults("SA", list);
       list.set("ML output", 0);
       list.set("PDE equations", static_cast<int>(dim));
@@ -71,8 +81,12 @@ namespace talus
       list.set("null space: vectors", modes.data());
       list.set("aggregation: type", "Uncoupled");
       list.set("aggregation: threshold", 0.);
+      // A polynomial of the matrix: unlike Gauss-Seidel it does not depend on
+      // how rows lie on the ranks, and it is symmetric, as CG demands of its
+      // preconditioner.
       list.set("smoother: type", "Chebyshev");
       list.set("smoother: sweeps", 3);
+      // At most 500 rows are left there, cheap to factorise.
       list.set("coarse: type", "Amesos-KLU");
       list.set("coarse: max size", 500);
       return list;
@@ -81,6 +95,8 @@ namespace talus
 
 
 
+  /// A system that is not solved is an answer, no error: the soil may be about
+  /// to fail, and the load step is then cut. So what deal.II throws ends here.
   LinearSolution
   LinearSolver::solve(const TrilinosWrappers::SparseMatrix &matrix,
                       TrilinosWrappers::MPI::Vector        &x,
@@ -105,6 +121,7 @@ namespace talus
           }
       }
 
+    // ML wants the modes one after the other in one array.
     std::vector<double> all_modes;
     for (const auto &mode : modes)
       all_modes.insert(all_modes.end(), mode.begin(), mode.end());
@@ -116,6 +133,8 @@ namespace talus
         if (type == "CG")
           TrilinosWrappers::SolverCG(control).solve(matrix, x, rhs, multigrid);
         else
+          // Restart after 100 vectors, more than systems take that are well
+          // conditioned (doc/performance.md, "Multigrid").
           TrilinosWrappers::SolverGMRES(
             control, TrilinosWrappers::SolverGMRES::AdditionalData(false, 100))
             .solve(matrix, x, rhs, multigrid);

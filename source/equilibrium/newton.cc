@@ -10,6 +10,8 @@ namespace talus
 {
   using namespace dealii;
 
+  /// Slipping nodes are free, and their friction is known: it is a load as any
+  /// other. What held components bear is left out by the norm.
   template <int dim>
   double
   Newton<dim>::imbalance() const
@@ -22,6 +24,9 @@ namespace talus
 
 
 
+  /// Largest component, N, at a free unknown over all ranks, and the place of
+  /// its node in words. Of several ranks with the same value the first one
+  /// tells the place. Collective.
   template <int dim>
   std::string
   Newton<dim>::where_largest(const std::vector<double> &force,
@@ -43,6 +48,8 @@ namespace talus
     const unsigned int n_ranks  = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
     const unsigned int owner =
+      // No rank compares equal to what is not a number; then rank 0 answers, so
+      // that the broadcast has a root in any case.
       Utilities::MPI::min(own == largest ? rank : n_ranks, communicator);
     return Utilities::MPI::broadcast(communicator,
                                      text('(', place, ") m"),
@@ -66,6 +73,10 @@ namespace talus
 
   /// Set the residual at the displacements @p u. Returns false if a point of any
   /// rank would be turned inside out.
+  /// Collective: all ranks take the same way, since a rank that went on alone
+  /// would wait for messages for ever.
+  ///   r = target + friction - f(u) - K_g u
+  /// at all nodes; at held ones -r is the reaction.
   template <int dim>
   bool
   Newton<dim>::evaluate(StaticProblem<dim>        &problem,
@@ -88,6 +99,8 @@ namespace talus
 
 
 
+  /// A sentence with the largest residual force and its place: where the soil
+  /// fails, this is where to look. Collective.
   template <int dim>
   typename Newton<dim>::Outcome
   Newton<dim>::failure(const std::string &reason) const
@@ -104,6 +117,13 @@ namespace talus
 
 
 
+  /// The target of f(u) + K_g u is f(0) + s (f_ext - f(0)) - (1 - s) c, with
+  /// share s of the load step and the force c that the seabed bore before: put
+  /// into the residual of doc/method.md, section 12. With s = 1 it is f_ext,
+  /// whatever was borne before.
+  ///
+  /// Only displacements and contact change here. Contact is restored where the
+  /// step fails, so that a shorter one starts from the same state.
   template <int dim>
   typename Newton<dim>::Outcome
   Newton<dim>::solve(StaticProblem<dim> &problem,
@@ -124,6 +144,13 @@ namespace talus
 
 
 
+  /// Newton's method with the states of the seabed's nodes (stick, slip, open)
+  /// held fixed, then a look at the nodes, until none changes: within a loop
+  /// the problem is smooth, so that convergence is quadratic, and the matrix of
+  /// small strain stays symmetric, which it would not with friction as a
+  /// function of the normal force. The next loop starts from the displacements
+  /// of the last one. The number of rounds is limited since a set of states may
+  /// come back.
   template <int dim>
   typename Newton<dim>::Outcome
   Newton<dim>::solve_with_contact(StaticProblem<dim> &problem,
@@ -136,12 +163,16 @@ namespace talus
         const Outcome outcome = newton_loop(problem, observe);
         if (!outcome.converged)
           {
+            // Soil that is held by slipping nodes only has a singular matrix.
+            // Friction that would push it on turns around as soon as it moves:
+            // those nodes can bear it.
             if (moves_freely_ &&
                 contact_.stick_again(unknowns_, last_correction_) > 0)
               continue;
             mechanism_ = last_correction_;
             return outcome;
           }
+        // Converged: held nodes bear what is left of the residual.
         mechanism_                   = u_;
         std::vector<double> reaction = residual_;
         for (double &force : reaction)
@@ -155,6 +186,12 @@ namespace talus
 
 
 
+  /// Ends with a residual below the tolerance, after the largest number of
+  /// iterations, or where the residual is no number. The last two are failures
+  /// of this load step, not of the run. norm is that of all ranks, so all of
+  /// them leave together. The residual is over the force of the loads
+  /// (reference_), and not over that of the first iteration: a load step that
+  /// begins nearly in balance could not reduce its residual by eight orders.
   template <int dim>
   typename Newton<dim>::Outcome
   Newton<dim>::newton_loop(StaticProblem<dim> &problem, const Observer &observe)
@@ -163,6 +200,7 @@ namespace talus
       return failure("A point would be turned inside out");
     for (unsigned int i = 0;; ++i)
       {
+        // Soil without any force on it is in balance: 0/0 would not be.
         const double    norm = unknowns_.norm(residual_);
         NewtonIteration iteration{
           i, norm == 0. ? 0. : norm / reference_, 0, 0., 0.};
@@ -191,6 +229,12 @@ namespace talus
 
 
 
+  /// The full Newton step, with a matrix made anew in each iteration: the
+  /// tangent comes with the stress anyway, and a modified Newton method would
+  /// lose the quadratic convergence. Three things may go wrong: the linear
+  /// solver gives up; the correction is larger than ten times the mesh, so that
+  /// the matrix was singular but for round-off and soil is a mechanism; or no
+  /// point along the correction is sound. Collective.
   template <int dim>
   std::string
   Newton<dim>::newton_update(StaticProblem<dim> &problem,
@@ -215,6 +259,8 @@ namespace talus
         rhs(unknowns_.first(node) + d) = residual_[dim * node + d];
       });
     rhs.compress(VectorOperation::insert);
+    // At held components the modes are zero as the displacements are: multigrid
+    // would else try to represent on its coarse levels what the walls forbid.
     RigidModes free_modes = modes_;
     for (auto &mode : free_modes)
       {
@@ -234,6 +280,7 @@ namespace talus
     double              largest   = 0;
     unknowns_.for_each_free_dof(
       [&](const unsigned int node, const unsigned int d) {
+        // Held components stay zero in direction: they have no correction.
         const double x            = solution(unknowns_.first(node) + d);
         direction[dim * node + d] = x;
         largest = (std::abs(x) <= largest ? largest : std::abs(x));
@@ -241,7 +288,10 @@ namespace talus
     largest = Utilities::MPI::max(largest, unknowns_.communicator());
     unknowns_.copy_to_ghosts(direction);
     if (std::isfinite(largest))
+      // Of a nearly singular matrix the correction is nearly the vector that it
+      // maps to zero: the mechanism of failure, up to its size.
       last_correction_ = direction;
+    // So written that it holds for what is not a number, too.
     moves_freely_ = !(largest < 10. * extent_);
     if (moves_freely_)
       return "the matrix is singular or nearly so: part of the soil can move "
@@ -258,6 +308,15 @@ namespace talus
   /// Go along @p direction until the work of the residual on it is small, and
   /// set displacements and residual. Returns how far, in units of the
   /// direction; 0 if no point along it is sound.
+  /// For elastic soil the work of the residual on the direction is minus the
+  /// derivative of the energy along it, and zero at its minimum. Plastic soil
+  /// has no energy, but the work still says whether the step went too far. It
+  /// is accepted when it fell by a fifth, or when the norm did: so loose that
+  /// full steps are taken near the solution, where convergence is quadratic.
+  /// Else the step goes to the root of the line through both values of the
+  /// work, but to no less than a tenth and no more than a half. After six
+  /// trials any sound step is taken, and the limit on iterations decides. Each
+  /// trial costs one evaluation of all stresses. Collective.
   template <int dim>
   double
   Newton<dim>::line_search(StaticProblem<dim>        &problem,
@@ -273,6 +332,8 @@ namespace talus
           u[i] = u_[i] + length * direction[i];
         if (!evaluate(problem, u))
           {
+            // A point would be turned inside out, so there is no work to
+            // interpolate.
             length *= 0.5;
             continue;
           }
@@ -291,6 +352,8 @@ namespace talus
 
 
 
+  /// A nodal field with dim components, interpolated to the points by the
+  /// weights of the load step: dim numbers for each point of this rank.
   template <int dim>
   std::vector<double>
   Newton<dim>::at_points(const Points<dim>         &points,
@@ -315,6 +378,9 @@ namespace talus
 
 
 
+  /// The size of a mechanism means nothing, and of a nearly singular matrix
+  /// depends on round-off: so it is divided by the largest component over all
+  /// ranks.
   template <int dim>
   std::vector<double>
   Newton<dim>::mechanism(const Points<dim> &points) const
@@ -331,11 +397,17 @@ namespace talus
 
 
 
+  /// The laws go once more through the strain of the whole load step, from the
+  /// state at its beginning: trials of the iterations have left no trace in it,
+  /// so the result does not depend on the way by which u was found. With small
+  /// strain stress and internal variables change, points and boxes do not: the
+  /// nodes that are balanced are those on which the dynamics begins.
   template <int dim>
   void
   Newton<dim>::commit(StaticProblem<dim> &problem)
   {
     Points<dim> &points = problem.state.points;
+    // Whatever displacements were evaluated last.
     internal_forces_.set_gradients(problem, weights_, u_);
     problem.materials.for_each_material_range(
       points,
@@ -352,6 +424,7 @@ namespace talus
     for (unsigned int p = 0; p < points.size(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         points.data(points.position, d)[p] += u[dim * p + d];
+    // The gradient is that of the whole step, so dt = 1.
     update_stretch(points,
                    problem.state.workspace,
                    0,

@@ -31,6 +31,13 @@ namespace talus
 
 
 
+  /// All that does not change within a load step: unknowns, weights, faces of
+  /// the stabilization, pattern of the matrix, rigid modes, and the forces at u
+  /// = 0. The order matters: the nodal sums tell which nodes have enough mass
+  /// for unknowns; weights, faces and contact know their nodes by these; the
+  /// pattern needs all three. A pattern per load step costs little against the
+  /// matrices of its iterations, and with large strain points touch other nodes
+  /// in each. Collective.
   template <int dim>
   void
   Newton<dim>::begin(StaticProblem<dim> &problem, const Parameters &parameters)
@@ -61,6 +68,7 @@ namespace talus
     mechanism_.resize(u_.size(), 0.);
     internal_   = unknowns_.field();
     unbalanced_ = unknowns_.field();
+    // Without displacements no point can be turned inside out.
     internal_forces_.evaluate(problem, weights_, u_, internal_);
     unknowns_.add_to_owners(internal_);
     double external = 0, internal = 0;
@@ -71,10 +79,15 @@ namespace talus
           {
             const unsigned int i = dim * node + d;
             unbalanced_[i]       = force[d];
+            // Held components count here, too: most of the weight of soil on a
+            // seabed is borne there, and free nodes alone may have next to
+            // nothing to compare with.
             internal += internal_[i] * internal_[i];
             external += std::pow(unbalanced_[i] + internal_[i], 2);
           }
       }
+    // The larger of loads and stress: soil without weight may have a stress,
+    // and soil that is not yet stressed has loads.
     reference_ = std::sqrt(std::max(
       Utilities::MPI::sum(internal, problem.state.grid.communicator()),
       Utilities::MPI::sum(external, problem.state.grid.communicator())));
@@ -82,6 +95,10 @@ namespace talus
 
 
 
+  /// All unknowns that the points of a cell touch are coupled. Held ones keep
+  /// their places: nodes of the seabed begin to stick or slip within a load
+  /// step, and the pattern serves all its matrices. Rows of other ranks' nodes
+  /// are sent to them by compress(). Collective.
   template <int dim>
   void
   Newton<dim>::make_pattern()
@@ -113,6 +130,9 @@ namespace talus
 
 
   /// Translations and rotations about the axes, seen from the lower corner.
+  /// In the order of this rank's unknowns, as ML wants them. The origin is the
+  /// corner of the mesh, on all ranks the same: rotations about different
+  /// points would be different modes.
   template <int dim>
   void
   Newton<dim>::make_rigid_modes(const Grid<dim> &grid)

@@ -9,6 +9,12 @@ namespace talus
 {
   using namespace dealii;
 
+  /// Contact outlives the load step: if all nodes began by sticking, each step
+  /// would have to find the slipping ones anew, one Newton loop after the
+  /// other. Numbers of nodes may stand for other nodes when the mesh has
+  /// changed; the face is compared, and what is wrong then is found by the
+  /// trials. k is the place among the nodes with unknowns, of which there may
+  /// be others than before.
   template <int dim>
   void
   StaticContact<dim>::begin(const StaticProblem<dim> &problem,
@@ -32,6 +38,7 @@ namespace talus
             contact.face = face;
             contact.walls =
               problem.boundaries.components_constrained_by_walls(faces);
+            // The area of the dynamics: both must find the same friction.
             contact.area = contact_area(problem.state.nodes,
                                         problem.state.grid,
                                         face,
@@ -50,6 +57,8 @@ namespace talus
 
 
 
+  /// Bit d is component d. Slipping nodes are held along the normal only, open
+  /// ones by walls only.
   template <int dim>
   std::vector<unsigned char>
   StaticContact<dim>::constrained(const StaticProblem<dim> &problem,
@@ -69,6 +78,9 @@ namespace talus
 
 
 
+  /// Friction of a slipping node is a given force, not a function of the
+  /// displacement: the matrix stays symmetric, and update_active_set() corrects
+  /// the force between the loops.
   template <int dim>
   void
   StaticContact<dim>::add_friction(std::vector<double> &forces) const
@@ -81,6 +93,8 @@ namespace talus
 
 
 
+  /// Slipping nodes bear friction besides the normal reaction, sticking ones
+  /// have all of it in the reaction, open ones bear nothing.
   template <int dim>
   void
   StaticContact<dim>::add_contact_force(const double         factor,
@@ -98,11 +112,17 @@ namespace talus
 
 
   /// What the node bore along the seabed may be more than it bears now.
+  /// Strength reduction makes the seabed weaker, and the area in contact
+  /// changes with the soil. The part along the seabed is cut to mu N or tau_max
+  /// A, with the normal force N of the last step; what walls hold is not
+  /// friction and stays.
   template <int dim>
   void
   StaticContact<dim>::limit_friction(Contact           &contact,
                                      const Seabed<dim> &seabed) const
   {
+    // The seabed pushes against the outer normal: pressed soil has a positive
+    // force.
     const unsigned int axis         = contact.face / 2;
     const double       outwards     = (contact.face % 2 == 0 ? -1. : 1.);
     const double       normal_force = -outwards * contact.reaction[axis];
@@ -122,6 +142,17 @@ namespace talus
 
 
   /// @p weight, N, is what forces are small against.
+  /// The state of one node after a solution with it, by these rules:
+  ///   open    -> sticks  if it went into the seabed;
+  ///   any     -> open    if the seabed would have to pull;
+  ///   sticks  -> slips   if it bears more than the largest friction, which
+  ///                      then acts in the direction of what it bore;
+  ///   slips   -> sticks  if it moved along the friction and not against it.
+  /// A slipping node whose normal force has changed gets friction of the new
+  /// size, which counts as a change, too. The direction of slip stays that of
+  /// its beginning; in 2-D there is no other. Forces are compared with a slack
+  /// of a millionth of @p weight, so that round-off does not turn states over
+  /// and over.
   template <int dim>
   bool
   StaticContact<dim>::update_active_set(Contact              &contact,
@@ -174,6 +205,9 @@ namespace talus
 
 
 
+  /// @p reaction is the residual with its sign changed, so it is right at held
+  /// components only; what free components have is the rest that Newton's
+  /// method left.
   template <int dim>
   unsigned int
   StaticContact<dim>::update_active_set(const StaticProblem<dim>  &problem,
@@ -192,8 +226,11 @@ namespace talus
           }
         contact.reaction = Tensor<1, dim>();
         for (unsigned int d = 0; d < dim; ++d)
+          // The normal component of an open node is about zero, as it is free.
           if (contact.state == State::sticks || d == contact.face / 2)
             contact.reaction[d] = force[d];
+        // The force at the node and the weight of its soil: one of them may be
+        // zero.
         const double weight =
           force.norm() + unknowns.mass(contact.node) *
                            problem.loads.acceleration_of_body[0].norm();
@@ -205,6 +242,8 @@ namespace talus
                                weight))
           continue;
         ++n_changes;
+        // The next loop holds the normal displacement where it is: on the
+        // seabed.
         if (was_open)
           u[dim * contact.node + contact.face / 2] = 0.;
       }
@@ -213,6 +252,8 @@ namespace talus
 
 
 
+  /// The direction is the last correction, and only its sign counts: its size
+  /// is that of a nearly singular matrix.
   template <int dim>
   unsigned int
   StaticContact<dim>::stick_again(const Unknowns<dim>       &unknowns,

@@ -8,6 +8,13 @@ namespace talus
 {
   using namespace dealii;
 
+  /// Numbers follow the order of the owned nodes, rank after rank, so that each
+  /// rank owns one range, as Trilinos wants it. The list of active nodes is
+  /// sorted by node number: it then depends on the mesh and the soil only, not
+  /// on the order in which nodes were activated. What others must know of a
+  /// node (first unknown, held components, mass, volume) is one record of
+  /// doubles, so that ghosts get it by one message per neighbour; a double
+  /// holds whole numbers up to 2^53.
   template <int dim>
   void
   Unknowns<dim>::number(const NodalFields<dim> &nodes,
@@ -20,6 +27,7 @@ namespace talus
     exchange_of_fields_.prepare(grid, dim);
     active_nodes_ = nodes.active_nodes();
     std::sort(active_nodes_.begin(), active_nodes_.end());
+    // Lighter nodes have no row: they carry no motion in the dynamics either.
     active_nodes_.erase(std::remove_if(active_nodes_.begin(),
                                        active_nodes_.end(),
                                        [&](const unsigned int node) {
@@ -42,6 +50,7 @@ namespace talus
       records_[width * std::size_t(node)] = -1.;
     for (unsigned int k = 0; k < active_nodes_.size(); ++k)
       {
+        // Entry 1, the held components, stays 0 until constrain().
         double *record = &records_[width * std::size_t(active_nodes_[k])];
         record[0]      = begin + dim * k;
         record[2]      = nodes.mass(active_nodes_[k]);
@@ -52,6 +61,7 @@ namespace talus
     owned_ = IndexSet(n_all);
     owned_.add_range(begin, begin + n_own);
     relevant_ = owned_;
+    // What this rank may add to, but does not own.
     for (unsigned int node = grid.n_owned_nodes(); node < n_nodes_; ++node)
       if (is_active(node))
         relevant_.add_range(first(node), first(node) + dim);
@@ -60,6 +70,9 @@ namespace talus
 
 
 
+  /// deal.II's constraints with nothing but zero lines: with these, assembly
+  /// drops the rows and columns of held unknowns, which keep their places in
+  /// the matrix. Numbers need not change when a node begins to slip.
   template <int dim>
   void
   Unknowns<dim>::constrain(const std::vector<unsigned char> &held)
@@ -88,6 +101,7 @@ namespace talus
 
 
 
+  /// Over owned nodes, each once, so ghosts count nowhere twice.
   template <int dim>
   double
   Unknowns<dim>::product(const std::vector<double> &a,

@@ -7,6 +7,7 @@ namespace talus
 {
   namespace
   {
+    // What the list below holds of a format.
     struct Format
     {
       std::string name;
@@ -16,6 +17,7 @@ namespace talus
 
 
 
+    /// The entry of a class of writers.
     template <typename Writer>
     Format
     format(const std::string &name)
@@ -30,6 +32,8 @@ namespace talus
 
 
     /// All formats there are.
+    /// A new format is one line here; the parameter and its documentation
+    /// follow.
     const std::vector<Format> &
     formats()
     {
@@ -42,6 +46,7 @@ namespace talus
 
 
 
+    /// A text for each format, with separators between them.
     template <typename GetText>
     std::string
     joined(const std::string &separator, const GetText &text_of)
@@ -73,6 +78,7 @@ namespace talus
 
 
 
+  /// The parameter admits known names only; this is for names from elsewhere.
   std::unique_ptr<FieldWriter>
   make_field_writer(const std::string &name)
   {

@@ -15,6 +15,9 @@ namespace talus
 
   namespace
   {
+    /// The C library's words for errno, which streams set but do not tell.
+    /// Callers set it to 0 before, so that an old error is not taken for
+    /// theirs.
     std::string
     reason()
     {
@@ -49,6 +52,10 @@ namespace talus
 
 
 
+  /// Under another name first, then renamed: rename() replaces a file at once,
+  /// so a reader, and a run that is killed in between, find either the old file
+  /// or the whole new one. It is closed before it is looked at, since a full
+  /// disk may show only there.
   void
   write_file(const std::filesystem::path               &path,
              const std::function<void(std::ostream &)> &write)
@@ -79,6 +86,7 @@ namespace talus
   {
     errno                = 0;
     const int descriptor = ::open(path.c_str(), O_RDONLY);
+    // A folder is opened in the same way: to sync it keeps its names.
     if (descriptor < 0)
       return reason();
     // Some file systems cannot sync everything, and say so with EINVAL.
@@ -103,6 +111,8 @@ namespace talus
 
 
 
+  /// Lines after the checkpoint are kept in a resumed run: they tell what
+  /// happened.
   void
   LogFile::open(const std::filesystem::path &path, const Beginning beginning)
   {
@@ -126,6 +136,9 @@ namespace talus
 
 
 
+  /// A resumed run cuts the file to the length that it had at the checkpoint,
+  /// known from the state: then the table is byte by byte that of a run without
+  /// a stop. Opened for input, too, as output alone would empty the file.
   void
   CsvFile::open(const std::filesystem::path    &path,
                 const std::vector<std::string> &names,
@@ -157,6 +170,9 @@ namespace talus
 
 
 
+  /// A longer file is right: rows were written after the checkpoint. What
+  /// matters is that nothing before it is missing, and that the columns are the
+  /// same.
   std::string
   CsvFile::cannot_resume(const std::filesystem::path    &path,
                          const std::vector<std::string> &names) const
@@ -211,6 +227,7 @@ namespace talus
     char        number[32];
     for (const double value : values)
       {
+        // 16 digits: two runs can be compared to round-off.
         std::snprintf(number, sizeof(number), "%.16g", value);
         row += (row.empty() ? "" : ",");
         row += number;
@@ -221,6 +238,8 @@ namespace talus
 
 
 
+  /// n_bytes_ is what a checkpoint would save: bytes that the operating system
+  /// has.
   void
   CsvFile::flush()
   {

@@ -20,6 +20,9 @@ namespace talus
 
 
 
+  /// HDF5 prints its stack of errors to the terminal unless it is told
+  /// otherwise. Here the reason is kept for a sentence of ours, and what was
+  /// set before comes back with the destructor.
   Hdf5Errors::Hdf5Errors()
   {
     H5Eget_auto2(H5E_DEFAULT, &previous_, &previous_data_);

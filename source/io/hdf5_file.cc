@@ -26,6 +26,7 @@ namespace talus
 
 
 
+    /// So that no reader finds a file under its name that is not complete.
     std::filesystem::path
     path_while_written(std::filesystem::path path, const bool is_atomic)
     {
@@ -42,6 +43,8 @@ namespace talus
     {
       Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
       H5Pset_fapl_mpio(access, communicator, MPI_INFO_NULL);
+      // Metadata are read by one rank and broadcast, and written together: else
+      // each rank would ask the file system for each group and attribute.
       H5Pset_all_coll_metadata_ops(access, true);
       H5Pset_coll_metadata_write(access, true);
       // From this version on the metadata have checksums.
@@ -104,6 +107,8 @@ namespace talus
                                 H5Sclose);
       const Handle  together(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
       H5Pset_dxpl_mpio(together, H5FD_MPIO_COLLECTIVE);
+      // A rank without rows takes part with an empty selection: the call is
+      // collective.
       const herr_t selected =
         (n_rows == 0
            ? H5Sselect_none(memory_space) + H5Sselect_none(file_space)
@@ -117,6 +122,7 @@ namespace talus
 
 
 
+    /// Not valid if there is no such array; the same of open_attribute().
     Handle
     open_array(const hid_t file, const std::string &name)
     {
@@ -184,6 +190,9 @@ namespace talus
 
 
 
+  /// The file must exist before its space can be reserved, and H5Fcreate() may
+  /// be the first to fill the disk; so space for an empty file is reserved
+  /// before. If that fails the library never sees the file.
   void
   Hdf5File::create()
   {
@@ -203,11 +212,17 @@ namespace talus
 
 
 
+  /// In this order: all data to the operating system; the file closed on all
+  /// ranks; what was reserved and not used given back; content to the disk; and
+  /// only then the name. If the machine dies in between, the older file of that
+  /// name is whole. After each step that one rank does alone all of them agree
+  /// whether to go on.
   void
   Hdf5File::close()
   {
     if (!error_.empty())
       return;
+    // Flushed first, so that a full disk shows before the file is closed.
     bool success = (H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0);
     success      = file_.close() && success;
     if (!check_on_all_ranks(success, "it could not be completed") || !is_new_)
@@ -233,6 +248,7 @@ namespace talus
 
   // ----------------------------------------------------------------- failures
 
+  /// The first failure stays: what follows mostly comes of it.
   void
   Hdf5File::note_error(const bool success, const std::string &failure)
   {
@@ -260,6 +276,9 @@ namespace talus
 
 
 
+  /// n_bytes_ is the size of the file at most, as all ranks count it alike, so
+  /// they agree without a message whether more must be reserved. The first rank
+  /// does it.
   void
   Hdf5File::reserve(const std::uint64_t n_bytes)
   {
@@ -296,6 +315,8 @@ namespace talus
 
 
 
+  /// From an index by name, so that the order is that of the names and the same
+  /// for files that were written in another order.
   std::vector<std::string>
   Hdf5File::names(const std::string &group)
   {
@@ -318,6 +339,8 @@ namespace talus
 
 
 
+  /// All ranks give the same value, as collective metadata demand. A failure is
+  /// noted, and told with the next agreement: no rank waits for this one.
   void
   Hdf5File::write_attribute(const std::string &object,
                             const std::string &name,
@@ -376,6 +399,7 @@ namespace talus
 
 
 
+  /// Numbers are converted from the file's type to that of memory.
   void
   Hdf5File::read_attribute(const std::string &object,
                            const std::string &name,
@@ -392,6 +416,7 @@ namespace talus
 
 
 
+  /// Texts have a fixed length in the file, filled up with zeros.
   std::string
   Hdf5File::text_attribute(const std::string &object, const std::string &name)
   {
@@ -431,6 +456,7 @@ namespace talus
 
   // ------------------------------------------------------------------- arrays
 
+  /// MPI_Scan() sums up to and including this rank.
   std::pair<std::uint64_t, std::uint64_t>
   Hdf5File::first_and_total(const std::uint64_t n_rows) const
   {
@@ -443,6 +469,9 @@ namespace talus
 
 
 
+  /// The checksum of a part depends on the places of its values in the whole,
+  /// and the sum over the parts is that of the array, however many ranks wrote
+  /// it.
   template <typename Number>
   void
   Hdf5File::write(const std::string         &name,
@@ -468,6 +497,10 @@ namespace talus
 
 
 
+  /// Reserved as if nothing could be compressed, since nobody knows before.
+  /// When the array is written, n_bytes_ takes its true size, so that the next
+  /// reservations do not add up to many times the file. That size is the first
+  /// rank's word, or the ranks might count differently.
   void
   Hdf5File::write_rows(const std::string &name,
                        const hid_t        memory_type,
@@ -515,6 +548,8 @@ namespace talus
     const Handle  properties = undated(H5P_DATASET_CREATE);
     const Handle  space(H5Screate_simple(rank, extent, nullptr), H5Sclose);
     bool          success = properties.is_valid() && space.is_valid();
+    // Shuffled, first bytes of all values together and so on: signs and
+    // exponents of neighbours are alike. Level 1 of deflate is the fastest one.
     if (options_.is_compressed && n_rows > 0)
       {
         // Chunks of a quarter of a megabyte: many enough to keep the ranks
@@ -537,6 +572,8 @@ namespace talus
 
 
 
+  /// All ranks have the values, so only the first one writes, which needs no
+  /// agreement on how rows are distributed.
   void
   Hdf5File::write_known(const std::string         &name,
                         const std::vector<double> &values)
@@ -551,6 +588,7 @@ namespace talus
 
 
 
+  /// All ranks must know the length, which is part of the type.
   void
   Hdf5File::write_text(const std::string &name, const std::string &text)
   {
@@ -566,6 +604,7 @@ namespace talus
 
 
 
+  /// Making an array is collective, writing need not be.
   void
   Hdf5File::write_by_first_rank(const std::string &name,
                                 const hid_t        memory_type,
@@ -595,6 +634,7 @@ namespace talus
 
 
 
+  /// A list has one column.
   std::pair<std::uint64_t, unsigned int>
   Hdf5File::shape(const std::string &name)
   {
@@ -655,6 +695,7 @@ namespace talus
 
 
 
+  /// What decides how the checksum is taken.
   bool
   Hdf5File::is_text(const std::string &name)
   {
@@ -670,6 +711,8 @@ namespace talus
 
 
 
+  /// Each rank reads an equal share of the rows, whatever rank wrote them: a
+  /// large file is checked in the time of reading it once.
   void
   Hdf5File::verify(const std::string &name)
   {

@@ -30,6 +30,8 @@ namespace talus
     class FileWithDescription
     {
     public:
+      /// Atomic, since ParaView may look at the folder while the run goes on.
+      /// Checksums are for files that a run is to go on from.
       FileWithDescription(const std::filesystem::path &path,
                           const MPI_Comm               communicator)
         : file(path,
@@ -64,6 +66,9 @@ namespace talus
                     "</DataItem>\n");
       }
 
+      /// Corners of cells are numbered over all ranks: those of this rank begin
+      /// behind those of the ranks before it. No corner is shared, so no
+      /// numbering has to be agreed on.
       void
       write_mesh(const OutputCells &cells)
       {
@@ -92,6 +97,8 @@ namespace talus
                             "        </Geometry>\n");
       }
 
+      /// Rows of the points of this rank behind those of the ranks before it,
+      /// as in each other dataset: row i is the same point in all of them.
       void
       write_field(const OutputCells &cells, const Field &field)
       {
@@ -127,6 +134,9 @@ namespace talus
 
 
 
+  /// One file per output time, whatever the number of ranks. It is on the disk
+  /// when close() has given it its name, so that nothing is left to be synced
+  /// later.
   IndexEntry
   Hdf5Writer::write(const std::filesystem::path &folder,
                     const std::string           &base,
@@ -150,6 +160,8 @@ namespace talus
 
 
 
+  /// Light data only, in XML; values are in the HDF5 files, to which it refers.
+  /// Files that somebody has moved away are left out of the index.
   std::filesystem::path
   Hdf5Writer::write_index(const std::filesystem::path   &folder,
                           const std::string             &name,

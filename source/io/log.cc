@@ -7,6 +7,7 @@
 
 namespace talus
 {
+  /// Progress is for whoever looks on; a log of a batch system is spared it.
   bool
   stdout_is_terminal()
   {
@@ -15,6 +16,8 @@ namespace talus
 
 
 
+  /// The first rank alone has the file. What was said before is on the terminal
+  /// only.
   void
   Log::open(const std::filesystem::path &folder, const Beginning beginning)
   {
@@ -26,6 +29,8 @@ namespace talus
 
 
 
+  /// Results are printed in any case, information only to a terminal; the file
+  /// has both.
   void
   Log::say(const LogLevel level, const std::string &sentence)
   {

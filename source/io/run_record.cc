@@ -13,6 +13,8 @@ namespace talus
 {
   using namespace dealii;
 
+  /// One line per library that results may depend on, as a comment in a
+  /// parameter file (@p prefix).
   std::string
   versions(const std::string &prefix)
   {
@@ -49,6 +51,8 @@ namespace talus
 
 
 
+  /// In the order of the declarations and with defaults, so that it can be run
+  /// again and compared line by line.
   std::string
   parameters_as_text(const ParameterHandler &parameters)
   {
@@ -61,6 +65,8 @@ namespace talus
 
 
 
+  /// Without date and host: two runs with the same parameters have the same
+  /// file.
   void
   write_run_record(const std::filesystem::path &path,
                    const ParameterHandler      &parameters)

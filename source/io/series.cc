@@ -30,6 +30,9 @@ namespace talus
 
 
 
+  /// As text, since a list of names and times has no fixed length. 17 digits
+  /// give each double back as it was. Lines of a description begin with a
+  /// blank, those of an entry do not.
   void
   FieldSeries::list_state(const std::string &name, StateList &list)
   {
@@ -58,6 +61,10 @@ namespace talus
 
 
 
+  /// The number of the output is that of the entries, so a resumed run
+  /// overwrites files from after its checkpoint. The index is written after the
+  /// files that it names, each time as a whole: ParaView finds no name without
+  /// a file.
   void
   FieldSeries::write(const OutputCells &cells)
   {
@@ -71,6 +78,8 @@ namespace talus
 
 
 
+  /// Once per checkpoint, not per file: to wait for the disk often takes longer
+  /// than to write.
   void
   FieldSeries::sync()
   {

@@ -15,6 +15,7 @@ namespace talus
   {
     using Bytes = std::vector<unsigned char>;
 
+    /// The bytes as zlib packs them at this level; level 0 only wraps them.
     Bytes
     pack(const unsigned char *bytes, const std::size_t n, const int level)
     {
@@ -45,6 +46,9 @@ namespace talus
 
 
   // deal.II's takes as long as the compression, and makes copies.
+  /// Three bytes become four digits; the last group is filled up with '='.
+  /// Digits go through a buffer, since a call of the stream for each would take
+  /// longer than the conversion.
   void
   write_base64(std::ostream        &out,
                const unsigned char *bytes,
@@ -76,6 +80,10 @@ namespace talus
 
 
 
+  /// VTK's format "binary" with a compressor: a header of four 32-bit numbers
+  /// (blocks, size of a block, size of the last one, compressed size), then the
+  /// data, each in base64 by itself. All is one block, so that no list of sizes
+  /// is needed.
   template <typename Number>
   void
   write_vtu_array(std::ostream &out, const std::vector<Number> &values)

@@ -19,6 +19,7 @@ namespace talus
     const std::string byte_order = "LittleEndian";
 #endif
 
+    /// An element DataArray with its @p attributes.
     template <typename Number>
     void
     write_array(std::ostream              &out,
@@ -45,6 +46,9 @@ namespace talus
 
 
 
+    /// Vertices cell by cell: the corners of cell c are the vertices from c
+    /// times their number on, in VTK's order by corners_of_cells(). Single
+    /// precision, as all fields.
     void
     write_geometry(std::ostream &out, const OutputCells &cells)
     {
@@ -87,6 +91,8 @@ namespace talus
                const OutputCells              &cells,
                const std::vector<std::string> &pieces)
     {
+      // The fields of the first rank are those of all, so this needs no
+      // message.
       const std::string data = data_of(cells);
       out << "<?xml version=\"1.0\"?>\n"
              "<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" "
@@ -110,6 +116,7 @@ namespace talus
 
 
 
+  /// TIME and CYCLE are names that VTK's readers know.
   void
   write_vtu(std::ostream &out, const OutputCells &cells)
   {
@@ -138,6 +145,9 @@ namespace talus
 
 
 
+  /// A file per rank, without any message between them but for who writes one;
+  /// HDF5 makes one file for all. write_file() makes each of them complete or
+  /// not at all.
   IndexEntry
   VtuWriter::write(const std::filesystem::path        &folder,
                    const std::string                  &base,
@@ -164,6 +174,7 @@ namespace talus
     const auto writes  = [&](const unsigned int r) {
       return n_cells[r] > 0 || (nobody && r == 0);
     };
+    // Nothing is written twice: each rank has the cells of its own points.
     if (writes(rank))
       write(piece(rank), [&](std::ostream &out) { write_vtu(out, cells); });
     if (n_ranks == 1)

@@ -9,6 +9,9 @@ namespace talus
     : lower_(grid.domain().lower)
     , size_(grid.cell_size())
   {
+    // The mesh is a whole number of cells long; lround only takes the round-off
+    // away. The largest coordinate must leave room for the spare value below
+    // zero in a key.
     for (unsigned int d = 0; d < dim; ++d)
       {
         extent_[d] =

@@ -12,6 +12,8 @@ namespace talus
 
   namespace
   {
+    /// Of this rank's points, J, with the velocities as they are, those of the
+    /// half step.
     template <int dim>
     double
     kinetic_energy(const Points<dim> &points)
@@ -29,6 +31,7 @@ namespace talus
 
 
 
+    /// Sum of a column over this rank's points.
     template <int dim>
     double
     total(const Points<dim> &points, const unsigned int column)
@@ -39,6 +42,9 @@ namespace talus
 
 
 
+    // A term and its name: columns of statistics.csv, sums over ranks and state
+    // of a checkpoint go through the same list, so that none of them can forget
+    // one.
     struct Term
     {
       const char *name;
@@ -58,6 +64,9 @@ namespace talus
 
 
 
+    /// All terms but the remainder, over all ranks. Points carry their elastic
+    /// energy and plastic work themselves; what boundaries, damping and gravity
+    /// did is in the works of the state, each rank's share. Collective.
     template <int dim>
     EnergyTerms
     sum_terms(const State<dim> &state)
@@ -81,6 +90,8 @@ namespace talus
 
 
 
+  /// The run may begin with energy: of an initial velocity, of K0 stress, or
+  /// what the static stages left. Only changes since then can balance.
   template <int dim>
   void
   EnergyBudget<dim>::begin(const State<dim> &state)
@@ -90,6 +101,10 @@ namespace talus
 
 
 
+  /// The grid's kinetic energy is no part of the balance: it is the same motion
+  /// seen from the nodes, and smaller by what FLIP keeps at the points. A
+  /// remainder is therefore what the transfer dissipates (doc/method.md,
+  /// section 7), and a negative one would be energy made from nothing.
   template <int dim>
   EnergyTerms
   EnergyBudget<dim>::evaluate(const State<dim> &state) const
@@ -118,6 +133,8 @@ namespace talus
 
 
 
+  /// All ranks have the same sums, so a checkpoint may be read by other numbers
+  /// of ranks.
   template <int dim>
   void
   EnergyBudget<dim>::list_state(StateList &list)

@@ -50,6 +50,11 @@ namespace talus
 
 
 
+    /// The occupied cells of all ranks, sorted, on the first rank (empty on the
+    /// others). Found from the points: their number, not that of cells of the
+    /// mesh, decides what it costs. A cell may have points of several ranks, as
+    /// where the mesh has smaller cells than the lattice, so the lists are
+    /// merged. Collective.
     template <int dim>
     std::vector<Occupied>
     find_occupied(const Points<dim> &points, const Grid<dim> &grid)
@@ -112,6 +117,7 @@ namespace talus
       std::vector<std::size_t> parent(cells.size());
       std::iota(parent.begin(), parent.end(), std::size_t(0));
       const auto root = [&](std::size_t i) {
+        // Each look-up halves the path, which keeps the trees flat.
         while (parent[i] != i)
           i = parent[i] = parent[parent[i]];
         return i;
@@ -125,6 +131,8 @@ namespace talus
             if (cells[j].key + step != cells[i].key)
               continue;
             const std::size_t a = root(i), b = root(j);
+            // The root is the first cell of the group, so that results do not
+            // depend on the order of the directions.
             parent[std::max(a, b)] = std::min(a, b);
           }
       for (std::size_t i = 0; i < cells.size(); ++i)
@@ -135,6 +143,8 @@ namespace talus
 
 
     /// For each cell whether its group has a cell at the bottom of the mesh.
+    /// Soil on the bottom face has to fill the cells below it; soil that hangs,
+    /// or falls, does not.
     template <int dim>
     std::vector<bool>
     rests_on_bottom(const std::vector<Occupied>    &cells,
@@ -152,6 +162,10 @@ namespace talus
 
 
 
+  /// Keys sort by x, then z, then y, so one pass over the occupied cells is
+  /// enough: between a cell and the one before it in the list there are either
+  /// empty cells of one column, or empty columns. Nothing is allocated for the
+  /// unoccupied cells of the mesh, which are most.
   template <int dim>
   FractureCounts
   count_fractures(const Points<dim> &points, const Grid<dim> &grid)
@@ -177,6 +191,8 @@ namespace talus
                                           : place[1] - 1;
         counts.empty_interior_cells += place[1] - below - 1;
 
+        // In 3-D the cells with one x are a slab. Within it the difference is 0
+        // or less.
         const int left =
           (i == 0 ? place[0] : Lattice::place(cells[i - 1].key)[0]);
         counts.empty_columns += std::max(place[0] - left - 1, 0);
@@ -186,6 +202,7 @@ namespace talus
 
 
 
+  /// Without unit, since they are numbers of cells.
   template <int dim>
   void
   list_fractures(const State<dim> &state, Quantities &list)

@@ -16,6 +16,9 @@ namespace talus
 
 
     /// Of all nodes this rank knows, those of ghosts from their owners.
+    /// Sums are right at the owners only. The cells of this rank have nodes of
+    /// others at their corners, so these are asked for; once per output, where
+    /// the step does not need them. Collective.
     template <int dim>
     AlignedVector<double>
     mass_and_force(const State<dim> &state)
@@ -38,6 +41,9 @@ namespace talus
 
 
 
+    /// Fields that read from @p sums (mass and force) and, for the velocity,
+    /// from the nodes themselves: velocities of ghosts are there after a step.
+    /// Both must outlive the fields.
     template <int dim>
     std::vector<Field>
     node_fields(const NodalFields<dim>      &nodes,
@@ -130,6 +136,11 @@ namespace talus
 
 
 
+  /// Cells with points only: the mesh far from the soil has nothing to show and
+  /// may be most of it. Points are sorted by cell, so the segments of a cell
+  /// follow each other. A corner that several cells share is written once for
+  /// each: no numbering of the nodes over the ranks is needed, and ParaView
+  /// does not mind.
   template <int dim>
   void
   GridOutput<dim>::observe(const State<dim> &state)

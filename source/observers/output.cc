@@ -58,6 +58,8 @@ namespace talus
                   "Write what tells the runout: the columns of front and rear "
                   "in statistics.csv, and profile.csv. Not with damping, which "
                   "falsifies the runout.");
+    // The list of observers: a new one is one line here, among those that look
+    // when a row is due (rows_) or when fields are (fields_).
     auto statistics = std::make_unique<Statistics<dim>>();
     statistics_     = statistics.get();
     rows_.observers.push_back(std::move(statistics));
@@ -99,6 +101,10 @@ namespace talus
 
 
 
+  /// The first rank makes the folder before anyone opens a file in it, hence
+  /// the barrier. parameters.prm comes first: write_file() replaces it only on
+  /// success, so a folder that cannot be written stops the run before the
+  /// results of an earlier one are touched. Collective.
   template <int dim>
   void
   Output<dim>::begin(const State<dim> &state,
@@ -121,6 +127,9 @@ namespace talus
     settings_.folder = folder_;
     for (Schedule *schedule : {&rows_, &fields_})
       {
+        // From the time of the state, which a resumed run has loaded: output
+        // goes on at the same multiples of the interval as if there had been no
+        // stop.
         schedule->times.begin(schedule->interval, state.time);
         for (const auto &observer : schedule->observers)
           if (observer->is_enabled(settings_))
@@ -130,6 +139,9 @@ namespace talus
 
 
 
+  /// The first row and fields belong to the beginning of the motion, after the
+  /// static stages. has_started_ is state of the run: a run that is resumed
+  /// later must not write them a second time.
   template <int dim>
   void
   Output<dim>::start(const State<dim> &state)
@@ -147,6 +159,9 @@ namespace talus
 
 
 
+  /// Both questions are asked before anything is written, as reached() answers
+  /// yes only once. Whether output is due follows from the simulated time, so
+  /// that all ranks agree without a message.
   template <int dim>
   bool
   Output<dim>::observe(const State<dim> &state, const bool last)
@@ -163,6 +178,8 @@ namespace talus
       write(fields_, state);
     if (last)
       {
+        // Wall times go to the log: the files by which two runs are compared
+        // hold none.
         for (const std::string &line :
              phase_times(timer_, state.communicator()))
           log_.say(LogLevel::info, line);
@@ -173,6 +190,8 @@ namespace talus
 
 
 
+  /// Everything is due at the last step, but for what the same step wrote
+  /// already: a row twice would have the mean of an interval of no length.
   template <int dim>
   bool
   Output<dim>::Schedule::is_due(const State<dim> &state, const bool last)
@@ -182,6 +201,7 @@ namespace talus
 
 
 
+  /// The time goes to the phase "output".
   template <int dim>
   void
   Output<dim>::write(Schedule &schedule, const State<dim> &state)
@@ -195,6 +215,8 @@ namespace talus
 
 
 
+  /// Observers that are switched off list theirs, too: what a checkpoint holds
+  /// must not depend on parameters that may change when a run is resumed.
   template <int dim>
   void
   Output<dim>::list_state(StateList &list)
@@ -212,6 +234,10 @@ namespace talus
 
 
 
+  /// Before any file is opened: begin() cuts files to their length at the
+  /// checkpoint, which must not happen to one of them if another is missing. A
+  /// file is looked at by the first rank, and its answer is told to all, so
+  /// that all of them throw.
   template <int dim>
   void
   Output<dim>::check_resumable(const State<dim> &state) const
@@ -246,6 +272,8 @@ namespace talus
 
 
 
+  /// A series of its own that is started each time: of several failures only
+  /// the last one stays.
   template <int dim>
   void
   Output<dim>::write_mechanism(const State<dim>          &state,
@@ -266,6 +294,9 @@ namespace talus
 
 
 
+  /// Not collective: an error may have stopped one rank alone, and to wait for
+  /// the others would be to wait for ever. So each rank that gets here writes a
+  /// file of its own, as VTU, which needs no common file as HDF5 does.
   template <int dim>
   std::string
   Output<dim>::write_last_state(const State<dim> &state) const

@@ -12,15 +12,19 @@ namespace talus
   std::vector<std::string>
   phase_times(const PhaseTimer &timer, const MPI_Comm communicator)
   {
+    // All ranks know the same phases in the same order, since the sums below
+    // are taken phase by phase.
     const auto phases = timer.seconds();
     double     total  = 0;
     for (const auto &phase : phases)
       total += phase.second;
+    // Mean over the ranks: shares of means add up to 100 %.
     total = Utilities::MPI::sum(total, communicator) /
             Utilities::MPI::n_mpi_processes(communicator);
 
     std::vector<std::string> lines = {
       "Wall time by phase, s: least, mean and largest over the ranks, share"};
+    // Least and largest show whether ranks wait for each other.
     for (const auto &[name, seconds] : phases)
       {
         const auto over_ranks =
@@ -34,6 +38,7 @@ namespace talus
         lines.push_back(line.str());
       }
 
+    // VmHWM is the largest resident memory so far, kB.
     Utilities::System::MemoryStats memory;
     Utilities::System::get_memory_stats(memory);
     const auto peak =

@@ -28,6 +28,8 @@ namespace talus
 
 
 
+    /// One pass over this rank's points. Extremes begin beyond all numbers, so
+    /// a rank without points does not count.
     template <int dim>
     PointSums<dim>
     sum_over_own_points(const Points<dim> &points)
@@ -60,6 +62,7 @@ namespace talus
 
 
 
+    /// The same over all ranks. Collective.
     template <int dim>
     PointSums<dim>
     sum_over_points(const Points<dim> &points, const MPI_Comm communicator)
@@ -81,6 +84,13 @@ namespace talus
 
   // Finds the place by counting mass in bins and going on with the points of
   // the one bin that holds it: no sort, and only the bins travel between ranks.
+  /// Each round divides the range that holds the place into 1024 bins, sums
+  /// mass by bin over the ranks, and keeps the points of the bin in which the
+  /// sum passes the target: three rounds resolve 1e-9 of the length of the
+  /// slide. It ends when all points that are left, over all ranks, have the
+  /// same x, so the result is the x of a point exactly and does not depend on
+  /// how points are distributed. mass_below is the mass in front of the range,
+  /// the same on all ranks.
   template <int dim>
   double
   front_of_mass(const Points<dim> &points,
@@ -119,6 +129,7 @@ namespace talus
         if (!(lower < upper))
           return upper;
 
+        // The largest x would be in a bin beyond the last.
         const auto bin = [&](const Candidate &c) {
           const double at = (c.x - lower) / (upper - lower) * n_bins;
           return std::min(n_bins - 1, static_cast<unsigned int>(at));
@@ -128,6 +139,8 @@ namespace talus
           bins[bin(c)] += c.mass;
         Utilities::MPI::sum(bins, communicator, bins);
 
+        // The last bin is taken in any case: by round-off the sum may miss the
+        // target.
         unsigned int b = 0;
         for (; b + 1 < n_bins && mass_below + bins[b] < target; ++b)
           mass_below += bins[b];
@@ -142,6 +155,9 @@ namespace talus
 
 
 
+  /// Columns of statistics.csv; doc/output.md says what each means. The front
+  /// by mass costs some messages more, so it is found only if it is to be
+  /// written.
   template <int dim>
   void
   list_motion(const State<dim> &state, const bool with_runout, Quantities &list)

@@ -34,6 +34,9 @@ namespace talus
 
 
     /// What output shows of a column: one field, or of a list one per number.
+    /// New columns of laws get here by themselves, by their kind: nobody has to
+    /// name them for the output. Lambdas keep the place of the column, not a
+    /// copy of its values, which are read when a file is written.
     template <int dim>
     void
     append_column(std::vector<Field> &fields,
@@ -80,6 +83,8 @@ namespace talus
                 FieldKind::tensor,
                 [&points, first, kind = column.kind](const unsigned int p,
                                                      float *values) {
+                  // In 2-D: nothing is stretched out of the plane, but any
+                  // other tensor has 0 there. In 3-D the loop sets it.
                   values[8] = (kind == ColumnKind::deformation);
                   for (unsigned int c = 0; c < dim * dim; ++c)
                     values[3 * (c / dim) + c % dim] = points.data(first, c)[p];
@@ -90,6 +95,9 @@ namespace talus
 
 
     /// Mean and von Mises stress, Pa.
+    /// sqrt(3/2 s:s) with the deviator s; off the diagonal each component
+    /// counts twice. The mean is over three components in 2-D, too: the stress
+    /// out of the plane is not zero.
     template <int dim>
     std::pair<double, double>
     stress_measures(const Points<dim> &points, const unsigned int p)
@@ -105,6 +113,8 @@ namespace talus
 
 
 
+    /// What follows from the columns and is asked for often enough that
+    /// ParaView should not have to compute it.
     template <int dim>
     void
     append_derived_vectors(std::vector<Field> &fields, const State<dim> &state)
@@ -131,6 +141,7 @@ namespace talus
 
 
 
+    /// J is that of F, as the volume in the dynamics.
     template <int dim>
     void
     append_derived_scalars(std::vector<Field> &fields,
@@ -167,6 +178,8 @@ namespace talus
 
 
     /// No vertices yet, the points as items of the cells.
+    /// The items of the cells are the numbers of the points, from which fields
+    /// read.
     template <int dim>
     OutputCells
     one_cell_per_point(const State<dim>  &state,
@@ -184,6 +197,7 @@ namespace talus
 
 
 
+    /// A vertex at the centre of each point, with values at vertices.
     template <int dim>
     OutputCells
     points_as_vertices(const State<dim> &state)
@@ -197,6 +211,10 @@ namespace talus
 
 
 
+    /// Corners in the order of deal.II, x fastest: bit d of v tells the side
+    /// along axis d. Edges may be oblique, as those of a convected domain.
+    /// Neighbouring boxes share no vertices, since they have gaps and overlaps.
+    /// Values are those of cells.
     template <int dim>
     OutputCells
     points_as_boxes(const State<dim> &state)
@@ -282,6 +300,8 @@ namespace talus
 
 
 
+  /// For the state after an error, of this rank alone: vertices need nothing of
+  /// a point but its place.
   template <int dim>
   void
   write_points(const State<dim> &state, const std::filesystem::path &path)

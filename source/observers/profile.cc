@@ -21,6 +21,9 @@ namespace talus
   namespace
   {
     /// What is summed up for a column.
+    // Volume, mass and momentum add up by shares; lowest and highest are edges
+    // of whole boxes, as a box stands in each of its columns with its full
+    // height.
     struct Sums
     {
       double lowest     = std::numeric_limits<double>::max();    // m
@@ -56,6 +59,7 @@ namespace talus
 
 
     /// All of point @p p.
+    /// @p half_height of the box, m. Velocities along z only in 3-D.
     template <int dim>
     Sums
     whole_point(const Points<dim> &points,
@@ -83,6 +87,10 @@ namespace talus
       std::vector<double> share;
     };
 
+    /// Shares add up to one, so that volume and mass of the profile are those
+    /// of the soil. What lies outside the mesh belongs to the outermost column:
+    /// coordinate() ends there, and the first and the last share take what is
+    /// left.
     template <int dim>
     Shares
     shares_along(const unsigned int      d,
@@ -109,6 +117,9 @@ namespace talus
 
 
     /// Add to @p columns what each has of point @p p.
+    /// By boxes, not by centres: with points a fraction of a cell apart, the
+    /// thickness of a column would jump by whole points whenever a centre
+    /// crosses a face.
     template <int dim>
     void
     add_point(const State<dim>       &state,
@@ -126,12 +137,14 @@ namespace talus
                             lengths[d]);
       };
       const Shares x = along(0);
+      // In 2-D all is in one slab.
       const Shares z = (dim == 3 ? along(dim - 1) : Shares{0, {1.}});
 
       typename CellLattice<dim>::Place place = {};
       for (unsigned int i = 0; i < x.share.size(); ++i)
         for (unsigned int k = 0; k < z.share.size(); ++k)
           {
+            // In 2-D the first line sets y, which the second one overwrites.
             place[dim - 1] = z.first + k;
             place[1]       = 0;
             place[0]       = x.first + i;
@@ -143,6 +156,9 @@ namespace talus
 
 
 
+    /// On the first rank the columns of all; a column may have soil of several
+    /// ranks. They are added in the order of the ranks, so that the result is
+    /// the same in each run. Collective.
     template <int dim>
     Columns
     sum_columns(const State<dim> &state)
@@ -188,6 +204,7 @@ namespace talus
 
 
 
+  /// z comes behind x in 3-D, as in observe().
   template <int dim>
   std::vector<std::string>
   Profile<dim>::names()
@@ -241,6 +258,7 @@ namespace talus
 
 
 
+  /// The file belongs to the first rank.
   template <int dim>
   void
   Profile<dim>::sync()

@@ -20,6 +20,7 @@ namespace talus
 
 
     /// 3:07 or 2:03:07.
+    /// What is longer than 115 days, or no number, is not known.
     std::string
     clock_time(const double seconds)
     {
@@ -57,6 +58,9 @@ namespace talus
 
 
 
+  /// Speed and time left are those since the line before, not since the start:
+  /// steps take longer as points split. The sums are taken on all ranks before
+  /// the first one decides whether to print, or they would wait for each other.
   void
   Progress::print_line(const double time, const unsigned int n_points)
   {
@@ -67,6 +71,7 @@ namespace talus
                           communicator_);
     const unsigned long all_points =
       Utilities::MPI::sum(static_cast<unsigned long>(n_points), communicator_);
+    // Wall seconds per simulated second, whatever the time step.
     const double elapsed = seconds(now_.wall_time - line_before_.wall_time);
     const double pace    = elapsed / (now_.time - line_before_.time);
     const double steps   = now_.steps - line_before_.steps;
@@ -88,6 +93,7 @@ namespace talus
 
 
 
+  /// Of all that went on since begin(), output and static stages included.
   void
   Progress::finish(const double time, const unsigned int n_points)
   {

@@ -28,6 +28,8 @@ namespace talus
 
 
 
+  /// The impulse over the interval: the force of a single step jumps with every
+  /// node that touches the seabed or leaves it, its integral does not.
   template <int dim>
   void
   SeabedForce<dim>::list_quantities(const State<dim> &state,
@@ -43,6 +45,8 @@ namespace talus
 
 
 
+  /// The mean of the first row after a restart is then that of the whole
+  /// interval.
   template <int dim>
   void
   SeabedForce<dim>::list_state(StateList &list)

@@ -14,6 +14,8 @@ namespace talus
 
 
 
+  /// Names and values come from one list, so that header and rows cannot
+  /// differ. The columns are described in doc/output.md.
   template <int dim>
   Quantities
   Statistics<dim>::evaluate(const State<dim> &state) const
@@ -32,6 +34,8 @@ namespace talus
 
 
 
+  /// The header needs the quantities, and so a state: all ranks evaluate them,
+  /// the first one writes.
   template <int dim>
   void
   Statistics<dim>::begin(const OutputSettings &settings,
@@ -46,6 +50,7 @@ namespace talus
 
 
 
+  /// After the static stages, whose energies do not count.
   template <int dim>
   void
   Statistics<dim>::start(const State<dim> &state)
@@ -56,6 +61,8 @@ namespace talus
 
 
 
+  /// The file is flushed row by row, so that a run can be looked at while it
+  /// goes on. The next mean of the seabed's force begins here.
   template <int dim>
   void
   Statistics<dim>::observe(const State<dim> &state)
@@ -73,6 +80,7 @@ namespace talus
 
 
 
+  /// Values of the evaluation are dropped; this is asked for once per run.
   template <int dim>
   std::vector<std::string>
   Statistics<dim>::names(const State<dim> &state) const
@@ -96,6 +104,7 @@ namespace talus
 
 
 
+  /// All ranks evaluate the names, the first one has the file.
   template <int dim>
   std::string
   Statistics<dim>::cannot_resume(const OutputSettings &settings,

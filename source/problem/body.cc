@@ -10,6 +10,8 @@ namespace talus
 {
   using namespace dealii;
 
+  /// Each body has a section named after it, which its initial state shares.
+  /// Entries that its shape does not use are ignored.
   template <int dim>
   Body<dim>::Body(const std::string &name)
     : ParameterAcceptor("/Bodies/" + name)
@@ -61,6 +63,8 @@ namespace talus
 
 
 
+  /// Reads "x,y; x,y; ..." and, in 3-D, the ends of the prism, which are those
+  /// of the mesh unless given.
   template <int dim>
   std::unique_ptr<Shape<dim>>
   Body<dim>::make_polygon(const Box<dim> &domain) const
@@ -102,6 +106,8 @@ namespace talus
 
 
 
+  /// Made anew by whoever asks: a shape is cheap, and needs the domain for the
+  /// ends of a prism, which is known only when the mesh is.
   template <int dim>
   std::unique_ptr<Shape<dim>>
   Body<dim>::make_shape(const Box<dim> &domain) const
@@ -134,6 +140,8 @@ namespace talus
 
 
 
+  /// @p domain is that of the parameters: faces that moved to make room for
+  /// large cells are no place for soil.
   template <int dim>
   Box<dim>
   Body<dim>::bounding_box(const Box<dim> &domain) const
@@ -145,6 +153,8 @@ namespace talus
 
 
 
+  /// The tolerance lets a body end on a face of the mesh whatever the round-off
+  /// of both.
   template <int dim>
   void
   Body<dim>::check_inside(const Box<dim> &box, const Box<dim> &domain) const
@@ -174,6 +184,9 @@ namespace talus
 
 
 
+  /// A point at @p x, m, at rest and undeformed (F = I), without stress. Its
+  /// box is a part of a cell, so that the boxes of a cell tile it. @p density
+  /// in kg/m^3.
   template <int dim>
   void
   Body<dim>::add_point(Points<dim>       &points,
@@ -186,6 +199,7 @@ namespace talus
     double             volume = 1.;
     for (unsigned int d = 0; d < dim; ++d)
       {
+        // One number of points for all axes, or one for each.
         const double length =
           cell_size / points_per_cell_[points_per_cell_.size() == 1 ? 0 : d];
         volume *= length;
@@ -203,6 +217,10 @@ namespace talus
 
 
 
+  /// Two bodies that overlap would put twice the mass into the same place,
+  /// which no later check would notice. Looked at by the points there are, in
+  /// the order of Bodies/Names. Each rank looks at its own: points and body are
+  /// on the same cells.
   template <int dim>
   void
   Body<dim>::check_apart(const Shape<dim>  &shape,
@@ -224,6 +242,11 @@ namespace talus
 
 
 
+  /// Points lie at the centres of the parts into which each cell is cut, and
+  /// belong to the body if their centre does: no part is cut by the surface of
+  /// the body. So its volume is right only to the size of a point, but all
+  /// boxes tile their cells and the weights begin without gaps and overlaps.
+  /// Each rank fills its own cells. Collective.
   template <int dim>
   void
   Body<dim>::create_points(const Grid<dim>   &grid,
@@ -243,6 +266,8 @@ namespace talus
     check_apart(*shape, points);
 
     const unsigned int n_before = points.size();
+    // Points per cell whatever its size: in smaller cells there are smaller
+    // boxes.
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
       {
         const Cell<dim>              &cell     = grid.cells()[c];
@@ -250,6 +275,8 @@ namespace talus
         std::array<unsigned int, dim> n, at{};
         for (unsigned int d = 0; d < dim; ++d)
           {
+            // Most cells of the mesh are far from the body, and are passed over
+            // at once.
             overlaps = overlaps && cell.lower[d] < box.upper[d] &&
                        cell.lower[d] + cell.size > box.lower[d];
             n[d] = points_per_cell_[points_per_cell_.size() == 1 ? 0 : d];
@@ -261,6 +288,7 @@ namespace talus
               x[d] = cell.lower[d] + (at[d] + 0.5) / n[d] * cell.size;
             if (shape->contains(x))
               add_point(points, index, x, cell.size, density);
+            // Counts through all parts of a cell, the first axis fastest.
             ++at[0];
             for (unsigned int d = 0; d + 1 < dim && at[d] == n[d]; ++d)
               {
@@ -269,6 +297,7 @@ namespace talus
               }
           }
       }
+    // A rank may well have none, but one of them must have some.
     AssertThrow(Utilities::MPI::max(points.size() - n_before,
                                     grid.communicator()) > 0,
                 ExcUser(text("The body '",

@@ -31,6 +31,8 @@ namespace talus
 
 
 
+    /// From the initial place and the reference length: the soil as it is
+    /// without displacement.
     template <int dim>
     Brick<dim>
     brick_of(const Points<dim>         &points,
@@ -55,6 +57,9 @@ namespace talus
     class Columns
     {
     public:
+      // With columns as wide as the widest brick a sum goes over three (nine)
+      // of them, and not over all bricks. Within a column bricks are sorted, so
+      // that sums do not depend on the ranks that they came from.
       explicit Columns(const std::vector<Brick<dim>> &bricks)
       {
         for (const auto &brick : bricks)
@@ -67,6 +72,8 @@ namespace talus
           std::sort(column.second.begin(), column.second.end());
       }
 
+      /// Mass per area, kg/m^2, above the centre of @p brick, its own upper
+      /// half included: the mean over its width.
       double
       mass_above(const Brick<dim> &brick) const
       {
@@ -86,6 +93,7 @@ namespace talus
     private:
       using Place = std::array<long, 2>;
 
+      /// The column, by the centre of the brick.
       Place
       place(const Brick<dim> &brick) const
       {
@@ -100,6 +108,8 @@ namespace talus
       static double
       mass_above(const Brick<dim> &brick, const Brick<dim> &other)
       {
+        // Nothing of what lies below, all of what lies above, a part of what
+        // has the same height.
         const double top  = other.centre[1] + 0.5 * other.length[1];
         double       mass = other.density *
                       std::clamp(top - brick.centre[1], 0., other.length[1]);
@@ -108,6 +118,8 @@ namespace talus
             {
               const double distance =
                 std::abs(brick.centre[d] - other.centre[d]);
+              // Along the other axes the part of the width of @p brick that the
+              // other one covers.
               const double common =
                 0.5 * (brick.length[d] + other.length[d]) - distance;
               mass *= std::clamp(common,
@@ -125,6 +137,11 @@ namespace talus
 
 
 
+  /// Where the boxes of the points end counts, not where the shape of the body
+  /// does: then boxes of one size have nodal forces that vanish to round-off
+  /// (doc/method.md, section 11). What lies above a point may be on any rank,
+  /// so all ranks get all bricks: 2 dim + 1 doubles for each point of the run,
+  /// once at its start. Collective.
   template <int dim>
   std::vector<double>
   overburden(const Points<dim>         &points,
@@ -161,6 +178,8 @@ namespace talus
 
   namespace
   {
+    /// K0 stress is that of the undeformed ground under its weight: without
+    /// either there is none.
     template <int dim>
     void
     check(const std::vector<std::unique_ptr<Body<dim>>> &bodies,
@@ -184,6 +203,9 @@ namespace talus
 
 
 
+    /// sigma_yy = g_y M, sigma_xx = sigma_zz = K0 sigma_yy, sigma_xy = g_x M:
+    /// what an infinite slope has, with y across the layer (doc/method.md,
+    /// section 11).
     template <int dim>
     Stress<dim, double>
     stress_at_rest(const double          mass_above,
@@ -199,6 +221,8 @@ namespace talus
 
 
 
+    /// sqrt(s:s/2) of the deviator s, Pa: what the shear strength is compared
+    /// with.
     template <int dim>
     double
     shear_stress(const Stress<dim, double> &sigma)
@@ -213,6 +237,8 @@ namespace talus
 
 
 
+    /// A note, not an error: the stress is returned to the yield surface in the
+    /// first step, but the soil then starts out of balance.
     std::string
     note_of_yielding(const std::string &name,
                      const double       n_points,
@@ -234,6 +260,9 @@ namespace talus
 
 
 
+  /// For each body with K0 the stress from the mass above it, of all bodies;
+  /// found once for all of them. Returns notes for the log. Collective, also
+  /// for ranks without points.
   template <int dim>
   std::vector<std::string>
   set_geostatic_stress(Points<dim>                                   &points,

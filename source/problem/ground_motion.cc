@@ -37,6 +37,9 @@ namespace talus
 
 
 
+  /// Reads the table. One that begins after the start of the run must begin
+  /// with zeros: outside of the table the ground rests, so that it would else
+  /// jump. A table that ends with the ground in acceleration is not refused.
   template <int dim>
   void
   GroundMotion<dim>::prepare()
@@ -54,11 +57,14 @@ namespace talus
                                            "gravity factor [-]"};
     const std::filesystem::path path    = folder_ / file_;
     table_ = std::make_unique<TimeTable>(path, columns);
+    // A column that would be ignored is an error: the user expects it to act.
     AssertThrow(dim == 3 || !table_->has(across),
                 ExcUser("The table '" + path.string() + "' has a column '" +
                         columns[across] +
                         "', but the simulation is two-dimensional. Remove the "
                         "column or set 'Dimension' to 3."));
+    // In the time of the run. A table that begins before the run may do so in
+    // motion.
     const double begin = start_time_ + table_->first_time();
     for (const Column column : {horizontal, vertical, across})
       if (begin > 0. && table_->has(column))
@@ -83,6 +89,8 @@ namespace talus
 
 
 
+  /// Zero outside of the table, where interpolation would keep the outermost
+  /// value. Acceleration of the ground, m/s^2, at the time @p t of the run.
   template <int dim>
   double
   GroundMotion<dim>::component(const Column column, const double t) const
@@ -96,6 +104,9 @@ namespace talus
 
 
 
+  /// Records are horizontal and vertical, the mesh is turned by the slope
+  /// angle: from the one into the other axes by a rotation, a_x = a_h cos - a_v
+  /// sin and a_y = a_h sin + a_v cos (doc/method.md, section 11).
   template <int dim>
   Tensor<1, dim>
   GroundMotion<dim>::acceleration(const double t, const double angle) const
@@ -113,6 +124,8 @@ namespace talus
 
 
 
+  /// Unlike accelerations it keeps its outermost values: gravity does not go
+  /// away.
   template <int dim>
   double
   GroundMotion<dim>::gravity_factor(const double t) const
@@ -124,6 +137,9 @@ namespace talus
 
 
 
+  /// The table is a file beside the parameters, which the comparison of
+  /// parameters does not see. So its checksum is state, and loading compares
+  /// it.
   template <int dim>
   void
   GroundMotion<dim>::list_state(StateList &list) const

@@ -20,6 +20,8 @@ namespace talus
                const unsigned int axis,
                const double       delta)
     {
+      // Exact for polynomials of sixth degree; with steps of a hundredth of a
+      // point the error is 1e-12 (doc/method.md, section 2).
       constexpr std::array<double, 3> weights = {{0.75, -0.15, 1. / 60.}};
       double                          sum     = 0;
       for (unsigned int k = 0; k < 3; ++k)
@@ -36,6 +38,7 @@ namespace talus
 
 
 
+  /// Entries are those of the body, in whose section they stand (@p section).
   template <int dim>
   InitialState<dim>::InitialState(const std::string &section)
     : ParameterAcceptor(section)
@@ -75,6 +78,7 @@ namespace talus
 
 
 
+  /// For messages: the entry as the user finds it in the parameter file.
   template <int dim>
   std::string
   InitialState<dim>::path(const std::string &entry) const
@@ -84,6 +88,8 @@ namespace talus
 
 
 
+  /// Entries that contradict each other, or the law. Of a hyperelastic law the
+  /// first step would overwrite any stress.
   template <int dim>
   void
   InitialState<dim>::check(const MaterialModel<dim> &law) const
@@ -105,6 +111,9 @@ namespace talus
 
 
 
+  /// Points go to X + u and F = I + du/dX, so that with hyperelastic laws the
+  /// stress follows. Central differences of the expression, as the user gives u
+  /// only, and its derivatives by hand would be one more place for errors.
   template <int dim>
   void
   InitialState<dim>::displace(Points<dim>       &points,
@@ -118,8 +127,11 @@ namespace talus
                       constants);
     for (unsigned int p = begin; p < end; ++p)
       {
+        // The undeformed place: positions are about to change.
         const Point<dim>    X = load_place(points, points.initial_position, p);
         Matrix<dim, double> F = identity<dim, double>();
+        // The step of the differences belongs to the size of the point along
+        // the axis.
         for (unsigned int i = 0; i < dim; ++i)
           {
             points.data(points.position, i)[p] =
@@ -128,6 +140,8 @@ namespace talus
               F[i][j] += derivative(
                 u, X, i, j, 0.01 * points.data(points.reference_length, j)[p]);
           }
+        // Volumes that are not positive would fail in the first step, with less
+        // to say.
         AssertThrow(determinant(F) > 0,
                     ExcUser(text(path("Initial displacement"),
                                  " = '",
@@ -144,6 +158,7 @@ namespace talus
 
 
 
+  /// A function of the undeformed place, as all initial fields.
   template <int dim>
   void
   InitialState<dim>::set_stress(Points<dim>       &points,
@@ -165,6 +180,9 @@ namespace talus
 
 
 
+  /// Stress first, then displacement, then what follows from it: stretch of the
+  /// boxes and, for laws by state, the stress, by the law's own update with a
+  /// step without strain. Rate laws keep the stress that they were given.
   template <int dim>
   void
   InitialState<dim>::deform(Points<dim>              &points,
@@ -183,6 +201,7 @@ namespace talus
     if (!law.is_hyperelastic())
       return;
     StepWorkspace<dim> workspace;
+    // Velocity gradients of zero, for these points.
     workspace.reinit(begin, end);
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
@@ -192,6 +211,8 @@ namespace talus
 
 
 
+  /// By body, not by range: when the time of the velocity is known points are
+  /// sorted and those of a body are no longer next to each other.
   template <int dim>
   void
   InitialState<dim>::set_velocity(Points<dim>       &points,

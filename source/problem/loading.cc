@@ -35,6 +35,8 @@ namespace talus
 
 
 
+  /// "material" is for forces, as of manufactured solutions, that are given at
+  /// the place that a piece of soil had at the start.
   template <int dim>
   Loading<dim>::BodyForce::BodyForce()
     : ParameterAcceptor("/Body force")
@@ -61,6 +63,7 @@ namespace talus
 
 
 
+  /// In radians.
   template <int dim>
   double
   Loading<dim>::slope_angle() const
@@ -70,6 +73,7 @@ namespace talus
 
 
 
+  /// Full gravity in the axes of the mesh, m/s^2: x points down the slope.
   template <int dim>
   Tensor<1, dim>
   Loading<dim>::gravity() const
@@ -83,6 +87,9 @@ namespace talus
 
 
 
+  /// Half a cosine begins and ends without a jump in its rate, so that it
+  /// excites waves less than a linear ramp. Times what the table of the ground
+  /// motion says.
   template <int dim>
   double
   Loading<dim>::share_of_gravity(const double t) const
@@ -96,6 +103,9 @@ namespace talus
 
 
 
+  /// full_ is the acceleration that the submerged weight gives to the whole
+  /// mass of a body: buoyancy takes off weight, not inertia. It does not change
+  /// in a run, so each step only scales it.
   template <int dim>
   void
   Loading<dim>::prepare(const Materials<dim> &materials,
@@ -118,6 +128,9 @@ namespace talus
 
 
 
+  /// Accelerations at the time @p t for all points. One vector per body serves
+  /// if they do not vary in space; only a body force makes a row per point
+  /// necessary.
   template <int dim>
   void
   Loading<dim>::update(const Points<dim> &points, const double t)
@@ -132,6 +145,7 @@ namespace talus
     const unsigned int coordinates = body_force_.coordinates == "material"
                                        ? points.initial_position
                                        : points.position;
+    // Kernels load whole registers, beyond the last point.
     for (auto &row : loads_.acceleration_of_point)
       row.resize(points.size() + Points<dim>::n_spare);
     for (unsigned int p = 0; p < points.size(); ++p)

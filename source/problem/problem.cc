@@ -9,6 +9,9 @@ namespace talus
 {
   using namespace dealii;
 
+  /// Names of bodies and materials must be known before the parameters are
+  /// declared, as each has a section of its own: they come from the tolerant
+  /// first pass over the parameter file.
   template <int dim>
   Problem<dim>::Problem(const ParameterPreview &preview)
     : ParameterAcceptor("/")
@@ -37,6 +40,10 @@ namespace talus
 
 
 
+  /// What follows from the parameters alone, before there is a mesh; a resumed
+  /// run goes through it, too. The order: laws are given to bodies, the trigger
+  /// is checked against them, and then columns are added, which must be all
+  /// there before the first point is.
   template <int dim>
   void
   Problem<dim>::prepare(Points<dim> &points,
@@ -50,6 +57,7 @@ namespace talus
       materials_of_bodies.push_back(body->material());
     materials.assign(names, materials_of_bodies);
     trigger.check(names, materials, boundaries.has_seabed(), end_time);
+    // The strength factor is a column only if somebody changes strengths.
     materials.add_columns(points,
                           trigger.changes_strength() || changes_strength);
     trigger.add_columns(points);
@@ -59,6 +67,10 @@ namespace talus
 
 
 
+  /// Body by body, as columns of a body depend on its law. K0 stress comes
+  /// after the last body, since it needs the weight of all. Displaced points
+  /// may have left the cells of their rank, and go to their owners. The trigger
+  /// chooses its points at the end, by the undeformed places. Collective.
   template <int dim>
   void
   Problem<dim>::create_points(State<dim> &state)
@@ -71,6 +83,8 @@ namespace talus
         const unsigned int        begin    = points.size();
         initial.check(material);
         bodies_[b]->create_points(state.grid, b, material.density(), points);
+        // At t = 0; set_velocity() sets it anew where it belongs to half a step
+        // before.
         initial.set_velocity(points, b, 0., constants_);
         initial.deform(points,
                        begin,
@@ -95,6 +109,7 @@ namespace talus
 
 
 
+  /// For velocities of the time @p t, s.
   template <int dim>
   void
   Problem<dim>::set_velocity(Points<dim> &points, const double t) const
@@ -105,6 +120,7 @@ namespace talus
 
 
 
+  /// A free face holds nothing, so it may lie farther out than asked for.
   template <int dim>
   std::array<bool, 2 * dim>
   Problem<dim>::faces_that_may_move() const
@@ -117,6 +133,7 @@ namespace talus
 
 
 
+  /// From this the mass follows below which a node carries nothing.
   template <int dim>
   double
   Problem<dim>::least_density() const
@@ -129,6 +146,8 @@ namespace talus
 
 
 
+  /// In the order of their numbers, as the column "body" of the points has
+  /// them.
   template <int dim>
   std::vector<std::string>
   Problem<dim>::names_of_bodies() const
@@ -141,6 +160,7 @@ namespace talus
 
 
 
+  /// Where the mesh must be fine before there are points.
   template <int dim>
   std::vector<Box<dim>>
   Problem<dim>::bounding_boxes(const Box<dim> &domain) const
@@ -153,6 +173,8 @@ namespace talus
 
 
 
+  /// By the number of the body. The transfer gets this and no law: the two
+  /// rooms do not know each other.
   template <int dim>
   std::vector<bool>
   Problem<dim>::bodies_with_bbar() const
@@ -177,6 +199,7 @@ namespace talus
 
 
 
+  /// Sentences for the log. @p cell_size, m, since softening depends on it.
   template <int dim>
   std::vector<std::string>
   Problem<dim>::notes(const double cell_size) const

@@ -17,11 +17,14 @@ namespace talus
 
   namespace
   {
+    // column_of_time stands for the time among the numbers of the known ones.
     const std::string  time_name      = "time [s]";
     const unsigned int column_of_time = numbers::invalid_unsigned_int;
 
 
 
+    /// The whole file, byte by byte, since its checksum is state. A folder
+    /// opens as a stream, too, hence the question.
     std::string
     read_file(const std::filesystem::path &file)
     {
@@ -40,6 +43,8 @@ namespace talus
 
 
     /// The parts between commas, without blanks around them; also empty ones.
+    /// The comma put behind the line makes an empty last entry one that is
+    /// seen.
     std::vector<std::string>
     split_at_commas(const std::string &line)
     {
@@ -53,6 +58,10 @@ namespace talus
 
 
 
+  /// CSV as spreadsheets and scripts write it: comments with #, empty lines,
+  /// blanks, the mark of UTF-8 and line ends of Windows are passed over; all
+  /// else that is not a number is an error with the number of its line. Two
+  /// rows at least, or there is nothing to interpolate between.
   TimeTable::TimeTable(const std::filesystem::path    &file,
                        const std::vector<std::string> &known_columns)
     : values_(known_columns.size())
@@ -87,6 +96,9 @@ namespace talus
 
 
 
+  /// Columns may come in any order. known_of_read_ has, for each column of the
+  /// file, its number among the known ones. An unknown name is an error: a
+  /// misspelt column would else be left out without a word.
   void
   TimeTable::read_header(const std::string              &line,
                          const std::string              &place,
@@ -124,6 +136,9 @@ namespace talus
 
 
 
+  /// One number per column of the header. Times ascend strictly, so that
+  /// value() never divides by zero and a jump cannot be hidden in two rows of
+  /// one time.
   void
   TimeTable::read_row(const std::string &line, const std::string &place)
   {
@@ -138,6 +153,7 @@ namespace talus
                              "commas.")));
     for (unsigned int i = 0; i < entries.size(); ++i)
       {
+        // strtod() stops at what is no number; it must have come to the end.
         char        *end    = nullptr;
         const double number = std::strtod(entries[i].c_str(), &end);
         AssertThrow(!entries[i].empty() && *end == '\0' &&
@@ -164,6 +180,8 @@ namespace talus
 
 
 
+  /// Linear between the rows, constant outside of them. By bisection: a record
+  /// has thousands of rows, and each step asks.
   double
   TimeTable::value(const unsigned int column, const double t) const
   {

@@ -14,6 +14,7 @@ namespace talus
   Trigger<dim>::Trigger()
     : ParameterAcceptor("/Trigger")
   {
+    // Fractions are between 0 and 1 all alike.
     const auto add_fraction = [this](const std::string &name,
                                      double            &value,
                                      const std::string &sentence) {
@@ -52,6 +53,8 @@ namespace talus
 
 
 
+  /// What a user has written and what would have no effect is an error each: a
+  /// trigger that never acts is seen only when the run is over.
   template <int dim>
   void
   Trigger<dim>::check(const std::vector<std::string> &names_of_bodies,
@@ -91,6 +94,9 @@ namespace talus
 
 
 
+  /// Sets weakens_body_: the listed bodies or, without a list, all that have a
+  /// strength. A listed body without strength is an error, an unlisted one is
+  /// not.
   template <int dim>
   void
   Trigger<dim>::check_bodies(const std::vector<std::string> &names_of_bodies,
@@ -101,6 +107,7 @@ namespace talus
       known += (known.empty() ? "" : ", ") + name;
     weakens_body_.assign(names_of_bodies.size(), false);
     for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
+      // Without a list, all that can become weaker.
       weakens_body_[b] =
         names_of_bodies_.empty() && materials.of_body(b).has_strength();
     const std::string advice =
@@ -123,6 +130,7 @@ namespace talus
                             "remove the body from the list."));
         weakens_body_[b] = true;
       }
+    // Without a list and without any law that has a strength nothing is left.
     AssertThrow(std::count(weakens_body_.begin(), weakens_body_.end(), true) >
                   0,
                 ExcUser("All bodies are made of materials as that of section " +
@@ -132,6 +140,8 @@ namespace talus
 
 
 
+  /// State of the points, so that checkpoints, ranks and splits keep it; copied
+  /// to children.
   template <int dim>
   void
   Trigger<dim>::add_columns(Points<dim> &points)
@@ -144,6 +154,7 @@ namespace talus
 
   // Chosen once: a child may lie across the edge of the region, and at
   // periodic faces initial places are shifted.
+  /// Collective.
   template <int dim>
   void
   Trigger<dim>::choose_points(Points<dim>     &points,
@@ -153,6 +164,7 @@ namespace talus
     if (!changes_strength())
       return;
     Expression<dim> region("'Trigger/Region'",
+                           // Without a region everywhere.
                            region_.empty() ? "1" : region_,
                            1,
                            constants);
@@ -177,6 +189,8 @@ namespace talus
 
 
 
+  /// 0 before the start, 1 after the end, half a cosine between. With no
+  /// duration it jumps in the first step that ends after the start time.
   template <int dim>
   double
   Trigger<dim>::progress(const double t) const
@@ -190,6 +204,10 @@ namespace talus
 
 
 
+  /// The factor at the time @p now, the end of the step, s. Nothing is done
+  /// while it does not change, which is nearly always: the loop over the points
+  /// would cost each step of the run. It is set, not multiplied, so that it
+  /// does not drift.
   template <int dim>
   void
   Trigger<dim>::update(Points<dim>       &points,
@@ -199,6 +217,8 @@ namespace talus
   {
     if (!changes_strength() || progress(before) == progress(now))
       return;
+    // f = 1 - (1 - f_end) progress at the points that were chosen, 1 at all
+    // others.
     const double  lost     = progress(now) * (1. - strength_fraction_);
     const double *weakened = points.data(weakened_);
     double       *factor   = points.data(strength_factor);
@@ -208,6 +228,7 @@ namespace talus
 
 
 
+  /// A sentence for the log, empty without a trigger.
   template <int dim>
   std::string
   Trigger<dim>::note() const

@@ -30,6 +30,7 @@ namespace talus
                 const double xi =
                   (points.data(points.position, d)[p] - cell.lower[d]) /
                   cell.size;
+                // At walls, and the seabed, centres may dip half a cell.
                 const bool first = cell.lower[d] <= grid.domain().lower[d];
                 const bool last =
                   cell.lower[d] + 1.5 * cell.size > grid.domain().upper[d];
@@ -59,6 +60,8 @@ namespace talus
 
 
 
+  /// Without points, which need cells to be put into. With mesh tracking the
+  /// cells are fine where the bodies will be, known by their boxes.
   template <int dim>
   void
   BackgroundMesh<dim>::create()
@@ -77,6 +80,11 @@ namespace talus
 
 
 
+  /// The mesh is that of the checkpoint, on as many ranks as there are now. The
+  /// partition, if the ranks are as many; then the points, whose cells were
+  /// saved with them. A point on an edge could be found in either cell, and the
+  /// order of sums would change. From prepare() on all is as after any change
+  /// of the mesh. Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::load(const std::string    &mesh,
@@ -103,6 +111,8 @@ namespace talus
 
   /// p4est has shared the cells evenly; the sums over ranks are bit by bit the
   /// same only if every rank has what it had.
+  /// Twice: the weights of the cells that the rank has now decide what it gets,
+  /// and then those of what it got are the state that load_balance_ keeps.
   template <int dim>
   void
   BackgroundMesh<dim>::restore_partition(Hdf5File &file)
@@ -120,10 +130,13 @@ namespace talus
 
 
   /// All that depends on the mesh. Points stay on their rank.
+  /// The one place where all caches that follow from the mesh are made, so that
+  /// start, resumed run and change of the mesh cannot differ. Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::prepare()
   {
+    // In cells. Through a free face a point leaves the mesh, which is an error.
     std::array<double, 2 * dim> may_lie_outside;
     const auto                  is_free = problem_.faces_that_may_move();
     for (unsigned int face = 0; face < 2 * dim; ++face)
@@ -135,6 +148,7 @@ namespace talus
     problem_.boundaries.locate_nodes(state_.grid);
     relocation_.rebuild(state_.points, state_.grid);
     activate_nodes();
+    // Of the smallest cell, so that the same nodes carry motion at any level.
     state_.mass_cutoff = transfer_.mass_cutoff(problem_.least_density(),
                                                state_.grid.finest_size());
   }
@@ -154,6 +168,7 @@ namespace talus
 
 
 
+  /// For points that lie anywhere in this rank's cells, as new ones do.
   template <int dim>
   void
   BackgroundMesh<dim>::insert_points()
@@ -164,6 +179,9 @@ namespace talus
 
 
 
+  /// Cells and points travel together. Relocation gets the cells from those who
+  /// sent the points and need not search. Numbers of nodes change with the
+  /// cells, so boundaries find theirs anew. Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::repartition()
@@ -180,6 +198,12 @@ namespace talus
 
 
 
+  /// In front of the step, while points are in cells that they may still touch.
+  /// Two questions of different price: whether the mesh is due, by the step, is
+  /// known to each rank alone; whether it is urgent, since a point could reach
+  /// a larger cell in the next step, is asked of all ranks, by one message. A
+  /// new mesh is shared out anew at once, as its cells may all be on few ranks.
+  /// Load is looked at every some steps only. Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::adapt(const Splitter<dim> &splitter)
@@ -199,6 +223,7 @@ namespace talus
         }
     if (load_balance_.is_due(state_.step, communicator))
       {
+        // Beside a sum over the ranks that has to be taken anyway.
         splitter.check_total(
           Utilities::MPI::sum(1. * state_.points.size(), communicator));
         if (load_balance_.is_needed(state_.points, communicator))
@@ -208,6 +233,9 @@ namespace talus
 
 
 
+  /// The gather has listed the points that left their cell, so that only those
+  /// are looked at. Nodes are activated anew only if other cells have points
+  /// now. Points travel between neighbours; collective.
   template <int dim>
   void
   BackgroundMesh<dim>::relocate()
@@ -220,6 +248,9 @@ namespace talus
 
 
 
+  /// In a load step of large strain points may move farther than into a
+  /// neighbour cell, so each is searched for, and may go to any rank.
+  /// Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::relocate_all()
@@ -235,6 +266,7 @@ namespace talus
 
 
 
+  /// Never shared out, all cells weigh the same.
   template <int dim>
   std::vector<double>
   BackgroundMesh<dim>::cell_weights() const
@@ -246,6 +278,7 @@ namespace talus
 
 
 
+  /// A sentence for the log. Collective.
   template <int dim>
   std::string
   BackgroundMesh<dim>::description() const
@@ -254,6 +287,7 @@ namespace talus
     double           n_cells = 1;
     for (const long n : grid.extent_of_lattice(grid.base_level()))
       n_cells *= n;
+    // As many cells as the lattice of the base level has.
     const bool is_uniform = (n_cells == grid.n_global_cells());
     return text("The mesh fills (",
                 grid.domain().lower,
@@ -273,6 +307,7 @@ namespace talus
 
 
 
+  /// What became of the mesh so far, for the log. Collective.
   template <int dim>
   std::string
   BackgroundMesh<dim>::history() const

@@ -49,6 +49,13 @@ namespace talus
 
 
 
+  /// One step of the update-stress-last scheme; formulas in doc/method.md,
+  /// section 2. Positions and stresses go from t to t + dt, velocities from t -
+  /// dt/2 to t + dt/2. What the order rests on: the mesh changes first, while
+  /// all points are in their cells; the time step is agreed on before a point
+  /// moves; points split after they have moved and before they are relocated,
+  /// so that children find their cells in the same pass as all others.
+  /// Collective.
   template <int dim>
   RunRequest
   ExplicitScheme<dim>::advance(const double end_time, const RunRequest own)
@@ -79,6 +86,10 @@ namespace talus
 
   // The step goes over the points twice, here and in grid_to_points(), batch by
   // batch: what it needs of a point comes from memory once each time.
+  /// The time step is found here, too, since its columns are at hand: a sweep
+  /// of its own would read the points a third time. What a phase computes for
+  /// the next one is in the workspace, as large as a batch, which stays in the
+  /// cache.
   template <int dim>
   void
   ExplicitScheme<dim>::points_to_grid()
@@ -109,6 +120,9 @@ namespace talus
 
 
 
+  /// One message of all ranks per step: it carries the time step and what the
+  /// ranks want to happen after it (checkpoint, stop), which would else be a
+  /// second one. The last step is shortened to end at the end time.
   template <int dim>
   RunRequest
   ExplicitScheme<dim>::agree_on_step(const double     end_time,
@@ -124,6 +138,11 @@ namespace talus
 
 
 
+  /// Forces before momentum, momentum before boundaries: tractions are forces,
+  /// damping reduces what moved the nodes, walls and seabed then correct the
+  /// velocities that came out. Each books its work. Sums are complete after the
+  /// first message, the motion of ghosts is right after the last. Loops go over
+  /// active nodes only.
   template <int dim>
   void
   ExplicitScheme<dim>::update_nodes()
@@ -151,6 +170,7 @@ namespace talus
     }
     {
       PhaseTimer::Scope scope(timer_, "boundaries");
+      // As the strength of the points, that of the end of the step.
       boundaries.scale_seabed_shear_stress(
         problem_.trigger.seabed_factor(time + dt));
       state_.works += boundaries.apply(
@@ -162,12 +182,16 @@ namespace talus
 
 
 
+  /// Second sweep: a batch is moved, strained, stressed and looked at for
+  /// splitting while it is in the cache. B-bar needs all points of a cell, so
+  /// batches end between cells.
   template <int dim>
   void
   ExplicitScheme<dim>::grid_to_points()
   {
     timer_.start_laps();
     const double dt = state_.time_step;
+    // In front of the sweep, since nearly always there is nothing to do.
     problem_.trigger.update(state_.points,
                             problem_.materials.strength_factor(),
                             state_.time,
@@ -200,6 +224,8 @@ namespace talus
 
 
 
+  /// Those that grid_to_points() marked; children are added to the points out
+  /// of their cell.
   template <int dim>
   void
   ExplicitScheme<dim>::split()
@@ -212,6 +238,7 @@ namespace talus
 
 
 
+  /// For the start and the log, outside of a step. Collective.
   template <int dim>
   double
   ExplicitScheme<dim>::stable_time_step()
@@ -225,6 +252,7 @@ namespace talus
 
 
 
+  /// A sentence for the log. Collective.
   template <int dim>
   std::string
   ExplicitScheme<dim>::description()

@@ -20,6 +20,8 @@ namespace talus
 
 
 
+  /// Flushed row by row: a search that fails can be followed while it runs.
+  /// Whole numbers are doubles here, as in all tables.
   void
   NewtonTable::add(const unsigned int         stage,
                    const double               factor,

@@ -14,6 +14,8 @@ namespace talus
 {
   using namespace dealii;
 
+  /// Each member declares its own parameters; those here are the run's. Output
+  /// does not know the splitter, so its columns are added by a function.
   template <int dim>
   Simulation<dim>::Simulation(const ParameterPreview &preview)
     : ParameterAcceptor("/")
@@ -43,6 +45,8 @@ namespace talus
 
 
 
+  /// The mesh before the points, which are made cell by cell; then cells are
+  /// shared out by the points that they have. Collective.
   template <int dim>
   void
   Simulation<dim>::set_up()
@@ -56,6 +60,9 @@ namespace talus
 
 
   /// All that depends on the parameters only.
+  /// What can be wrong with the parameters by themselves is found here, before
+  /// a mesh is made or a file touched. A resumed run comes through here, too,
+  /// so columns are the same.
   template <int dim>
   void
   Simulation<dim>::prepare()
@@ -75,6 +82,8 @@ namespace talus
 
 
   /// Ids are unique over all ranks, now and after splits.
+  /// Rank after rank as the points are; children get numbers from beyond, each
+  /// rank every n-th one, so that no message is needed when points split.
   template <int dim>
   void
   Simulation<dim>::create_points()
@@ -96,6 +105,7 @@ namespace talus
     scheme_.splitter().number_from(n_points + rank, counts.size());
 
     mesh_.insert_points();
+    // The first time step is known only now, with the points in their cells.
     if (problem_.has_velocity_of_half_step())
       problem_.set_velocity(points,
                             -0.5 * std::min(scheme_.stable_time_step(),
@@ -104,6 +114,12 @@ namespace talus
 
 
 
+  /// The mirror image of write_checkpoint(): mesh, then points, then the
+  /// numbers of list_state(). Parameters are compared before anything is
+  /// loaded. On another number of ranks the run goes on, but not bitwise; cells
+  /// are then shared out anew, as p4est has shared them evenly. What output
+  /// needs is checked last, when the state says how long the files were.
+  /// Collective.
   template <int dim>
   void
   Simulation<dim>::resume()
@@ -142,6 +158,8 @@ namespace talus
 
 
 
+  /// Returns false if the run was stopped and can be resumed. Steps know
+  /// nothing of output and checkpoints: all that happens between them is here.
   template <int dim>
   bool
   Simulation<dim>::run()
@@ -163,6 +181,9 @@ namespace talus
 
 
 
+  /// After each stage a checkpoint, as a stage may have taken hours and cannot
+  /// be resumed in the middle. Ranks agree on whether to stop by a maximum,
+  /// since the requests are numbered by how much they ask for.
   template <int dim>
   bool
   Simulation<dim>::run_static_stages()
@@ -174,6 +195,8 @@ namespace talus
           PhaseTimer::Scope scope(timer_, "static stages");
           static_stages_.run_next();
         }
+        // Before the checkpoint, so that a resumed run does not write the first
+        // row again.
         if (!stages.next_is_static())
           output_.start(state_);
         const auto request = static_cast<RunRequest>(
@@ -208,6 +231,9 @@ namespace talus
 
 
 
+  /// Three kinds of beginning: a run that is already at its end does nothing,
+  /// and leaves its files as they are; a resumed one goes on with its files; a
+  /// new one starts them. Collective.
   template <int dim>
   void
   Simulation<dim>::begin_run()
@@ -240,6 +266,9 @@ namespace talus
 
 
 
+  /// The question whether results would be lost comes before the first file is
+  /// opened. Checkpoints of an earlier run go last, when the new files are
+  /// there.
   template <int dim>
   void
   Simulation<dim>::begin_files()
@@ -259,6 +288,8 @@ namespace talus
 
 
 
+  /// To the log: title, mesh, what to know of materials, K0 and trigger, time
+  /// step.
   template <int dim>
   void
   Simulation<dim>::note_start()
@@ -273,6 +304,7 @@ namespace talus
 
 
 
+  /// At the start for the terminal, too; later for the file only.
   template <int dim>
   void
   Simulation<dim>::note_time_step()
@@ -283,6 +315,8 @@ namespace talus
 
 
 
+  /// Which checkpoints were passed over since they are damaged, where the run
+  /// goes on, and whether another program wrote it: then the result may differ.
   template <int dim>
   void
   Simulation<dim>::note_resume()
@@ -312,6 +346,7 @@ namespace talus
 
   /// All state besides points, mesh and parameters. What follows from these is
   /// computed anew; nodes hold nothing between the steps.
+  /// The order does not matter, the names do: numbers are found by them.
   template <int dim>
   StateList
   Simulation<dim>::list_state()
@@ -329,6 +364,8 @@ namespace talus
 
 
   /// What this rank wants to happen after the step that begins.
+  /// By signals, which only some ranks may get, and by the clock of the first
+  /// rank: ranks may differ here, and agree in the step.
   template <int dim>
   RunRequest
   Simulation<dim>::local_request() const
@@ -342,6 +379,8 @@ namespace talus
 
 
   /// Do what the ranks agreed on. Returns whether the run is to stop here.
+  /// Of a run at its end the parameter decides whether it gets a checkpoint,
+  /// not what was asked for.
   template <int dim>
   bool
   Simulation<dim>::handle_request(const RunRequest request)
@@ -373,6 +412,8 @@ namespace talus
 
 
 
+  /// Output goes to the disk first: a checkpoint whose rows and fields were
+  /// lost with the machine could not be resumed from. Collective.
   template <int dim>
   std::filesystem::path
   Simulation<dim>::write_checkpoint()

@@ -30,6 +30,9 @@ namespace talus
 
 
 
+  /// In the order of the enumeration: each stage starts from what the one
+  /// before it leaves, so that no other order makes sense. Stages may be left
+  /// out.
   void
   Stages::check()
   {
@@ -70,6 +73,7 @@ namespace talus
 
 
 
+  /// Stages that are done are not run again. Stages as such are parameters.
   void
   Stages::list_state(StateList &list)
   {

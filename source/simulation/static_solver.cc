@@ -26,6 +26,7 @@ namespace talus
 
 
 
+  /// The table belongs to the first rank.
   template <int dim>
   void
   StaticSolver<dim>::begin(const std::filesystem::path &folder,
@@ -38,6 +39,8 @@ namespace talus
 
 
   /// With all that acts at the time it is now.
+  /// References to the state and the rest as they are now; loads at the state's
+  /// time, which stands still.
   template <int dim>
   StaticProblem<dim>
   StaticSolver<dim>::problem()
@@ -52,6 +55,10 @@ namespace talus
 
 
 
+  /// From no load to all of it. With large strain points move: after each load
+  /// step they find their cells and the mesh follows them, so that the next
+  /// step begins on nodes that fit. With small strain nothing moves.
+  /// Collective.
   template <int dim>
   bool
   StaticSolver<dim>::find(const StrainMeasure measure, const Label &label)
@@ -75,6 +82,11 @@ namespace talus
 
 
 
+  /// For soil that was in balance and has become weaker: its stress returns to
+  /// the new yield surface first, by a load step without displacement, and what
+  /// that puts out of balance is the load. Small strain, since the shape is
+  /// that whose safety is asked for. Load steps of trials are not told one by
+  /// one; newton.csv has them. Collective.
   template <int dim>
   bool
   StaticSolver<dim>::find_again(const EquilibriumLimits &limits,
@@ -107,6 +119,7 @@ namespace talus
 
 
 
+  /// Each iteration to newton.csv; those of the last try of a step to @p note.
   template <int dim>
   void
   StaticSolver<dim>::observe(const EquilibriumProgress &progress,
@@ -126,6 +139,8 @@ namespace talus
 
 
 
+  /// A line of the log per load step: the residuals show whether convergence
+  /// was quadratic.
   template <int dim>
   void
   StaticSolver<dim>::tell(const StepNote &note)
@@ -151,6 +166,7 @@ namespace talus
 
 
 
+  /// The sentence for the user, with how far the load came.
   template <int dim>
   std::string
   StaticSolver<dim>::no_equilibrium() const
@@ -165,6 +181,9 @@ namespace talus
 
 
 
+  /// A copy of all columns in memory, and the seabed's contact, which belongs
+  /// to it: trials must be undone, and a checkpoint on the disk would take
+  /// longer.
   template <int dim>
   typename StaticSolver<dim>::Saved
   StaticSolver<dim>::save() const
@@ -180,6 +199,7 @@ namespace talus
 
 
 
+  /// Points must be the same ones in the same order, as after small strain.
   template <int dim>
   void
   StaticSolver<dim>::restore(const Saved &saved)
@@ -194,6 +214,9 @@ namespace talus
 
 
 
+  /// After large strain points may have moved to other cells and ranks: they
+  /// are made anew from the copy, which has those of this rank at that time,
+  /// sent to the owners of their places, and the mesh follows. Collective.
   template <int dim>
   void
   StaticSolver<dim>::bring_back(const Saved &saved)

@@ -35,6 +35,8 @@ namespace talus
 
 
 
+  /// Time stands still. The workspace is freed, which a static stage makes as
+  /// large as all points: a step needs it for a batch only. Collective.
   template <int dim>
   void
   StaticStages<dim>::run_next()
@@ -60,6 +62,7 @@ namespace talus
 
 
 
+  /// What the stages cannot do is said before the mesh is made.
   template <int dim>
   void
   StaticStages<dim>::check() const
@@ -92,6 +95,9 @@ namespace talus
 
 
 
+  /// Soil that finds no balance ends the run, unless the strength reduction
+  /// that follows can tell how much it lacks: only then is the state without
+  /// loads kept.
   template <int dim>
   void
   StaticStages<dim>::find_equilibrium()
@@ -146,6 +152,7 @@ namespace talus
 
 
   /// Divide all strengths by @p factor.
+  /// Set, not multiplied: each trial is that of a factor, whatever was before.
   template <int dim>
   void
   StaticStages<dim>::divide_strength(const double factor)
@@ -189,6 +196,7 @@ namespace talus
                "'strength reduction' follows, one is looked for with more "
                "strength.");
     strength_reduction_.begin(problem_.materials.largest_strength_factor());
+    // The search of the reduction itself, from above: factors less than one.
     strength_reduction_.record(1., false);
     while (strength_reduction_.lower() == 0.)
       {
@@ -214,6 +222,10 @@ namespace talus
 
 
   /// Every trial goes on from the largest factor with which the soil stood.
+  /// What stood is the better start: less is put out of balance than from full
+  /// strength, and the search costs less. But the result must not depend on the
+  /// way, hence the second look that StrengthReduction takes at its upper end.
+  /// Afterwards soil and seabed are as before the stage. Collective.
   template <int dim>
   void
   StaticStages<dim>::reduce_strength()

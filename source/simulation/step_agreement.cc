@@ -6,6 +6,9 @@ namespace talus
 {
   namespace
   {
+    /// Least time step and largest request, element by element: the form that
+    /// MPI wants for an operation of one's own. Both commute, so the result
+    /// does not depend on the order of the ranks.
     void
     combine(void *more, void *all, int *n, MPI_Datatype *)
     {
@@ -21,6 +24,7 @@ namespace talus
 
 
 
+  /// As bytes: ranks of a run are the same program on the same kind of machine.
   StepAgreement::StepAgreement()
   {
     MPI_Type_contiguous(sizeof(StepPlan), MPI_BYTE, &type_);
@@ -38,6 +42,7 @@ namespace talus
 
 
 
+  /// In most steps the only message of all ranks.
   StepPlan
   StepAgreement::agree(const StepPlan &own, const MPI_Comm communicator) const
   {

@@ -126,6 +126,8 @@ namespace talus
 
 
 
+  /// For the message after an error: the place of the first point whose wave
+  /// speed or velocity is no finite number.
   template <int dim>
   std::string
   TimeStep<dim>::first_without_bound(const Points<dim>    &points,
@@ -149,6 +151,11 @@ namespace talus
 
 
 
+  /// The bound is kept as the largest of 1/dt^2 (doc/method.md, section 8): so
+  /// two bounds are compared without a root or a division for each. Moduli are
+  /// asked for range by range of one material, and what is a cell's is spread
+  /// over its points, so that the loop over points has no branches and takes
+  /// whole registers.
   template <int dim>
   void
   TimeStep<dim>::add_batch(const Points<dim>    &points,
@@ -206,6 +213,8 @@ namespace talus
                         largest_of_rest =
                           larger_or_none(largest_of_rest, bound);
                   });
+    // A maximum is the same in any order, so it does not depend on the width of
+    // the registers.
     largest_ = largest_of_rest[0];
     for (unsigned int i = 0; i < simd_width; ++i)
       largest_ = larger_or_none(largest_, largest[i]);
@@ -213,6 +222,7 @@ namespace talus
 
 
 
+  /// All points at once, for the start and for tests.
   template <int dim>
   double
   TimeStep<dim>::choose(const Points<dim>    &points,
@@ -248,6 +258,9 @@ namespace talus
 
 
 
+  /// Looks for the point of the largest bound once more, one by one: the step
+  /// itself keeps the bound only, and words are needed for the log alone. On
+  /// the first rank. Collective.
   template <int dim>
   std::string
   TimeStep<dim>::limited_by(const Points<dim>    &points,
