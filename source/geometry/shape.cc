@@ -6,6 +6,9 @@ namespace talus
   using namespace dealii;
   namespace bg = boost::geometry;
 
+  /// @p vertices are closed and brought into Boost's sense of rotation here, so
+  /// that the user need not know either. A polygon that crosses itself is
+  /// refused: what lies inside of it depends on the convention.
   template <int dim>
   Polygon<dim>::Polygon(const std::string                        &name,
                         const std::vector<std::array<double, 2>> &vertices,
@@ -28,6 +31,8 @@ namespace talus
 
 
 
+  /// The edge belongs to the polygon, as the faces of a box do to a box.
+  /// A place that is no number is not contained.
   template <int dim>
   bool
   Polygon<dim>::contains(const Point<dim> &x) const
@@ -39,6 +44,7 @@ namespace talus
 
 
 
+  /// Only within it points need be looked for.
   template <int dim>
   Box<dim>
   Polygon<dim>::bounding_box() const
