@@ -4,6 +4,9 @@
 
 namespace talus
 {
+  // The loops over points, several at a time, only notice that some determinant
+  // is not positive; which point it is, is looked for here, when the run is
+  // lost anyway, so that the loops carry no branch.
   template <int dim>
   void
   throw_inverted_point(const Points<dim> &points,
@@ -14,6 +17,7 @@ namespace talus
       {
         const double J = determinant(
           load_matrix<dim, double>(points, points.deformation_gradient, p));
+        // Written so that a number that is none is found, too.
         if (J > 0)
           continue;
         std::string place;
@@ -37,6 +41,8 @@ namespace talus
 
 
 
+  // As above. The iteration leaves NaN where it did not end, and NaN stays in
+  // the plastic variable, by which the point is found.
   template <int dim>
   void
   throw_unsolved_point(const Points<dim> &points,

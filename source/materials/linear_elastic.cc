@@ -10,6 +10,7 @@ namespace talus
 
 
 
+  // Hooke's law in rate form is that of all rate laws: nothing flows.
   template <int dim>
   NoFlow
   LinearElastic<dim>::flow_rule(const double /*dt*/) const
