@@ -71,6 +71,8 @@ namespace talus
   Boundaries<dim>::Boundaries()
     : ParameterAcceptor("/Boundaries")
   {
+    // A face that the file does not name is free: a point that crosses it ends
+    // the run, so that a wall which was forgotten does not go unnoticed.
     names_.fill("free");
     conditions_.fill(FaceCondition::free);
     for (unsigned int face = 0; face < 2 * dim; ++face)

@@ -17,6 +17,8 @@ namespace talus
     : z_lower_(z_lower)
     , z_upper_(z_upper)
   {
+    // Boost and not formulas of our own, as it also says why a polygon is not
+    // valid.
     for (const auto &v : vertices)
       bg::append(polygon_.outer(), BoostPoint(v[0], v[1]));
     bg::correct(polygon_);

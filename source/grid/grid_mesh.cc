@@ -322,9 +322,9 @@ namespace talus
 
 
 
-  /// Returns what any rank flagged cells for: 1 to be divided, 2 joined, 3 both.
-  /// Whether a cell is to be divided or joined follows from what lies in it
-  /// now, not from its history: a cell is joined with its siblings if what
+  /// Returns what any rank flagged cells for: 1 to be divided, 2 joined, 3
+  /// both. Whether a cell is to be divided or joined follows from what lies in
+  /// it now, not from its history: a cell is joined with its siblings if what
   /// contains them all asks for nothing. So two runs that come to the same soil
   /// have the same mesh.
   template <int dim>
@@ -378,7 +378,8 @@ namespace talus
         if (flags == 0)
           return changed;
         triangulation_.execute_coarsening_and_refinement();
-        // Cells that cannot be joined beside smaller ones stay flagged for ever.
+        // Cells that cannot be joined beside smaller ones stay flagged for
+        // ever.
         if (!(flags & 1) && n_before == triangulation_.n_global_active_cells())
           return changed;
         changed = true;

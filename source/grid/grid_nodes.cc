@@ -53,8 +53,8 @@ namespace talus
 
 
 
-    /// Cells of one size have no hanging nodes; but of the twin of a node at the
-    /// edge of what a rank knows, it may have to ask the owner as well.
+    /// Cells of one size have no hanging nodes; but of the twin of a node at
+    /// the edge of what a rank knows, it may have to ask the owner as well.
     template <int dim>
     Hanging
     masters_at_seams(const DoFHandler<dim>  &dof_handler,
@@ -71,13 +71,13 @@ namespace talus
 
 
     /// A hanging node at the edge of what a rank knows may hang on a cell that
-    /// it does not know: ask the owner. The owner itself, in 3-D, may have to be
-    /// told by one who knows.
-    /// Why this matters: boxes reach across corners, so points send sums to
-    /// nodes at the far side of the ghost cells, which hang on cells that
-    /// deal.II does not show this rank. Without their masters these sums would
-    /// reach the owner of the node when it has passed on its own, and be lost.
-    /// One layer of ghosts more would do as well, but deal.II has one.
+    /// it does not know: ask the owner. The owner itself, in 3-D, may have to
+    /// be told by one who knows. Why this matters: boxes reach across corners,
+    /// so points send sums to nodes at the far side of the ghost cells, which
+    /// hang on cells that deal.II does not show this rank. Without their
+    /// masters these sums would reach the owner of the node when it has passed
+    /// on its own, and be lost. One layer of ghosts more would do as well, but
+    /// deal.II has one.
     ///
     /// Three rounds of messages among the ranks that know each other's nodes,
     /// once per mesh: what we know of your nodes, which of your nodes we need,

@@ -8,6 +8,7 @@ namespace talus
 {
   using namespace dealii;
 
+  // Whether any axis repeats is asked per point in the relocation: once known.
   template <int dim>
   Periodicity<dim>::Periodicity(const std::array<bool, dim> &axes,
                                 const Box<dim>              &domain)

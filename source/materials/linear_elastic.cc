@@ -3,6 +3,7 @@
 
 namespace talus
 {
+  // Without a plastic variable.
   template <int dim>
   LinearElastic<dim>::LinearElastic(const std::string &section)
     : RateLaw<dim, NoFlow>(section)

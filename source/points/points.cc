@@ -135,6 +135,8 @@ namespace talus
 
 
 
+  // Behind the sorted ones, so that the segments remain right; Relocation sorts
+  // them in.
   template <int dim>
   unsigned int
   Points<dim>::append(const unsigned int n)

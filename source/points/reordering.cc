@@ -88,8 +88,8 @@ namespace talus
 
 
 
-  /// Add the segments [@p begin, @p end) of @p segments as they are: their points
-  /// move together.
+  /// Add the segments [@p begin, @p end) of @p segments as they are: their
+  /// points move together.
   void
   Reordering::add_unchanged(const std::vector<Segment> &segments,
                             const std::size_t           begin,

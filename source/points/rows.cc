@@ -66,9 +66,9 @@ namespace talus
 
   namespace
   {
-    /// Since the runs keep their order, each lands between its neighbours: those
-    /// that go down, first to last, and then those that go up, last to first,
-    /// never overwrite one that is still to move.
+    /// Since the runs keep their order, each lands between its neighbours:
+    /// those that go down, first to last, and then those that go up, last to
+    /// first, never overwrite one that is still to move.
     void
     move_runs(double *row, const std::vector<BlockMove> &block_moves)
     {

@@ -17,8 +17,8 @@ namespace talus
 
 
     /// A box inside its cell has weights at the nodes of the cell, and none at
-    /// the one below nor at the one above: it may go with those that reach below
-    /// as well as with those that do not. Take the side that leaves most
+    /// the one below nor at the one above: it may go with those that reach
+    /// below as well as with those that do not. Take the side that leaves most
     /// points of the cell with the same nodes: below if any box must. Returns,
     /// of @p these points, those whose nodes begin below the cell.
     inline PointsOfBlock

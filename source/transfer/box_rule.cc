@@ -60,6 +60,7 @@ namespace talus
 
 
     /// |F e_d|, by which the axes of the undeformed box are stretched.
+    /// No rotation changes it, so a body that only turns is never split.
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
                         lengths_of_columns(const Matrix<dim, Number> &F)
@@ -77,8 +78,11 @@ namespace talus
 
 
 
-    /// For boxes parallel to the axes that know their stretch by the deformation
-    /// gradient.
+    /// For boxes parallel to the axes that know their stretch by the
+    /// deformation gradient. V and not U is the default: both are positive at
+    /// any rotation, but U measures along axes that have not turned with the
+    /// material, and lengthens a sheared box across the motion (doc/method.md,
+    /// section 1).
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
     stretch_along_axes(const Matrix<dim, Number> &F, const BoxRule rule)
@@ -103,8 +107,8 @@ namespace talus
 
 
 
-    /// Set the stretch of the points [begin, end) to what @p stretch_of makes of
-    /// F. (Rules that share a loop share subexpressions, and so round-off.)
+    /// Set the stretch of the points [begin, end) to what @p stretch_of makes
+    /// of F. (Rules that share a loop share subexpressions, and so round-off.)
     template <int dim, typename StretchOf>
     TALUS_ALWAYS_INLINE void
     set_stretch(const PointsView<dim> &points,
@@ -217,6 +221,8 @@ namespace talus
 
 
 
+  // Not clipped: the splitter asks how long the material of a point is, and
+  // what children inherit are these edges.
   template <int dim>
   Tensor<1, dim>
   edge_of_box(const Points<dim> &points,

@@ -112,9 +112,9 @@ namespace talus
 
   // XPIC(m): with P the pass to the grid and back, the new velocities are
   // (1 - (1 - P)^m) v = P v + P (1 - P) v + ..., so that the velocity column
-  // holds in turn what no pass has seen so far. A mode that P leaves at its share
-  // lambda is left at 1 - (1 - lambda)^m: the null space vanishes (lambda = 0), and
-  // smooth motion, whose lambda is close to 1, stays.
+  // holds in turn what no pass has seen so far. A mode that P leaves at its
+  // share lambda is left at 1 - (1 - lambda)^m: the null space vanishes (lambda
+  // = 0), and smooth motion, whose lambda is close to 1, stays.
 
   // The column of the velocities itself is what is passed on, since the kernels
   // read and write it: no second transfer that would have to be kept equal to

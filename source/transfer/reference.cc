@@ -84,6 +84,8 @@ namespace talus
         const auto   v     = load_vector(points, points.velocity, p);
         const auto   b     = acceleration_of_point(loads, segment.body, p);
         const auto   sigma = averaged_stress(points, workspace, p);
+        // The stress is symmetric: from which side it takes the gradient is all
+        // one.
         for (const auto &w : room)
           nodes.add_sums(w.node,
                          w.value * m,
@@ -95,6 +97,8 @@ namespace talus
 
 
 
+  // A node may be in the list several times: a sum over entries is one over
+  // nodes.
   template <int dim>
   MotionByDefinition<dim>
   interpolate_by_definition(const Points<dim>      &points,

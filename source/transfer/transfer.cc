@@ -208,9 +208,9 @@ namespace talus
 
   // Both means are weighted with the volume at the start of the step and taken
   // over the same points: only then is the pair adjoint,
-  // sum V sigma : D' = sum V sigma' : D, and no energy appears. Bodies that share
-  // a cell share its mean: with one mean each, nothing would tie the pressures
-  // in that cell to one another.
+  // sum V sigma : D' = sum V sigma' : D, and no energy appears. Bodies that
+  // share a cell share its mean: with one mean each, nothing would tie the
+  // pressures in that cell to one another.
 
   // Soil that hardly changes its volume locks on bilinear cells: each of the
   // four points of a cell asks for its own volume to stay, but there is one

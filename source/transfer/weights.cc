@@ -66,9 +66,10 @@ namespace talus
 
 
 
-    /// @param lower corner of the cell or, across a periodic face, of its image.
-    /// Add what one cell gives to the weights of a box: products of its shares
-    /// along the axes, at its 2^dim nodes. Nothing if they do not overlap.
+    /// @param lower corner of the cell or, across a periodic face, of its
+    /// image. Add what one cell gives to the weights of a box: products of its
+    /// shares along the axes, at its 2^dim nodes. Nothing if they do not
+    /// overlap.
     template <int dim>
     void
     add_cell(const Grid<dim>              &grid,
