@@ -5,6 +5,10 @@
 
 namespace talus
 {
+  // Children tile their parent, so a split changes none of these sums but by
+  // round-off; what the ledger shows is therefore an error in the program, such
+  // as an energy that is copied where it should be divided. It goes along in
+  // every run, since it costs some operations per split only.
   template <int dim>
   void
   Ledger<dim>::enter(const Points<dim> &points,
@@ -36,6 +40,7 @@ namespace talus
     for (unsigned int i = 2 * dim; i < n_entries; ++i)
       scale[i] = std::abs(entry[i]);
 
+    // Before and after a split each count the whole: half of both is the scale.
     for (unsigned int i = 0; i < n_entries; ++i)
       {
         difference_[i] += sign * entry[i];
@@ -45,6 +50,8 @@ namespace talus
 
 
 
+  // Relative to the sum of absolute values and not to the sum, which may
+  // vanish.
   template <int dim>
   double
   Ledger<dim>::relative_error() const

@@ -41,6 +41,7 @@ namespace talus
 
 
 
+  // Counting takes a message of all ranks, too much for every step.
   template <int dim>
   bool
   LoadBalance<dim>::is_due(const unsigned long step,
@@ -52,6 +53,10 @@ namespace talus
 
 
 
+  // A cell goes to one rank as a whole, so with few cells per rank the goal may
+  // be out of reach: without the second bound the cells would be shared out in
+  // vain at each look. A twentieth more than was reached then is reason to try
+  // again.
   template <int dim>
   bool
   LoadBalance<dim>::is_needed(const Points<dim> &points,
@@ -82,6 +87,9 @@ namespace talus
 
     /// Weight of a cell with so many points. One without costs next to nothing,
     /// but not nothing.
+    /// Integers, as p4est has them. The cost of a step follows the points; but
+    /// if empty cells weighed nothing one rank could get all of those at the
+    /// end of the curve, and the memory they take.
     unsigned int
     weight(const unsigned int n_points)
     {
@@ -91,6 +99,14 @@ namespace talus
 
 
 
+  // Cells and points travel together, by deal.II's means for data of variable
+  // size attached to cells: points may go to any rank, and p4est knows where
+  // each cell goes, which we would else have to find out. The data of a cell
+  // are its points column by column, in their order, and so the order within a
+  // cell, which is part of the state, survives.
+  //
+  // Points in cells that stay are packed and unpacked as well: it happens
+  // rarely, and the indices of all cells change.
   template <int dim>
   std::vector<unsigned int>
   LoadBalance<dim>::repartition(Grid<dim> &grid, Points<dim> &points)
@@ -122,6 +138,8 @@ namespace talus
     weights.disconnect();
     grid.prepare();
 
+    // The numbers of arrays are the same on all ranks: materials add columns
+    // for all.
     points.clear();
     std::vector<unsigned int> cells;
     triangulation.notify_ready_to_unpack(
@@ -139,6 +157,8 @@ namespace talus
                       n * sizeof(double));
       });
     reached_imbalance_ = imbalance(points, grid.communicator());
+    // Kept, so that a resumed run gets the same cells on the same ranks, by
+    // these weights; the points have moved on by then.
     weights_.assign(grid.n_owned_cells(), weight(0));
     for (const unsigned int c : cells)
       weights_[c] += weight(1) - weight(0);

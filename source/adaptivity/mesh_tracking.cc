@@ -37,6 +37,9 @@ namespace talus
 
 
 
+  // Only the cells with points are asked, each by a bit that was set when the
+  // mesh was made (Grid::find_larger_cells()): next to nothing per step.
+  // Whether any rank says yes takes an operation of all of them.
   template <int dim>
   bool
   MeshTracking<dim>::is_urgent(
@@ -56,6 +59,8 @@ namespace talus
   namespace
   {
     /// Small cells are asked for in blocks of 4 per axis, where trees allow it.
+    /// Sixteen cells (64 in 3-D) then share one key to be sent and looked up,
+    /// and the soil moves some cells before it asks for another block.
     template <int dim>
     unsigned int
     block_level(const Grid<dim> &grid)
@@ -66,6 +71,11 @@ namespace talus
 
 
     /// Make the mesh consist of small cells in the blocks that any rank wants.
+    /// All ranks learn all blocks, as a block may lie in a cell of any of them;
+    /// these are few numbers, and rarely. A cell is to be divided if it
+    /// contains a block, so whoever contains one is entered, too, level by
+    /// level: then the question for a cell is one look into a table, whatever
+    /// its size.
     template <int dim>
     bool
     refine(Grid<dim>                        &grid,
@@ -92,6 +102,7 @@ namespace talus
         [&](typename Grid<dim>::Lattice place, unsigned int level) {
           if (level >= grid.base_level())
             return false;
+          // Smaller than a block: as the block it lies in.
           if (level > at_level)
             {
               for (auto &p : place)
@@ -108,6 +119,8 @@ namespace talus
 
   /// Ask for small cells from place @p first to @p last of the lattice of cells
   /// of size h, and a margin around.
+  /// The margin lets the soil move for a while before the mesh must change
+  /// again; cells that do not exist beyond the boundary are left out.
   template <int dim>
   void
   MeshTracking<dim>::want(const Grid<dim> &grid,
@@ -138,6 +151,7 @@ namespace talus
 
 
 
+  // Before there are points: the boxes are those around the bodies to be.
   template <int dim>
   void
   MeshTracking<dim>::adapt(Grid<dim> &grid, const std::vector<Box<dim>> &boxes)
@@ -153,6 +167,10 @@ namespace talus
 
 
 
+  // What is wanted follows from where the soil is now: cells that it has left
+  // become larger at once, and two runs that come to the same soil have
+  // the same mesh. Points keep their rank here; LoadBalance shares them out
+  // afterwards.
   template <int dim>
   bool
   MeshTracking<dim>::adapt(Grid<dim>                       &grid,

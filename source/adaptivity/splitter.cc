@@ -53,6 +53,12 @@ namespace talus
 
 
 
+  // The paper's criterion, the stretch since creation, has no length in it: in
+  // a band where the strain goes on it asks for splits without end, in points
+  // that are small already. So it holds for points that are longer than a part
+  // of a cell only, and a point longer than a cell is split in any case, as the
+  // weights would clip its box and the soil would tear (doc/method.md, section
+  // 6).
   template <int dim>
   template <typename Number>
   TALUS_ALWAYS_INLINE auto
@@ -75,6 +81,8 @@ namespace talus
 
 
 
+  // By the same comparison as may_exceed(), which looks at several points at a
+  // time: what it lets pass is looked at here.
   template <int dim>
   unsigned int
   Splitter<dim>::axes_to_split(const Points<dim> &points,
@@ -90,9 +98,11 @@ namespace talus
 
 
 
+  // In smaller cells the criterion asks for more: if it is met in none of this
+  // size, it is met in none that is larger.
   template <int dim>
   bool
-  Splitter<dim>::may_violate(const Points<dim> &points,
+  Splitter<dim>::may_exceed(const Points<dim> &points,
                              const unsigned int begin,
                              const unsigned int end,
                              const double       cell_size) const
@@ -114,9 +124,11 @@ namespace talus
 
 
 
+  // Along an axis that no child is moved along they lie where the parent does,
+  // which may lie outside at a wall: that does not keep it from being split.
   template <int dim>
   bool
-  Splitter<dim>::daughters_may_stay(const Points<dim> &points,
+  Splitter<dim>::children_may_stay(const Points<dim> &points,
                                     const unsigned int p,
                                     const unsigned int axes,
                                     const double       cell_size,
@@ -165,8 +177,9 @@ namespace talus
 
   // Cells of another size are near. A point that enters a smaller cell is held
   // against that one at once; and where a child would come to lie in a
-  // smaller cell, she must be no longer than that along the other axes either,
-  // or her box would be clipped and leave gaps.
+  // smaller cell, it must be no longer than that along the other axes either,
+  // or its box would be clipped and leave gaps. Each axis that is added moves
+  // the children, hence the loop; it ends since axes are only added.
   template <int dim>
   unsigned int
   Splitter<dim>::axes_near_other_sizes(const Points<dim> &points,
@@ -219,6 +232,8 @@ namespace talus
 
 
 
+  /// Throw ExcPoint if this rank would have too many points; before any is
+  /// made, so that memory does not run out first.
   template <int dim>
   void
   Splitter<dim>::check_budget(const Points<dim> &points,
@@ -226,13 +241,13 @@ namespace talus
   {
     Point<dim> place;
     for (unsigned int d = 0; d < dim; ++d)
-      place[d] = points.data(points.position, d)[violations_[0].point];
+      place[d] = points.data(points.position, d)[marked_[0].point];
     AssertThrow(n_points <= maximum_points_,
                 ExcPoint(text(
                   "Splitting ",
-                  violations_.size(),
+                  marked_.size(),
                   " points, the first of them point ",
-                  points.data(points.id)[violations_[0].point],
+                  points.data(points.id)[marked_[0].point],
                   " at (",
                   place,
                   ") m, would make ",
@@ -244,6 +259,8 @@ namespace talus
 
 
 
+  // The limit holds for all ranks together, but to count them takes a message
+  // of all: whoever has the number from elsewhere brings it.
   template <int dim>
   void
   Splitter<dim>::check_total(const double n_points) const
@@ -259,6 +276,12 @@ namespace talus
 
 
 
+  // Nearly always no point of a batch is to be split, which a look at several
+  // points at a time tells in a few operations, for the whole batch if its
+  // cells have one size. Only where that look finds something single points are
+  // looked at, and only beside cells of another size they are located in the
+  // mesh. Marked points are split later, when no loop over points is under way:
+  // children are appended, which may move all arrays.
   template <int dim>
   void
   Splitter<dim>::mark(const Points<dim> &points,
@@ -281,14 +304,14 @@ namespace talus
         least             = std::min(least, size);
         most              = std::max(most, size);
       }
-    if (least == most && !may_violate(points, batch.begin, batch.end, least))
+    if (least == most && !may_exceed(points, batch.begin, batch.end, least))
       return;
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
         const Segment   &segment   = points.segments()[s];
         const Cell<dim> &cell      = grid.cells()[segment.cell];
         double           cell_size = cell.size;
-        if (!may_violate(
+        if (!may_exceed(
               points, segment.begin, segment.end, least_size(segment)))
           continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
@@ -297,40 +320,44 @@ namespace talus
               cell.uniform ? axes_to_split(points, p, cell_size)
                            : axes_near_other_sizes(
                                points, grid, p, rule, segment.cell, cell_size);
+            // A point at the limit goes on with a clipped box, and is counted.
             if (axes == 0 ||
                 points.data(points.generation)[p] >= maximum_generation_)
               continue;
             if (directions_ == "all")
               axes = (1u << dim) - 1;
-            if (daughters_may_stay(points, p, axes, cell_size, grid, rule))
-              violations_.push_back({p, axes});
+            if (children_may_stay(points, p, axes, cell_size, grid, rule))
+              marked_.push_back({p, axes});
           }
       }
   }
 
 
 
+  // Once and not until none exceeds the threshold: children are half as long,
+  // and what is still too long is split in the next step.
   template <int dim>
   bool
   Splitter<dim>::split_marked(Points<dim>               &points,
                               const BoxRule              rule,
                               std::vector<unsigned int> &points_out_of_cell)
   {
-    if (violations_.empty())
+    if (marked_.empty())
       return false;
-    std::size_t n_daughters = 0;
-    for (const Violation &violation : violations_)
-      n_daughters += 1u << __builtin_popcount(violation.axes);
-    check_budget(points, points.size() - violations_.size() + n_daughters);
-    for (const Violation &violation : violations_)
+    std::size_t n_children = 0;
+    for (const Violation &violation : marked_)
+      n_children += 1u << __builtin_popcount(violation.axes);
+    check_budget(points, points.size() - marked_.size() + n_children);
+    for (const Violation &violation : marked_)
       {
         points_out_of_cell.push_back(violation.point);
         split(points, rule, violation.point, violation.axes);
       }
-    statistics_.n_splits += violations_.size();
+    statistics_.n_splits += marked_.size();
     statistics_.ledger = ledger_.relative_error();
+    // Round-off of some thousand splits stays below.
     Assert(statistics_.ledger <= 1e-12, ExcInternalError());
-    violations_.clear();
+    marked_.clear();
     return true;
   }
 
@@ -341,6 +368,11 @@ namespace talus
     /// Move point @p p by a quarter of the edges of the parent along @p axes;
     /// bit i of @p child says to which side along the i-th of them.
     template <int dim>
+    // A box parallel to the axes is halved along them, a convected domain along
+    // its edges. The initial position follows, X + F^-1 (x_d - x): loads and
+    // initial fields are functions of it. It is exact along the edges, which F
+    // made of the axes of the undeformed box; across a sheared box it is not,
+    // as the box does not know the shear (doc/method.md, section 6).
     class Offset
     {
     public:
@@ -377,6 +409,7 @@ namespace talus
       }
 
     private:
+      /// By column d of F^-1, times @p offset, m.
       void
       move_along_axis(Points<dim>       &points,
                       const unsigned int p,
@@ -411,6 +444,12 @@ namespace talus
 
 
 
+  /// The first child is the parent's row, so that a split into n makes n - 1
+  /// new ones, and no hole that would have to be filled. F, stress and internal
+  /// variables are copied: the children are the same material in the same
+  /// state. The stretch at creation becomes that of now, on all axes, so that
+  /// the threshold counts what comes after the split; else a child could be
+  /// split again at once.
   template <int dim>
   void
   Splitter<dim>::split(Points<dim>       &points,
@@ -419,14 +458,14 @@ namespace talus
                        const unsigned int axes)
   {
     ledger_.enter(points, p, +1.);
-    const unsigned int n_daughters = 1u << __builtin_popcount(axes);
+    const unsigned int n_children = 1u << __builtin_popcount(axes);
     const Offset<dim>  offset(points, rule, p, axes);
 
     // The state of every child, in the parent's place.
     for (const Column &column : points.columns())
       if (column.inheritance == Inheritance::divided)
         for (unsigned int c = 0; c < column.n_components; ++c)
-          points.data(column.first, c)[p] /= n_daughters;
+          points.data(column.first, c)[p] /= n_children;
     for (unsigned int d = 0; d < dim; ++d)
       {
         if (axes & (1u << d))
@@ -439,14 +478,15 @@ namespace talus
       std::max(statistics_.largest_generation,
                static_cast<unsigned int>(generation));
 
-    const unsigned int first = points.append(n_daughters - 1);
-    for (unsigned int i = 1; i < n_daughters; ++i)
+    // The memory of the columns may move: no pointer into it is kept across.
+    const unsigned int first = points.append(n_children - 1);
+    for (unsigned int i = 1; i < n_children; ++i)
       {
         points.copy(p, first + i - 1);
         points.data(points.id)[first + i - 1] = next_id_;
         next_id_ += id_stride_;
       }
-    for (unsigned int i = 0; i < n_daughters; ++i)
+    for (unsigned int i = 0; i < n_children; ++i)
       {
         const unsigned int q = (i == 0 ? p : first + i - 1);
         offset.move(points, q, i);
@@ -456,6 +496,8 @@ namespace talus
 
 
 
+  // Counting clipped boxes passes over all points, so it is done when a row of
+  // statistics is due and not in the step.
   template <int dim>
   void
   Splitter<dim>::list_quantities(const State<dim> &state,
@@ -479,6 +521,7 @@ namespace talus
 
 
 
+  // The id of the next child is state, too: ids are unique over the whole run.
   template <int dim>
   void
   Splitter<dim>::list_state(StateList &list)

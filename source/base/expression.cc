@@ -44,6 +44,8 @@ namespace talus
 
 
 
+    /// Whether a constant may be called so: a word that muParser reads as one
+    /// name, and that is neither a variable nor a constant defined before.
     bool
     is_new_name(const std::string                   &name,
                 const std::map<std::string, double> &known)
@@ -76,6 +78,10 @@ namespace talus
 
 
 
+  /// In the order in which they are written: a value may use the constants
+  /// before it, as muParser replaces only names it is given. A name that is
+  /// defined twice is an error, not a new value, since either of them could be
+  /// what was meant.
   std::map<std::string, double>
   Constants::values() const
   {
@@ -94,6 +100,8 @@ namespace talus
                                  "semicolons.")));
         FunctionParser<1> value(1);
         value.initialize("x", definition.substr(equals + 1), values);
+        // An expression without variables has one value; where it is asked for
+        // does not matter.
         std::string  error  = complaint_about(value);
         const double number = error.empty() ? value.value(Point<1>()) : 0.;
         if (!std::isfinite(number))
@@ -112,6 +120,8 @@ namespace talus
 
 
 
+  /// Parsed, and with that checked, here and not when the first value is
+  /// needed, which may be hours later, and then in the middle of a step.
   template <int dim>
   Expression<dim>::Expression(const std::string &name,
                               const std::string &expressions,
@@ -150,6 +160,9 @@ namespace talus
 
 
 
+  /// What is wrong may show only at some place and time of the run, as a root
+  /// of a negative number does: hence ExcPoint, which also has the last state
+  /// written.
   template <int dim>
   double
   Expression<dim>::finite_value(const Point<dim>  &x,

@@ -9,6 +9,9 @@ namespace talus
     // All that a signal handler may touch.
     volatile std::sig_atomic_t last_signal = 0;
 
+    /// Only notes the signal: whoever leads the run asks for it between two
+    /// steps, where state and files are whole. Writing a checkpoint from within
+    /// the handler could find a step, or an allocation, half done.
     extern "C" void
     talus_remember_signal(const int signal)
     {
@@ -28,6 +31,7 @@ namespace talus
         action.sa_handler       = &talus_remember_signal;
         // A write that was under way goes on.
         action.sa_flags = SA_RESTART;
+        // The second Ctrl-C finds the default handler, which ends the program.
         if (signal == SIGINT)
           action.sa_flags |= SA_RESETHAND;
         sigaction(signal, &action, nullptr);

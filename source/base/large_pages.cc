@@ -8,14 +8,18 @@ namespace talus
 {
   namespace
   {
+    // 2 MB, the large page of x86-64. Where large pages have another size the
+    // memory is as good, only perhaps not on such pages.
     constexpr std::size_t page = std::size_t(1) << 21;
 
+    /// @p bytes rounded up to whole large pages.
     std::size_t
     whole_pages(const std::size_t bytes)
     {
       return (bytes + page - 1) / page * page;
     }
 
+    /// The first address from @p memory on at which a large page can begin.
     char *
     next_page(void *memory)
     {
@@ -36,6 +40,11 @@ namespace talus
 
 
 
+  /// By mmap() and madvise() and not from a pool of reserved pages
+  /// (MAP_HUGETLB), which an administrator would have to set up. The system
+  /// only replaces small pages by a large one that begins at a multiple of its
+  /// size, and mmap() knows multiples of 4 kB only: so more is mapped than is
+  /// needed, and cut.
   void *
   map_large_pages(const std::size_t bytes)
   {
@@ -73,6 +82,8 @@ namespace talus
   void
   empty_large_pages(void *begin, void *end)
   {
+    // Only pages that lie within as a whole: the others hold something else,
+    // too.
     char *const first = next_page(begin);
     char *const last  = next_page(end) - (next_page(end) == end ? 0 : page);
     if (first < last)

@@ -3,6 +3,9 @@
 
 namespace talus
 {
+  /// In a file of its own, since it is compiled for each level of the
+  /// processor, as the kernels are: it says what was compiled, not what the
+  /// machine could do.
   std::string
   processor()
   {

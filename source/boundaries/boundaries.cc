@@ -8,6 +8,8 @@ namespace talus
 {
   using namespace dealii;
 
+  // Without one, a trigger or a strength reduction that is to weaken it has
+  // nothing to act on.
   template <int dim>
   bool
   Boundaries<dim>::has_seabed() const
@@ -19,6 +21,8 @@ namespace talus
 
 
 
+  // A pass over all owned cells, and a place per node: spared where no
+  // expression asks for it.
   template <int dim>
   void
   Boundaries<dim>::locate_nodes(const Grid<dim> &grid)
@@ -35,6 +39,8 @@ namespace talus
 
 
 
+  /// Call action(face) for those of @p faces (see Grid::faces_of_node()) with
+  /// this condition, in the order of the faces.
   template <int dim>
   template <typename Action>
   void
@@ -49,6 +55,8 @@ namespace talus
 
 
 
+  // By the condition alone, whatever the soil does: for the static stages,
+  // whose unknowns these components are not.
   template <int dim>
   unsigned char
   Boundaries<dim>::components_constrained_by_walls(
@@ -73,6 +81,8 @@ namespace talus
 
 
 
+  // The seabed may hold all components or none, as the soil pushes: who asks
+  // here leaves them all alone.
   template <int dim>
   unsigned char
   Boundaries<dim>::constrained_components(const unsigned char faces) const
@@ -112,6 +122,11 @@ namespace talus
 
 
   /// What walls prescribe for a node on these faces at time @p t.
+  /// The order of the loops is the order of precedence: what comes later
+  /// overrides. Velocities first, of which the one whose normal the component
+  /// is counts most, then the first face; then rollers, since nothing may pass
+  /// a wall, whatever another face prescribes; then `fixed`, which holds all
+  /// (doc/method.md, section 5).
   template <int dim>
   typename Boundaries<dim>::PrescribedVelocity
   Boundaries<dim>::prescribed_velocity(const unsigned char faces,
@@ -138,6 +153,10 @@ namespace talus
 
 
 
+  // A traction is a force, so it goes into the momentum update and not into
+  // what changes velocities after it: on a node that a wall holds it is then
+  // simply borne by the wall. Its work is known only when all conditions have
+  // acted, in apply(), hence the list.
   template <int dim>
   void
   Boundaries<dim>::add_tractions(NodalFields<dim> &nodes,
@@ -169,6 +188,11 @@ namespace talus
 
 
 
+  /// Each condition changes the velocity, which takes an impulse; all works are
+  /// impulse times the mean velocity of the step, after the last change. Only
+  /// so do they add up, with the kinetic energy, to nothing: a work booked when
+  /// the impulse acts would be taken with a velocity that the next condition
+  /// changes.
   template <int dim>
   void
   Boundaries<dim>::apply_to_node(NodalFields<dim>  &nodes,
@@ -203,6 +227,8 @@ namespace talus
 
 
 
+  // Node by node: with the lumped mass none of them feels its neighbours, and
+  // the order of the nodes does not matter but for the round-off in the sums.
   template <int dim>
   Works<dim>
   Boundaries<dim>::apply(NodalFields<dim> &nodes,

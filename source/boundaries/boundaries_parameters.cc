@@ -11,6 +11,7 @@ namespace talus
 
   namespace
   {
+    // A new condition gets its name here; range and messages follow.
     const std::vector<std::pair<std::string, FaceCondition>> condition_names = {
       {"free", FaceCondition::free},
       {"roller", FaceCondition::roller},
@@ -22,6 +23,7 @@ namespace talus
 
 
 
+    /// As the pattern of a selection.
     std::string
     all_condition_names()
     {
@@ -33,6 +35,7 @@ namespace talus
 
 
 
+    /// The word in the parameter file, for messages.
     std::string
     name_of(const FaceCondition condition)
     {
@@ -46,6 +49,7 @@ namespace talus
 
 
 
+    /// The parser has made sure that it is one of the list.
     FaceCondition
     condition_by_name(const std::string &name)
     {
@@ -60,10 +64,15 @@ namespace talus
 
 
 
+  // The expressions of a face are parameters of their own, and not a part of
+  // the condition's text, so that an error names the parameter it is in, and
+  // conditions can be a selection.
   template <int dim>
   Boundaries<dim>::Boundaries()
     : ParameterAcceptor("/Boundaries")
   {
+    // A face that the file does not name is free: a point that crosses it ends
+    // the run, so that a wall which was forgotten does not go unnoticed.
     names_.fill("free");
     conditions_.fill(FaceCondition::free);
     for (unsigned int face = 0; face < 2 * dim; ++face)
@@ -94,6 +103,7 @@ namespace talus
           "components of the force per area in contact, separated by "
           "semicolons [Pa].");
       }
+    // Conditions are known from now on; the expressions wait for prepare().
     parse_parameters_call_back.connect([this]() {
       for (unsigned int face = 0; face < 2 * dim; ++face)
         conditions_[face] = condition_by_name(names_[face]);
@@ -102,6 +112,7 @@ namespace talus
 
 
 
+  // Asked of both faces, so that the message names the one that is periodic.
   template <int dim>
   std::array<bool, dim>
   Boundaries<dim>::periodic_axes() const
@@ -125,6 +136,8 @@ namespace talus
 
 
   /// The expression is there if, and only if, the condition needs it.
+  /// An expression that is given in vain is an error, too: whoever wrote it
+  /// believes that it acts.
   template <int dim>
   void
   Boundaries<dim>::check_expression(const unsigned int  face,
@@ -164,6 +177,8 @@ namespace talus
 
 
 
+  // Expressions are parsed here, after all parameters are known: constants may
+  // stand anywhere in the file.
   template <int dim>
   void
   Boundaries<dim>::prepare(const Constants &constants)
@@ -174,6 +189,8 @@ namespace talus
         check_expression(face, FaceCondition::velocity, velocity_texts_[face]);
         check_expression(face, FaceCondition::traction, traction_texts_[face]);
         const std::string &traction = traction_texts_[face];
+        // The parser of expressions would not know the word, and would not say
+        // why.
         AssertThrow(traction.find("free") == std::string::npos,
                     ExcUser(text(name,
                                  " traction = ",

@@ -24,6 +24,9 @@ namespace talus
 
 
 
+  // By impulses, as the boundaries do it, so that the energy budget closes.
+  // The work is taken with the mean velocity after damping, w' = w - change/2,
+  // which the limit 2 |w| keeps from turning around: so it is never negative.
   template <int dim>
   double
   Damping<dim>::apply(NodalFields<dim>      &nodes,
@@ -43,6 +46,8 @@ namespace talus
           const Tensor<1, dim> mean = nodes.mean_velocity(node);
           Tensor<1, dim>       v    = nodes.velocity(node);
           for (unsigned int d = 0; d < dim; ++d)
+            // Else a boundary bears the force: damped, a slope would have less
+            // friction.
             if (!(held & (1u << d)))
               {
                 // dt f/m = 2 (v - mean); the mean changes by half of what v

@@ -25,6 +25,8 @@ namespace talus
 
 
 
+  // One parser for all components, though some may be free: the number of
+  // expressions is then checked, and named in the message, in one place.
   template <int dim>
   FaceExpression<dim>::FaceExpression(const std::string &name,
                                       const std::string &expressions,

@@ -26,6 +26,17 @@ namespace talus
 
 
 
+  // The trial velocity is that of the momentum update, without the seabed. A
+  // plastic impact along the normal: the impulse m v_n stops the node, N = m
+  // v_n/dt is the force that takes. Friction follows from this N and is at most
+  // what stops the node, so it never drives it back, at rest it bears the load,
+  // and no stiffness of a penalty limits the step. Nothing pulls: a node that
+  // moves away is free, and so soil can lift off.
+  //
+  // The shear stress is capped per area in contact, and this area follows how
+  // far soil fills the cells at the node (contact_area()): with the whole share
+  // of the face a few points at the front would be held as firmly as a full
+  // layer.
   template <int dim>
   std::pair<Tensor<1, dim>, Tensor<1, dim>>
   Seabed<dim>::apply(NodalFields<dim>  &nodes,
@@ -44,6 +55,8 @@ namespace talus
     const double mass         = nodes.mass(node);
     const double normal_force = mass * v_n / dt;
 
+    // In 3-D the friction acts against the direction of sliding, whatever it
+    // is.
     Tensor<1, dim> v_t = trial;
     v_t[axis]          = 0;
     const double speed = v_t.norm();
@@ -55,6 +68,7 @@ namespace talus
     Tensor<1, dim> normal_impulse;
     normal_impulse[axis] = -outwards * mass * v_n;
     Tensor<1, dim> tangential_impulse;
+    // Without motion along the face there is no direction to act against.
     if (speed > 0)
       tangential_impulse = (-friction * dt / speed) * v_t;
     nodes.set_velocity(node,

@@ -37,7 +37,7 @@ namespace talus
     unknowns_.for_each_free_dof(
       [&](const unsigned int node, const unsigned int d) {
         // Not a number counts as large.
-        if (!(std::abs(force[dim * node + d]) <= own))
+        if (!(std::abs(force[dim * node + d]) <= own) && !std::isnan(own))
           {
             own   = std::abs(force[dim * node + d]);
             place = places_[node];
@@ -283,7 +283,8 @@ namespace talus
         // Held components stay zero in direction: they have no correction.
         const double x            = solution(unknowns_.first(node) + d);
         direction[dim * node + d] = x;
-        largest = (std::abs(x) <= largest ? largest : std::abs(x));
+        if (!(std::abs(x) <= largest) && !std::isnan(largest))
+          largest = std::abs(x);
       });
     largest = Utilities::MPI::max(largest, unknowns_.communicator());
     unknowns_.copy_to_ghosts(direction);

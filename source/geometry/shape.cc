@@ -6,6 +6,9 @@ namespace talus
   using namespace dealii;
   namespace bg = boost::geometry;
 
+  /// @p vertices are closed and brought into Boost's sense of rotation here, so
+  /// that the user need not know either. A polygon that crosses itself is
+  /// refused: what lies inside of it depends on the convention.
   template <int dim>
   Polygon<dim>::Polygon(const std::string                        &name,
                         const std::vector<std::array<double, 2>> &vertices,
@@ -14,6 +17,8 @@ namespace talus
     : z_lower_(z_lower)
     , z_upper_(z_upper)
   {
+    // Boost and not formulas of our own, as it also says why a polygon is not
+    // valid.
     for (const auto &v : vertices)
       bg::append(polygon_.outer(), BoostPoint(v[0], v[1]));
     bg::correct(polygon_);
@@ -28,6 +33,8 @@ namespace talus
 
 
 
+  /// The edge belongs to the polygon, as the faces of a box do to a box.
+  /// A place that is no number is not contained.
   template <int dim>
   bool
   Polygon<dim>::contains(const Point<dim> &x) const
@@ -39,6 +46,7 @@ namespace talus
 
 
 
+  /// Only within it points need be looked for.
   template <int dim>
   Box<dim>
   Polygon<dim>::bounding_box() const

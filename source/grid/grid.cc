@@ -12,6 +12,11 @@ namespace talus
   const std::array<std::string, 6> face_names = {
     {"Left", "Right", "Bottom", "Top", "Back", "Front"}};
 
+  // Neighbours differ by one level at most across corners, too, since the boxes
+  // of the points reach across them: so the cells that touch a cell are of
+  // three levels (find_touching_cells()). Cells change their rank only when we
+  // ask for it: points travel with them (LoadBalance), or wait to be sent
+  // (BackgroundMesh).
   template <int dim>
   Grid<dim>::Grid(MPI_Comm communicator)
     : ParameterAcceptor("/Grid")
@@ -85,6 +90,15 @@ namespace talus
 
 
 
+  // The flat cache. The transfer asks millions of times a second which nodes
+  // are around a place; deal.II's iterators answer that through several tables,
+  // and find neighbours of the same size only level by level. So what is needed
+  // is written down once per mesh: two lines of the cache per cell in 2-D,
+  // seven in 3-D, and a pass over all cells whenever the mesh changes.
+  //
+  // The order of the calls: nodes need numbers before cells can list them, own
+  // nodes of all cells are there before patches are put together from them, and
+  // messages between ranks need the lists of owned and ghost nodes.
   template <int dim>
   void
   Grid<dim>::prepare()
@@ -93,6 +107,8 @@ namespace talus
     find_ghost_nodes();
     list_cells();
     touching_.clear();
+    // Ghosts are not linked: no point is in them, and not all of their
+    // neighbours are known here.
     for (unsigned int c = 0; c < n_owned_cells_; ++c)
       link_cell(c);
     NodalExchange<dim> exchange;
@@ -126,6 +142,9 @@ namespace talus
 
 
   // deal.II's own order of the cells depends on how the mesh came about.
+  // Results must not depend on what the mesh looked like before, or a resumed
+  // run would differ from one that was not interrupted: so cells go along
+  // p4est's curve. It also keeps cells close in memory that are close in space.
   template <int dim>
   std::vector<typename DoFHandler<dim>::active_cell_iterator>
   Grid<dim>::cells_in_order() const
@@ -144,6 +163,8 @@ namespace talus
 
 
 
+  /// Fill what a cell knows of itself: place, size and own nodes; and the lists
+  /// that go with it. Neighbours come in link_cell().
   template <int dim>
   void
   Grid<dim>::list_cells()
@@ -164,6 +185,8 @@ namespace talus
         const Lattice      place = lattice_place(cell->center(), level);
         Cell<dim>          data;
         data.size = tree_size_ / (1u << level);
+        // By the place in the lattice and not by deal.II's vertices, which come
+        // from halving after halving: the same whatever the mesh was before.
         for (unsigned int d = 0; d < dim; ++d)
           data.lower[d] = domain_.lower[d] + place[d] * data.size;
         data.uniform = false;
@@ -196,6 +219,8 @@ namespace talus
 
 
 
+  /// Indices of cells are those of one rank and one mesh; the place in the
+  /// lattice of a level is the same for all.
   template <int dim>
   unsigned long
   Grid<dim>::key_of_cell(const unsigned int c) const
@@ -228,6 +253,9 @@ namespace talus
 
 
 
+  // Where a place lies outside of the mesh the nearest cell: a point that dips
+  // into a wall belongs to the cell at the wall. How far it may do so,
+  // Relocation checks.
   template <int dim>
   typename Grid<dim>::Lattice
   Grid<dim>::lattice_place(const Point<dim> &x, const unsigned int level) const
@@ -248,6 +276,7 @@ namespace talus
 
 
 
+  // By the centre, which round-off cannot move into a neighbour.
   template <int dim>
   typename Grid<dim>::Lattice
   Grid<dim>::place_of_cell(const unsigned int c) const
@@ -260,6 +289,10 @@ namespace talus
 
 
 
+  /// The active cell of this level at this place; invalid_unsigned_int if there
+  /// is none, or none that this rank knows. Negative numbers would run into the
+  /// other fields of the key; places beyond the upper end have keys that no
+  /// cell has.
   template <int dim>
   unsigned int
   Grid<dim>::cell_at(const Lattice &place, const unsigned int level) const
@@ -272,6 +305,9 @@ namespace talus
 
 
 
+  // From the smallest cells on: most points are in one of these. One look into
+  // a hash table per level, whatever the number of cells. It is for points that
+  // are new or went astray; Relocation::locate() asks the neighbours first.
   template <int dim>
   unsigned int
   Grid<dim>::find_cell(Point<dim> x) const

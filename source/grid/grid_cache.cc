@@ -39,6 +39,14 @@ namespace talus
 
 
 
+  /// Find the neighbours of an owned cell by their places in the lattice of its
+  /// level, and with them whether the cell is uniform, that is, all that
+  /// touches it has its size or lies beyond the boundary of the mesh.
+  ///
+  /// This parts the cells for all of the transfer: points in uniform cells find
+  /// their nodes in the patch, and only those in other cells that do reach
+  /// across pay for weights by definition (see part_from_outsiders()). So a
+  /// graded mesh costs where the sizes meet and nowhere else.
   template <int dim>
   void
   Grid<dim>::link_cell(const unsigned int c)
@@ -61,12 +69,16 @@ namespace talus
             inside = inside && (periodicity_.along(d) ||
                                 (other[d] >= 0 && other[d] < extent[d]));
           }
+        // Beyond a periodic face the mesh goes on; beyond another one there is
+        // nothing that could have another size.
         if (!inside)
           continue;
         periodicity_.wrap(other, extent);
         cell.neighbors[k] = cell_at(other, level);
         if (cell.neighbors[k] != numbers::invalid_unsigned_int)
           continue;
+        // A neighbour of another size counts for all sides that it lies at: one
+        // across a face, more across an edge or a corner.
         cell.uniform = false;
         for (unsigned int d = 0; d < dim; ++d)
           if (offset[d] != 1)
@@ -79,6 +91,14 @@ namespace talus
 
 
 
+  /// Collect the nodes around a cell from the own nodes of its neighbours,
+  /// which list_cells() has set. Along each axis entry 0 is the lower node of
+  /// the neighbour below, 1 and 2 are the cell's own, and 3 is the upper node
+  /// of the neighbour above. At the boundary the outer row is the boundary row
+  /// once more: with two weights at one node the shape functions are constant
+  /// along the normal there, and a box that dips below the seabed still acts on
+  /// the seabed's nodes, with weights that sum to one (doc/method.md, section
+  /// 1).
   template <int dim>
   void
   Grid<dim>::fill_patch(const unsigned int c)
@@ -110,6 +130,9 @@ namespace talus
 
 
 
+  /// List the cells of any size that share a corner with cell @p c, itself
+  /// included: what the box of one of its points may overlap. Ascending, so
+  /// that sums over them have one order.
   template <int dim>
   void
   Grid<dim>::find_touching_cells(const unsigned int c)
@@ -124,8 +147,11 @@ namespace talus
         Lattice first, last;
         for (unsigned int d = 0; d < dim; ++d)
           {
+            // One row of cells of this level around those in which the cell
+            // lies, or into which it would be divided.
             first[d] = (l == level + 1 ? 2 * place[d] - 1 : place[d] - 1);
             last[d]  = (l == level + 1 ? 2 * place[d] + 2 : place[d] + 1);
+            // Division rounds towards zero, but -1 must remain outside.
             if (l == level - 1)
               {
                 first[d] = (first[d] < 0 ? -1 : first[d] / 2);
@@ -153,6 +179,11 @@ namespace talus
 
   /// Which nodes lie on which faces, and what they stand for there: summed over
   /// the cells of all ranks.
+  /// The shape functions are bilinear, so the integral of one over a face of
+  /// its cell is (size/2)^(dim-1), and over the cell (size/2)^dim: no
+  /// quadrature. Each cell is counted by its owner only. A hanging node carries
+  /// nothing, so its share goes to its masters as its forces do; the sum over
+  /// the nodes remains the area of the face.
   template <int dim>
   void
   Grid<dim>::mark_boundary_nodes(NodalExchange<dim> &exchange)
@@ -187,6 +218,8 @@ namespace talus
         exchange.add_to_owners(shares.data());
         face_shares_[face].clear();
         for (unsigned int node = 0; node < n_owned_nodes(); ++node)
+          // Few nodes lie on a face: a table by node would be empty but for
+          // them.
           if (shares[2 * node] > 0)
             face_shares_[face][node] = {shares[2 * node], shares[2 * node + 1]};
       }
@@ -196,6 +229,11 @@ namespace talus
 
   /// A node is marked if it is a corner of a cell larger than h, on whatever
   /// rank, or hangs on one.
+  /// Which cells have points that could touch a mark: those with one in their
+  /// patch, or in that of a cell that touches them. Nodes and not cells are
+  /// marked, as a larger cell may lie beyond the ghosts this rank knows, but
+  /// its nodes are known. MeshTracking changes the mesh as soon as such a cell
+  /// is occupied.
   template <int dim>
   void
   Grid<dim>::find_larger_cells(NodalExchange<dim> &exchange)
@@ -230,6 +268,8 @@ namespace talus
 
 
 
+  /// The nodes of cell @p c on face @p face of the mesh; none if the cell does
+  /// not lie at it, or if the face is periodic, and so no boundary.
   template <int dim>
   std::vector<unsigned int>
   Grid<dim>::nodes_on_face(const unsigned int c, const unsigned int face) const
@@ -254,6 +294,7 @@ namespace talus
 
 
 
+  // grid.cc instantiates the class, but does not see what is defined here.
   template void
   Grid<2>::link_cell(unsigned int);
   template void

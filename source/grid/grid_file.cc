@@ -8,6 +8,8 @@ namespace talus
 {
   using namespace dealii;
 
+  // The mesh is state: it follows from where the soil was when the mesh was
+  // last adapted, not from where it is now.
   template <int dim>
   void
   Grid<dim>::save(const std::string &path) const
@@ -26,6 +28,10 @@ namespace talus
 
 
 
+  // p4est cuts its curve where the sums of the weights ask for it, so the same
+  // weights give the same cells to the same ranks: that is how a resumed run
+  // finds the partition it had, and with it the order of all sums. deal.II asks
+  // for weights by its own cells, which are in another order than ours.
   template <int dim>
   void
   Grid<dim>::repartition(const std::vector<double> &weights)
@@ -39,6 +45,7 @@ namespace talus
         weight_of_active_cell[cell->active_cell_index()] =
           static_cast<unsigned int>(*weight++);
 
+    // For this one time: later repartitions have other weights.
     const auto connection = triangulation_.signals.weight.connect(
       [&](const typename Triangulation<dim>::cell_iterator &cell,
           const typename Triangulation<dim>::CellStatus) {

@@ -17,6 +17,8 @@ namespace talus
 
   namespace
   {
+    /// A corner of a refinement box, m; @p boxes is the whole parameter, for
+    /// the messages.
     template <int dim>
     Point<dim>
     parse_corner(const std::string &corner, const std::string &boxes)
@@ -42,6 +44,8 @@ namespace talus
 
 
 
+  /// Set boxes_ from the parameter. A box outside of the mesh is an error:
+  /// nothing would be refined, and nobody would notice.
   template <int dim>
   void
   Grid<dim>::parse_refinement_boxes()
@@ -83,6 +87,9 @@ namespace talus
 
 
 
+  /// Whether the cell at this place overlaps a refinement box that asks for
+  /// smaller cells. Cells that only share a face with a box do not, whatever
+  /// the round-off in its corners.
   template <int dim>
   bool
   Grid<dim>::box_wants_finer(const Lattice     &place,
@@ -108,6 +115,9 @@ namespace talus
 
   /// Number of cells along axis d, a multiple of @p factor; moves the upper
   /// face for that where it may.
+  /// Cells must have exactly the size asked for, since results depend on it:
+  /// where the length of an axis does not fit it is the length that changes, at
+  /// a face where no condition holds. A wall stays where the user put it.
   template <int dim>
   void
   Grid<dim>::fit_axis(const unsigned int d,
@@ -119,6 +129,7 @@ namespace talus
     const double whole = std::round(exact);
     const bool   fits  = whole >= 1 && std::abs(exact - whole) <= 1e-9 * whole;
     const unsigned int face = 2 * d + 1;
+    // As doubles, before anything is rounded to an integer that could overflow.
     AssertThrow(exact < 2e9,
                 ExcUser(text("The mesh would have ",
                              exact,
@@ -200,6 +211,8 @@ namespace talus
 
   /// The largest level up to the one asked for that divides the cells of all
   /// axes that must not grow.
+  /// p4est joins cells only within a tree, so trees are as large as cells can
+  /// ever become. Every rank holds all trees: few large ones also save memory.
   template <int dim>
   unsigned int
   Grid<dim>::level_of_trees(const std::array<bool, 2 * dim> &may_move,
@@ -237,6 +250,10 @@ namespace talus
 
 
 
+  // The axes are fitted twice: first to the cells of size h, which says what
+  // divides what, then, with mesh tracking, to the largest cells that follow
+  // from it. The sentence for the log is that of the second time, which repeats
+  // what the first one found.
   template <int dim>
   void
   Grid<dim>::create(const std::array<bool, 2 * dim> &may_move,
@@ -269,6 +286,7 @@ namespace talus
         n_trees *= trees[d];
         n_cells *= 1. * n_cells_per_axis_[d] * (1u << initial_refinement_);
       }
+    // With mesh tracking the mesh of small cells never exists as a whole.
     AssertThrow((grow ? n_trees : n_cells) < 4e8,
                 ExcUser(text("The mesh would have ",
                              grow ? n_trees : n_cells,
@@ -288,6 +306,8 @@ namespace talus
 
 
 
+  // First down to h everywhere, which asks nobody, and the cells spread over
+  // the ranks; then the boxes, which may lie on one of them.
   template <int dim>
   void
   Grid<dim>::refine()
@@ -302,7 +322,11 @@ namespace talus
 
 
 
-  /// Returns what any rank flagged cells for: 1 to be divided, 2 joined, 3 both.
+  /// Returns what any rank flagged cells for: 1 to be divided, 2 joined, 3
+  /// both. Whether a cell is to be divided or joined follows from what lies in
+  /// it now, not from its history: a cell is joined with its siblings if what
+  /// contains them all asks for nothing. So two runs that come to the same soil
+  /// have the same mesh.
   template <int dim>
   unsigned int
   Grid<dim>::flag_cells(const WantsFiner &wants_finer)
@@ -338,6 +362,10 @@ namespace talus
 
 
 
+  // deal.II changes cells by one level at a time, and keeps neighbours within a
+  // factor of two by dividing more, or joining fewer, than were flagged: so
+  // flag and change until nothing is left to do. Each round looks at every cell
+  // once; what they agree on is the same on all ranks.
   template <int dim>
   bool
   Grid<dim>::refine(const WantsFiner &wants_finer, const bool spread)
@@ -350,10 +378,13 @@ namespace talus
         if (flags == 0)
           return changed;
         triangulation_.execute_coarsening_and_refinement();
-        // Cells that cannot be joined beside smaller ones stay flagged for ever.
+        // Cells that cannot be joined beside smaller ones stay flagged for
+        // ever.
         if (!(flags & 1) && n_before == triangulation_.n_global_active_cells())
           return changed;
         changed = true;
+        // Only before there are points, which would be left behind on the rank
+        // that owned their cell.
         if (spread)
           triangulation_.repartition();
       }

@@ -21,6 +21,7 @@ namespace talus
     using Masters = std::vector<std::pair<types::global_dof_index, double>>;
     using Hanging = std::map<types::global_dof_index, Masters>;
 
+    /// The ghosts by the rank that owns them. Collective.
     std::map<unsigned int, std::vector<types::global_dof_index>>
     sort_by_owner(const IndexSet &owned, const IndexSet &ghosts, MPI_Comm comm)
     {
@@ -34,6 +35,8 @@ namespace talus
 
 
 
+    /// The hanging nodes of the cells this rank knows, and their masters, which
+    /// do not hang themselves: close() puts those of a master in its place.
     template <int dim>
     Hanging
     masters_of_hanging_nodes(const DoFHandler<dim> &dof_handler,
@@ -50,8 +53,8 @@ namespace talus
 
 
 
-    /// Cells of one size have no hanging nodes; but of the twin of a node at the
-    /// edge of what a rank knows, it may have to ask the owner as well.
+    /// Cells of one size have no hanging nodes; but of the twin of a node at
+    /// the edge of what a rank knows, it may have to ask the owner as well.
     template <int dim>
     Hanging
     masters_at_seams(const DoFHandler<dim>  &dof_handler,
@@ -68,8 +71,17 @@ namespace talus
 
 
     /// A hanging node at the edge of what a rank knows may hang on a cell that
-    /// it does not know: ask the owner. The owner itself, in 3-D, may have to be
-    /// told by one who knows.
+    /// it does not know: ask the owner. The owner itself, in 3-D, may have to
+    /// be told by one who knows. Why this matters: boxes reach across corners,
+    /// so points send sums to nodes at the far side of the ghost cells, which
+    /// hang on cells that deal.II does not show this rank. Without their
+    /// masters these sums would reach the owner of the node when it has passed
+    /// on its own, and be lost. One layer of ghosts more would do as well, but
+    /// deal.II has one.
+    ///
+    /// Three rounds of messages among the ranks that know each other's nodes,
+    /// once per mesh: what we know of your nodes, which of your nodes we need,
+    /// what we know of ours. Collective.
     void
     complete_hanging_nodes(
       const IndexSet &owned,
@@ -102,6 +114,11 @@ namespace talus
 
 
   /// Number the nodes as the cells in their order meet them.
+  /// deal.II numbers nodes in an order that depends on how the mesh came about.
+  /// This one depends on the mesh alone, so that sums over nodes have the same
+  /// order in a resumed run; and nodes of cells that follow each other are near
+  /// each other in memory. Only owned nodes are renumbered, within the numbers
+  /// of the rank, so no rank need know what the others do.
   template <int dim>
   void
   Grid<dim>::number_nodes()
@@ -128,6 +145,9 @@ namespace talus
 
 
 
+  /// Number of a node among those of this rank, by its index over all ranks:
+  /// first the owned ones, then the ghosts, which follow by owner since indices
+  /// do.
   template <int dim>
   unsigned int
   Grid<dim>::local_node(const types::global_dof_index node) const
@@ -144,6 +164,14 @@ namespace talus
 
 
   /// Set the lists of owned, ghost and hanging nodes.
+  /// At a hanging node the shape functions of its large and small cells do not
+  /// fit together; its value is therefore a mean of those of its masters, which
+  /// makes the interpolation continuous. The transfer ignores that: it adds
+  /// sums to hanging nodes as to any other, and NodalFields passes them on, by
+  /// the transposed constraint, so that no mass or momentum is lost.
+  ///
+  /// A node on an upper periodic face, in contrast, is its twin: cells simply
+  /// get the number of the twin, and nothing has to be passed on.
   template <int dim>
   void
   Grid<dim>::find_ghost_nodes()
@@ -184,12 +212,14 @@ namespace talus
           HangingNode entry{local_node(node), {}};
           for (const auto &[master, weight] : masters)
             {
+              // So sums need to be passed on once only, in any order.
               Assert(hanging.count(master) == 0, ExcInternalError());
               entry.masters.emplace_back(local_node(master), weight);
             }
           hanging_nodes_.push_back(entry);
         }
 
+    // The partitioner has asked the other ranks what they import from here.
     const Utilities::MPI::Partitioner partitioner(owned_nodes_,
                                                   ghost_nodes_,
                                                   comm);

@@ -3,6 +3,9 @@
 namespace talus
 {
   // 6 bits for the level, the rest shared by the axes.
+  // A place is one number so that it can be looked up by one hash and sent in a
+  // message. That leaves 29 bits for an axis in 2-D and 19 in 3-D;
+  // Grid::create() refuses meshes whose lattice is larger.
   template <int dim>
   unsigned long
   key_of_place(const Lattice<dim> &place, const unsigned int level)
@@ -16,6 +19,8 @@ namespace talus
 
 
 
+  // Halving the place along each axis is what p4est's division into 2^dim
+  // children means. The level must not be that of the trees.
   template <int dim>
   unsigned long
   key_of_parent(const unsigned long key)

@@ -26,6 +26,10 @@ namespace talus
 
 
 
+  // deal.II's partitioner and not one of its vectors per quantity: all numbers
+  // of a node travel in one message per neighbour, since what a message costs
+  // hardly depends on its length. Who sends how much to whom is settled here,
+  // once per mesh; a step then needs no operation of all ranks.
   template <int dim>
   void
   NodalExchange<dim>::prepare(const Grid<dim> &grid, const unsigned int width)
@@ -50,10 +54,15 @@ namespace talus
 
 
 
+  // All messages are awaited before any is added, in the order of the ranks and
+  // not in that of their arrival: so sums, and with them the run, are the same
+  // bit by bit each time. The number 0, and 1 below, keep the two kinds of
+  // messages apart.
   template <int dim>
   void
   NodalExchange<dim>::add_to_owners(double *records)
   {
+    // In doubles, not in nodes.
     const unsigned int      n_owned = partitioner_->locally_owned_size();
     const ArrayView<double> owned(records, n_owned);
     const ArrayView<double> ghosts(records + n_owned,

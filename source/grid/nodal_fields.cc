@@ -6,6 +6,10 @@ namespace talus
 {
   using namespace dealii;
 
+  // Two arrays of records and not one per quantity: what a point gives to a
+  // node, and takes from it, lies in one or two lines of the cache. Sums and
+  // motions are apart because the two sweeps of a step each need one of them
+  // only.
   template <int dim>
   void
   NodalFields<dim>::prepare(const Grid<dim> &grid)
@@ -24,6 +28,8 @@ namespace talus
 
 
 
+  /// Put a node on the lists that loops over nodes go along, unless it is
+  /// there.
   template <int dim>
   void
   NodalFields<dim>::add_active(const Grid<dim> &grid, const unsigned int node)
@@ -43,6 +49,12 @@ namespace talus
 
 
 
+  // The cost of a step must follow the points and not the mesh, most of which
+  // may be empty. So loops go over lists of the nodes that points may touch;
+  // these are made only when the set of occupied cells changes, in the order of
+  // the cells, so that the sums over nodes have the same order in a resumed
+  // run. Records of owned nodes that are not active are zero: they are neither
+  // cleared nor looked at in a step.
   template <int dim>
   void
   NodalFields<dim>::activate(const Grid<dim>                 &grid,
@@ -71,6 +83,7 @@ namespace talus
       else
         for (const unsigned int t : grid.touching_cells(c))
           add_patch(t);
+    // Points on another rank may touch what is shared with it.
     for (const unsigned int node : grid.interface_nodes())
       add_active(grid, node);
     for (const auto &hanging : grid.hanging_nodes())
@@ -89,6 +102,8 @@ namespace talus
 
 
 
+  // Ghosts without exception: their records travel whether they are active or
+  // not.
   template <int dim>
   void
   NodalFields<dim>::clear()
@@ -101,6 +116,11 @@ namespace talus
 
 
 
+  // Hanging nodes come first: masters may be ghosts, whose sums then travel
+  // with the rest. With the weights w of the constraint u_h = sum w u_m the
+  // master gets w times the sum: what is transposed to the interpolation
+  // conserves the sums, and the power of nodal forces is the same before and
+  // after.
   template <int dim>
   void
   NodalFields<dim>::sum_over_ranks(const Grid<dim> &grid)
@@ -119,6 +139,10 @@ namespace talus
 
 
 
+  // With the lumped mass each node stands alone. The cut-off is there because
+  // the mass of a node falls faster than the force on it as a point barely
+  // touches it: without it f/m has no bound. It must be small, or nodes in
+  // front of the slide act as a wall.
   template <int dim>
   void
   NodalFields<dim>::update_momentum(const double dt, const double mass_cutoff)
@@ -151,6 +175,7 @@ namespace talus
 
 
 
+  // The other way round: ghosts first, since they may be masters.
   template <int dim>
   void
   NodalFields<dim>::share_with_ghosts(const Grid<dim> &grid)
@@ -169,6 +194,8 @@ namespace talus
 
 
 
+  /// Unlike velocity times mass it is what the points sent, untouched by the
+  /// step.
   template <int dim>
   Tensor<1, dim>
   NodalFields<dim>::momentum(const unsigned int node) const
@@ -181,6 +208,7 @@ namespace talus
 
 
 
+  /// The two parts in which the kernels add it up (NodalSum) together.
   template <int dim>
   Tensor<1, dim>
   NodalFields<dim>::force(const unsigned int node) const
@@ -234,6 +262,8 @@ namespace talus
 
 
 
+  // The increment changes with the velocity, so that FLIP gives the points what
+  // boundaries do, too, and the mean velocity of the step stays right.
   template <int dim>
   Tensor<1, dim>
   NodalFields<dim>::set_velocity(const unsigned int    node,
@@ -253,6 +283,8 @@ namespace talus
 
 
 
+  // A constant force over dt does the work dt f . (v_before + v_after)/2
+  // exactly; v_after alone would falsify the energy budget by (dt f)^2/(2 m).
   template <int dim>
   Tensor<1, dim>
   NodalFields<dim>::mean_velocity(const unsigned int node) const
@@ -266,6 +298,7 @@ namespace talus
 
 
 
+  // Ghosts are left out, so that the sum over the ranks counts each node once.
   template <int dim>
   double
   NodalFields<dim>::kinetic_energy() const

@@ -4,6 +4,9 @@ namespace talus
 {
   using namespace dealii;
 
+  // For expressions in x, y, z at nodes. A node on a periodic face has two
+  // places, of which that of the last cell is taken: what is given there must
+  // repeat with the mesh (doc/method.md, section 9).
   template <int dim>
   std::vector<Point<dim>>
   places_of_owned_nodes(const Grid<dim> &grid)

@@ -8,6 +8,7 @@ namespace talus
 {
   using namespace dealii;
 
+  // Whether any axis repeats is asked per point in the relocation: once known.
   template <int dim>
   Periodicity<dim>::Periodicity(const std::array<bool, dim> &axes,
                                 const Box<dim>              &domain)
@@ -27,11 +28,14 @@ namespace talus
   {
     for (unsigned int d = 0; d < dim; ++d)
       if (axes_[d])
+        // The remainder of a negative number is negative in C++.
         place[d] = (place[d] % extent[d] + extent[d]) % extent[d];
   }
 
 
 
+  // So that cells at the opposite face are ghosts where they belong to another
+  // rank, and points may cross in a step as they do elsewhere.
   template <int dim>
   void
   Periodicity<dim>::join_faces(
@@ -72,6 +76,7 @@ namespace talus
                   std::lround((cell->vertex(v)[d] - domain_.lower[d]) / size);
                 is_upper = is_upper || (axes_[d] && place[d] == extent[d]);
               }
+            // All others on the boundary may be the twin of one.
             (is_upper ? upper : lower)[place] = cell->vertex_dof_index(v, 0);
           }
 

@@ -12,6 +12,8 @@ namespace talus
   namespace
   {
     template <int dim>
+    // What must be known of a law before a material of it is made: a parameter
+    // file is read before, and its messages and documentation name the laws.
     struct Law
     {
       std::string name;
@@ -22,8 +24,9 @@ namespace talus
 
 
 
-    /// Not by std::make_unique(), which would want to know how the law is
-    /// destroyed, and so all of its functions.
+    /// The line of the list for a law: @p Model is its class. Not by
+    /// std::make_unique(), which would want to know how the law is destroyed,
+    /// and so all of its functions.
     template <int dim, template <int> class Model, auto... arguments>
     Law<dim>
     law(const std::string &name)
@@ -37,6 +40,9 @@ namespace talus
 
 
     /// All laws, one line each.
+    /// A list that is written out, and not one at which laws register
+    /// themselves: objects that nobody refers to may be left out by the linker,
+    /// and their order would be that of the linking.
     template <int dim>
     std::vector<Law<dim>>
     laws()
@@ -65,6 +71,7 @@ namespace talus
 
 
 
+  // The message that needs it ends in "or", as sentences do.
   template <int dim>
   std::string
   names_of_laws_with_strength()
@@ -81,6 +88,8 @@ namespace talus
 
 
 
+  // The name comes from a parameter whose range is the list of the laws, but
+  // sections may also be made without the parser, as in tests.
   template <int dim>
   std::unique_ptr<MaterialModel<dim>>
   make_material(const std::string &name, const std::string &section)

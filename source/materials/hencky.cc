@@ -11,6 +11,8 @@ namespace talus
 
 
 
+  // All that is this law's own is in hencky_kernel.h; loops, tangent and load
+  // steps are the base's.
   template <int dim>
   HenckyEnergy
   Hencky<dim>::strain_energy() const

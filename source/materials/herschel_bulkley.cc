@@ -12,6 +12,9 @@ namespace talus
   using dealii::ParameterAcceptor;
   using dealii::Patterns::Double;
 
+  // Bingham is the exponent 1, and a law of its own only for the user, whose
+  // parameter is then a viscosity in Pa s: the unit of the consistency depends
+  // on the exponent.
   template <int dim>
   HerschelBulkley<dim>::HerschelBulkley(const std::string &section,
                                         const FlowLaw      flow_law)
@@ -59,6 +62,14 @@ namespace talus
 
 
 
+  // Where the strength falls with the plastic shear faster than the elastic
+  // stress, ds_u/dxi < -G, a trial stress has several returns, or a stress
+  // jumps: the equation
+  //   tau_trial - G dgamma = s_u(xi + dgamma) + K (dgamma/dt)^n
+  // has one root only where right less left increases. The strength falls
+  // fastest at xi = 0, by 3 (1 - r) s_u0/xi_95, which must be less than G.
+  // Viscosity would help, but only as long as steps are short, and load steps
+  // of the static stages have none.
   template <int dim>
   void
   HerschelBulkley<dim>::check() const
@@ -92,6 +103,12 @@ namespace talus
 
 
 
+  // The decay 3/xi_95 makes e^-3, that is 5 %, of what remoulding takes remain
+  // at xi_95. Without remoulding it is 0, which spares the iteration its
+  // exponentials (stress_taken() in viscoplastic_return_kernel.h). That header
+  // also says how the implicit return is solved: with an explicit one the time
+  // step would have to resolve the relaxation time of viscous soil, for n = 1
+  // that is K/G.
   template <int dim>
   HerschelBulkleyFlow
   HerschelBulkley<dim>::flow_rule(const double dt) const
@@ -106,6 +123,7 @@ namespace talus
 
 
 
+  // Without viscosity: what the point bears at rest.
   template <int dim>
   double
   HerschelBulkley<dim>::shear_strength(const Points<dim> &points,
@@ -119,6 +137,7 @@ namespace talus
 
 
   // The condition of check() for the strength times the factor.
+  // A little less, since at equality the return has no slope.
   template <int dim>
   double
   HerschelBulkley<dim>::largest_strength_factor() const

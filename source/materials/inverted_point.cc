@@ -4,6 +4,25 @@
 
 namespace talus
 {
+  namespace
+  {
+    /// Coordinates of the centre of point @p p, m, separated by commas.
+    template <int dim>
+    std::string
+    place_in_words(const Points<dim> &points, const unsigned int p)
+    {
+      std::string place;
+      for (unsigned int d = 0; d < dim; ++d)
+        place += (d > 0 ? ", " : "") + text(points.data(points.position, d)[p]);
+      return place;
+    }
+  } // namespace
+
+
+
+  // The loops over points, several at a time, only notice that some determinant
+  // is not positive; which point it is, is looked for here, when the run is
+  // lost anyway, so that the loops carry no branch.
   template <int dim>
   void
   throw_inverted_point(const Points<dim> &points,
@@ -14,18 +33,15 @@ namespace talus
       {
         const double J = determinant(
           load_matrix<dim, double>(points, points.deformation_gradient, p));
+        // Written so that a number that is none is found, too.
         if (J > 0)
           continue;
-        std::string place;
-        for (unsigned int d = 0; d < dim; ++d)
-          place +=
-            (d > 0 ? ", " : "") + text(points.data(points.position, d)[p]);
         AssertThrow(
           false,
           ExcPoint(text("Point ",
                         points.data(points.id)[p],
                         " at (",
-                        place,
+                        place_in_words(points, p),
                         ") m was turned inside out: the determinant of its "
                         "deformation gradient is ",
                         J,
@@ -37,6 +53,8 @@ namespace talus
 
 
 
+  // As above. The iteration leaves NaN where it did not end, and NaN stays in
+  // the plastic variable, by which the point is found.
   template <int dim>
   void
   throw_unsolved_point(const Points<dim> &points,
@@ -49,11 +67,9 @@ namespace talus
                   ExcPoint(
                     text("The viscoplastic flow of point ",
                          points.data(points.id)[p],
-                         " at ",
-                         points.data(points.position)[p],
-                         ", ",
-                         points.data(points.position, 1)[p],
-                         " m could not be solved for, which should not be. "
+                         " at (",
+                         place_in_words(points, p),
+                         ") m could not be solved for, which should not be. "
                          "Look for what throws the points there about, or "
                          "change the material's consistency.")));
   }

@@ -3,6 +3,7 @@
 
 namespace talus
 {
+  // Without a plastic variable.
   template <int dim>
   LinearElastic<dim>::LinearElastic(const std::string &section)
     : RateLaw<dim, NoFlow>(section)
@@ -10,6 +11,7 @@ namespace talus
 
 
 
+  // Hooke's law in rate form is that of all rate laws: nothing flows.
   template <int dim>
   NoFlow
   LinearElastic<dim>::flow_rule(const double /*dt*/) const

@@ -10,6 +10,8 @@ namespace talus
   using dealii::ParameterAcceptor;
   namespace Patterns = dealii::Patterns;
 
+  // Two densities: the pore water moves with the soil and has inertia, but its
+  // weight is borne by the water around.
   template <int dim>
   MaterialModel<dim>::MaterialModel(const std::string &section)
     : ParameterAcceptor(section)
@@ -40,6 +42,7 @@ namespace talus
 
 
 
+  // Mass divides forces: soil without any has no acceleration.
   template <int dim>
   void
   MaterialModel<dim>::check() const
@@ -54,6 +57,7 @@ namespace talus
 
 
 
+  // Columns begin with zero, which as a factor would be soil without strength.
   template <int dim>
   void
   MaterialModel<dim>::initialize(Points<dim>       &points,
@@ -68,6 +72,8 @@ namespace talus
 
 
 
+  // Infinite, so that whoever takes the least of several need not ask which
+  // laws have one.
   template <int dim>
   double
   MaterialModel<dim>::shear_strength(const Points<dim> &, unsigned int) const
@@ -77,6 +83,8 @@ namespace talus
 
 
 
+  // Plastic laws count as nearly incompressible whatever Poisson's ratio is,
+  // since plastic flow keeps the volume (RateLaw).
   template <int dim>
   bool
   MaterialModel<dim>::uses_bbar() const
@@ -86,6 +94,7 @@ namespace talus
 
 
 
+  // Given as a list, as deal.II's numbers cannot be empty.
   template <int dim>
   double
   MaterialModel<dim>::submerged_density() const
@@ -95,6 +104,8 @@ namespace talus
 
 
 
+  // c = sqrt(M/rho) with the current density, m/V. The time step has the same
+  // for many points at a time; this is for single ones.
   template <int dim>
   double
   MaterialModel<dim>::wave_speed(const Points<dim> &points,

@@ -7,6 +7,11 @@ namespace talus
 {
   using namespace dealii;
 
+  // Which parameters a section has depends on its law, so names and laws must
+  // be known before the parameters are declared: they come from a first,
+  // tolerant pass over the file (doc/architecture.md). They are declared once
+  // more here so that the strict pass knows them and its documentation lists
+  // the laws.
   template <int dim>
   Materials<dim>::Materials(const std::vector<MaterialName> &names)
     : ParameterAcceptor("/Materials")
@@ -35,6 +40,8 @@ namespace talus
 
 
 
+  // Several bodies may be of one material, which then has one object; bodies
+  // keep their own points.
   template <int dim>
   void
   Materials<dim>::assign(const std::vector<std::string> &names_of_bodies,
@@ -68,6 +75,7 @@ namespace talus
 
 
 
+  // A material that no body is made of has nothing to say about the run.
   template <int dim>
   std::vector<std::string>
   Materials<dim>::notes(const double cell_size) const
@@ -86,6 +94,9 @@ namespace talus
 
 
 
+  // Laws share the columns of the same name and kind (Points::add_column()),
+  // and all points have all columns: a column costs eight bytes per point, but
+  // points of all bodies stay in one sorted list.
   template <int dim>
   void
   Materials<dim>::add_columns(Points<dim> &points,
@@ -103,6 +114,7 @@ namespace talus
 
 
 
+  // Of the materials in use only: others do not limit the search.
   template <int dim>
   double
   Materials<dim>::largest_strength_factor() const
@@ -115,6 +127,8 @@ namespace talus
 
 
 
+  // One virtual call for a range of points of one material, not one for each
+  // point; within the range the law's own loop has its formulas inlined.
   template <int dim>
   void
   Materials<dim>::update_stress(Points<dim>              &points,

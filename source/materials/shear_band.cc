@@ -3,6 +3,12 @@
 
 namespace talus
 {
+  // The widths of shear bands are those of the cells, as softening has no
+  // length of its own here: with h the strain to soften is reached over the
+  // displacement xi h, at the work G_f = h times that per volume
+  // (doc/method.md, section 4). The user is told both, for h and h/2, because
+  // results on two meshes would else be compared that are those of two
+  // materials.
   std::string
   shear_band_note(const Softening   &softening,
                   const double       cell_size,

@@ -40,6 +40,10 @@ namespace talus
 
 
 
+  // A trial stress q is returned by q - 3 mu dep = sigma_y(ep + dep); it has a
+  // root for all q only if the yield stress falls less steeply than the elastic
+  // stress does, H > -3 mu. Beyond, the law would have to follow a stress that
+  // jumps.
   template <int dim>
   void
   VonMises<dim>::check() const
@@ -69,6 +73,10 @@ namespace talus
 
 
 
+  // In simple shear q = sqrt(3) tau, so the yield stress is sqrt(3) s_u. The
+  // return is that of von_mises_kernel.h: in closed form, since the yield
+  // stress is linear in the plastic strain, or constant once it is residual; no
+  // iteration, and exact for steps of any size.
   template <int dim>
   VonMisesFlow
   VonMises<dim>::flow_rule(const double /*dt*/) const
@@ -81,6 +89,8 @@ namespace talus
 
 
 
+  // The yield stress over sqrt(3).
+  // Hardening is a slope of the yield stress, hence its sqrt(3), too.
   template <int dim>
   double
   VonMises<dim>::shear_strength(const Points<dim> &points,
@@ -95,6 +105,8 @@ namespace talus
 
 
   // The condition of check() for the hardening modulus times the factor.
+  // A little less, since at equality the return has no slope. Where the
+  // residual strength is the initial one nothing softens.
   template <int dim>
   double
   VonMises<dim>::largest_strength_factor() const

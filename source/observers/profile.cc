@@ -148,9 +148,9 @@ namespace talus
             place[dim - 1] = z.first + k;
             place[1]       = 0;
             place[0]       = x.first + i;
-            columns[lattice.column(lattice.key(place))].add(whole,
-                                                            x.share[i] *
-                                                              z.share[k]);
+            // By round-off a share may be nothing, and the column without mass.
+            if (const double share = x.share[i] * z.share[k]; share > 0)
+              columns[lattice.column(lattice.key(place))].add(whole, share);
           }
     }
 

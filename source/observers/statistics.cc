@@ -18,12 +18,13 @@ namespace talus
   /// differ. The columns are described in doc/output.md.
   template <int dim>
   Quantities
-  Statistics<dim>::evaluate(const State<dim> &state) const
+  Statistics<dim>::evaluate(const State<dim> &state,
+                            const bool        with_runout) const
   {
     Quantities row = {{"time", "s", state.time},
                       {"step", "", static_cast<double>(state.step)},
                       {"time step", "s", state.time_step}};
-    list_motion(state, has_runout_, row);
+    list_motion(state, with_runout, row);
     seabed_force_.list_quantities(state, row);
     budget_.list_quantities(state, row);
     list_fractures(state, row);
@@ -43,7 +44,7 @@ namespace talus
                          const Beginning       beginning)
   {
     has_runout_                            = settings.write_runout;
-    const std::vector<std::string> columns = names(state);
+    const std::vector<std::string> columns = names(state, settings.write_runout);
     if (is_first_rank(state.communicator()))
       file_.open(settings.folder / file_name, columns, beginning);
   }
@@ -68,7 +69,7 @@ namespace talus
   Statistics<dim>::observe(const State<dim> &state)
   {
     std::vector<double> values;
-    for (const Quantity &quantity : evaluate(state))
+    for (const Quantity &quantity : evaluate(state, has_runout_))
       values.push_back(quantity.value);
     if (is_first_rank(state.communicator()))
       {
@@ -83,10 +84,11 @@ namespace talus
   /// Values of the evaluation are dropped; this is asked for once per run.
   template <int dim>
   std::vector<std::string>
-  Statistics<dim>::names(const State<dim> &state) const
+  Statistics<dim>::names(const State<dim> &state,
+                         const bool        with_runout) const
   {
     std::vector<std::string> result;
-    for (const Quantity &quantity : evaluate(state))
+    for (const Quantity &quantity : evaluate(state, with_runout))
       result.push_back(quantity.heading());
     return result;
   }
@@ -110,7 +112,7 @@ namespace talus
   Statistics<dim>::cannot_resume(const OutputSettings &settings,
                                  const State<dim>     &state) const
   {
-    const std::vector<std::string> columns = names(state);
+    const std::vector<std::string> columns = names(state, settings.write_runout);
     return is_first_rank(state.communicator())
              ? file_.cannot_resume(settings.folder / file_name, columns)
              : "";

@@ -7,6 +7,9 @@ namespace talus
 {
   using namespace dealii;
 
+  /// The columns that every point has. Their order is that of PointColumns, so
+  /// that kernels know the place of each at compile time, and that in which a
+  /// step needs them, so that fetch_ahead() can ask for the first ones only.
   template <int dim>
   Points<dim>::Points()
   {
@@ -78,6 +81,8 @@ namespace talus
 
 
 
+  /// Bodies of one material, and materials of one law, ask for the same column:
+  /// they share it if they agree on its shape and on what a split makes of it.
   template <int dim>
   unsigned int
   Points<dim>::add(const Column &column)
@@ -92,6 +97,7 @@ namespace talus
                                        "' exists with another shape."));
           return old.first;
         }
+    // All arrays move: views of the points are no longer valid.
     columns_.push_back(column);
     columns_.back().first = arrays_.size();
     arrays_.reshape(arrays_.size() + column.n_components, capacity_ + n_spare);
@@ -100,6 +106,8 @@ namespace talus
 
 
 
+  /// A search by name, for those who did not add the column themselves: once,
+  /// before a loop over points, not within it.
   template <int dim>
   unsigned int
   Points<dim>::find(const std::string &name) const
@@ -127,10 +135,14 @@ namespace talus
 
 
 
+  // Behind the sorted ones, so that the segments remain right; Relocation sorts
+  // them in.
   template <int dim>
   unsigned int
   Points<dim>::append(const unsigned int n)
   {
+    // To zero in any case: what was there before may be left of points that
+    // went to another rank.
     const unsigned int first = size_;
     reserve(size_ + n);
     size_ += n;
@@ -141,6 +153,7 @@ namespace talus
 
 
 
+  /// All columns, so that a child of a split need not know what laws added.
   template <int dim>
   void
   Points<dim>::copy(const unsigned int from, const unsigned int to)
@@ -151,6 +164,9 @@ namespace talus
 
 
 
+  /// In place and not by copying all points into a second set of arrays: in a
+  /// step few points change their cell, and a second set would double the
+  /// memory of the run. What is left behind the last point means nothing.
   template <int dim>
   void
   Points<dim>::reorder(const std::vector<BlockMove>   &block_moves,
@@ -165,6 +181,7 @@ namespace talus
 
 
 
+  /// With what is kept spare behind the points and between the rows.
   template <int dim>
   std::size_t
   Points<dim>::memory_consumption() const

@@ -9,6 +9,7 @@ namespace talus
   namespace
   {
     /// Cell and body, compared as one number.
+    /// See Points: the order is by cell, and within a cell by body.
     template <typename Item>
     std::uint64_t
     key(const Item &item)
@@ -19,6 +20,8 @@ namespace talus
 
 
 
+  /// Let what is added next belong to this cell and body. Segments are opened
+  /// only when a point is added, so none is ever empty.
   void
   Reordering::open_segment(const unsigned int cell, const unsigned int body)
   {
@@ -29,6 +32,7 @@ namespace talus
 
 
 
+  /// Add a point that comes from elsewhere, at the end of its segment.
   void
   Reordering::add_mover(const CellChange &mover)
   {
@@ -43,6 +47,8 @@ namespace talus
   void
   Reordering::add_run(const unsigned int begin, const unsigned int end)
   {
+    // Runs that are neighbours before and after are one: what Points moves is
+    // copied in few long pieces.
     if (begin != n_points_)
       {
         if (!block_moves_.empty() && block_moves_.back().end == begin &&
@@ -82,8 +88,8 @@ namespace talus
 
 
 
-  /// Add the segments [@p begin, @p end) of @p segments as they are: their points
-  /// move together.
+  /// Add the segments [@p begin, @p end) of @p segments as they are: their
+  /// points move together.
   void
   Reordering::add_unchanged(const std::vector<Segment> &segments,
                             const std::size_t           begin,
@@ -108,6 +114,16 @@ namespace talus
 
   // Few points change their cell in a step: between the segments that are
   // entered or left, all others are copied at once.
+  // Both lists are sorted, so one pass merges them as in merge sort; what would
+  // make it slow is to look at every segment of a large body for a few points.
+  // From where the pass is, bisection finds the next segment that a point
+  // leaves, and the one behind which the next point is entered; what lies
+  // between is copied as one run. A point goes behind those that stay in its
+  // segment, so a segment that is only entered may be copied, too.
+  //
+  // Within a segment the order is part of the state, since sums depend on it:
+  // the points that stay keep theirs, and the others follow by their index. So
+  // runs are the same bit by bit, however the changes were found.
   void
   Reordering::merge(const std::vector<Segment>      &segments,
                     std::vector<CellChange>         &changes,
@@ -116,6 +132,7 @@ namespace talus
     const unsigned int n_sorted = (segments.empty() ? 0 : segments.back().end);
     leaving_                    = departed;
     for (const CellChange &mover : changes)
+      // Appended points leave no segment.
       if (mover.index < n_sorted)
         leaving_.push_back(mover.index);
     std::sort(leaving_.begin(), leaving_.end());
@@ -149,6 +166,7 @@ namespace talus
         s = next;
         if (s == segments.size())
           break;
+        // Segments that did not exist, and those behind the one copied last.
         for (; mover != changes.end() && key(*mover) < key(segments[s]);
              ++mover)
           add_mover(*mover);

@@ -29,6 +29,7 @@ namespace talus
 
 
 
+  /// The entries of the rows only, not what move() keeps between calls.
   Rows::Rows(const Rows &other)
   {
     reshape(other.n_rows_, other.length_);
@@ -38,6 +39,11 @@ namespace talus
 
 
 
+  /// Row by row into new memory, and each row of the old one given back to the
+  /// system as soon as it is copied: most of the memory of a run is here, and
+  /// to hold all of it twice, even for a moment, would halve the largest run
+  /// that a machine can do. The new memory is mapped first, and takes up none
+  /// until it is written to; where that fails nothing has changed.
   void
   Rows::reshape(const unsigned int n_rows, const std::size_t length)
   {
@@ -60,9 +66,9 @@ namespace talus
 
   namespace
   {
-    /// Since the runs keep their order, each lands between its neighbours: those
-    /// that go down, first to last, and then those that go up, last to first,
-    /// never overwrite one that is still to move.
+    /// Since the runs keep their order, each lands between its neighbours:
+    /// those that go down, first to last, and then those that go up, last to
+    /// first, never overwrite one that is still to move.
     void
     move_runs(double *row, const std::vector<BlockMove> &block_moves)
     {
@@ -79,6 +85,10 @@ namespace talus
 
 
 
+  /// The single entries are taken out first and put back last: in between the
+  /// runs may pass over both their old and their new places. Row by row, since
+  /// the runs of one row are what the hardware reads ahead; several rows at a
+  /// time took longer (doc/performance.md).
   void
   Rows::move(const std::vector<BlockMove>   &block_moves,
              const std::vector<ElementMove> &element_moves)

@@ -13,9 +13,12 @@ namespace talus
     // the last point, and begin at different places of a page.
     constexpr std::size_t line = 8;
     const std::size_t     n    = end - begin + Points<dim>::n_spare;
+    // Batches differ by what is left of their last cell: memory only grows, and
+    // after some steps no batch allocates.
     if (pitch_ >= n)
       return;
     pitch_ = (n + line - 1) / line * line + line;
+    // Without content, which would else be copied.
     memory_.resize(0);
     memory_.resize(n_rows * pitch_, 0.);
   }

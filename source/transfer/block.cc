@@ -17,8 +17,8 @@ namespace talus
 
 
     /// A box inside its cell has weights at the nodes of the cell, and none at
-    /// the one below nor at the one above: it may go with those that reach below
-    /// as well as with those that do not. Take the side that leaves most
+    /// the one below nor at the one above: it may go with those that reach
+    /// below as well as with those that do not. Take the side that leaves most
     /// points of the cell with the same nodes: below if any box must. Returns,
     /// of @p these points, those whose nodes begin below the cell.
     inline PointsOfBlock
@@ -121,6 +121,13 @@ namespace talus
 
 
     /// Part the points of each cell into runs and outsiders.
+    /// This is what makes the transfer fast: most points of a cell have weights
+    /// at the same 3^dim nodes. As a run, of four to six points on average,
+    /// they are summed up in registers and memory is touched once for all of
+    /// them, where each point by itself would load and store 3^dim records
+    /// (doc/performance.md). Which points go together is a matter of bits:
+    /// reach has one bit per point and face, so there is no branch per point
+    /// that the machine would have to guess.
     template <int dim>
     void
     find_runs(Block<dim> &block, const Reach (&reach)[dim])
@@ -142,6 +149,8 @@ namespace talus
 
 
     /// Domains that are no boxes have weights that are no products.
+    /// A run takes for granted that a weight is a product of factors along the
+    /// axes.
     template <int dim>
     void
     make_all_outsiders(Block<dim> &block)
@@ -156,6 +165,12 @@ namespace talus
 
 
 
+  // Along each axis a box has weights at four nodes around its cell, of which a
+  // run takes three. All four are computed, for all points at once and without
+  // a branch, from two integrals (axis_weights()); which three count is decided
+  // later by the signs of how far the box reaches beyond the faces. Weights are
+  // computed in both sweeps of a step: kept from one to the next, 16 doubles
+  // per point (24 in 3-D) would travel to memory and back.
   template <int dim>
   void
   BlockWalk<dim>::compute_weights(Block<dim> &block) const
@@ -207,6 +222,10 @@ namespace talus
 
 
 
+  // A block goes across cells, since a cell has too few points to fill
+  // registers; but not across bodies, whose loads differ, nor across sizes of
+  // cells, which all lengths are divided by. It ends in the middle of a cell if
+  // it is full.
   template <int dim>
   bool
   BlockWalk<dim>::next(Block<dim> &block)
@@ -218,6 +237,7 @@ namespace talus
       {
         const Segment   &segment = segments[segment_];
         const Cell<dim> &cell    = cells[segment.cell];
+        // The last block may have ended within this segment.
         if (n_pieces == 0)
           {
             point_          = std::max(point_, segment.begin);

@@ -11,6 +11,7 @@ namespace talus
   {
     /// Diagonal of the symmetric factor of F = R U, or of F^T = R V.
     /// In 2-D U = (C + J I)/sqrt(tr C + 2 J), C = F^T F, @cite hoger1984.
+    /// No eigenvectors, and so no case for equal eigenvalues.
     template <typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, 2>
     stretch_diagonal(const Matrix<2, Number> &F, const Number J)
@@ -25,6 +26,10 @@ namespace talus
 
     /// In 3-D the rotation comes from Newton's iteration R <- (R + R^-T)/2,
     /// which converges quadratically from R = F, @cite higham1986.
+    /// A closed form by eigenvalues of C loses digits where they are close, as
+    /// they are in most of the soil. All points of a register iterate until the
+    /// last one is done; about four iterations are enough, fewer the less the
+    /// soil is stretched.
     template <typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, 3>
     stretch_diagonal(const Matrix<3, Number> &F, const Number /*J*/)
@@ -47,6 +52,7 @@ namespace talus
         }
       std::array<Number, 3> diagonal;
       for (unsigned int d = 0; d < 3; ++d)
+        // U = R^T F.
         diagonal[d] = R[0][d] * F[0][d] + R[1][d] * F[1][d] + R[2][d] * F[2][d];
       return diagonal;
     }
@@ -54,6 +60,7 @@ namespace talus
 
 
     /// |F e_d|, by which the axes of the undeformed box are stretched.
+    /// No rotation changes it, so a body that only turns is never split.
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
                         lengths_of_columns(const Matrix<dim, Number> &F)
@@ -71,8 +78,11 @@ namespace talus
 
 
 
-    /// For boxes parallel to the axes that know their stretch by the deformation
-    /// gradient.
+    /// For boxes parallel to the axes that know their stretch by the
+    /// deformation gradient. V and not U is the default: both are positive at
+    /// any rotation, but U measures along axes that have not turned with the
+    /// material, and lengthens a sheared box across the motion (doc/method.md,
+    /// section 1).
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
     stretch_along_axes(const Matrix<dim, Number> &F, const BoxRule rule)
@@ -97,8 +107,8 @@ namespace talus
 
 
 
-    /// Set the stretch of the points [begin, end) to what @p stretch_of makes of
-    /// F. (Rules that share a loop share subexpressions, and so round-off.)
+    /// Set the stretch of the points [begin, end) to what @p stretch_of makes
+    /// of F. (Rules that share a loop share subexpressions, and so round-off.)
     template <int dim, typename StretchOf>
     TALUS_ALWAYS_INLINE void
     set_stretch(const PointsView<dim> &points,
@@ -118,6 +128,8 @@ namespace talus
 
 
 
+    /// Only the splitter asks for it. By the logarithmic strain along the axis
+    /// it stays positive whatever the motion, where F_dd could vanish.
     template <int dim>
     void
     update_stretch_of_fixed_boxes(const PointsView<dim>    &points,
@@ -176,6 +188,10 @@ namespace talus
 
 
 
+  // The deformation a body starts with is none since the creation of its
+  // points: the splitter compares with what they start with. A rule without
+  // deformation gradient (fixed) begins with that of U, since there is no
+  // motion to integrate.
   template <int dim>
   void
   initialize_stretch(Points<dim>       &points,
@@ -205,6 +221,8 @@ namespace talus
 
 
 
+  // Not clipped: the splitter asks how long the material of a point is, and
+  // what children inherit are these edges.
   template <int dim>
   Tensor<1, dim>
   edge_of_box(const Points<dim> &points,
@@ -226,6 +244,8 @@ namespace talus
 
   namespace
   {
+    /// By the same lengths and limits as half_length_in_cells(), but before
+    /// they are clipped.
     template <int dim>
     unsigned int
     count_clipped_axes(const Points<dim> &points,
@@ -248,6 +268,8 @@ namespace talus
 
 
 
+  // For the column of the statistics: where many boxes are clipped, they
+  // overlap or leave gaps, and the splitter should have acted.
   template <int dim>
   unsigned long
   count_clipped_boxes(const Points<dim> &points,

@@ -6,6 +6,9 @@ namespace talus
 {
   using namespace dealii;
 
+  // A corner must lie in one of the cells that touch the point's own. Since the
+  // smallest of these decides how far it may reach, this holds wherever in its
+  // cell the point lies.
   template <int dim>
   double
   smallest_size_around(const Grid<dim> &grid, const unsigned int c)
@@ -20,6 +23,9 @@ namespace talus
 
   // Of all cells the one least far away, as round-off may put the place between
   // two of them.
+  // No search in the mesh is needed, as corners reach no farther than these
+  // cells. Corners beyond the boundary see the shape functions of the nearest
+  // place of the mesh: constant along the normal, as boxes do.
   template <int dim>
   const Cell<dim> &
   touching_cell_at(const Grid<dim> &grid, const unsigned int c, Point<dim> &x)

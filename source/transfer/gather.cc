@@ -13,6 +13,8 @@ namespace talus
   namespace
   {
     /// The row of a point by its weights as they are defined.
+    /// Into the same row as the kernel would, so that move_points() need not
+    /// know how it came about; and so the gradient is per cell size.
     template <int dim>
     void
     interpolate_outsider(const Block<dim>                    &block,
@@ -57,6 +59,10 @@ namespace talus
 
 
     /// The motion of the nodes, interpolated to all points of the block.
+    /// The addresses of the nodes are found once per run. While this is
+    /// computed, the columns of the next batch are fetched: the first ones, up
+    /// to the initial position, are all that the second sweep needs of those
+    /// that every point has.
     template <int dim>
     void
     interpolate_to_block(const Block<dim>        &block,
@@ -86,6 +92,10 @@ namespace talus
 
 
 
+    /// Here position and cell are in registers anyway; a search of its own,
+    /// point by point, would pass over all points once more
+    /// (doc/performance.md). Nearly all points stay, which is said to the
+    /// compiler.
     template <typename Mask>
     TALUS_ALWAYS_INLINE void
     note_points_out_of_cell(const Mask                &inside,
@@ -103,6 +113,15 @@ namespace talus
 
 
 
+  // Block by block in two parts, since they want different layouts:
+  // interpolation goes point by point, with the entries of a node side by side
+  // in a register; the update of the points goes entry by entry, with several
+  // points side by side. MotionEntries transposes between them, within the
+  // first-level cache. Positions move by the velocity of the grid and not by
+  // the point's own, whose noise would let points pass through one another.
+  //
+  // The power is summed in an order that does not depend on the width of the
+  // registers (OrderedSum).
   template <int dim>
   double
   Transfer<dim>::gather(const NodalFields<dim> &nodes,

@@ -43,6 +43,9 @@ namespace talus
   {
     /// The mean stress of the points becomes that of their cell; the deviator
     /// stays.
+    /// By the first half of B-bar, which has the difference already. Where
+    /// B-bar is on the nodes feel the mean only, so nodal forces stay as they
+    /// are; where it is off the difference is zero, and so is the change.
     template <int dim>
     void
     filter_mean_stress(Points<dim>         &points,
@@ -53,6 +56,7 @@ namespace talus
         workspace.reinit(batch.begin, batch.end);
         transfer.apply_bbar_to_stress(points, workspace, batch);
         const double *const shift = workspace.mean_stress_shift();
+        // Out of the plane, too: the deviator must not change.
         for (unsigned int d = 0; d < 3; ++d)
           {
             double *const stress = points.data(points.stress, d) + batch.begin;
@@ -88,6 +92,8 @@ namespace talus
       nodes.sum_over_ranks(grid);
       nodes.update_momentum(time_step, mass_cutoff);
       nodes.share_with_ghosts(grid);
+      // With no time step and no share of FLIP nothing but the velocity of the
+      // points changes, which becomes that of the grid.
       points.for_each_batch([&](const Batch &batch) {
         workspace.reinit(batch.begin, batch.end);
         transfer.gather(nodes,
@@ -106,10 +112,14 @@ namespace talus
 
   // XPIC(m): with P the pass to the grid and back, the new velocities are
   // (1 - (1 - P)^m) v = P v + P (1 - P) v + ..., so that the velocity column
-  // holds in turn what no pass has seen so far. A mode that P leaves at its share
-  // lambda is left at 1 - (1 - lambda)^m: the null space vanishes (lambda = 0), and
-  // smooth motion, whose lambda is close to 1, stays.
+  // holds in turn what no pass has seen so far. A mode that P leaves at its
+  // share lambda is left at 1 - (1 - lambda)^m: the null space vanishes (lambda
+  // = 0), and smooth motion, whose lambda is close to 1, stays.
 
+  // The column of the velocities itself is what is passed on, since the kernels
+  // read and write it: no second transfer that would have to be kept equal to
+  // the first. It costs m passes over points and nodes, every some steps. Sums
+  // and momentum are kept because each pass keeps them.
   template <int dim>
   void
   NullSpaceFilter<dim>::apply(Points<dim>         &points,

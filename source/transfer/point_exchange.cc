@@ -9,6 +9,8 @@ namespace talus
 
   namespace
   {
+    // Its bits may be those of a number that is none: they are copied, never
+    // computed with.
     static_assert(sizeof(unsigned long) == sizeof(double),
                   "The key of a cell travels among doubles.");
 
@@ -16,6 +18,8 @@ namespace talus
 
 
 
+  // Only once: a communicator is duplicated by all ranks together, which a step
+  // cannot afford.
   template <int dim>
   void
   PointExchange<dim>::connect(const MPI_Comm communicator)
@@ -27,6 +31,11 @@ namespace talus
 
 
 
+  /// A message is the list of its points, each the key of its new cell and then
+  /// all columns. The sender has found the cell, so the receiver need not look
+  /// for it. A neighbour to which nobody goes gets an empty message: else it
+  /// could not know that none will come, short of an operation of all ranks in
+  /// every step.
   template <int dim>
   void
   PointExchange<dim>::send(const std::vector<OutgoingPoint> &outgoing,
@@ -67,6 +76,8 @@ namespace talus
 
 
 
+  /// Await the message of one neighbour, whatever its size, and append its
+  /// points.
   template <int dim>
   void
   PointExchange<dim>::receive(const unsigned int rank,
@@ -106,6 +117,10 @@ namespace talus
 
 
 
+  // All sends are started before the first message is awaited, so ranks cannot
+  // wait for each other in a circle. Messages are taken in the order of the
+  // ranks and not in that of their arrival: the order of the points in a cell
+  // is part of the state, and a run must be the same bit by bit each time.
   template <int dim>
   const std::vector<typename PointExchange<dim>::IncomingPoint> &
   PointExchange<dim>::exchange(const std::vector<OutgoingPoint> &outgoing,

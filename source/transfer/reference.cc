@@ -9,6 +9,7 @@ namespace talus
 
   namespace
   {
+    /// A column of vectors at point @p p.
     template <int dim>
     Tensor<1, dim>
     load_vector(const Points<dim> &points,
@@ -23,6 +24,7 @@ namespace talus
 
 
 
+    /// What weight and body force give to point @p p per mass, m/s^2.
     template <int dim>
     Tensor<1, dim>
     acceleration_of_point(const Loads<dim>  &loads,
@@ -58,6 +60,9 @@ namespace talus
 
 
 
+  // Written to be read beside the formulas, and not to be fast: the tests hold
+  // the kernels to it, so it should have no trick in common with them. It
+  // shares with them only how the stress and the volume of a point are read.
   template <int dim>
   void
   scatter_by_definition(const Points<dim>        &points,
@@ -71,6 +76,7 @@ namespace talus
   {
     for (unsigned int p = segment.begin; p < segment.end; ++p)
       {
+        // One list for all nodes, with the room of the point before.
         weights_of_point(points, grid, shape, segment.cell, p, room);
         const double m     = points.data(points.mass)[p];
         const double V0    = points.data(points.reference_volume)[p];
@@ -78,6 +84,8 @@ namespace talus
         const auto   v     = load_vector(points, points.velocity, p);
         const auto   b     = acceleration_of_point(loads, segment.body, p);
         const auto   sigma = averaged_stress(points, workspace, p);
+        // The stress is symmetric: from which side it takes the gradient is all
+        // one.
         for (const auto &w : room)
           nodes.add_sums(w.node,
                          w.value * m,
@@ -89,6 +97,8 @@ namespace talus
 
 
 
+  // A node may be in the list several times: a sum over entries is one over
+  // nodes.
   template <int dim>
   MotionByDefinition<dim>
   interpolate_by_definition(const Points<dim>      &points,
@@ -106,6 +116,7 @@ namespace talus
         const auto v = nodes.velocity(w.node);
         there.velocity += w.value * v;
         there.increment += w.value * nodes.increment(w.node);
+        // L_ij = dv_i/dx_j.
         there.gradient += outer_product(v, w.gradient);
       }
     return there;
@@ -113,6 +124,8 @@ namespace talus
 
 
 
+  // The power is that of the mean velocity of the step, v - dv/2: only so is
+  // the work of a constant force exact (doc/method.md, section 7).
   template <int dim>
   double
   gather_by_definition(const NodalFields<dim> &nodes,
@@ -133,6 +146,7 @@ namespace talus
       {
         const auto [v, dv, L] = interpolate_by_definition(
           points, segment.cell, p, grid, shape, nodes, room);
+        // All that is interpolated is known now: the point may move.
         bool is_inside = true;
         for (unsigned int i = 0; i < dim; ++i)
           {

@@ -33,6 +33,7 @@ namespace talus
 
     /// Whether the centres of all these points are in the cell; false if one is
     /// no number.
+    /// Cells are half open, so that a point on a face belongs to one of them.
     template <int dim>
     bool
     all_inside(const Points<dim> &points,
@@ -53,6 +54,10 @@ namespace talus
 
 
 
+  /// Throw ExcPoint if point @p p lies farther outside than the conditions on
+  /// the faces allow, in cells of @p cell_size. Beside a wall its centre may: a
+  /// wall stops nodes and not points, and the boundary cell goes on outside of
+  /// it.
   template <int dim>
   void
   Relocation<dim>::check_inside(const Points<dim> &points,
@@ -98,6 +103,10 @@ namespace talus
 
 
 
+  /// The cell of a point that left @p old_cell. A step moves a point by a
+  /// fraction of a cell (doc/method.md, section 8), so the neighbours come
+  /// first, without a search. Beside cells of another size, beyond the mesh,
+  /// and where the neighbour is not known, the lattice decides.
   template <int dim>
   unsigned int
   Relocation<dim>::locate(const Points<dim> &points,
@@ -128,6 +137,8 @@ namespace talus
 
 
 
+  /// The cell of a point of which nothing is known. One outside the mesh
+  /// belongs to the nearest cell, if it may be there at all.
   template <int dim>
   unsigned int
   Relocation<dim>::cell_of(const Points<dim> &points,
@@ -174,6 +185,8 @@ namespace talus
 
 
 
+  /// Look at all sorted points; whole segments first, since most of them lose
+  /// none.
   template <int dim>
   void
   Relocation<dim>::find_sorted_changes(Points<dim>     &points,
@@ -187,6 +200,10 @@ namespace talus
 
 
 
+  /// Look at the points only that the gather and the splitter noted. Sorted,
+  /// they meet their segments in one pass, and the changes come in the order in
+  /// which a look at all points would find them: so both ways give the same
+  /// order of the points.
   template <int dim>
   void
   Relocation<dim>::find_changes_out_of_cell(
@@ -210,6 +227,8 @@ namespace talus
 
 
 
+  /// Children of a split, and points that were just made: all of them need a
+  /// cell.
   template <int dim>
   void
   Relocation<dim>::find_appended_changes(Points<dim>     &points,
@@ -228,6 +247,7 @@ namespace talus
 
 
 
+  /// Where nobody has noted which points left their cell.
   template <int dim>
   void
   Relocation<dim>::find_all_changes(Points<dim> &points, const Grid<dim> &grid)
@@ -240,11 +260,14 @@ namespace talus
 
 
   /// Let those whose new cell is a ghost travel to its owner.
+  /// A ghost's owner is a neighbour, so that no other rank need be asked.
+  /// Points that arrive are appended, and sorted in with those of this rank.
   template <int dim>
   void
   Relocation<dim>::send_departed(Points<dim> &points, const Grid<dim> &grid)
   {
     outgoing_.clear();
+    // All ranks are here the first time, those without neighbours, too.
     exchange_.connect(grid.communicator());
     if (grid.neighbor_ranks().empty())
       return;
@@ -266,6 +289,20 @@ namespace talus
 
 
 
+  // Why points are kept sorted by cell: all that B-bar, scatter and gather do
+  // goes cell by cell, so neighbours in memory share nodes, cells and means;
+  // points in the order in which they were made would fetch the nodes anew for
+  // each of them. And why not sorted anew: in a step few points change their
+  // cell. So what changes is listed, sent, and merged into the order of the
+  // rest (Reordering), in three stages:
+  //
+  // 1. which points belong to another cell now: find_...(),
+  // 2. which of these belong to another rank: send_departed(),
+  // 3. where each goes in memory: sort_in().
+  //
+  // Afterwards every point lies in its cell and on the rank that owns it,
+  // points of a cell stand together, by body, and those that stayed have kept
+  // their order.
   template <int dim>
   bool
   Relocation<dim>::update(Points<dim> &points, const Grid<dim> &grid)
@@ -292,6 +329,8 @@ namespace talus
 
 
 
+  /// If no point moves the order stays. All ranks must call it, as a point may
+  /// arrive.
   template <int dim>
   bool
   Relocation<dim>::send_and_sort_in(Points<dim> &points, const Grid<dim> &grid)
@@ -305,6 +344,9 @@ namespace talus
 
 
   /// Returns whether the set of the occupied cells changed.
+  /// Merge the changes into the order, and move the data. The headcount is
+  /// checked in every build: a point that got lost would take its mass along,
+  /// and nothing else would notice.
   template <int dim>
   bool
   Relocation<dim>::sort_in(Points<dim> &points)
@@ -336,6 +378,8 @@ namespace talus
 
 
 
+  /// Segments ascend by cell, so that a cell with several bodies is met in
+  /// turn. Nodes are activated anew only if this returns true.
   template <int dim>
   bool
   Relocation<dim>::find_occupied_cells(const Points<dim> &points)

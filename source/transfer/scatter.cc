@@ -9,6 +9,14 @@ namespace talus
 {
   using namespace dealii;
 
+  // Three steps per block. What each point gives (mass, momentum, forces;
+  // NodalSum) is computed entry by entry for several points at once, and
+  // transposed, so that it lies there point by point. Then run by run it is
+  // multiplied by the weights and added to the nodes, a register of entries at
+  // a time. Points that are in no run go last, node by node.
+  //
+  // Points add to nodes, in the order of the points: nothing is added in
+  // parallel, so no locks, and sums that are the same bit by bit in each run.
   template <int dim>
   void
   Transfer<dim>::scatter(const Points<dim>        &points,
@@ -31,6 +39,7 @@ namespace talus
           return nodes.sum(node);
         });
         fill(contributions, block, columns, work, loads.view(block.body));
+        // Up to the elastic energy: the first sweep reads no columns beyond.
         points.fetch_ahead(block.begin,
                            block.begin + block.size,
                            points.elastic_energy);

@@ -14,6 +14,7 @@ namespace talus
 
 
 
+    /// Whether a point lies in a cell of this rank.
     template <int dim>
     bool
     is_at_home(const PackedPoint &record,
@@ -31,6 +32,13 @@ namespace talus
 
 
 
+  // Here nobody knows who owns a cell far away: so each rank shows the points
+  // that lie elsewhere to all others, and takes from theirs what lies in its
+  // own cells. That is a message of all to all, and memory for all these points
+  // on every rank, which is right for what happens when points are made or the
+  // mesh changes, and is simple; in a step points go to neighbours only
+  // (PointExchange). Those at home come first, in their order, then the others,
+  // by rank.
   template <int dim>
   void
   send_points_to_owners(Points<dim> &points, const Grid<dim> &grid)
@@ -53,6 +61,8 @@ namespace talus
         if (is_at_home(record, points, grid))
           here.push_back(record);
 
+    // A place has one cell and a cell one owner, so that no point is lost or
+    // doubled: unless ranks do not agree about the mesh.
     const double n_before =
       Utilities::MPI::sum(1. * points.size(), communicator);
     points.clear();

@@ -85,6 +85,7 @@ namespace talus
 
 
 
+  // In shares of a full cell, so that it means the same on every mesh.
   template <int dim>
   double
   Transfer<dim>::mass_cutoff(const double density, const double cell_size) const
@@ -94,6 +95,7 @@ namespace talus
 
 
 
+  // Bodies without it should not pay for it.
   template <int dim>
   bool
   Transfer<dim>::takes_bbar(const Points<dim> &points, const Batch &batch) const
@@ -164,6 +166,11 @@ namespace talus
 
   /// Call add(p, difference) with the difference between the mean over the cell
   /// of quantity(p) and itself.
+  /// Both halves of B-bar are this, with another quantity. It takes three
+  /// passes, each in the order that suits it: several points at a time for the
+  /// quantity and its product with the volume, cell by cell for the means,
+  /// several points at a time again. All of it stays in the cache, as it is a
+  /// batch's.
   template <int dim>
   template <typename Quantity, typename Add>
   void
@@ -201,10 +208,19 @@ namespace talus
 
   // Both means are weighted with the volume at the start of the step and taken
   // over the same points: only then is the pair adjoint,
-  // sum V sigma : D' = sum V sigma' : D, and no energy appears. Bodies that share
-  // a cell share its mean: with one mean each, nothing would tie the pressures
-  // in that cell to one another.
+  // sum V sigma : D' = sum V sigma' : D, and no energy appears. Bodies that
+  // share a cell share its mean: with one mean each, nothing would tie the
+  // pressures in that cell to one another.
 
+  // Soil that hardly changes its volume locks on bilinear cells: each of the
+  // four points of a cell asks for its own volume to stay, but there is one
+  // node per cell, with two components. The mean asks once (doc/method.md,
+  // section 3). With q = tr_dim(sigma)/dim and the means <.> over the cell
+  //   sigma' = sigma + (<q> - q) I,  D' = D + (<tr D> - tr D)/dim I.
+  // In 2-D q is the mean in the plane and not the pressure: D' has only these
+  // components, and with the pressure the pair would not be adjoint. The shift
+  // is kept apart from the stress, which remains the point's own: it is needed
+  // for the forces only.
   template <int dim>
   void
   Transfer<dim>::apply_bbar_to_stress(const Points<dim>  &points,
@@ -235,6 +251,8 @@ namespace talus
 
 
 
+  // The velocity gradient itself is changed, so that deformation gradient,
+  // volume and stress all follow the same D'.
   template <int dim>
   void
   Transfer<dim>::apply_bbar_to_dilatation(const Points<dim>  &points,

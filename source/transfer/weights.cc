@@ -33,6 +33,12 @@ namespace talus
 
     /// The cell [lower, upper] is continued with constant shape functions where
     /// it lies at the boundary of the mesh.
+    /// Along one axis, of the box [a, b] with one over its length, and the cell
+    /// [lower, upper] with one over its size: the means of the two hats of the
+    /// cell over the box, as far as the cell covers it, and of their
+    /// derivatives, 1/m. A hat is linear in the cell, so its mean over the
+    /// overlap is its value at the middle: exact. What lies beyond the boundary
+    /// of the mesh sees the boundary node with the value one, and no gradient.
     inline CellShare
     share_of_cell(const double a,
                   const double b,
@@ -60,7 +66,10 @@ namespace talus
 
 
 
-    /// @param lower corner of the cell or, across a periodic face, of its image.
+    /// @param lower corner of the cell or, across a periodic face, of its
+    /// image. Add what one cell gives to the weights of a box: products of its
+    /// shares along the axes, at its 2^dim nodes. Nothing if they do not
+    /// overlap.
     template <int dim>
     void
     add_cell(const Grid<dim>              &grid,
@@ -118,6 +127,7 @@ namespace talus
 
 
 
+    /// Whether the box overlaps no other cell.
     template <int dim>
     bool
     is_inside(const BoxOfPoint<dim> &box, const Cell<dim> &cell)
@@ -132,6 +142,14 @@ namespace talus
 
 
 
+  // The definition of doc/method.md, section 1, cell by cell, with no regard to
+  // which nodes the cells share: so it holds for cells of any sizes side by
+  // side, for hanging nodes, at walls and across periodic faces. A point
+  // treated so takes some 3000 instructions per step in 2-D, one in a run 500
+  // (doc/performance.md): so it is used only where the kernel for uniform cells
+  // (axis_weights()) does not apply, which the tests hold to it. A node is
+  // listed once for each cell that has it, as whoever uses the list sums over
+  // it.
   template <int dim>
   void
   general_weights(const Grid<dim>              &grid,
@@ -161,6 +179,8 @@ namespace talus
           if (const unsigned int n = cell.neighbors[k];
               n != numbers::invalid_unsigned_int)
             {
+              // By the own cell and not by the neighbour's: across a periodic
+              // face it is the image of the neighbour that the box overlaps.
               Point<dim> lower = cell.lower;
               for (unsigned int d = 0; d < dim; ++d)
                 lower[d] += (k / power(3, d) % 3 - 1.) * cell.size;
@@ -180,6 +200,10 @@ namespace talus
   namespace
   {
     /// Corner by corner; a node of several corners is listed several times.
+    /// In place of integrals over a parallelogram, which crosses cells at any
+    /// angle, CPDI takes the mean of an interpolation between the corners
+    /// (doc/method.md, section 1): it reproduces 1 and x as the shape functions
+    /// do, and takes values at 2^dim places only.
     template <int dim>
     void
     convected_weights(const Grid<dim>              &grid,
@@ -201,6 +225,7 @@ namespace talus
 
 
 
+    /// With the half lengths as the kernel clips them.
     template <int dim>
     void
     weights_of_box(const Points<dim>            &points,
@@ -225,6 +250,7 @@ namespace talus
 
 
 
+  // That the weights sum to one is what conserves mass and momentum.
   template <int dim>
   void
   weights_of_point(const Points<dim>            &points,

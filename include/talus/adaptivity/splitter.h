@@ -105,7 +105,7 @@ namespace talus
     /// violates the criterion: nearly always, and known from a look at several
     /// points at a time.
     bool
-    may_violate(const Points<dim> &points,
+    may_exceed(const Points<dim> &points,
                 unsigned int       begin,
                 unsigned int       end,
                 double             cell_size) const;
@@ -118,7 +118,7 @@ namespace talus
     /// at a wall: half a cell. Such a split waits; the box is clipped and
     /// counted meanwhile.
     bool
-    daughters_may_stay(const Points<dim> &points,
+    children_may_stay(const Points<dim> &points,
                        unsigned int       p,
                        unsigned int       axes,
                        double             cell_size,
@@ -150,7 +150,7 @@ namespace talus
       unsigned int point;
       unsigned int axes;
     };
-    std::vector<Violation> violations_;
+    std::vector<Violation> marked_;
     double                 next_id_   = 0;
     double                 id_stride_ = 1;
     Ledger<dim>            ledger_;

@@ -29,7 +29,7 @@ namespace talus
       return is_prescribed_[component];
     }
 
-    /// Throws ExcUser if it is not finite.
+    /// Throws ExcPoint if it is not finite.
     double
     value(const dealii::Point<dim> &x,
           const double              t,

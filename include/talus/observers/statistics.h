@@ -57,11 +57,11 @@ namespace talus
     /// What a row holds, in the order of the columns; right on the first rank.
     /// Collective.
     Quantities
-    evaluate(const State<dim> &state) const;
+    evaluate(const State<dim> &state, bool with_runout = true) const;
 
     /// Names of the columns; collective.
     std::vector<std::string>
-    names(const State<dim> &state) const;
+    names(const State<dim> &state, bool with_runout) const;
 
     void
     list_state(StateList &list) override;

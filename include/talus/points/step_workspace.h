@@ -51,7 +51,7 @@ namespace talus
       return const_cast<StepWorkspace *>(this)->row(dim * i + j);
     }
 
-    /// BlockMove of the mean stress by the anti-locking mean, Pa.
+    /// Shift of the mean stress to that of the cell (B-bar), Pa.
     double *
     mean_stress_shift()
     {
