@@ -33,7 +33,7 @@ COLUMNS = {
 
 # Columns that come from memory, and columns that go there, by phase of the log. A
 # step is two sweeps over the points; a column belongs to the phase of a sweep that
-# needs it first, as the others find it in the cache. All is on: anti-locking mean,
+# needs it first, as the others find it in the cache. All is on: B-bar,
 # von Mises, boxes that follow the stretch.
 SWEEPS = {
     "time step": (

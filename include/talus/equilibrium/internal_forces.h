@@ -14,7 +14,7 @@ namespace talus
   /// Nodal forces of the stress at the end of a load step, as functions of the
   /// nodal displacements of the step, and their derivative.
   ///
-  /// The anti-locking mean is taken as in the dynamics: the volume change of a
+  /// The B-bar is taken as in the dynamics: the volume change of a
   /// point becomes the mean over the points of its cell whose law asks for it,
   /// theta_c, which is linear in the
   /// displacements; what does work on that is the stress whose own mean is

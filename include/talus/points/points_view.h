@@ -81,7 +81,7 @@ namespace talus
       return row(dim * i + j);
     }
 
-    /// BlockMove of the mean stress by the anti-locking mean, Pa.
+    /// BlockMove of the mean stress by B-bar, Pa.
     double *
     mean_stress_shift() const
     {

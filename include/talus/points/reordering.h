@@ -66,7 +66,7 @@ namespace talus
     add_staying(const Segment &segment, std::size_t &skip);
 
     // Kept between calls so that a step does not allocate.
-    std::vector<unsigned int> leaving_; ///< a segment, ascending
+    std::vector<unsigned int> leaving_; ///< points that leave their segment
     std::vector<BlockMove>    block_moves_;
     std::vector<ElementMove>  element_moves_;
     std::vector<Segment>      segments_;

@@ -36,7 +36,7 @@ namespace talus
       return {const_cast<double *>(memory_.data()), pitch_, begin_};
     }
 
-    /// Velocity gradient after the anti-locking mean, dim*dim, 1/s: written by
+    /// Velocity gradient after B-bar, dim*dim, 1/s: written by
     /// the gather, read by the stress update of the same step. A load step of
     /// the static stages has its displacement gradient here.
     double *

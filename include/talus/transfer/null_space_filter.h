@@ -19,7 +19,7 @@ namespace talus
   /// damps the motion. @cite hammerquist2017 Momentum is kept; the kinetic
   /// energy that is taken belongs to the remainder of the energy budget.
   ///
-  /// The same for the mean stress: under the anti-locking mean the nodes feel the
+  /// The same for the mean stress: under B-bar the nodes feel the
   /// mean over the cell only, and what the points differ from it gathers as they
   /// wander from cell to cell. It is replaced by that mean, which changes no nodal
   /// force. @cite alkafaji2013 (Laws that compute the stress from the deformation

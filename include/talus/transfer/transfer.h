@@ -26,7 +26,7 @@ namespace talus
     void
     check() const;
 
-    /// For which bodies the anti-locking mean over cells is on.
+    /// For which bodies B-bar over cells is on.
     void
     use_bbar(const std::vector<bool> &of_body)
     {
@@ -47,7 +47,7 @@ namespace talus
 
     // The workspace must be that of the points of the batch.
 
-    /// First half of the anti-locking pair: store at each point the difference
+    /// First half of the B-bar pair: store at each point the difference
     /// between the mean of q = tr_dim(sigma)/dim over the points of its cell whose
     /// law asks for it, of whatever body, and its own q.
     void
@@ -93,7 +93,7 @@ namespace talus
            double                  dt,
            double                  flip_fraction) const;
 
-    /// Second half of the anti-locking pair: replace the rate of volume change
+    /// Second half of the B-bar pair: replace the rate of volume change
     /// by its mean over the cell.
     void
     apply_bbar_to_dilatation(const Points<dim>  &points,

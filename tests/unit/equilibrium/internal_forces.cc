@@ -25,7 +25,7 @@ namespace
 
   /// Points of three bodies in all states that their laws can be in, without
   /// load, on a uniform mesh and on one with hanging nodes; with and without
-  /// the anti-locking mean.
+  /// B-bar.
   template <int dim, typename Action>
   void
   on_all_states(const Action &action)
