@@ -22,12 +22,15 @@ namespace talus
 
 
 
-    template <int dim, template <int> class Model>
+    /// Not by std::make_unique(), which would want to know how the law is
+    /// destroyed, and so all of its functions.
+    template <int dim, template <int> class Model, auto... arguments>
     Law<dim>
     law(const std::string &name)
     {
       return {name, Model<dim>::is_plastic, [](const std::string &section) {
-                return std::make_unique<Model<dim>>(section);
+                return std::unique_ptr<MaterialModel<dim>>(
+                  new Model<dim>(section, arguments...));
               }};
     }
 
@@ -42,8 +45,9 @@ namespace talus
               law<dim, VonMises>("von Mises"),
               law<dim, Hencky>("Hencky"),
               law<dim, NeoHookean>("neo-Hookean"),
-              law<dim, HerschelBulkley>("Herschel-Bulkley"),
-              law<dim, Bingham>("Bingham")};
+              law<dim, HerschelBulkley, FlowLaw::herschel_bulkley>(
+                "Herschel-Bulkley"),
+              law<dim, HerschelBulkley, FlowLaw::bingham>("Bingham")};
     }
   } // namespace
 

@@ -33,8 +33,7 @@ namespace talus
   class HerschelBulkley : public RateLaw<dim, HerschelBulkleyFlow>
   {
   public:
-    HerschelBulkley(const std::string &section,
-                    FlowLaw            flow_law = FlowLaw::herschel_bulkley);
+    HerschelBulkley(const std::string &section, FlowLaw flow_law);
 
     void
     check() const override;
@@ -60,16 +59,6 @@ namespace talus
     double  strain_to_remould_ = 10.;
   };
 
-
-
-  template <int dim>
-  class Bingham : public HerschelBulkley<dim>
-  {
-  public:
-    Bingham(const std::string &section)
-      : HerschelBulkley<dim>(section, FlowLaw::bingham)
-    {}
-  };
 } // namespace talus
 
 #endif
