@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Pages of Markdown as Doxygen wants them, from pages as GitHub shows them.
 
 Usage: doxygen_filter.py FILE.md, which writes to standard output.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Writes FILE, an entry of ctest for each suite of PROGRAM and number of ranks;
 # run whenever PROGRAM was linked. MPIRUN is the command and its option for the
 # number of ranks, ENVIRONMENT what it wants to be told.

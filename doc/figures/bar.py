@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """The bar of the paper: where it splits, and velocity and energy against the
 closed form.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Picture of one landslide: the soil at several times, coloured by speed, and
 by plastic strain at the end.
 

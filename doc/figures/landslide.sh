@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Pictures of one landslide: landslide.png and runout.png, in the folder that
 # holds its output.
 #

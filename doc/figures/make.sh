@@ -1,4 +1,5 @@
 #!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Run the cases and make all pictures of the documentation, doc/figures/*.png.
 #
 #   doc/figures/make.sh [TALUS [SCRATCH]]

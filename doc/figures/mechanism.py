@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """How soil fails when its strength is reduced: mechanism.pvd of some runs.
 
     xvfb-run -a pvbatch mechanism.py PICTURE.png FOLDER=TITLE ...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Front position and number of points over time, for one or more landslides.
 
     python3 runout.py PICTURE.png FOLDER[=LABEL] ...

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Read what talus wrote: statistics.csv, parameters.prm, fields by ParaView.
 
 Needs only what Debian ships: numpy, matplotlib, and for render() and

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Pictures of the verification, from the series that the tests write."""
 
 import csv

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Run the verification; write doc/verification.md with its pictures, and the
 summary in README.md.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/adaptivity/splitter.h>
 #include <talus/base/errors.h>
 #include <talus/points/points_kernel.h>
@@ -103,9 +104,9 @@ namespace talus
   template <int dim>
   bool
   Splitter<dim>::may_exceed(const Points<dim> &points,
-                             const unsigned int begin,
-                             const unsigned int end,
-                             const double       cell_size) const
+                            const unsigned int begin,
+                            const unsigned int end,
+                            const double       cell_size) const
   {
     const auto columns = points.view();
     bool       found   = false;
@@ -129,11 +130,11 @@ namespace talus
   template <int dim>
   bool
   Splitter<dim>::children_may_stay(const Points<dim> &points,
-                                    const unsigned int p,
-                                    const unsigned int axes,
-                                    const double       cell_size,
-                                    const Grid<dim>   &grid,
-                                    const BoxRule      rule) const
+                                   const unsigned int p,
+                                   const unsigned int axes,
+                                   const double       cell_size,
+                                   const Grid<dim>   &grid,
+                                   const BoxRule      rule) const
   {
     const Box<dim> &domain = grid.domain();
     Tensor<1, dim>  reach; // of the children' centres

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/application/program.h>
 
 // Nothing else is in the program: it is compiled for the least processor, and a

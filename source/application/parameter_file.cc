@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/application/parameter_file.h>
 #include <talus/base/errors.h>
 

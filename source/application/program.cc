@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/application/command_line.h>
 #include <talus/application/message.h>
 #include <talus/application/parameter_file.h>

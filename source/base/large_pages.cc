@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/large_pages.h>
 
 #include <sys/mman.h>

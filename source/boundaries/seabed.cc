@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/boundaries/contact_area.h>
 #include <talus/boundaries/seabed.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/equilibrium/unknowns.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The part of Grid that links cells to their neighbours and to the boundary.
 
 #include <talus/grid/grid.h>

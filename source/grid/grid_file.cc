@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The part of Grid that saves the mesh and loads it.
 
 #include <talus/grid/grid.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The part of Grid that makes the mesh and changes it.
 
 #include <talus/base/errors.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The part of Grid that numbers the nodes and knows those of other ranks.
 
 #include <talus/grid/grid.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/materials/hencky.h>
 #include <talus/materials/hencky_kernel.h>
 #include <talus/materials/hyperelastic_law.templates.h>

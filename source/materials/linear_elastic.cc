@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/materials/linear_elastic.h>
 #include <talus/materials/rate_law.templates.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/materials/hyperelastic_law.templates.h>
 #include <talus/materials/neo_hookean.h>
 #include <talus/materials/neo_hookean_kernel.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/observers/energy_budget.h>
 
 #include <deal.II/base/mpi.h>

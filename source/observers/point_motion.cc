@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/observers/point_motion.h>
 
 #include <deal.II/base/mpi.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/io/files.h>
 #include <talus/io/vtu_writer.h>
 #include <talus/observers/boxes.h>

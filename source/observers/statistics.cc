@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
 #include <talus/observers/fracture.h>
 #include <talus/observers/point_motion.h>
@@ -43,8 +44,9 @@ namespace talus
                          const State<dim>     &state,
                          const Beginning       beginning)
   {
-    has_runout_                            = settings.write_runout;
-    const std::vector<std::string> columns = names(state, settings.write_runout);
+    has_runout_ = settings.write_runout;
+    const std::vector<std::string> columns =
+      names(state, settings.write_runout);
     if (is_first_rank(state.communicator()))
       file_.open(settings.folder / file_name, columns, beginning);
   }
@@ -84,8 +86,7 @@ namespace talus
   /// Values of the evaluation are dropped; this is asked for once per run.
   template <int dim>
   std::vector<std::string>
-  Statistics<dim>::names(const State<dim> &state,
-                         const bool        with_runout) const
+  Statistics<dim>::names(const State<dim> &state, const bool with_runout) const
   {
     std::vector<std::string> result;
     for (const Quantity &quantity : evaluate(state, with_runout))
@@ -112,7 +113,8 @@ namespace talus
   Statistics<dim>::cannot_resume(const OutputSettings &settings,
                                  const State<dim>     &state) const
   {
-    const std::vector<std::string> columns = names(state, settings.write_runout);
+    const std::vector<std::string> columns =
+      names(state, settings.write_runout);
     return is_first_rank(state.communicator())
              ? file_.cannot_resume(settings.folder / file_name, columns)
              : "";

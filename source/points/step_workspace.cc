@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/points/points.h>
 #include <talus/points/step_workspace.h>
 

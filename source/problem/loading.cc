@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/problem/loading.h>
 
 #include <deal.II/base/numbers.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/problem/trigger.h>
 
@@ -112,8 +113,8 @@ namespace talus
         names_of_bodies_.empty() && materials.of_body(b).has_strength();
     const std::string advice =
       ", which has no strength that could fall to 'Trigger/Strength fraction' "
-      "of itself. Choose the law " + names_of_laws_with_strength<dim>() +
-      ", or ";
+      "of itself. Choose the law " +
+      names_of_laws_with_strength<dim>() + ", or ";
     for (const std::string &name : names_of_bodies_)
       {
         const auto found =

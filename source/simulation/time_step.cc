@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/simulation/time_step.h>
 #include <talus/transfer/weights_kernel.h>

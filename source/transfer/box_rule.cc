@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/series.h>
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/box_rule.h>

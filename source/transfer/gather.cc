@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Grid to points.
 
 #include <talus/base/ordered_sum.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/transfer/null_space_filter.h>
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/points/points_kernel.h>
 #include <talus/transfer/loads_kernel.h>
 #include <talus/transfer/reference.h>

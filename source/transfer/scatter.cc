@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Points to grid.
 
 #include <talus/transfer/convected_kernel.h>

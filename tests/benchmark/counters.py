@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Instructions and cycles per point and step by group of functions, beside the
 yardstick's, as the processor counts them: which part of a step takes more than a
 hand-written kernel, and whether by more instructions or by waiting."""

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Count the instructions of the time steps of a short slide.
 
     tests/benchmark/instruction_count.py BUILD [--write] [--program TALUS]

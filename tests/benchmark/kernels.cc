@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The work on points alone, on data that stay in the cache.
 
 #include "sample.h"

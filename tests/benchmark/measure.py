@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs of talus and of the yardstick, and what their output says of the time."""
 
 import collections

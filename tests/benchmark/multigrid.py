@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Time and iterations of CG with multigrid on ever smaller cells, as a table.
 
     python3 multigrid.py BUILD [--repeat N] [--finest]

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Counts the floating-point operations of the formulas, by evaluating them with
 // a number that counts. Not a measurement of time: the counter "operations" is
 // what matters.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Bytes and floating-point operations of a step, per point: the one place where
 they are written down. doc/performance.md derives them.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Keeping the points sorted by cell.
 
 #include <talus/transfer/relocation.h>

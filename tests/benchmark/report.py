@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Tables on the terminal and in doc/performance.md."""
 
 import os

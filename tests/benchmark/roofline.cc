@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What the machine can do at most, on one core: the two lines of the roofline.
 
 #include <talus/base/large_pages.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Whole runs, step by step through Simulation::advance().
 
 #include "../cases/case.h"

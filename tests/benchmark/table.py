@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What talus reaches of its goals of speed, as ratios within one run.
 
     tests/benchmark/table.py BUILD [--repeat 5] [--case NAME]... [--write]

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What talus says to bad input: exit status 1 and one helpful line on stderr,
 with earlier results untouched.
 

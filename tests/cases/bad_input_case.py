@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What the tests of bad input share: a good input, and what must hold."""
 
 import pathlib

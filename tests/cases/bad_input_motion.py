@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What talus says to bad input for ground at rest and for what sets it in motion;
 run by bad_input.py.
 """

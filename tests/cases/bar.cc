@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The bar of the paper: axial vibration in the first mode, prm/bar.prm.
 // u = (v0/w) sin(w t) sin(b x), b = pi/(2 L), w = b c, c = sqrt(E/rho), so that
 // the centre of mass moves with (2 v0/pi) cos(w t).

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A stiff block on a plane of 30 degrees, prm/verification/block-on-incline.prm.
 
 #include "case.h"

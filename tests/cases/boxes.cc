@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What the boxes of the points, as they are written, cover of the soil.
 
 #include "landslide.h"

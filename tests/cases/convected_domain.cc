@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Large rotation and large stretch with domains that go with the material,
 // prm/verification/cantilever.prm and hanging-cube*.prm, against finite elements.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Two elastic discs collide and part, prm/verification/discs.prm.
 
 #include "case.h"

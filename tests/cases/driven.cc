@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Soil that is driven by velocities and tractions on the faces of the mesh, and
 // soil that damping brings to rest, against closed forms.
 

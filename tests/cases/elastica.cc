@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A cantilever bends by up to 80 degrees, prm/verification/elastica.prm.
 
 #include "case.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Factors of safety by strength reduction.
 
 #include "static_case.h"

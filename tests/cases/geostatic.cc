@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Ground at rest: stress by K0.
 
 #include "case.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The ground moves: a block that flies above it, and one that slides on it.
 
 #include "case.h"

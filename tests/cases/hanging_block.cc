@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Numerical fracture on demand, prm/verification/hanging-block.prm.
 
 #include "case.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The column under its own weight and the cantilever of the dynamics, brought to
 // equilibrium in load steps.
 

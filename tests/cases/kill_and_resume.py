@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs that are killed or stopped, and resumed.
 
 Usage: kill_and_resume.py TALUS PRM_FOLDER FOLDER TestClass [LAUNCHER ...],

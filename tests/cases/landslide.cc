@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The landslide of the paper on cells of 0.4 m, prm/landslide-quick.prm.
 
 #include "landslide.h"

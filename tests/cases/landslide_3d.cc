@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A short landslide in 3-D, three cells wide between rollers: plane strain, so
 // that it must follow the 2-D one.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The landslide of the paper from equilibrium: strong soil in balance, whose
 // strength falls to that of the paper, prm/landslide-trigger.prm.
 

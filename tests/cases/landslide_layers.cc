@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // One clay, cut into several bodies: the same slide. Fails as soon as anything
 // that the points of a cell share is taken per body.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The landslide of the paper in full: minutes to an hour. Not among the tests
 // of every day; see the label `slow`.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Infinite layers on a slope of 5 degrees: one that slides on a soft interface,
 // prm/verification/shear-layer.prm, and two that flow, bingham-layer.prm and
 // herschel-bulkley-layer.prm.

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Mesh refinement against manufactured solutions, prm/verification/.
 
 #include "case.h"

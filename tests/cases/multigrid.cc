@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Linear systems of elastic soil by CG with multigrid: the number of iterations
 // hardly depends on the cells. tests/benchmark/multigrid.py measures the time.
 

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """All parameter files of the project are valid, and doc/first-slope.md is true.
 
 Usage: parameter_files.py TALUS ROOT FOLDER SUITE

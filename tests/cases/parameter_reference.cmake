@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # doc/parameters.prm is what `talus --document` prints. To make it anew:
 #   talus --document > doc/parameters.prm
 get_filename_component(folder ${FOUND} DIRECTORY)

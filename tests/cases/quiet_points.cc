@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Transfer/Scheme=filtered FLIP: points that rest with the grid, and a mean
 // stress without noise, in the same slide.
 

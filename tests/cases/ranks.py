@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Whole runs on several ranks and on meshes that follow the soil: each must
 give what one rank, or a uniform mesh, gives.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A point that is too far outside a wall. No run gets there: the velocity of
 // the boundary nodes is zero along the normal and the boxes reach half a cell,
 // so that a point stops short of h/2. The check is called by hand.

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """What talus says when a run cannot be resumed.
 
 Usage: resume_refused.py TALUS PRM_FOLDER FOLDER TestClass [LAUNCHER ...],

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A soft column under its own weight, prm/verification/self-weight-column.prm.
 
 #include "column.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Strength that falls in time: soil that yields with it, an interface that lets go
 // of a layer, and points that split.
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A vertical cut in clay, prm/verification/vertical-cut.prm.
 
 #include "case.h"

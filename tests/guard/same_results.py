@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """Hold a program to the results of another one, bit by bit: for refactorings.
 
 Usage: same_results.py BEFORE AFTER FOLDER [--case NAME ...] [--rename OLD=NEW ...]

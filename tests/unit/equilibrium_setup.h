@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_tests_unit_equilibrium_setup_h
 #define talus_tests_unit_equilibrium_setup_h
 

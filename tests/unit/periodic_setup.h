@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef periodic_setup_h
 #define periodic_setup_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef ranks_setup_h
 #define ranks_setup_h
 

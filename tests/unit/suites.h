@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_tests_unit_suites_h
 #define talus_tests_unit_suites_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef transfer_setup_h
 #define transfer_setup_h
 

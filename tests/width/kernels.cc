@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // A point's result never depends on its neighbours in a register: the functions
 // of one point, computed with 1, 2, 4 and 8 points side by side, give the same
 // bits. A program of its own, compiled without contraction and for one set of

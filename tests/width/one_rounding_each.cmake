@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
 # Included by project() in the builds of whole_runs.py: once all targets are there,
 # our sources are compiled so that every operation is rounded by itself, for
 # registers of WIDTH doubles.

@@ -1,4 +1,5 @@
 #!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
 """A short slide with splitting, compiled in several ways: the same statistics.
 
     tests/width/whole_runs.py widths|levels BUILD [--program DIST/talus]

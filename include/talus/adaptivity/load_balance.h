@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_adaptivity_load_balance_h
 #define talus_adaptivity_load_balance_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_adaptivity_splitter_h
 #define talus_adaptivity_splitter_h
 
@@ -106,9 +107,9 @@ namespace talus
     /// points at a time.
     bool
     may_exceed(const Points<dim> &points,
-                unsigned int       begin,
-                unsigned int       end,
-                double             cell_size) const;
+               unsigned int       begin,
+               unsigned int       end,
+               double             cell_size) const;
     /// Bit d: the point is to be split along axis d. Zero: not at all.
     unsigned int
     axes_to_split(const Points<dim> &points,
@@ -119,11 +120,11 @@ namespace talus
     /// counted meanwhile.
     bool
     children_may_stay(const Points<dim> &points,
-                       unsigned int       p,
-                       unsigned int       axes,
-                       double             cell_size,
-                       const Grid<dim>   &grid,
-                       BoxRule            rule) const;
+                      unsigned int       p,
+                      unsigned int       axes,
+                      double             cell_size,
+                      const Grid<dim>   &grid,
+                      BoxRule            rule) const;
     /// The same where the point's old cell is not uniform; sets the size of the
     /// cell it is in now.
     unsigned int

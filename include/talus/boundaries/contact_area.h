@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_boundaries_contact_area_h
 #define talus_boundaries_contact_area_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_boundaries_damping_h
 #define talus_boundaries_damping_h
 

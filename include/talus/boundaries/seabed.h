@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_boundaries_seabed_h
 #define talus_boundaries_seabed_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_checkpoint_checkpoint_content_h
 #define talus_checkpoint_checkpoint_content_h
 

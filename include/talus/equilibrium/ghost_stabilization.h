@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_equilibrium_ghost_stabilization_h
 #define talus_equilibrium_ghost_stabilization_h
 

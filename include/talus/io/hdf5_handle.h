@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_io_hdf5_handle_h
 #define talus_io_hdf5_handle_h
 

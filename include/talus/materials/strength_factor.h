@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_materials_strength_factor_h
 #define talus_materials_strength_factor_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_observers_profile_h
 #define talus_observers_profile_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_transfer_convected_domain_h
 #define talus_transfer_convected_domain_h
 

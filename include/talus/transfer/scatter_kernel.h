@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef talus_transfer_scatter_kernel_h
 #define talus_transfer_scatter_kernel_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef mesh_tracking_setup_h
 #define mesh_tracking_setup_h
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What the command line asks for.
 
 #include <talus/application/command_line.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What the user is told when something goes wrong.
 
 #include <talus/application/message.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Several numbers per instruction, for all widths whatever the machine has.
 
 #include <talus/base/ordered_sum.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/boundaries/damping.h>
 
 #include "ranks_setup.h"
@@ -109,9 +110,8 @@ namespace
           }
         scene.boundaries.add_tractions(nodes, scene.grid, 0., 0.);
         const double taken = scene.apply();
-        const auto   work =
-          scene.boundaries.apply(nodes, scene.grid, 0., dt, 0.);
-        double of_forces = 0;
+        const auto work = scene.boundaries.apply(nodes, scene.grid, 0., dt, 0.);
+        double     of_forces = 0;
         for (unsigned int i = 0; i < force.size(); ++i)
           of_forces +=
             dt * force[i] * nodes.mean_velocity(nodes.active_nodes()[i]);

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/checkpoint/checkpoint.h>
 #include <talus/checkpoint/checkpoint_folder.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The search for equilibrium as a whole. Rank counts: equilibrium_ranks.cc.
 
 #include "equilibrium_setup.h"

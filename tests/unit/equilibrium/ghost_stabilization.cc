@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/equilibrium/ghost_stabilization.h>
 
 #include "equilibrium_setup.h"

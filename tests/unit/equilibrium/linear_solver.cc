@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/equilibrium/linear_solver.h>
 
 #include "equilibrium_setup.h"
@@ -61,7 +62,8 @@ namespace
       for (const unsigned int node : unknowns.active_nodes())
         for (unsigned int d = 0; d < dim; ++d)
           for (unsigned int e = 0; e < dim; ++e)
-            modes[e].push_back(d == e && !unknowns.is_constrained(node, d) ? 1. : 0.);
+            modes[e].push_back(
+              d == e && !unknowns.is_constrained(node, d) ? 1. : 0.);
     }
 
     LinearSolution

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The shapes that bodies have: what lies in them, and the boxes around them.
 
 #include <talus/base/errors.h>

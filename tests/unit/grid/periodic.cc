@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Meshes that repeat. The suite works on any number of ranks; ctest runs it on
 // 1, 2 and 3.
 #include <cstdio>

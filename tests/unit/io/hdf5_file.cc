@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/checkpoint/checkpoint_content.h>
 #include <talus/io/checksum.h>
 #include <talus/io/hdf5_file.h>

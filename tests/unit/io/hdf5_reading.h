@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #ifndef io_hdf5_reading_h
 #define io_hdf5_reading_h
 

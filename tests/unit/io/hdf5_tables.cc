@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Compressed tables in a file that has its name only when it is complete. The
 // suite works on any number of ranks; ctest runs it on 1 and on 3.
 #include <talus/base/errors.h>

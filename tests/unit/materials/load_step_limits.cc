@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Symmetry, strength and special states of the laws' load steps.
 
 #include "load_step_setup.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What all laws share: batches, factory, parameters.
 
 #include <talus/base/errors.h>

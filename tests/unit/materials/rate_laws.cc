@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Rate laws at one point.
 
 #include "specimen.h"

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The strength factor of the points, a column, in the laws that have a strength.
 
 #include <talus/base/errors.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The viscoplastic laws Herschel-Bulkley and Bingham.
 
 #include <talus/base/errors.h>

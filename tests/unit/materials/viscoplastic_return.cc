@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The plastic shear of viscoplastic material in one step.
 
 #include <talus/materials/viscoplastic_return_kernel.h>

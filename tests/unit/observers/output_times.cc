@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/observers/output_times.h>
 
 #include <gtest/gtest.h>

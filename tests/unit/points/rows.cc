@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Memory on large pages, and the rows of numbers that lie there.
 
 #include <talus/base/large_pages.h>

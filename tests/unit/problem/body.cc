@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Bodies filled with points.
 
 #include <talus/problem/body.h>
@@ -194,7 +195,7 @@ namespace
     expect(error<2>({box("0.1, 0.1", "0.2, 0.2")}), "got no points");
     expect(error<2>({box("2, 0", "1, 1")}), "must lie above");
     expect(error<3>({box("0, 0, 0", "1, 1, 1") +
-                         "set Points per cell and axis = 2, 3"}),
+                     "set Points per cell and axis = 2, 3"}),
            "lists 2 numbers; give one, or one for each of the 3 axes");
     expect(error<2>({polygon("0,0; 1,0; up")}), "contains 'up'");
     expect(error<2>(

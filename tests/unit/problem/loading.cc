@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Gravity, the motion of the ground, and forces by expression.
 
 #include <talus/problem/loading.h>
@@ -168,7 +169,7 @@ namespace
   TEST(Loading, GroundMotionThatCannotBeIsRefused)
   {
     const auto error = [](const std::string &entries,
-                              const std::string &table) {
+                          const std::string &table) {
       Loaded<2> all(entries, table);
       return message_of<ExcUser>([&] { all.prepare(); });
     };
@@ -184,7 +185,7 @@ namespace
            "'Ground motion/File' is empty");
     // With the run it may begin with any acceleration.
     EXPECT_EQ(error(in_section("Ground motion", "set File = ground.csv"),
-                        "time [s],horizontal [m/s^2]\n0,1\n1,0\n"),
+                    "time [s],horizontal [m/s^2]\n0,1\n1,0\n"),
               "");
   }
 

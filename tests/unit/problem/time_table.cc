@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // Tables of quantities in time.
 
 #include <talus/problem/time_table.h>

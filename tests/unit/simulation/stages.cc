@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // What a run consists of.
 
 #include <talus/simulation/stages.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 // The two bounds of doc/method.md, section 8.
 
 #include <talus/simulation/time_step.h>

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/equilibrium/shape_function_cache.h>
 #include <talus/transfer/null_space_filter.h>
 

@@ -1,3 +1,4 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/transfer/weights_kernel.h>
 
 #include "weights_setup.h"
