@@ -233,6 +233,45 @@ namespace talus
 
 
 
+  /// The tangent of the step at the present displacements. Collective.
+  template <int dim>
+  void
+  Newton<dim>::assemble_matrix()
+  {
+    matrix_ = 0.;
+    internal_forces_.add_tangent(weights_, unknowns_, matrix_);
+    ghost_.add_to_matrix(unknowns_, matrix_);
+    matrix_.compress(VectorOperation::add);
+    // Where soil can move freely the solution is to be large, not infinite.
+    for (const auto i : unknowns_.owned())
+      matrix_.add(i, i, 1e-13 * matrix_.diag_element(i));
+    matrix_.compress(VectorOperation::add);
+  }
+
+
+
+  /// The rigid modes, as the solver may use them. Those of the step know nothing
+  /// of what is held, which changes while the contact is sought.
+  template <int dim>
+  RigidModes
+  Newton<dim>::free_rigid_modes() const
+  {
+    // At held components the modes are zero as the displacements are: multigrid
+    // would else try to represent on its coarse levels what the walls forbid.
+    RigidModes free_modes = modes_;
+    for (auto &mode : free_modes)
+      {
+        unsigned int i = 0;
+        for (const unsigned int node : unknowns_.active_nodes())
+          for (unsigned int d = 0; d < dim; ++d, ++i)
+            if (unknowns_.is_constrained(node, d))
+              mode[i] = 0.;
+      }
+    return free_modes;
+  }
+
+
+
   /// The full Newton step, with a matrix made anew in each iteration: the
   /// tangent comes with the stress anyway, and a modified Newton method would
   /// lose the quadratic convergence. Three things may go wrong: the linear
@@ -246,15 +285,7 @@ namespace talus
   {
     const auto start = std::chrono::steady_clock::now();
     moves_freely_    = false;
-    matrix_          = 0.;
-    internal_forces_.add_tangent(weights_, unknowns_, matrix_);
-    ghost_.add_to_matrix(unknowns_, matrix_);
-    matrix_.compress(VectorOperation::add);
-    // Where soil can move freely the solution is to be large, not infinite.
-    for (const auto i : unknowns_.owned())
-      matrix_.add(i, i, 1e-13 * matrix_.diag_element(i));
-    matrix_.compress(VectorOperation::add);
-
+    assemble_matrix();
     TrilinosWrappers::MPI::Vector rhs(unknowns_.owned(),
                                       unknowns_.communicator());
     TrilinosWrappers::MPI::Vector solution(rhs);
@@ -263,19 +294,8 @@ namespace talus
         rhs(unknowns_.first(node) + d) = residual_[dim * node + d];
       });
     rhs.compress(VectorOperation::insert);
-    // At held components the modes are zero as the displacements are: multigrid
-    // would else try to represent on its coarse levels what the walls forbid.
-    RigidModes free_modes = modes_;
-    for (auto &mode : free_modes)
-      {
-        unsigned int i = 0;
-        for (const unsigned int node : unknowns_.active_nodes())
-          for (unsigned int d = 0; d < dim; ++d, ++i)
-            if (unknowns_.is_constrained(node, d))
-              mode[i] = 0.;
-      }
     const LinearSolution answer = linear_solver_.solve(
-      matrix_, solution, rhs, free_modes, dim, is_symmetric());
+      matrix_, solution, rhs, free_rigid_modes(), dim, is_symmetric());
     iteration.n_linear_iterations = answer.n_iterations;
     if (!answer.failure.empty())
       return answer.failure;

@@ -152,18 +152,14 @@ namespace talus
 
 
 
-  /// The bound is kept as the largest of 1/dt^2 (doc/method.md, section 8): so
-  /// two bounds are compared without a root or a division for each. Moduli are
-  /// asked for range by range of one material, and what is a cell's is spread
-  /// over its points, so that the loop over points has no branches and takes
-  /// whole registers.
+  /// What the points of a batch do not know themselves: the modulus of their
+  /// fastest wave, and the size of their cell.
   template <int dim>
   void
-  TimeStep<dim>::add_batch(const Points<dim>    &points,
-                           const Batch          &batch,
-                           const Grid<dim>      &grid,
-                           const Materials<dim> &materials,
-                           const BoxShape       &shape)
+  TimeStep<dim>::find_moduli_and_sizes(const Points<dim>    &points,
+                                       const Batch          &batch,
+                                       const Grid<dim>      &grid,
+                                       const Materials<dim> &materials)
   {
     const unsigned int n = batch.end - batch.begin;
     if (wave_modulus_.size() < n + Points<dim>::n_spare)
@@ -191,7 +187,24 @@ namespace talus
         for (unsigned int p = segment.begin; p < segment.end; p += simd_width)
           store(&inverse_cell_size_[p - batch.begin], inverse_size);
       }
+  }
 
+
+
+  /// The bound is kept as the largest of 1/dt^2 (doc/method.md, section 8): so
+  /// two bounds are compared without a root or a division for each. Moduli are
+  /// asked for range by range of one material, and what is a cell's is spread
+  /// over its points, so that the loop over points has no branches and takes
+  /// whole registers.
+  template <int dim>
+  void
+  TimeStep<dim>::add_batch(const Points<dim>    &points,
+                           const Batch          &batch,
+                           const Grid<dim>      &grid,
+                           const Materials<dim> &materials,
+                           const BoxShape       &shape)
+  {
+    find_moduli_and_sizes(points, batch, grid, materials);
     const auto       columns = points.view();
     Simd<simd_width> largest(largest_);
     Simd<1>          largest_of_rest(largest_);

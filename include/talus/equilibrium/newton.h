@@ -124,6 +124,10 @@ namespace talus
     }
 
     void
+    assemble_matrix();
+    RigidModes
+    free_rigid_modes() const;
+    void
     make_pattern();
     void
     make_rigid_modes(const Grid<dim> &grid);

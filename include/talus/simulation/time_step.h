@@ -62,6 +62,12 @@ namespace talus
                const BoxShape       &shape) const;
 
   private:
+    void
+    find_moduli_and_sizes(const Points<dim>    &points,
+                          const Batch          &batch,
+                          const Grid<dim>      &grid,
+                          const Materials<dim> &materials);
+
     /// Squares of the inverse of both bounds at point(s) p, 1/s^2.
     template <typename Number>
     std::array<Number, 2>
