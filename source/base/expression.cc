@@ -23,7 +23,7 @@ namespace talus
     /// silence.
     template <int dim>
     std::string
-    complaint_about(const FunctionParser<dim> &function)
+    parse_error(const FunctionParser<dim> &function)
     {
       std::ostringstream    details;
       std::streambuf *const terminal = std::cerr.rdbuf(details.rdbuf());
@@ -103,7 +103,7 @@ namespace talus
         value.initialize("x", definition.substr(equals + 1), values);
         // An expression without variables has one value; where it is asked for
         // does not matter.
-        std::string  error  = complaint_about(value);
+        std::string  error  = parse_error(value);
         const double number = error.empty() ? value.value(Point<1>()) : 0.;
         if (!std::isfinite(number))
           error = text("it is ", number, '.');
@@ -146,7 +146,7 @@ namespace talus
                          expressions,
                          constants.values(),
                          /*time_dependent=*/true);
-    const std::string error = complaint_about(function_);
+    const std::string error = parse_error(function_);
     AssertThrow(error.empty(),
                 ExcUser(text(name,
                              " = '",

@@ -345,7 +345,7 @@ namespace talus
 
 
   /// Returns whether the set of the occupied cells changed.
-  /// Merge the changes into the order, and move the data. The headcount is
+  /// Merge the changes into the order, and move the data. The number of points is
   /// checked in every build: a point that got lost would take its mass along,
   /// and nothing else would notice.
   template <int dim>
@@ -359,7 +359,7 @@ namespace talus
         departed_.push_back(traveller.index);
     reordering_.merge(points.segments(), changes_, departed_);
     AssertThrow(reordering_.n_points() + outgoing_.size() == points.size(),
-                ExcMessage(text("The headcount of the points does not hold: ",
+                ExcMessage(text("Points were lost or counted twice: ",
                                 points.size(),
                                 " before sorting, ",
                                 reordering_.n_points(),

@@ -74,7 +74,7 @@ namespace talus
     const double n_after =
       Utilities::MPI::sum(1. * points.size(), communicator);
     AssertThrow(n_before == n_after,
-                ExcMessage(text("The headcount of the points does not hold: ",
+                ExcMessage(text("Points were lost or counted twice: ",
                                 n_before,
                                 " before they were sent to the ranks of their "
                                 "cells, ",
