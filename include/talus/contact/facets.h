@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_contact_facets_h
+#define talus_contact_facets_h
+
+#include <talus/contact/obstacles.h>
+#include <talus/grid/grid.h>
+
+#include <array>
+#include <map>
+#include <vector>
+
+namespace talus
+{
+  /// The part of the surface of an obstacle that lies in one cell of the mesh.
+  /// It is one contact point, at its centroid.
+  template <int dim>
+  struct Facet
+  {
+    static constexpr unsigned int n_nodes = power(2, dim);
+
+    unsigned int                      cell;
+    unsigned int                      obstacle;
+    std::array<unsigned int, n_nodes> node;        ///< of the cell
+    std::array<double, n_nodes>       shape_value; ///< of these at the centroid
+    dealii::Point<dim>                centroid;    ///< m
+    dealii::Tensor<1, dim>            normal; ///< out of the obstacle, mean
+    double                            area;   ///< m^(dim-1)
+    double maximum_shear_stress;              ///< Pa
+  };
+
+
+
+  /// The surfaces of all obstacles as the mesh sees them: their facets, and how
+  /// much room they leave at the nodes. It depends on mesh, partition and
+  /// places of the obstacles only.
+  template <int dim>
+  class Facets
+  {
+  public:
+    /// Cut all cells; after each change of the mesh or its partition.
+    void
+    prepare(const Grid<dim> &grid, const Obstacles<dim> &obstacles);
+
+    /// Cut those cells anew that a moving obstacle is in, or was.
+    void
+    update(const Grid<dim> &grid, const Obstacles<dim> &obstacles);
+
+    /// Those in the cells that this rank owns, in the order of the cells, and in
+    /// a cell in that of the obstacles.
+    const std::vector<Facet<dim>> &
+    owned() const
+    {
+      return owned_;
+    }
+
+    /// Nodes that touch a facet: those this rank owns, and all it knows.
+    const std::vector<unsigned int> &
+    owned_nodes() const
+    {
+      return owned_nodes_;
+    }
+
+    const std::vector<unsigned int> &
+    nodes() const
+    {
+      return nodes_;
+    }
+
+    bool
+    touches_facet(const unsigned int node) const
+    {
+      return n_facets_[node] > 0;
+    }
+
+    /// Facets of all obstacles in the cells around a node this rank owns.
+    unsigned int
+    n_facets(const unsigned int node) const
+    {
+      return n_facets_[node];
+    }
+
+    /// Integral of the shape function of such a node over what the obstacles
+    /// leave open, m^dim.
+    double
+    open_volume(const unsigned int node) const
+    {
+      return open_volume_[node];
+    }
+
+    /// Nodes that this rank owns inside an obstacle, beside its surface, that
+    /// touch no facet.
+    const std::vector<unsigned int> &
+    nodes_inside() const
+    {
+      return nodes_inside_;
+    }
+
+    /// Whether points in this cell may touch a node of the two lists.
+    bool
+    is_near(const unsigned int cell) const
+    {
+      return is_near_[cell];
+    }
+
+  private:
+    /// What the surfaces make of a cell.
+    struct CutCell
+    {
+      std::vector<Facet<dim>>                    facets;
+      std::array<double, Facet<dim>::n_nodes> open_volume;
+    };
+
+    void
+    cut(const Grid<dim> &grid, const Obstacles<dim> &obstacles, unsigned int c);
+    void
+    collect(const Grid<dim> &grid, const Obstacles<dim> &obstacles);
+    void
+    add_open_volume(const Grid<dim>      &grid,
+                    const Obstacles<dim> &obstacles,
+                    unsigned int          c);
+    void
+    find_nodes_inside(const Grid<dim>      &grid,
+                      const Obstacles<dim> &obstacles,
+                      unsigned int          c);
+
+    std::map<unsigned int, CutCell> cut_cells_; ///< ghosts, too
+    std::vector<Facet<dim>>         owned_;
+    std::vector<unsigned int>       owned_nodes_, nodes_, nodes_inside_;
+    std::vector<unsigned int>       n_facets_;    ///< by node
+    std::vector<double>             open_volume_; ///< by node
+    std::vector<unsigned char>      is_near_;     ///< by cell
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_contact_obstacles_h
+#define talus_contact_obstacles_h
+
+#include <talus/contact/obstacle.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// The rigid bodies of a case, section Obstacles, which may have none.
+  template <int dim>
+  class Obstacles : public dealii::ParameterAcceptor
+  {
+  public:
+    /// @p names must be known before the parameters are declared: each
+    /// obstacle has a section of its name.
+    explicit Obstacles(const std::vector<std::string> &names);
+
+    /// To be called after parsing. Throws ExcUser.
+    void
+    prepare(const Constants &constants, const Box<dim> &domain);
+
+    unsigned int
+    size() const
+    {
+      return obstacles_.size();
+    }
+
+    bool
+    empty() const
+    {
+      return obstacles_.empty();
+    }
+
+    const Obstacle<dim> &
+    operator[](const unsigned int k) const
+    {
+      return *obstacles_[k];
+    }
+
+    /// Distance of @p x from the nearest surface, m; negative inside an
+    /// obstacle.
+    double
+    signed_distance(const dealii::Point<dim> &x) const;
+
+    /// The obstacle in which @p x lies deepest, or which is nearest.
+    unsigned int
+    nearest(const dealii::Point<dim> &x) const;
+
+    /// Whether one of them moves.
+    bool
+    move() const;
+
+    /// Those that move go on by a step of @p dt from time @p t.
+    void
+    advance(double t, double dt);
+
+    /// Let all surfaces pass @p factor times their maximum shear stress [-].
+    void
+    scale_maximum_shear_stress(const double factor)
+    {
+      factor_ = factor;
+    }
+
+    /// That factor.
+    double
+    shear_stress_factor() const
+    {
+      return factor_;
+    }
+
+    void
+    list_state(StateList &list);
+
+  private:
+    std::vector<std::string>                    listed_names_;
+    std::vector<std::unique_ptr<Obstacle<dim>>> obstacles_;
+    double                                      factor_ = 1.;
+  };
+} // namespace talus
+
+#endif

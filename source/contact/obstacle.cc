@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/contact/obstacle.h>
+
+#include <deal.II/base/utilities.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Obstacle<dim>::Obstacle(const std::string &name)
+    : ParameterAcceptor("/Obstacles/" + name)
+    , name_(name)
+    , shape_parameters_("/Obstacles/" + name,
+                        "half-plane|polygon|box|ball|cylinder")
+  {
+    add_parameter("Friction coefficient",
+                  friction_coefficient_,
+                  "Coulomb friction coefficient mu of soil on the surface [-].",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("Maximum shear stress",
+                  maximum_shear_stress_text_,
+                  "Largest shear stress that the surface passes to the soil "
+                  "[Pa]: a number, or an expression in x, y, (z,) t of the "
+                  "place at the start, with t = 0.");
+    add_parameter("Velocity",
+                  velocity_text_,
+                  "Expressions in x, y, (z,) t for the components of the "
+                  "velocity of the obstacle, separated by semicolons [m/s]; "
+                  "only t may matter, as it does not turn. Empty: at rest.");
+    add_parameter("Reference point",
+                  reference_point_text_,
+                  "The point that moments of the forces are about, as x,y or "
+                  "x,y,z [m]; it moves with the obstacle. Empty: the middle "
+                  "of the obstacle, or the origin if it has no end.");
+  }
+
+
+
+  namespace
+  {
+    /// Where the shape has two ends along an axis, half way between them.
+    template <int dim>
+    Point<dim>
+    middle(const Box<dim> &box)
+    {
+      Point<dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (const double x = 0.5 * (box.lower[d] + box.upper[d]);
+            std::isfinite(x))
+          result[d] = x;
+      return result;
+    }
+  } // namespace
+
+
+
+  // Expressions after all parameters are known: constants may stand anywhere
+  // in the file.
+  template <int dim>
+  void
+  Obstacle<dim>::prepare(const Constants &constants, const Box<dim> &domain)
+  {
+    shape_ = shape_parameters_.make(domain);
+    maximum_shear_stress_ =
+      std::make_unique<Expression<dim>>(path("Maximum shear stress"),
+                                        maximum_shear_stress_text_,
+                                        1,
+                                        constants);
+    velocity_.reset();
+    if (!velocity_text_.empty())
+      velocity_ = std::make_unique<Expression<dim>>(path("Velocity"),
+                                                    velocity_text_,
+                                                    dim,
+                                                    constants);
+    reference_point_ = middle(shape_->bounding_box());
+    if (!reference_point_text_.empty())
+      {
+        const auto numbers =
+          Utilities::split_string_list(reference_point_text_, ',');
+        AssertThrow(numbers.size() == dim,
+                    ExcUser(text(path("Reference point"),
+                                 " = ",
+                                 reference_point_text_,
+                                 " has ",
+                                 numbers.size(),
+                                 " numbers, where ",
+                                 dim,
+                                 " were expected, separated by commas.")));
+        for (unsigned int d = 0; d < dim; ++d)
+          reference_point_[d] = Utilities::string_to_double(numbers[d]);
+      }
+  }
+
+
+
+  template <int dim>
+  Box<dim>
+  Obstacle<dim>::bounding_box() const
+  {
+    Box<dim> box = shape_->bounding_box();
+    box.lower += displacement_;
+    box.upper += displacement_;
+    return box;
+  }
+
+
+
+  // In the frame of the obstacle, so that a rough stretch of a pipe goes with
+  // it.
+  template <int dim>
+  double
+  Obstacle<dim>::maximum_shear_stress(const Point<dim> &x) const
+  {
+    const double result =
+      maximum_shear_stress_->finite_value(x - displacement_, 0., 0);
+    AssertThrow(result >= 0,
+                ExcUser(text(path("Maximum shear stress"),
+                             " = ",
+                             maximum_shear_stress_text_,
+                             " is ",
+                             result,
+                             " Pa at (",
+                             Point<dim>(x - displacement_),
+                             ") m, but a shear stress that resists sliding "
+                             "cannot be negative. Change the expression.")));
+    return result;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Obstacle<dim>::velocity(const double t) const
+  {
+    Tensor<1, dim> v;
+    if (moves())
+      for (unsigned int d = 0; d < dim; ++d)
+        v[d] = velocity_->finite_value(reference_point_, t, d);
+    return v;
+  }
+
+
+
+  // The middle of the step, as velocities of the soil belong to it, too.
+  template <int dim>
+  void
+  Obstacle<dim>::advance(const double t, const double dt)
+  {
+    displacement_ += dt * velocity(t + 0.5 * dt);
+  }
+
+
+
+  template <int dim>
+  Point<dim>
+  Obstacle<dim>::reference_point() const
+  {
+    return reference_point_ + displacement_;
+  }
+
+
+
+  template <int dim>
+  void
+  Obstacle<dim>::list_state(StateList &list)
+  {
+    list.add_components("displacement of obstacle " + name_,
+                        "m",
+                        displacement_,
+                        dim,
+                        Reduction::equal);
+  }
+
+
+
+  template class Obstacle<2>;
+  template class Obstacle<3>;
+} // namespace talus

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/contact/obstacles.h>
+
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Obstacles<dim>::Obstacles(const std::vector<std::string> &names)
+    : ParameterAcceptor("/Obstacles")
+  {
+    add_parameter("Names",
+                  listed_names_,
+                  "Names of the rigid bodies that soil cannot enter (seabed, "
+                  "pipeline, wall), separated by commas; each has a section "
+                  "of that name. Empty: none.");
+    for (const std::string &name : names)
+      obstacles_.push_back(std::make_unique<Obstacle<dim>>(name));
+  }
+
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::prepare(const Constants &constants, const Box<dim> &domain)
+  {
+    for (const auto &obstacle : obstacles_)
+      obstacle->prepare(constants, domain);
+  }
+
+
+
+  template <int dim>
+  double
+  Obstacles<dim>::signed_distance(const Point<dim> &x) const
+  {
+    double result = std::numeric_limits<double>::max();
+    for (const auto &obstacle : obstacles_)
+      result = std::min(result, obstacle->signed_distance(x));
+    return result;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Obstacles<dim>::nearest(const Point<dim> &x) const
+  {
+    unsigned int result = 0;
+    for (unsigned int k = 1; k < size(); ++k)
+      if (obstacles_[k]->signed_distance(x) <
+          obstacles_[result]->signed_distance(x))
+        result = k;
+    return result;
+  }
+
+
+
+  template <int dim>
+  bool
+  Obstacles<dim>::move() const
+  {
+    for (const auto &obstacle : obstacles_)
+      if (obstacle->moves())
+        return true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::advance(const double t, const double dt)
+  {
+    for (const auto &obstacle : obstacles_)
+      if (obstacle->moves())
+        obstacle->advance(t, dt);
+  }
+
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::list_state(StateList &list)
+  {
+    for (const auto &obstacle : obstacles_)
+      obstacle->list_state(list);
+  }
+
+
+
+  template class Obstacles<2>;
+  template class Obstacles<3>;
+} // namespace talus
