@@ -3,7 +3,6 @@
 #include <talus/problem/body.h>
 
 #include <deal.II/base/mpi.h>
-#include <deal.II/base/utilities.h>
 
 #include <cmath>
 
@@ -11,46 +10,15 @@ namespace talus
 {
   using namespace dealii;
 
-  /// Each body has a section named after it, which its initial state shares.
-  /// Entries that its shape does not use are ignored.
+  /// Each body has a section named after it, which its shape and initial state
+  /// share.
   template <int dim>
   Body<dim>::Body(const std::string &name)
     : ParameterAcceptor("/Bodies/" + name)
     , name_(name)
+    , shape_("/Bodies/" + name, "box")
     , initial_state_("/Bodies/" + name)
   {
-    add_parameter("Shape",
-                  shape_,
-                  "'polygon' (see Vertices; in 3-D a prism over it), 'box' "
-                  "(see Lower corner, Upper corner) or 'ball' (a disc in 2-D; "
-                  "see Centre, Radius, Inner radius).",
-                  this->prm,
-                  Patterns::Selection("polygon|box|ball"));
-    add_parameter("Vertices",
-                  vertices_,
-                  "Corners of the polygon in order, as x,y; x,y; ... [m].");
-    add_parameter("Extent in z",
-                  extent_z_,
-                  "3-D only: lower and upper end of the prism over the polygon "
-                  "[m]; empty for the whole mesh.");
-    add_parameter("Lower corner",
-                  lower_corner_,
-                  "Corner of the box with the smallest coordinates [m].");
-    add_parameter("Upper corner",
-                  upper_corner_,
-                  "Corner of the box with the largest coordinates [m].");
-    add_parameter("Centre", centre_, "Centre of the ball [m].");
-    add_parameter("Radius",
-                  radius_,
-                  "Radius of the ball [m].",
-                  this->prm,
-                  Patterns::Double(1e-12));
-    add_parameter("Inner radius",
-                  inner_radius_,
-                  "Radius of the hollow in the ball, which makes it a ring "
-                  "(in 3-D a shell) [m].",
-                  this->prm,
-                  Patterns::Double(0.));
     add_parameter("Material",
                   material_,
                   "One of the names in Materials/Names.");
@@ -64,90 +32,20 @@ namespace talus
 
 
 
-  /// Reads "x,y; x,y; ..." and, in 3-D, the ends of the prism, which are those
-  /// of the mesh unless given.
-  template <int dim>
-  std::unique_ptr<Shape<dim>>
-  Body<dim>::make_polygon(const Box<dim> &domain) const
-  {
-    std::vector<std::array<double, 2>> vertices;
-    for (const auto &vertex : Utilities::split_string_list(vertices_, ';'))
-      {
-        const auto numbers = Utilities::split_string_list(vertex, ',');
-        AssertThrow(numbers.size() == 2 &&
-                      Patterns::Double().match(numbers[0]) &&
-                      Patterns::Double().match(numbers[1]),
-                    ExcUser(text(path("Vertices"),
-                                 " contains '",
-                                 vertex,
-                                 "', where two numbers 'x,y' were expected; "
-                                 "vertices are separated by semicolons.")));
-        vertices.push_back({{Utilities::string_to_double(numbers[0]),
-                             Utilities::string_to_double(numbers[1])}});
-      }
-    double z_lower = domain.lower[dim - 1], z_upper = domain.upper[dim - 1];
-    if (!extent_z_.empty())
-      {
-        const auto z = Utilities::split_string_list(extent_z_, ',');
-        AssertThrow(z.size() == 2 && Patterns::Double().match(z[0]) &&
-                      Patterns::Double().match(z[1]),
-                    ExcUser(text(path("Extent in z"),
-                                 " = '",
-                                 extent_z_,
-                                 "' must be two numbers separated by a "
-                                 "comma, or empty.")));
-        z_lower = Utilities::string_to_double(z[0]);
-        z_upper = Utilities::string_to_double(z[1]);
-      }
-    return std::make_unique<Polygon<dim>>("The vertices in " + path("Vertices"),
-                                          vertices,
-                                          z_lower,
-                                          z_upper);
-  }
-
-
-
-  /// Made anew by whoever asks: a shape is cheap, and needs the domain for the
-  /// ends of a prism, which is known only when the mesh is.
-  template <int dim>
-  std::unique_ptr<Shape<dim>>
-  Body<dim>::make_shape(const Box<dim> &domain) const
-  {
-    if (shape_ == "polygon")
-      return make_polygon(domain);
-    if (shape_ == "ball")
-      {
-        AssertThrow(inner_radius_ < radius_,
-                    ExcUser(text(path("Inner radius"),
-                                 " = ",
-                                 inner_radius_,
-                                 " m leaves nothing of the ball, whose radius "
-                                 "is ",
-                                 radius_,
-                                 " m. Give a smaller one.")));
-        return std::make_unique<Ball<dim>>(centre_, radius_, inner_radius_);
-      }
-    for (unsigned int d = 0; d < dim; ++d)
-      AssertThrow(lower_corner_[d] < upper_corner_[d],
-                  ExcUser(text(path("Upper corner"),
-                               " = (",
-                               upper_corner_,
-                               ") must lie above the lower corner (",
-                               lower_corner_,
-                               ") in every coordinate.")));
-    return std::make_unique<BoxRegion<dim>>(
-      Box<dim>{lower_corner_, upper_corner_});
-  }
-
-
-
   /// @p domain is that of the parameters: faces that moved to make room for
-  /// large cells are no place for soil.
+  /// large cells are no place for soil. A shape that has no end ends there.
   template <int dim>
   Box<dim>
   Body<dim>::bounding_box(const Box<dim> &domain) const
   {
-    const Box<dim> box = make_shape(domain)->bounding_box();
+    Box<dim> box = shape_.make(domain)->bounding_box();
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        if (std::isinf(box.lower[d]))
+          box.lower[d] = domain.lower[d];
+        if (std::isinf(box.upper[d]))
+          box.upper[d] = domain.upper[d];
+      }
     check_inside(box, domain);
     return box;
   }
@@ -262,7 +160,7 @@ namespace talus
                              " numbers; give one, or one for each of the ",
                              dim,
                              " axes.")));
-    const auto     shape = make_shape(grid.domain_before_growth());
+    const auto     shape = shape_.make(grid.domain_before_growth());
     const Box<dim> box   = bounding_box(grid.domain_before_growth());
     check_apart(*shape, points);
 

@@ -2,7 +2,7 @@
 #ifndef talus_problem_body_h
 #define talus_problem_body_h
 
-#include <talus/geometry/shape.h>
+#include <talus/geometry/shape_parameters.h>
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
 #include <talus/problem/initial_state.h>
@@ -63,10 +63,6 @@ namespace talus
       return "'Bodies/" + name_ + "/" + entry + "'";
     }
 
-    std::unique_ptr<Shape<dim>>
-    make_shape(const Box<dim> &domain) const;
-    std::unique_ptr<Shape<dim>>
-    make_polygon(const Box<dim> &domain) const;
     void
     check_inside(const Box<dim> &box, const Box<dim> &domain) const;
     void
@@ -79,14 +75,8 @@ namespace talus
               double                    density) const;
 
     std::string               name_;
-    std::string               shape_    = "box";
-    std::string               vertices_ = "";
-    std::string               extent_z_ = "";
-    dealii::Point<dim>        lower_corner_, upper_corner_;
-    dealii::Point<dim>        centre_;
-    double                    radius_       = 1.;
-    double                    inner_radius_ = 0.;
-    std::string               material_     = "";
+    ShapeParameters<dim>      shape_;
+    std::string               material_ = "";
     std::vector<unsigned int> points_per_cell_{2};
     InitialState<dim>         initial_state_;
   };

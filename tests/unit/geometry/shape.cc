@@ -2,7 +2,8 @@
 // The shapes that bodies have: what lies in them, and the boxes around them.
 
 #include <talus/base/errors.h>
-#include <talus/geometry/shape.h>
+#include <talus/geometry/analytic_shapes.h>
+#include <talus/geometry/polygon.h>
 
 #include <gtest/gtest.h>
 
@@ -14,18 +15,18 @@ namespace
 {
   using namespace talus;
   using dealii::Point;
-  using Vertices = std::vector<std::array<double, 2>>;
+  using Vertices = std::vector<Point<2>>;
 
   // Concave, with a corner between two lattice points of an axis and sloping
   // edges that lattice points lie on.
-  const Vertices concave = {{{0, 0}}, {{8, 0}}, {{8, 6}}, {{4, 2}}, {{0, 5}}};
+  const Vertices concave = {{0, 0}, {8, 0}, {8, 6}, {4, 2}, {0, 5}};
 
 
 
-  Polygon<2>
+  Polygon
   polygon(const Vertices &vertices)
   {
-    return Polygon<2>("The vertices", vertices, 0., 0.);
+    return Polygon("The vertices", vertices);
   }
 
 
@@ -79,7 +80,7 @@ namespace
 
 
   unsigned int
-  n_inside(const Polygon<2> &shape)
+  n_inside(const Polygon &shape)
   {
     unsigned int n = 0;
     for (int i = -2; i <= 12; ++i)
@@ -131,9 +132,9 @@ namespace
 
   TEST(Shape, PolygonsThatAreNoneAreRefused)
   {
-    const Vertices crossing = {{{0, 0}}, {{2, 2}}, {{2, 0}}, {{0, 2}}};
-    const Vertices flat     = {{{0, 0}}, {{2, 2}}, {{1, 1}}};
-    for (const Vertices &vertices : {crossing, flat, Vertices{{{0, 0}}}})
+    const Vertices crossing = {{0, 0}, {2, 2}, {2, 0}, {0, 2}};
+    const Vertices flat     = {{0, 0}, {2, 2}, {1, 1}};
+    for (const Vertices &vertices : {crossing, flat, Vertices{{0, 0}}})
       {
         const std::string said = error(vertices);
         EXPECT_NE(said.find("The vertices do not form a simple polygon: "),
@@ -147,7 +148,9 @@ namespace
 
   TEST(Shape, PrismOverAPolygon)
   {
-    const Polygon<3> prism("The vertices", concave, -1., 2.);
+    const Prism prism(std::make_unique<Polygon>("The vertices", concave),
+                      -1.,
+                      2.);
     for (const double z : {-1., 0.5, 2.})
       {
         EXPECT_TRUE(prism.contains(Point<3>(1., 1., z))) << z;

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_geometry_analytic_shapes_h
+#define talus_geometry_analytic_shapes_h
+
+#include <talus/geometry/shape.h>
+
+#include <memory>
+
+namespace talus
+{
+  /// Everything on one side of a plane (in 2-D of a line).
+  template <int dim>
+  class HalfSpace : public Shape<dim>
+  {
+  public:
+    /// @p point lies on the plane; @p normal, of any length but zero, points
+    /// out of the solid.
+    HalfSpace(const dealii::Point<dim>     &point,
+              const dealii::Tensor<1, dim> &normal);
+
+    double
+    signed_distance(const dealii::Point<dim> &x) const override;
+
+    dealii::Tensor<1, dim>
+    normal(const dealii::Point<dim> &) const override
+    {
+      return normal_;
+    }
+
+    Box<dim>
+    bounding_box() const override;
+
+  private:
+    dealii::Point<dim>     point_;
+    dealii::Tensor<1, dim> normal_;
+  };
+
+
+
+  /// Box along the axes, which may be infinite.
+  template <int dim>
+  class BoxRegion : public Shape<dim>
+  {
+  public:
+    explicit BoxRegion(const Box<dim> &box)
+      : box_(box)
+    {}
+
+    double
+    signed_distance(const dealii::Point<dim> &x) const override;
+
+    dealii::Tensor<1, dim>
+    normal(const dealii::Point<dim> &x) const override;
+
+    bool
+    contains(const dealii::Point<dim> &x) const override
+    {
+      return box_.contains(x);
+    }
+
+    Box<dim>
+    bounding_box() const override
+    {
+      return box_;
+    }
+
+  private:
+    Box<dim> box_;
+  };
+
+
+
+  /// Disc in 2-D, sphere in 3-D, or what is left of it around a hollow.
+  template <int dim>
+  class Ball : public Shape<dim>
+  {
+  public:
+    /// Radii in m; @p inner_radius is that of the hollow, 0 for none.
+    Ball(const dealii::Point<dim> &centre,
+         const double              radius,
+         const double              inner_radius = 0.)
+      : centre_(centre)
+      , radius_(radius)
+      , inner_radius_(inner_radius)
+    {}
+
+    double
+    signed_distance(const dealii::Point<dim> &x) const override;
+
+    dealii::Tensor<1, dim>
+    normal(const dealii::Point<dim> &x) const override;
+
+    bool
+    contains(const dealii::Point<dim> &x) const override
+    {
+      const double distance = x.distance(centre_);
+      return distance <= radius_ && distance >= inner_radius_;
+    }
+
+    Box<dim>
+    bounding_box() const override;
+
+  private:
+    dealii::Point<dim> centre_;
+    double             radius_, inner_radius_;
+  };
+
+
+
+  /// Prism along z over a shape in the x-y plane: over a disc, a cylinder.
+  class Prism : public Shape<3>
+  {
+  public:
+    /// From @p z_lower to @p z_upper, m, which may be infinite.
+    Prism(std::unique_ptr<const Shape<2>> base, double z_lower, double z_upper);
+
+    double
+    signed_distance(const dealii::Point<3> &x) const override;
+
+    dealii::Tensor<1, 3>
+    normal(const dealii::Point<3> &x) const override;
+
+    bool
+    contains(const dealii::Point<3> &x) const override;
+
+    Box<3>
+    bounding_box() const override;
+
+  private:
+    /// Distance to the nearer end, m: negative between the two.
+    double
+    distance_to_ends(double z) const;
+
+    std::unique_ptr<const Shape<2>> base_;
+    double                          z_lower_, z_upper_;
+  };
+} // namespace talus
+
+#endif

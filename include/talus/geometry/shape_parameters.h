@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_geometry_shape_parameters_h
+#define talus_geometry_shape_parameters_h
+
+#include <talus/geometry/shape.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// The entries that describe a shape, in the section of whoever has it.
+  /// Entries that the shape does not use are ignored.
+  template <int dim>
+  class ShapeParameters : public dealii::ParameterAcceptor
+  {
+  public:
+    /// @p section, as /Bodies/NAME, may have other entries, too.
+    /// @p default_shape is one of the words of the entry Shape.
+    ShapeParameters(const std::string &section,
+                    const std::string &default_shape);
+
+    /// The shape, whose prisms and cylinders end where @p domain does unless
+    /// their ends are given: for endless ones it is infinite. Throws ExcUser
+    /// if the entries describe none.
+    std::unique_ptr<Shape<dim>>
+    make(const Box<dim> &domain) const;
+
+  private:
+    std::string
+    path(const std::string &entry) const;
+    void
+    declare_parameters_of_polygon_and_half_plane();
+
+    std::vector<dealii::Point<2>>
+    vertices() const;
+    std::array<double, 2>
+    extent_z(const Box<dim> &domain) const;
+    std::unique_ptr<Shape<dim>>
+    make_half_space() const;
+    std::unique_ptr<Shape<dim>>
+    make_box() const;
+    std::unique_ptr<Shape<dim>>
+    make_over(std::unique_ptr<Shape<2>> base, const Box<dim> &domain) const;
+    void
+    check_radii() const;
+
+    std::string            section_;
+    std::string            shape_;
+    std::string            vertices_ = "";
+    bool                   is_open_  = false;
+    std::string            extent_z_ = "";
+    dealii::Point<dim>     lower_corner_, upper_corner_;
+    dealii::Point<dim>     centre_;
+    double                 radius_       = 1.;
+    double                 inner_radius_ = 0.;
+    dealii::Point<dim>     point_;
+    dealii::Tensor<1, dim> normal_ = dealii::Point<dim>::unit_vector(1);
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/geometry/analytic_shapes.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+  } // namespace
+
+
+
+  template <int dim>
+  HalfSpace<dim>::HalfSpace(const Point<dim>     &point,
+                            const Tensor<1, dim> &normal)
+    : point_(point)
+    , normal_(normal / normal.norm())
+  {}
+
+
+
+  template <int dim>
+  double
+  HalfSpace<dim>::signed_distance(const Point<dim> &x) const
+  {
+    return (x - point_) * normal_;
+  }
+
+
+
+  /// It ends along an axis only if the plane is a face of the lattice, and only
+  /// on one side.
+  template <int dim>
+  Box<dim>
+  HalfSpace<dim>::bounding_box() const
+  {
+    Box<dim> box;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const bool across = std::abs(normal_[d]) == 1.;
+        box.lower[d]      = across && normal_[d] < 0. ? point_[d] : -infinity;
+        box.upper[d]      = across && normal_[d] > 0. ? point_[d] : infinity;
+      }
+    return box;
+  }
+
+
+
+  /// Inside, the nearest face counts; outside, all those that the place lies
+  /// beyond, so that the distance is that to an edge or a corner.
+  template <int dim>
+  double
+  BoxRegion<dim>::signed_distance(const Point<dim> &x) const
+  {
+    double inside = -infinity, outside = 0.;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double beyond =
+          std::max(box_.lower[d] - x[d], x[d] - box_.upper[d]);
+        inside = std::max(inside, beyond);
+        outside += std::pow(std::max(beyond, 0.), 2);
+      }
+    return inside <= 0. ? inside : std::sqrt(outside);
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  BoxRegion<dim>::normal(const Point<dim> &x) const
+  {
+    double         inside = -infinity;
+    Tensor<1, dim> of_nearest_face, outside;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double below = box_.lower[d] - x[d], above = x[d] - box_.upper[d];
+        const double beyond = std::max(below, above);
+        const double sign   = below > above ? -1. : 1.;
+        outside[d]          = sign * std::max(beyond, 0.);
+        if (beyond > inside)
+          {
+            inside             = beyond;
+            of_nearest_face    = Tensor<1, dim>();
+            of_nearest_face[d] = sign;
+          }
+      }
+    return inside <= 0. ? of_nearest_face : outside / outside.norm();
+  }
+
+
+
+  template <int dim>
+  double
+  Ball<dim>::signed_distance(const Point<dim> &x) const
+  {
+    const double r = x.distance(centre_);
+    return inner_radius_ > 0. ? std::max(r - radius_, inner_radius_ - r)
+                              : r - radius_;
+  }
+
+
+
+  /// The surface of a hollow faces the centre. At the centre all directions are
+  /// as good.
+  template <int dim>
+  Tensor<1, dim>
+  Ball<dim>::normal(const Point<dim> &x) const
+  {
+    const Tensor<1, dim> radial = x - centre_;
+    const double         r      = radial.norm();
+    if (r == 0.)
+      return Point<dim>::unit_vector(0);
+    const bool faces_centre =
+      inner_radius_ > 0. && inner_radius_ - r > r - radius_;
+    return (faces_centre ? -1. : 1.) / r * radial;
+  }
+
+
+
+  template <int dim>
+  Box<dim>
+  Ball<dim>::bounding_box() const
+  {
+    Box<dim> box{centre_, centre_};
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        box.lower[d] -= radius_;
+        box.upper[d] += radius_;
+      }
+    return box;
+  }
+
+
+
+  Prism::Prism(std::unique_ptr<const Shape<2>> base,
+               const double                    z_lower,
+               const double                    z_upper)
+    : base_(std::move(base))
+    , z_lower_(z_lower)
+    , z_upper_(z_upper)
+  {}
+
+
+
+  double
+  Prism::distance_to_ends(const double z) const
+  {
+    return std::max(z_lower_ - z, z - z_upper_);
+  }
+
+
+
+  /// As in a box: the base and the ends are perpendicular to each other.
+  double
+  Prism::signed_distance(const Point<3> &x) const
+  {
+    const double across = base_->signed_distance(Point<2>(x[0], x[1]));
+    const double along  = distance_to_ends(x[2]);
+    return across > 0. && along > 0. ? std::hypot(across, along)
+                                     : std::max(across, along);
+  }
+
+
+
+  Tensor<1, 3>
+  Prism::normal(const Point<3> &x) const
+  {
+    const Point<2>     foot(x[0], x[1]);
+    const double       across = base_->signed_distance(foot);
+    const double       along  = distance_to_ends(x[2]);
+    const double       sign   = z_lower_ - x[2] > x[2] - z_upper_ ? -1. : 1.;
+    const Tensor<1, 2> n      = base_->normal(foot);
+    const Tensor<1, 3> of_base({n[0], n[1], 0.}), of_end({0., 0., sign});
+    if (across > 0. && along > 0.)
+      return (across * of_base + along * of_end) / std::hypot(across, along);
+    return across >= along ? of_base : of_end;
+  }
+
+
+
+  bool
+  Prism::contains(const Point<3> &x) const
+  {
+    return x[2] >= z_lower_ && x[2] <= z_upper_ &&
+           base_->contains(Point<2>(x[0], x[1]));
+  }
+
+
+
+  Box<3>
+  Prism::bounding_box() const
+  {
+    const Box<2> base = base_->bounding_box();
+    return {Point<3>(base.lower[0], base.lower[1], z_lower_),
+            Point<3>(base.upper[0], base.upper[1], z_upper_)};
+  }
+
+
+
+  template class HalfSpace<2>;
+  template class HalfSpace<3>;
+  template class BoxRegion<2>;
+  template class BoxRegion<3>;
+  template class Ball<2>;
+  template class Ball<3>;
+} // namespace talus
