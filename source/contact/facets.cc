@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace talus
@@ -50,10 +51,10 @@ namespace talus
 
     /// The own nodes of a cell, x fastest.
     template <int dim>
-    std::array<unsigned int, Facet<dim>::n_nodes>
+    std::array<unsigned int, ContactFacet<dim>::n_nodes>
     nodes_of(const Cell<dim> &cell)
     {
-      std::array<unsigned int, Facet<dim>::n_nodes> nodes;
+      std::array<unsigned int, ContactFacet<dim>::n_nodes> nodes;
       for (unsigned int v = 0; v < nodes.size(); ++v)
         {
           unsigned int at = 0;
@@ -76,24 +77,72 @@ namespace talus
         x[d] += ((v >> d) & 1) * cell.size;
       return x;
     }
+
+
+
+    /// Call action(x) for places in distances of @p step, along each axis
+    /// @p n of them, from @p first on.
+    template <int dim, typename Action>
+    void
+    for_each_place(const Point<dim>                    &first,
+                   const double                         step,
+                   const std::array<unsigned int, dim> &n,
+                   const Action                        &action)
+    {
+      unsigned int n_places = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        n_places *= n[d];
+      for (unsigned int i = 0; i < n_places; ++i)
+        {
+          Point<dim> x = first;
+          for (unsigned int d = 0, rest = i; d < dim; rest /= n[d], ++d)
+            x[d] += (rest % n[d]) * step;
+          action(x);
+        }
+    }
+
+
+
+    /// The cells up to @p n_rings around one, itself included, each once.
+    template <int dim>
+    std::vector<unsigned int>
+    cells_around(const Grid<dim>   &grid,
+                 const Cell<dim>   &cell,
+                 const unsigned int n_rings)
+    {
+      std::array<unsigned int, dim> n;
+      n.fill(2 * n_rings + 1);
+      Point<dim> first = centre_of(cell);
+      for (unsigned int d = 0; d < dim; ++d)
+        first[d] -= n_rings * cell.size;
+      std::set<unsigned int> cells;
+      for_each_place<dim>(first, cell.size, n, [&](Point<dim> x) {
+        for (unsigned int d = 0; d < dim; ++d)
+          x[d] -= grid.periodicity().shift(d, x[d]);
+        if (const unsigned int c = grid.find_cell(x);
+            c != numbers::invalid_unsigned_int)
+          cells.insert(c);
+      });
+      return {cells.begin(), cells.end()};
+    }
   } // namespace
 
 
 
-  // A surface that only grazes a face of the cell leaves a facet of no size
-  // that would count at the nodes as others do: such are left out.
-  /// All surfaces in cell @p c. The contact point of a facet inside another
-  /// obstacle would hold soil where there can be none.
+  /// The facets of all obstacles in cell @p c. Left out are two kinds: of a
+  /// surface that only grazes a face of the cell, which would count at its
+  /// nodes as others do, and those whose contact point is inside of another
+  /// obstacle, where it would hold soil that cannot be there.
   template <int dim>
-  void
-  Facets<dim>::cut(const Grid<dim>      &grid,
-                   const Obstacles<dim> &obstacles,
-                   const unsigned int    c)
+  std::vector<ContactFacet<dim>>
+  Facets<dim>::facets_in(const Grid<dim>      &grid,
+                         const Obstacles<dim> &obstacles,
+                         const unsigned int    c) const
   {
-    const Cell<dim> &cell   = grid.cells()[c];
-    const Point<dim> centre = centre_of(cell);
-    const Box<dim>   box    = box_of(cell);
-    CutCell          result;
+    const Cell<dim>        &cell   = grid.cells()[c];
+    const Point<dim>        centre = centre_of(cell);
+    const Box<dim>          box    = box_of(cell);
+    std::vector<ContactFacet<dim>> result;
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       {
         const Obstacle<dim> &obstacle = obstacles[k];
@@ -103,36 +152,48 @@ namespace talus
           surface_in_box<dim>(box, [&](const Point<dim> &x) {
             return obstacle.signed_distance(x);
           });
-        if (surface.area < 1e-8 * std::pow(cell.size, dim - 1.))
-          continue;
-        bool is_hidden = false;
-        for (unsigned int other = 0; other < obstacles.size(); ++other)
-          is_hidden = is_hidden || (other != k && obstacles[other].signed_distance(
-                                                    surface.centroid) < 0);
+        bool is_hidden = surface.area < 1e-8 * std::pow(cell.size, dim - 1.);
+        for (unsigned int other = 0; other < obstacles.size() && !is_hidden;
+             ++other)
+          is_hidden = other != k &&
+                      obstacles[other].signed_distance(surface.centroid) < 0;
         if (is_hidden)
           continue;
-        Facet<dim> facet;
-        facet.cell     = c;
-        facet.obstacle = k;
-        facet.node     = nodes_of(cell);
-        facet.centroid = surface.centroid;
-        facet.area     = surface.area;
-        facet.normal   = surface.vector_area / surface.vector_area.norm();
-        facet.maximum_shear_stress =
-          obstacle.maximum_shear_stress(surface.centroid);
-        facet.shape_value = shape_values_at(box, surface.centroid);
-        result.facets.push_back(facet);
+        result.push_back({c,
+                          grid.key_of_cell(c),
+                          k,
+                          nodes_of(cell),
+                          shape_values_at(box, surface.centroid),
+                          surface.centroid,
+                          surface.vector_area / surface.vector_area.norm(),
+                          surface.area,
+                          obstacle.maximum_shear_stress(surface.centroid)});
       }
-    if (result.facets.empty())
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  Facets<dim>::cut(const Grid<dim>      &grid,
+                   const Obstacles<dim> &obstacles,
+                   const unsigned int    c)
+  {
+    std::vector<ContactFacet<dim>> facets = facets_in(grid, obstacles, c);
+    if (facets.empty())
       {
         cut_cells_.erase(c);
         return;
       }
-    result.open_volume =
-      open_shape_integrals<dim>(box, [&](const Point<dim> &x) {
-        return obstacles.signed_distance(x);
-      });
-    cut_cells_[c] = result;
+    const Cell<dim> &cell    = grid.cells()[c];
+    CutCell         &result  = cut_cells_[c];
+    result.facets            = std::move(facets);
+    result.open_volume       = open_shape_integrals<dim>(
+      box_of(cell),
+      [&](const Point<dim> &x) { return obstacles.signed_distance(x); });
+    result.touching = cells_around(grid, cell, 1);
+    result.near     = cells_around(grid, cell, 2);
   }
 
 
@@ -142,6 +203,11 @@ namespace talus
   Facets<dim>::prepare(const Grid<dim> &grid, const Obstacles<dim> &obstacles)
   {
     cut_cells_.clear();
+    clear_sums();
+    n_facets_.assign(grid.n_nodes(), 0);
+    open_volume_.assign(grid.n_nodes(), 0.);
+    is_contact_node_.assign(grid.n_nodes(), 0);
+    is_near_.assign(grid.cells().size(), 0);
     if (!obstacles.empty())
       for (unsigned int c = 0; c < grid.cells().size(); ++c)
         cut(grid, obstacles, c);
@@ -159,41 +225,33 @@ namespace talus
   {
     std::set<unsigned int> cells;
     for (const auto &[c, cut_cell] : cut_cells_)
-      for (const Facet<dim> &facet : cut_cell.facets)
+      for (const ContactFacet<dim> &facet : cut_cell.facets)
         if (obstacles[facet.obstacle].moves())
           cells.insert(c);
+    // The smallest cells, so that none is passed over.
     const double h = grid.finest_size();
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       {
         if (!obstacles[k].moves())
           continue;
-        const Box<dim>            around = obstacles[k].bounding_box();
-        std::array<long, dim>     n, at{};
-        Point<dim>                first;
+        const Box<dim>                around = obstacles[k].bounding_box();
+        std::array<unsigned int, dim> n;
+        Point<dim>                    first;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            first[d] = std::max(around.lower[d] - h, grid.domain().lower[d]) +
-                       1e-6 * h;
+            first[d] =
+              std::max(around.lower[d] - h, grid.domain().lower[d]);
             const double last =
               std::min(around.upper[d] + h, grid.domain().upper[d]);
-            n[d] = std::max(0L, std::lround(std::ceil((last - first[d]) / h))) + 1;
+            n[d] = std::max(0., std::ceil((last - first[d]) / h) + 1.);
           }
-        while (at[dim - 1] < n[dim - 1])
-          {
-            Point<dim> x;
-            for (unsigned int d = 0; d < dim; ++d)
-              x[d] = first[d] + at[d] * h;
-            if (const unsigned int c = grid.find_cell(x);
-                c != numbers::invalid_unsigned_int)
-              cells.insert(c);
-            ++at[0];
-            for (unsigned int d = 0; d + 1 < dim && at[d] == n[d]; ++d)
-              {
-                at[d] = 0;
-                ++at[d + 1];
-              }
-          }
+        for_each_place<dim>(first, h, n, [&](const Point<dim> &x) {
+          if (const unsigned int c = grid.find_cell(x);
+              c != numbers::invalid_unsigned_int)
+            cells.insert(c);
+        });
       }
+    clear_sums();
     for (const unsigned int c : cells)
       cut(grid, obstacles, c);
     collect(grid, obstacles);
@@ -201,37 +259,100 @@ namespace talus
 
 
 
-  /// From the cut cells to lists and sums by node. Ghost cells count for the
-  /// nodes that this rank owns, which so need no message.
+  /// At the nodes and cells of the lists, which is all there is.
+  template <int dim>
+  void
+  Facets<dim>::clear_sums()
+  {
+    for (const unsigned int node : nodes_)
+      {
+        n_facets_[node]        = 0;
+        open_volume_[node]     = 0;
+        is_contact_node_[node] = 0;
+      }
+    for (const unsigned int node : flagged_inside_)
+      is_contact_node_[node] = 0;
+    flagged_inside_.clear();
+    for (const unsigned int c : near_cells_)
+      is_near_[c] = 0;
+    nodes_.clear();
+    near_cells_.clear();
+    owned_.clear();
+    owned_nodes_.clear();
+    nodes_inside_.clear();
+  }
+
+
+
+  /// From the cut cells to lists and sums by node. Ghost cells count, too, so
+  /// that sums at the nodes that this rank owns need no message.
   template <int dim>
   void
   Facets<dim>::collect(const Grid<dim> &grid, const Obstacles<dim> &obstacles)
   {
-    owned_.clear();
-    owned_nodes_.clear();
-    nodes_.clear();
-    nodes_inside_.clear();
-    n_facets_.assign(grid.n_nodes(), 0);
-    open_volume_.assign(grid.n_nodes(), 0.);
-    is_near_.assign(grid.cells().size(), 0);
-    if (cut_cells_.empty())
-      return;
+    std::set<unsigned int> touching;
     for (const auto &[c, cut_cell] : cut_cells_)
-      for (const Facet<dim> &facet : cut_cell.facets)
-        {
-          if (c < grid.n_owned_cells())
-            owned_.push_back(facet);
-          for (const unsigned int node : facet.node)
-            if (n_facets_[node]++ == 0)
-              nodes_.push_back(node);
-        }
-    for (const unsigned int node : nodes_)
-      if (node < grid.n_owned_nodes())
-        owned_nodes_.push_back(node);
-    for (unsigned int c = 0; c < grid.cells().size(); ++c)
       {
-        add_open_volume(grid, obstacles, c);
-        find_nodes_inside(grid, obstacles, c);
+        for (const ContactFacet<dim> &facet : cut_cell.facets)
+          {
+            if (c < grid.n_owned_cells())
+              owned_.push_back(facet);
+            for (const unsigned int node : facet.node)
+              if (n_facets_[node]++ == 0)
+                nodes_.push_back(node);
+          }
+        touching.insert(cut_cell.touching.begin(), cut_cell.touching.end());
+        for (const unsigned int near : cut_cell.near)
+          if (near < grid.n_owned_cells() && !is_near_[near])
+            {
+              is_near_[near] = 1;
+              near_cells_.push_back(near);
+            }
       }
-    mark_near_cells(grid);
+    for (const unsigned int node : nodes_)
+      {
+        is_contact_node_[node] = 1;
+        if (node < grid.n_owned_nodes())
+          owned_nodes_.push_back(node);
+      }
+    for (const unsigned int c : touching)
+      add_open_volume(grid, obstacles, c);
   }
+
+
+
+  /// What cell @p c has of it, and those of its nodes that lie inside.
+  template <int dim>
+  void
+  Facets<dim>::add_open_volume(const Grid<dim>      &grid,
+                               const Obstacles<dim> &obstacles,
+                               const unsigned int    c)
+  {
+    const Cell<dim> &cell     = grid.cells()[c];
+    const auto       nodes    = nodes_of(cell);
+    const auto       cut_cell = cut_cells_.find(c);
+    const bool       is_cut   = cut_cell != cut_cells_.end();
+    const double     uncut =
+      (!is_cut && obstacles.signed_distance(centre_of(cell)) > 0 ?
+               std::pow(cell.size, dim) / nodes.size() :
+               0.);
+    for (unsigned int v = 0; v < nodes.size(); ++v)
+      if (n_facets_[nodes[v]] > 0)
+        open_volume_[nodes[v]] +=
+          (is_cut ? cut_cell->second.open_volume[v] : uncut);
+      else if (const Point<dim> x = place_of_node(cell, v);
+               !is_contact_node_[nodes[v]] &&
+               obstacles.signed_distance(x) <= 0)
+        {
+          is_contact_node_[nodes[v]] = 1;
+          flagged_inside_.push_back(nodes[v]);
+          if (nodes[v] < grid.n_owned_nodes())
+            nodes_inside_.push_back({nodes[v], x, obstacles.nearest(x)});
+        }
+  }
+
+
+
+  template class Facets<2>;
+  template class Facets<3>;
+} // namespace talus

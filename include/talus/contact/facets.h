@@ -14,11 +14,12 @@ namespace talus
   /// The part of the surface of an obstacle that lies in one cell of the mesh.
   /// It is one contact point, at its centroid.
   template <int dim>
-  struct Facet
+  struct ContactFacet
   {
     static constexpr unsigned int n_nodes = power(2, dim);
 
     unsigned int                      cell;
+    unsigned long                     key; ///< of the cell, on all ranks
     unsigned int                      obstacle;
     std::array<unsigned int, n_nodes> node;        ///< of the cell
     std::array<double, n_nodes>       shape_value; ///< of these at the centroid
@@ -47,7 +48,7 @@ namespace talus
 
     /// Those in the cells that this rank owns, in the order of the cells, and in
     /// a cell in that of the obstacles.
-    const std::vector<Facet<dim>> &
+    const std::vector<ContactFacet<dim>> &
     owned() const
     {
       return owned_;
@@ -66,10 +67,11 @@ namespace talus
       return nodes_;
     }
 
+    /// Whether soil at a node feels an obstacle.
     bool
-    touches_facet(const unsigned int node) const
+    is_contact_node(const unsigned int node) const
     {
-      return n_facets_[node] > 0;
+      return is_contact_node_[node];
     }
 
     /// Facets of all obstacles in the cells around a node this rank owns.
@@ -87,9 +89,16 @@ namespace talus
       return open_volume_[node];
     }
 
-    /// Nodes that this rank owns inside an obstacle, beside its surface, that
-    /// touch no facet.
-    const std::vector<unsigned int> &
+    /// Node inside an obstacle, beside its surface, that touches no facet.
+    struct NodeInside
+    {
+      unsigned int       node;
+      dealii::Point<dim> place; ///< m
+      unsigned int       obstacle;
+    };
+
+    /// Those that this rank owns.
+    const std::vector<NodeInside> &
     nodes_inside() const
     {
       return nodes_inside_;
@@ -106,26 +115,34 @@ namespace talus
     /// What the surfaces make of a cell.
     struct CutCell
     {
-      std::vector<Facet<dim>>                    facets;
-      std::array<double, Facet<dim>::n_nodes> open_volume;
+      std::vector<ContactFacet<dim>>                 facets;
+      std::array<double, ContactFacet<dim>::n_nodes> open_volume;
+      std::vector<unsigned int> touching; ///< those that share a node with it
+      std::vector<unsigned int> near; ///< owned ones that touch one of these
     };
 
     void
     cut(const Grid<dim> &grid, const Obstacles<dim> &obstacles, unsigned int c);
+    std::vector<ContactFacet<dim>>
+    facets_in(const Grid<dim>      &grid,
+              const Obstacles<dim> &obstacles,
+              unsigned int          c) const;
+    void
+    clear_sums();
     void
     collect(const Grid<dim> &grid, const Obstacles<dim> &obstacles);
     void
     add_open_volume(const Grid<dim>      &grid,
                     const Obstacles<dim> &obstacles,
                     unsigned int          c);
-    void
-    find_nodes_inside(const Grid<dim>      &grid,
-                      const Obstacles<dim> &obstacles,
-                      unsigned int          c);
 
     std::map<unsigned int, CutCell> cut_cells_; ///< ghosts, too
-    std::vector<Facet<dim>>         owned_;
-    std::vector<unsigned int>       owned_nodes_, nodes_, nodes_inside_;
+    std::vector<unsigned int>       near_cells_;
+    std::vector<ContactFacet<dim>>         owned_;
+    std::vector<unsigned int>       owned_nodes_, nodes_;
+    std::vector<unsigned int>       flagged_inside_; ///< ghosts, too
+    std::vector<NodeInside>         nodes_inside_;
+    std::vector<unsigned char>      is_contact_node_; ///< by node
     std::vector<unsigned int>       n_facets_;    ///< by node
     std::vector<double>             open_volume_; ///< by node
     std::vector<unsigned char>      is_near_;     ///< by cell

@@ -1,0 +1,741 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/contact/facet_contact.h>
+#include <talus/transfer/weights.h>
+#include <talus/transfer/weights_kernel.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    constexpr double no_gap = std::numeric_limits<double>::max();
+
+    // In cells. Boxes come this near before a facet closes: at rest they lie a
+    // little above the surface or below, and a facet that opens whenever one is
+    // 1e-4 of a cell above would be switched on and off from step to step.
+    constexpr double dead_band = 0.05;
+
+    // Of a run's first step, which has no impulses to start from.
+    constexpr unsigned int n_first_sweeps = 50;
+
+
+
+    template <int dim>
+    Tensor<1, dim>
+    vector_at(const std::vector<double> &values, const std::size_t first)
+    {
+      Tensor<1, dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] = values[first + d];
+      return result;
+    }
+
+
+
+    /// @p v, cut to the length @p limit.
+    template <int dim>
+    Tensor<1, dim>
+    cut_to_length(const Tensor<1, dim> &v, const double limit)
+    {
+      const double length = v.norm();
+      return length > limit ? v * (limit / length) : v;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  FacetContact<dim>::FacetContact(Obstacles<dim> &obstacles)
+    : obstacles_(obstacles)
+    , reactions_(obstacles.size())
+  {}
+
+
+
+  // Numbers of cells, facets and nodes have changed, and who owns them, but not
+  // the key of a cell. Each rank takes what it needs from the impulses of all:
+  // they are as many as the facets that soil touches, and the mesh changes
+  // seldom.
+  template <int dim>
+  void
+  FacetContact<dim>::prepare(const Grid<dim> &grid)
+  {
+    if (obstacles_.empty())
+      return;
+    std::vector<double> rows;
+    for (const auto &of_rank :
+         Utilities::MPI::all_gather(grid.communicator(), rows_of_impulses()))
+      rows.insert(rows.end(), of_rank.begin(), of_rank.end());
+    facets_.prepare(grid, obstacles_);
+    take_impulses(rows);
+    exchange_of_records_.prepare(grid, width);
+    exchange_of_gaps_.prepare(grid, obstacles_.size());
+    exchange_of_impulses_.prepare(grid, dim);
+    records_.assign(std::size_t(width) * grid.n_nodes(), 0.);
+    gaps_.assign(std::size_t(obstacles_.size()) * grid.n_nodes(), no_gap);
+    nodal_impulses_.assign(std::size_t(dim) * grid.n_nodes(), 0.);
+    total_impulses_.assign(std::size_t(dim) * grid.n_nodes(), 0.);
+    held_.assign(grid.n_nodes(), 0);
+  }
+
+
+
+  /// Of the facets that pass something.
+  template <int dim>
+  std::vector<double>
+  FacetContact<dim>::rows_of_impulses() const
+  {
+    std::vector<double> rows;
+    for (unsigned int c = 0; c < impulses_.size(); ++c)
+      if (const FacetImpulse<dim> &impulse = impulses_[c];
+          impulse.effective_mass > 0)
+        {
+          const ContactFacet<dim> &facet = facets_.owned()[c];
+          rows.insert(rows.end(),
+                      {double(facet.key),
+                       double(facet.obstacle),
+                       impulse.normal,
+                       impulse.effective_mass});
+          for (unsigned int d = 0; d < dim; ++d)
+            rows.push_back(impulse.tangential[d]);
+        }
+    return rows;
+  }
+
+
+
+  template <int dim>
+  void
+  FacetContact<dim>::take_impulses(const std::vector<double> &rows)
+  {
+    std::map<std::pair<double, double>, FacetImpulse<dim>> by_key;
+    for (std::size_t r = 0; r < rows.size(); r += n_columns)
+      by_key[{rows[r], rows[r + 1]}] = {rows[r + 2],
+                                        vector_at<dim>(rows, r + 4),
+                                        rows[r + 3]};
+    impulses_.assign(facets_.owned().size(), {});
+    for (unsigned int c = 0; c < impulses_.size(); ++c)
+      {
+        const ContactFacet<dim> &facet = facets_.owned()[c];
+        if (const auto found =
+              by_key.find({double(facet.key), double(facet.obstacle)});
+            found != by_key.end())
+          impulses_[c] = found->second;
+      }
+  }
+
+
+
+  // Jacobi's iteration with mass splitting: all facets see the same velocities,
+  // and a node's mass is shared by its facets, so that together they cannot push
+  // it farther than one alone. One sweep per step is enough since it starts from
+  // the impulses of the step before, and the order of the facets, and with it
+  // the number of ranks, does not matter. What it needs of walls comes first: a
+  // component that a wall holds is one that no facet can change.
+  template <int dim>
+  void
+  FacetContact<dim>::apply(State<dim> &state, Boundaries<dim> &boundaries)
+  {
+    if (obstacles_.empty())
+      return;
+    move_obstacles(state);
+    hold_walls(state, boundaries);
+    find_gaps(state);
+    load_nodes(state);
+    constraints_.clear();
+    for (const ContactFacet<dim> &facet : facets_.owned())
+      constraints_.push_back(constraint_of(state.grid, facet));
+    warm_start(state);
+    for (unsigned int s = 0; s < (has_begun_ ? 1 : n_first_sweeps); ++s)
+      sweep(state);
+    has_begun_          = true;
+    previous_time_step_ = state.time_step;
+    for (const unsigned int node : facets_.owned_nodes())
+      if (records_[std::size_t(width) * node + fill] > 0)
+        state.nodes.set_velocity(
+          node, vector_at<dim>(records_, std::size_t(width) * node + velocity));
+    hold_nodes_inside(state);
+  }
+
+
+
+  /// To where they are at the end of the step. Impulses stay with their cells.
+  template <int dim>
+  void
+  FacetContact<dim>::move_obstacles(const State<dim> &state)
+  {
+    if (!restored_.empty())
+      {
+        if (obstacles_.move())
+          facets_.update(state.grid, obstacles_);
+        take_impulses(restored_);
+        restored_.clear();
+      }
+    if (!obstacles_.move())
+      return;
+    const std::vector<double> rows = rows_of_impulses();
+    obstacles_.advance(state.time, state.time_step);
+    facets_.update(state.grid, obstacles_);
+    take_impulses(rows);
+  }
+
+
+
+  /// Give nodes that walls hold or drive their velocity; remember which
+  /// components.
+  template <int dim>
+  void
+  FacetContact<dim>::hold_walls(State<dim> &state, Boundaries<dim> &boundaries)
+  {
+    for (const unsigned int node : facets_.nodes())
+      held_[node] = boundaries.components_constrained_by_walls(
+        state.grid.faces_of_node(node));
+    for (const unsigned int node : facets_.owned_nodes())
+      if (held_[node] && state.nodes.mass(node) > state.mass_cutoff)
+        {
+          const Tensor<1, dim> impulse = boundaries.impose_walls(
+            state.nodes,
+            state.grid.faces_of_node(node),
+            node,
+            state.time + 0.5 * state.time_step);
+          state.works.wall_impulse += impulse;
+          // Of the components that are held, which nothing changes any more.
+          state.works.contact -= impulse * state.nodes.mean_velocity(node);
+        }
+  }
+
+
+
+  /// How near the points whose boxes reach a node come to an obstacle, as far
+  /// as their boxes know: a support function of the box along the normal.
+  template <int dim>
+  void
+  FacetContact<dim>::find_gaps(const State<dim> &state)
+  {
+    const unsigned int n = obstacles_.size();
+    const auto         open = [&](const unsigned int node) {
+      std::fill_n(gaps_.begin() + std::size_t(n) * node, n, no_gap);
+    };
+    for (const unsigned int node : facets_.nodes())
+      open(node);
+    for (const auto &inside : facets_.nodes_inside())
+      open(inside.node);
+    // Ghosts without exception: their records travel whether anybody reached
+    // them or not.
+    std::fill(gaps_.begin() + std::size_t(n) * state.grid.n_owned_nodes(),
+              gaps_.end(),
+              no_gap);
+    for (const Segment &segment : state.points.segments())
+      if (facets_.is_near(segment.cell))
+        add_gaps_of_segment(state, segment);
+    exchange_of_gaps_.minimum_to_owners(gaps_.data());
+    exchange_of_gaps_.copy_to_ghosts(gaps_.data());
+  }
+
+
+
+  template <int dim>
+  double
+  FacetContact<dim>::gap_of_point(const Obstacle<dim>  &obstacle,
+                                  const Point<dim>     &x,
+                                  const Tensor<1, dim> &half) const
+  {
+    const Tensor<1, dim> normal = obstacle.normal(x);
+    double               gap    = obstacle.signed_distance(x);
+    for (unsigned int d = 0; d < dim; ++d)
+      gap -= half[d] * std::abs(normal[d]);
+    return gap;
+  }
+
+
+
+  // In a uniform cell the nodes that a box reaches follow from where it is: a
+  // node is reached if it is nearer than a cell and the half length, along each
+  // axis. In others, and of convected domains, the weights tell.
+  template <int dim>
+  void
+  FacetContact<dim>::add_gaps_of_segment(const State<dim> &state,
+                                         const Segment    &segment)
+  {
+    const Points<dim>           &points = state.points;
+    const Cell<dim>             &cell   = state.grid.cells()[segment.cell];
+    const bool                   is_simple =
+      cell.uniform && state.box_shape.rule != BoxRule::convected_domain;
+    std::vector<NodeWeight<dim>> weights;
+    for (unsigned int p = segment.begin; p < segment.end; ++p)
+      {
+        const Point<dim> x = load_place(points, points.position, p);
+        Tensor<1, dim>   half; // in cells
+        for (unsigned int d = 0; d < dim; ++d)
+          half[d] = half_length_in_cells<dim>(
+            points, state.box_shape, d, p, 1. / cell.size);
+        std::array<double, 8> gaps; // no more obstacles at a time
+        const unsigned int    n = obstacles_.size();
+        for (unsigned int k = 0; k < n; ++k)
+          gaps[k] = gap_of_point(obstacles_[k], x, cell.size * half);
+        const auto reach = [&](const unsigned int node) {
+          for (unsigned int k = 0; k < n; ++k)
+            gaps_[std::size_t(n) * node + k] =
+              std::min(gaps_[std::size_t(n) * node + k], gaps[k]);
+        };
+        if (!is_simple)
+          {
+            weights_of_point(points,
+                             state.grid,
+                             state.box_shape,
+                             segment.cell,
+                             p,
+                             weights);
+            for (const NodeWeight<dim> &weight : weights)
+              if (weight.value > 0)
+                reach(weight.node);
+            continue;
+          }
+        std::array<bool, 4 * dim> reaches;
+        for (unsigned int d = 0; d < dim; ++d)
+          for (int i = 0; i < 4; ++i)
+            reaches[4 * d + i] =
+              std::abs((x[d] - cell.lower[d]) / cell.size - (i - 1)) <
+              1. + half[d];
+        for (unsigned int k = 0; k < cell.patch.size(); ++k)
+          {
+            bool is_reached = true;
+            for (unsigned int d = 0; d < dim; ++d)
+              is_reached = is_reached && reaches[4 * d + k / power(4, d) % 4];
+            if (is_reached && facets_.is_contact_node(cell.patch[k]))
+              reach(cell.patch[k]);
+          }
+      }
+  }
+
+
+
+  /// Velocities after the momentum update, and how much of the room at a node
+  /// the soil fills.
+  template <int dim>
+  void
+  FacetContact<dim>::load_nodes(const State<dim> &state)
+  {
+    const NodalFields<dim> &nodes = state.nodes;
+    for (const unsigned int node : facets_.owned_nodes())
+      {
+        double *const record = records_.data() + std::size_t(width) * node;
+        std::fill_n(record, width, 0.);
+        std::fill_n(total_impulses_.begin() + std::size_t(dim) * node, dim, 0.);
+        const double mass = nodes.mass(node);
+        const double room = facets_.open_volume(node);
+        if (mass <= state.mass_cutoff || room <= 0)
+          continue;
+        record[fill]      = std::min(1., nodes.volume(node) / room);
+        record[splitting] = facets_.n_facets(node) / mass;
+        for (unsigned int d = 0; d < dim; ++d)
+          record[velocity + d] = nodes.velocity(node)[d];
+      }
+    exchange_of_records_.copy_to_ghosts(records_.data());
+  }
+
+
+
+  // Shares by filling as well as by shape functions: a node that hardly has soil
+  // must not decide how the soil at the facet moves. Shares by mass would shift
+  // the wall into the soil.
+  template <int dim>
+  typename FacetContact<dim>::Constraint
+  FacetContact<dim>::constraint_of(const Grid<dim>         &grid,
+                                   const ContactFacet<dim> &facet) const
+  {
+    Constraint result;
+    double     sum = 0;
+    for (unsigned int v = 0; v < facet.node.size(); ++v)
+      {
+        result.share[v] = facet.shape_value[v] *
+                          records_[std::size_t(width) * facet.node[v] + fill];
+        sum += result.share[v];
+      }
+    if (sum <= 0)
+      return result;
+    const Cell<dim> &cell = grid.cells()[facet.cell];
+    AssertThrow(cell.uniform,
+                ExcPoint(text("Soil has come to the surface of the obstacle '",
+                              obstacles_[facet.obstacle].name(),
+                              "' at (",
+                              facet.centroid,
+                              ") m, where cells of different size meet, but "
+                              "contact needs cells of one size there. Let "
+                              "'Grid/Refinement boxes' cover the surface as "
+                              "far as soil may come, or leave more cells in "
+                              "'Mesh tracking' around the soil.")));
+    double inverse_mass = 0, inverse_normal_mass = 0, gap = no_gap;
+    for (unsigned int v = 0; v < facet.node.size(); ++v)
+      {
+        const unsigned int node = facet.node[v];
+        result.share[v] /= sum;
+        if (result.share[v] == 0)
+          continue;
+        const double inverse =
+          result.share[v] * result.share[v] *
+          records_[std::size_t(width) * node + splitting];
+        double free = 1.; // share of the normal that no wall holds
+        for (unsigned int d = 0; d < dim; ++d)
+          if (held_[node] & (1u << d))
+            free -= facet.normal[d] * facet.normal[d];
+        inverse_mass += inverse;
+        inverse_normal_mass += free * inverse;
+        gap = std::min(gap,
+                       gaps_[std::size_t(obstacles_.size()) * node +
+                             facet.obstacle]);
+      }
+    result.is_loaded = true;
+    result.mass      = 1. / inverse_mass;
+    result.normal_mass =
+      (inverse_normal_mass > 1e-6 * inverse_mass ? 1. / inverse_normal_mass :
+                                                   0.);
+    result.gap  = std::max(0., gap - dead_band * cell.size);
+    result.area = facet.area * sum;
+    return result;
+  }
+
+
+
+  template <int dim>
+  double
+  FacetContact<dim>::friction_limit(const ContactFacet<dim> &facet,
+                                    const Constraint        &constraint,
+                                    const double             normal_impulse,
+                                    const double             dt) const
+  {
+    return std::min(
+      obstacles_[facet.obstacle].friction_coefficient() * normal_impulse,
+      obstacles_.shear_stress_factor() * facet.maximum_shear_stress *
+        constraint.area * dt);
+  }
+
+
+
+  /// To the nodes, in shares.
+  template <int dim>
+  void
+  FacetContact<dim>::add_impulse(const ContactFacet<dim> &facet,
+                                 const Constraint        &constraint,
+                                 const Tensor<1, dim>    &impulse)
+  {
+    for (unsigned int v = 0; v < facet.node.size(); ++v)
+      for (unsigned int d = 0; d < dim; ++d)
+        nodal_impulses_[std::size_t(dim) * facet.node[v] + d] +=
+          constraint.share[v] * impulse[d];
+  }
+
+
+
+  // The impulses of the step before, and not more of them than the mass that is
+  // still there warrants: where soil becomes thin, they would throw the light
+  // nodes that are left.
+  template <int dim>
+  void
+  FacetContact<dim>::warm_start(const State<dim> &state)
+  {
+    const double longer =
+      (previous_time_step_ > 0 ? state.time_step / previous_time_step_ : 1.);
+    for (unsigned int c = 0; c < impulses_.size(); ++c)
+      {
+        const Constraint        &constraint = constraints_[c];
+        const ContactFacet<dim> &facet      = facets_.owned()[c];
+        FacetImpulse<dim>       &impulse    = impulses_[c];
+        if (!constraint.is_loaded || constraint.gap > 0 ||
+            constraint.normal_mass == 0 || impulse.effective_mass == 0)
+          {
+            impulse = {0, {}, constraint.is_loaded ? constraint.mass : 0};
+            continue;
+          }
+        const double factor =
+          longer * std::min(1., constraint.mass / impulse.effective_mass);
+        impulse.normal *= factor;
+        impulse.tangential =
+          cut_to_length(factor * impulse.tangential,
+                        friction_limit(
+                          facet, constraint, impulse.normal, state.time_step));
+        impulse.effective_mass = constraint.mass;
+        add_impulse(facet,
+                    constraint,
+                    impulse.normal * facet.normal + impulse.tangential);
+      }
+    update_velocities(state);
+  }
+
+
+
+  /// Of the soil at the contact point.
+  template <int dim>
+  Tensor<1, dim>
+  FacetContact<dim>::velocity_at(const ContactFacet<dim> &facet,
+                                 const Constraint        &constraint) const
+  {
+    Tensor<1, dim> u;
+    for (unsigned int v = 0; v < facet.node.size(); ++v)
+      u += constraint.share[v] *
+           vector_at<dim>(records_,
+                          std::size_t(width) * facet.node[v] + velocity);
+    return u;
+  }
+
+
+
+  // Projections: the normal impulse pushes only, and friction is at most what
+  // the surface passes. A facet with a gap lets the soil come as near in this
+  // step as the gap allows.
+  template <int dim>
+  void
+  FacetContact<dim>::sweep(const State<dim> &state)
+  {
+    const double                dt = state.time_step;
+    std::vector<Tensor<1, dim>> of_obstacle;
+    for (unsigned int k = 0; k < obstacles_.size(); ++k)
+      of_obstacle.push_back(obstacles_[k].velocity(state.time + 0.5 * dt));
+    for (unsigned int c = 0; c < impulses_.size(); ++c)
+      {
+        const Constraint &constraint = constraints_[c];
+        if (!constraint.is_loaded || constraint.normal_mass == 0)
+          continue;
+        const ContactFacet<dim> &facet   = facets_.owned()[c];
+        FacetImpulse<dim>       &impulse = impulses_[c];
+        const Tensor<1, dim>     u =
+          velocity_at(facet, constraint) - of_obstacle[facet.obstacle];
+        const double         u_n = u * facet.normal;
+        const Tensor<1, dim> u_t = u - u_n * facet.normal;
+
+        const double normal =
+          std::max(0.,
+                   impulse.normal -
+                     constraint.normal_mass * (constraint.gap / dt + u_n));
+        const Tensor<1, dim> tangential =
+          cut_to_length(impulse.tangential - constraint.mass * u_t,
+                        friction_limit(facet, constraint, normal, dt));
+        add_impulse(facet,
+                    constraint,
+                    (normal - impulse.normal) * facet.normal + tangential -
+                      impulse.tangential);
+        impulse.normal     = normal;
+        impulse.tangential = tangential;
+      }
+    update_velocities(state);
+  }
+
+
+
+  /// Collective. Components that walls hold do not move: the wall takes the
+  /// impulse up.
+  template <int dim>
+  void
+  FacetContact<dim>::update_velocities(const State<dim> &state)
+  {
+    exchange_of_impulses_.add_to_owners(nodal_impulses_.data());
+    for (const unsigned int node : facets_.owned_nodes())
+      {
+        double *const impulse =
+          nodal_impulses_.data() + std::size_t(dim) * node;
+        double *const record = records_.data() + std::size_t(width) * node;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            if (record[fill] > 0 && !(held_[node] & (1u << d)))
+              record[velocity + d] += impulse[d] / state.nodes.mass(node);
+            total_impulses_[std::size_t(dim) * node + d] += impulse[d];
+            impulse[d] = 0;
+          }
+      }
+    exchange_of_records_.copy_to_ghosts(records_.data());
+  }
+
+
+
+  // Soil that dips below the surface reaches nodes that no facet touches. They
+  // carry less than a thousandth of the force, and without a rule they would
+  // fall. Their area in contact is zero, so they pass no friction.
+  template <int dim>
+  void
+  FacetContact<dim>::hold_nodes_inside(State<dim> &state)
+  {
+    impulses_inside_.clear();
+    const double dt = state.time_step;
+    for (const auto &inside : facets_.nodes_inside())
+      {
+        const double mass = state.nodes.mass(inside.node);
+        if (mass <= state.mass_cutoff)
+          continue;
+        const Obstacle<dim> &obstacle = obstacles_[inside.obstacle];
+        const Tensor<1, dim> n        = obstacle.normal(inside.place);
+        const double         gap =
+          gaps_[std::size_t(obstacles_.size()) * inside.node + inside.obstacle];
+        const double may_move =
+          -std::max(0., gap - dead_band * state.grid.finest_size()) / dt;
+        const Tensor<1, dim> v   = state.nodes.velocity(inside.node);
+        const double         v_n = (v - obstacle.velocity(state.time + 0.5 * dt)) * n;
+        if (v_n < may_move)
+          impulses_inside_.push_back(
+            {inside.node,
+             inside.obstacle,
+             inside.place,
+             state.nodes.set_velocity(inside.node, v + (may_move - v_n) * n)});
+      }
+  }
+
+
+
+  /// Walls take up what obstacles do to the components that they hold.
+  template <int dim>
+  void
+  FacetContact<dim>::book_walls(State<dim> &state) const
+  {
+    for (const unsigned int node : facets_.owned_nodes())
+      for (unsigned int d = 0; d < dim; ++d)
+        if (held_[node] & (1u << d))
+          {
+            const double taken_up =
+              total_impulses_[std::size_t(dim) * node + d];
+            state.works.wall_impulse[d] -= taken_up;
+            state.works.contact +=
+              taken_up * state.nodes.mean_velocity(node)[d];
+          }
+  }
+
+
+
+  namespace
+  {
+    /// Add an impulse on the soil at @p arm from the reference point.
+    template <int dim>
+    void
+    add_to(StepReaction<dim>    &step,
+           const Tensor<1, dim> &arm,
+           const Tensor<1, dim> &impulse)
+    {
+      step.impulse -= impulse;
+      if constexpr (dim == 2)
+        step.angular_impulse[0] -= arm[0] * impulse[1] - arm[1] * impulse[0];
+      else
+        {
+          const Tensor<1, dim> moment = cross_product_3d(arm, impulse);
+          for (unsigned int d = 0; d < dim; ++d)
+            step.angular_impulse[d] -= moment[d];
+        }
+    }
+  } // namespace
+
+
+
+  /// This rank's shares.
+  template <int dim>
+  void
+  FacetContact<dim>::book_facets(const State<dim>               &state,
+                                 std::vector<StepReaction<dim>> &steps) const
+  {
+    for (unsigned int c = 0; c < impulses_.size(); ++c)
+      {
+        const FacetImpulse<dim> &impulse = impulses_[c];
+        if (impulse.normal == 0)
+          continue;
+        const ContactFacet<dim> &facet      = facets_.owned()[c];
+        const Constraint        &constraint = constraints_[c];
+        StepReaction<dim>       &step       = steps[facet.obstacle];
+        Tensor<1, dim>           v;
+        for (unsigned int i = 0; i < facet.node.size(); ++i)
+          v += constraint.share[i] * state.nodes.mean_velocity(facet.node[i]);
+        const Tensor<1, dim> normal = impulse.normal * facet.normal;
+        add_to<dim>(step,
+                    facet.centroid -
+                      obstacles_[facet.obstacle].reference_point(),
+                    normal + impulse.tangential);
+        step.tangential -= impulse.tangential;
+        step.area += constraint.area;
+        step.friction_work -= impulse.tangential * v;
+        step.contact_work -= normal * v;
+      }
+    for (const ImpulseInside &inside : impulses_inside_)
+      {
+        add_to<dim>(steps[inside.obstacle],
+                    inside.place -
+                      obstacles_[inside.obstacle].reference_point(),
+                    inside.impulse);
+        steps[inside.obstacle].contact_work -=
+          inside.impulse * state.nodes.mean_velocity(inside.node);
+      }
+  }
+
+
+
+  // Works are taken with the mean of the velocities before and after the step,
+  // when the last condition has acted: only so do they add up to nothing with
+  // the kinetic energy.
+  template <int dim>
+  void
+  FacetContact<dim>::book(State<dim> &state)
+  {
+    if (obstacles_.empty())
+      return;
+    book_walls(state);
+    std::vector<StepReaction<dim>> steps(obstacles_.size());
+    book_facets(state, steps);
+    std::vector<double> sums;
+    for (const StepReaction<dim> &step : steps)
+      {
+        state.works.friction += step.friction_work;
+        state.works.contact += step.contact_work;
+        const auto values = step.as_list();
+        sums.insert(sums.end(), values.begin(), values.end());
+      }
+    Utilities::MPI::sum(sums, state.communicator(), sums);
+    for (unsigned int k = 0; k < steps.size(); ++k)
+      {
+        steps[k].from_list(sums.data() + k * StepReaction<dim>::n_values);
+        reactions_[k].add(steps[k], state.time_step);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  FacetContact<dim>::start_interval()
+  {
+    for (Reaction<dim> &reaction : reactions_)
+      reaction.start_interval();
+  }
+
+
+
+  template <int dim>
+  void
+  FacetContact<dim>::list_state(StateList &list)
+  {
+    if (obstacles_.empty())
+      return;
+    list.add("contact has begun", "-", has_begun_, Reduction::equal);
+    list.add("time step of the contact",
+             "s",
+             previous_time_step_,
+             Reduction::equal);
+    for (unsigned int k = 0; k < obstacles_.size(); ++k)
+      reactions_[k].list_state("obstacle " + obstacles_[k].name(), list);
+    list.add_table({"facet impulses",
+                    "key of the cell; obstacle; normal impulse [N s]; "
+                    "effective mass [kg]; friction impulse [N s]",
+                    n_columns,
+                    [this]() { return rows_of_impulses(); },
+                    [this](const std::vector<double> &rows) {
+                      restored_ = rows;
+                    }});
+  }
+
+
+
+  template class FacetContact<2>;
+  template class FacetContact<3>;
+} // namespace talus

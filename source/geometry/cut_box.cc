@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/geometry/clip_simplex.h>
+#include <talus/geometry/cut_box.h>
+
+#include <deal.II/base/quadrature_lib.h>
+
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Along each axis. The surface is a plane in each part of a part, so that
+    // the area of a circle that crosses a box in an arc of half its radius is
+    // right to 2e-4 (with one part per axis: to a per cent).
+    constexpr unsigned int n_parts = 4;
+
+
+
+    /// Call action(simplex, values) for the simplices of those parts of a box
+    /// that the surface may be in, with the distances at the corners; and
+    /// uncut(part, distance) for the others, with that at the middle. What is
+    /// as good as on the surface is made to be on it: else a surface on the face
+    /// of a box would have facets or none as round-off has it.
+    template <int dim, typename Action, typename Uncut>
+    void
+    for_each_simplex(const Box<dim>              &box,
+                     const DistanceFunction<dim> &distance,
+                     const Action                &action,
+                     const Uncut                 &uncut)
+    {
+      const double size     = box.length(0);
+      const double diagonal = box.lower.distance(box.upper);
+      const auto   value    = [&](const Point<dim> &x) {
+        const double d = distance(x);
+        return std::abs(d) < 1e-9 * size ? 0. : d;
+      };
+      for (unsigned int i = 0; i < std::pow(n_parts, dim); ++i)
+        {
+          Box<dim>   part;
+          Point<dim> middle;
+          for (unsigned int d = 0, rest = i; d < dim; ++d, rest /= n_parts)
+            {
+              const unsigned int at = rest % n_parts;
+              const auto         x  = [&](const double k) {
+                return box.lower[d] + k / n_parts * box.length(d);
+              };
+              part.lower[d] = x(at);
+              part.upper[d] = x(at + 1);
+              middle[d]     = x(at + 0.5);
+            }
+          if (const double d = distance(middle);
+              std::abs(d) > 1.5 * 0.5 * diagonal / n_parts)
+            uncut(part, d);
+          else
+            for (const Simplex<dim> &simplex : simplices_of(part))
+              {
+                std::array<double, dim + 1> values;
+                for (unsigned int v = 0; v < dim + 1; ++v)
+                  values[v] = value(simplex[v]);
+                action(simplex, values);
+              }
+        }
+    }
+
+
+
+    /// Add the integrals of the shape functions of @p box over a simplex, times
+    /// @p factor. The rule is exact for their products of dim linear factors.
+    template <int dim>
+    void
+    add_integrals(const Box<dim>                  &box,
+                  const Simplex<dim>              &simplex,
+                  const double                     factor,
+                  std::array<double, (1u << dim)> &integrals)
+    {
+      static const QGaussSimplex<dim> rule(dim == 2 ? 2 : 3);
+      const double                    size = volume(simplex);
+      double                          sum  = 0;
+      for (const double weight : rule.get_weights())
+        sum += weight;
+      for (unsigned int q = 0; q < rule.size(); ++q)
+        {
+          Point<dim> x = simplex[0];
+          for (unsigned int d = 0; d < dim; ++d)
+            x += rule.point(q)[d] * (simplex[d + 1] - simplex[0]);
+          const auto N = shape_values_at(box, x);
+          for (unsigned int v = 0; v < N.size(); ++v)
+            integrals[v] += factor * size * rule.weight(q) / sum * N[v];
+        }
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::array<double, (1u << dim)>
+  shape_values_at(const Box<dim> &box, const Point<dim> &x)
+  {
+    std::array<double, (1u << dim)> result;
+    for (unsigned int v = 0; v < result.size(); ++v)
+      {
+        result[v] = 1.;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const double xi = (x[d] - box.lower[d]) / box.length(d);
+            result[v] *= ((v >> d) & 1) ? xi : 1. - xi;
+          }
+      }
+    return result;
+  }
+
+
+
+  // Parts of planes: simplices are cut where the linear interpolation of the
+  // distance between their corners is zero. A bilinear one would have a surface
+  // that is no plane, and two of them where the corners have alternating signs.
+  template <int dim>
+  CutSurface<dim>
+  surface_in_box(const Box<dim> &box, const DistanceFunction<dim> &distance)
+  {
+    CutSurface<dim> result;
+    for_each_simplex(
+      box,
+      distance,
+      [&](const Simplex<dim>                &simplex,
+          const std::array<double, dim + 1> &values) {
+        const ClippedSimplex<dim> clipped = clip_simplex<dim>(simplex, values);
+        if (clipped.facet.empty())
+          return;
+        const Tensor<1, dim> vector_area = talus::vector_area<dim>(clipped.facet);
+        const double         area        = vector_area.norm();
+        // One corner on the surface: a facet without area.
+        if (area == 0)
+          return;
+        result.area += area;
+        result.vector_area += vector_area;
+        result.centroid += area * centroid<dim>(clipped.facet);
+      },
+      [](const Box<dim> &, double) {});
+    if (result.area > 0)
+      result.centroid /= result.area;
+    return result;
+  }
+
+
+
+  // Of the whole box less what is closed, as clip_simplex() gives that.
+  template <int dim>
+  std::array<double, (1u << dim)>
+  open_shape_integrals(const Box<dim>              &box,
+                       const DistanceFunction<dim> &distance)
+  {
+    std::array<double, (1u << dim)> result;
+    double                          whole = 1.;
+    for (unsigned int d = 0; d < dim; ++d)
+      whole *= box.length(d);
+    result.fill(whole / result.size());
+    for_each_simplex(
+      box,
+      distance,
+      [&](const Simplex<dim>                &simplex,
+          const std::array<double, dim + 1> &values) {
+        for (const Simplex<dim> &closed :
+             clip_simplex<dim>(simplex, values).parts)
+          add_integrals(box, closed, -1., result);
+      },
+      [&](const Box<dim> &part, const double at_middle) {
+        if (at_middle < 0)
+          for (const Simplex<dim> &closed : simplices_of(part))
+            add_integrals(box, closed, -1., result);
+      });
+    // Round-off of what is closed altogether.
+    for (double &integral : result)
+      integral = std::max(0., integral);
+    return result;
+  }
+
+
+
+  template std::array<double, 4>
+  shape_values_at(const Box<2> &, const Point<2> &);
+  template std::array<double, 8>
+  shape_values_at(const Box<3> &, const Point<3> &);
+  template CutSurface<2>
+  surface_in_box(const Box<2> &, const DistanceFunction<2> &);
+  template CutSurface<3>
+  surface_in_box(const Box<3> &, const DistanceFunction<3> &);
+  template std::array<double, 4>
+  open_shape_integrals(const Box<2> &, const DistanceFunction<2> &);
+  template std::array<double, 8>
+  open_shape_integrals(const Box<3> &, const DistanceFunction<3> &);
+} // namespace talus
