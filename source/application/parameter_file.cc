@@ -58,6 +58,16 @@ namespace talus
                       ExcUser("'" + where + " = " + list + "' lists '" + name +
                               "' twice; names must differ."));
         }
+      return result;
+    }
+
+
+
+    /// The same, of which there must be one.
+    std::vector<std::string>
+    needed_names(const std::string &list, const std::string &where)
+    {
+      const auto result = names(list, where);
       AssertThrow(!result.empty(),
                   ExcUser("'" + where +
                           "' is empty, but at least one name is needed: each "
@@ -111,7 +121,7 @@ namespace talus
   {
     ParameterHandler prm;
     prm.declare_entry("Dimension", "2", Patterns::Integer(2, 3));
-    for (const std::string section : {"Bodies", "Materials"})
+    for (const std::string section : {"Bodies", "Materials", "Obstacles"})
       {
         prm.enter_subsection(section);
         prm.declare_entry("Names", "");
@@ -123,10 +133,13 @@ namespace talus
     preview.folder    = std::filesystem::path(file_name_).parent_path();
     preview.dimension = prm.get_integer("Dimension");
     prm.enter_subsection("Bodies");
-    preview.bodies = names(prm.get("Names"), "Bodies/Names");
+    preview.bodies = needed_names(prm.get("Names"), "Bodies/Names");
+    prm.leave_subsection();
+    prm.enter_subsection("Obstacles");
+    preview.obstacles = names(prm.get("Names"), "Obstacles/Names");
     prm.leave_subsection();
     prm.enter_subsection("Materials");
-    const auto  materials = names(prm.get("Names"), "Materials/Names");
+    const auto  materials = needed_names(prm.get("Names"), "Materials/Names");
     std::string laws;
     for (const std::string &law : material_names<2>())
       laws += (laws.empty() ? "" : "|") + law;

@@ -155,6 +155,18 @@ namespace talus
 
 
 
+  template <int dim>
+  Tensor<1, dim>
+  Boundaries<dim>::impose_walls(NodalFields<dim>   &nodes,
+                                const unsigned char faces,
+                                const unsigned int  node,
+                                const double        t)
+  {
+    return prescribed_velocity(faces, node, t).impose(nodes, node);
+  }
+
+
+
   // A traction is a force, so it goes into the momentum update and not into
   // what changes velocities after it: on a node that a wall holds it is then
   // simply borne by the wall. Its work is known only when all conditions have

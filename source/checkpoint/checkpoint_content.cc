@@ -231,6 +231,14 @@ namespace talus
     file.create_group("text");
     for (const StateList::Text &text : list.texts())
       file.write_text("text/" + checked(text.name), text.get());
+    for (const StateList::Table &table : list.tables())
+      {
+        if (&table == &list.tables().front())
+          file.create_group("tables");
+        const std::string name = "tables/" + checked(table.name);
+        file.write(name, table.get(), table.n_columns);
+        file.set_attribute(name, "columns", table.columns);
+      }
   }
 
 
@@ -259,6 +267,19 @@ namespace talus
         const std::string value = file.read_text("text/" + text.name);
         check_read(file);
         text.set(value);
+      }
+    for (const StateList::Table &table : list.tables())
+      {
+        const std::string         name  = "tables/" + table.name;
+        const auto                shape = file.shape(name);
+        const std::vector<double> rows  = file.read(name, 0, shape.first);
+        check_read(file);
+        AssertThrow(shape.second == table.n_columns,
+                    ExcUser("In '" + file.path().string() + "' the table '" +
+                            table.name +
+                            "' has another number of columns than now. Resume "
+                            "with the version of talus that wrote it."));
+        table.set(rows);
       }
   }
 
@@ -290,7 +311,12 @@ namespace talus
   std::string
   find_damage(Hdf5File &file)
   {
-    for (const std::string group : {"cells", "points", "state", "text"})
+    std::vector<std::string> groups = {"cells", "points", "state", "text"};
+    // Runs without obstacles have none.
+    const std::vector<std::string> all = file.names("/");
+    if (std::count(all.begin(), all.end(), "tables") > 0)
+      groups.push_back("tables");
+    for (const std::string &group : groups)
       for (const std::string &name : file.names(group))
         file.verify(group + "/" + name);
     file.verify("parameters");

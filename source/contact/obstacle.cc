@@ -4,6 +4,9 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <cmath>
+#include <limits>
+
 namespace talus
 {
   using namespace dealii;
@@ -13,7 +16,7 @@ namespace talus
     : ParameterAcceptor("/Obstacles/" + name)
     , name_(name)
     , shape_parameters_("/Obstacles/" + name,
-                        "half-plane|polygon|box|ball|cylinder")
+                        "half-plane")
   {
     add_parameter("Friction coefficient",
                   friction_coefficient_,
@@ -61,9 +64,16 @@ namespace talus
   // in the file.
   template <int dim>
   void
-  Obstacle<dim>::prepare(const Constants &constants, const Box<dim> &domain)
+  Obstacle<dim>::prepare(const Constants &constants)
   {
-    shape_ = shape_parameters_.make(domain);
+    // Prisms and cylinders without ends go on beyond the mesh.
+    Box<dim> everywhere;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        everywhere.upper[d] = std::numeric_limits<double>::infinity();
+        everywhere.lower[d] = -everywhere.upper[d];
+      }
+    shape_ = shape_parameters_.make(everywhere);
     maximum_shear_stress_ =
       std::make_unique<Expression<dim>>(path("Maximum shear stress"),
                                         maximum_shear_stress_text_,

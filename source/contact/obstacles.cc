@@ -24,10 +24,10 @@ namespace talus
 
   template <int dim>
   void
-  Obstacles<dim>::prepare(const Constants &constants, const Box<dim> &domain)
+  Obstacles<dim>::prepare(const Constants &constants)
   {
     for (const auto &obstacle : obstacles_)
-      obstacle->prepare(constants, domain);
+      obstacle->prepare(constants);
   }
 
 

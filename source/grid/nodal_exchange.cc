@@ -61,7 +61,9 @@ namespace talus
   // messages apart.
   template <int dim>
   void
-  NodalExchange<dim>::add_to_owners(double *records)
+  NodalExchange<dim>::combine_at_owners(
+    double                       *records,
+    const VectorOperation::values operation)
   {
     // In doubles, not in nodes.
     const unsigned int      n_owned = partitioner_->locally_owned_size();
@@ -71,13 +73,31 @@ namespace talus
     const ArrayView<double> buffer(buffer_.data(), buffer_.size());
     requests_.clear();
     partitioner_->import_from_ghosted_array_start(
-      VectorOperation::add, 0, ghosts, buffer, requests_);
+      operation, 0, ghosts, buffer, requests_);
     partitioner_->import_from_ghosted_array_finish(
-      VectorOperation::add,
+      operation,
       ArrayView<const double>(buffer.data(), buffer.size()),
       owned,
       ghosts,
       requests_);
+  }
+
+
+
+  template <int dim>
+  void
+  NodalExchange<dim>::add_to_owners(double *records)
+  {
+    combine_at_owners(records, VectorOperation::add);
+  }
+
+
+
+  template <int dim>
+  void
+  NodalExchange<dim>::minimum_to_owners(double *records)
+  {
+    combine_at_owners(records, VectorOperation::min);
   }
 
 

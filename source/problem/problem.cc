@@ -17,6 +17,8 @@ namespace talus
   Problem<dim>::Problem(const ParameterPreview &preview)
     : ParameterAcceptor("/")
     , materials(preview.materials)
+    , obstacles(preview.obstacles)
+    , contact(obstacles)
     , loading(preview.folder)
   {
     for (const std::string &name : preview.bodies)
@@ -64,6 +66,7 @@ namespace talus
     trigger.add_columns(points);
     loading.prepare(materials, bodies_.size(), constants_);
     boundaries.prepare(constants_);
+    obstacles.prepare(constants_);
   }
 
 

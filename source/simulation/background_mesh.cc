@@ -147,6 +147,7 @@ namespace talus
     state_.grid.prepare();
     state_.nodes.prepare(state_.grid);
     problem_.boundaries.locate_nodes(state_.grid);
+    problem_.contact.prepare(state_.grid);
     relocation_.rebuild(state_.points, state_.grid);
     activate_nodes();
     // Of the smallest cell, so that the same nodes carry motion at any level.
@@ -193,6 +194,7 @@ namespace talus
     const auto cells = load_balance_.repartition(state_.grid, state_.points);
     state_.nodes.prepare(state_.grid);
     problem_.boundaries.locate_nodes(state_.grid);
+    problem_.contact.prepare(state_.grid);
     relocation_.rebuild(state_.points, cells);
     activate_nodes();
   }

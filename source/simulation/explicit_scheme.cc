@@ -172,13 +172,19 @@ namespace talus
     {
       PhaseTimer::Scope scope(timer_, "boundaries");
       // As the strength of the points, that of the end of the step.
-      boundaries.scale_seabed_shear_stress(
-        problem_.trigger.seabed_factor(time + dt));
+      const double factor = problem_.trigger.seabed_factor(time + dt);
+      boundaries.scale_seabed_shear_stress(factor);
+      problem_.obstacles.scale_maximum_shear_stress(factor);
+      problem_.contact.apply(state_, boundaries);
       state_.works += boundaries.apply(
         state_.nodes, state_.grid, time, dt, state_.mass_cutoff);
     }
-    PhaseTimer::Scope scope(timer_, "messages");
-    state_.nodes.share_with_ghosts(state_.grid);
+    {
+      PhaseTimer::Scope scope(timer_, "messages");
+      state_.nodes.share_with_ghosts(state_.grid);
+    }
+    PhaseTimer::Scope scope(timer_, "boundaries");
+    problem_.contact.book(state_);
   }
 
 

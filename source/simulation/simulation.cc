@@ -4,6 +4,7 @@
 #include <talus/base/interrupt.h>
 #include <talus/checkpoint/parameter_changes.h>
 #include <talus/io/run_record.h>
+#include <talus/observers/obstacle_forces.h>
 #include <talus/simulation/simulation.h>
 #include <talus/version.h>
 
@@ -39,6 +40,8 @@ namespace talus
                   "The simulation runs from time 0 to this time [s].",
                   this->prm,
                   Patterns::Double(0.));
+    output_.add_row_observer(
+      std::make_unique<ObstacleForces<dim>>(problem_.contact));
     output_.add_quantities([this](const State<dim> &state, Quantities &list) {
       scheme_.splitter().list_quantities(state, list);
     });

@@ -44,6 +44,16 @@ namespace talus
       std::function<void(const std::string &)> set;
     };
 
+    /// Rows of numbers, of which each rank has some.
+    struct Table
+    {
+      std::string                                      name;
+      std::string                                      columns; ///< with units
+      unsigned int                                     n_columns;
+      std::function<std::vector<double>()>             get; ///< this rank's
+      std::function<void(const std::vector<double> &)> set; ///< gets all ranks'
+    };
+
     /// Add a number. Integers up to 2^53 survive the way through a double.
     template <typename Value>
     void
@@ -79,6 +89,18 @@ namespace talus
       texts_.push_back(text);
     }
 
+    void
+    add_table(const Table &table)
+    {
+      tables_.push_back(table);
+    }
+
+    const std::vector<Table> &
+    tables() const
+    {
+      return tables_;
+    }
+
     const std::vector<Number> &
     numbers() const
     {
@@ -94,6 +116,7 @@ namespace talus
   private:
     std::vector<Number> numbers_;
     std::vector<Text>   texts_;
+    std::vector<Table>  tables_;
   };
 
 

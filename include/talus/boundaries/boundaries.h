@@ -106,6 +106,14 @@ namespace talus
                   double            t,
                   double            mass_cutoff);
 
+    /// Give a node on @p faces the velocity that walls prescribe for time @p t,
+    /// s. Returns the impulse that this takes, N s.
+    dealii::Tensor<1, dim>
+    impose_walls(NodalFields<dim> &nodes,
+                 unsigned char     faces,
+                 unsigned int      node,
+                 double            t);
+
     /// Change the velocities of the active nodes on the faces as their
     /// conditions ask, after the momentum update of a step from time @p t over
     /// @p dt; velocities are those of the half step, t + dt/2. Returns what the

@@ -23,10 +23,10 @@ namespace talus
   public:
     explicit Obstacle(const std::string &name);
 
-    /// To be called after parsing, with the box that the mesh fills. Throws
-    /// ExcUser if parameters cannot be understood.
+    /// To be called after parsing. Throws ExcUser if parameters cannot be
+    /// understood.
     void
-    prepare(const Constants &constants, const Box<dim> &domain);
+    prepare(const Constants &constants);
 
     const std::string &
     name() const

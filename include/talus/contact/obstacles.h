@@ -23,7 +23,7 @@ namespace talus
 
     /// To be called after parsing. Throws ExcUser.
     void
-    prepare(const Constants &constants, const Box<dim> &domain);
+    prepare(const Constants &constants);
 
     unsigned int
     size() const

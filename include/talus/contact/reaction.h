@@ -20,11 +20,44 @@ namespace talus
 
     dealii::Tensor<1, dim>        impulse;         ///< on the obstacle, N s
     dealii::Tensor<1, dim>        tangential;      ///< its part by friction, N s
-    std::array<double, n_moments> angular_impulse; ///< about the reference
+    std::array<double, n_moments> angular_impulse{}; ///< about the reference
                                                    ///< point, N m s
     double area          = 0; ///< in contact, m^(dim-1)
     double friction_work = 0; ///< energy that friction took from the soil, J
     double contact_work  = 0; ///< energy that normal contact took, J
+
+    /// All of it, to be summed over the ranks.
+    static constexpr unsigned int n_values = 2 * dim + n_moments + 3;
+
+    std::array<double, n_values>
+    as_list() const
+    {
+      std::array<double, n_values> list;
+      double                      *to = list.data();
+      for (unsigned int d = 0; d < dim; ++d)
+        *to++ = impulse[d];
+      for (unsigned int d = 0; d < dim; ++d)
+        *to++ = tangential[d];
+      for (const double moment : angular_impulse)
+        *to++ = moment;
+      for (const double value : {area, friction_work, contact_work})
+        *to++ = value;
+      return list;
+    }
+
+    void
+    from_list(const double *list)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        impulse[d] = *list++;
+      for (unsigned int d = 0; d < dim; ++d)
+        tangential[d] = *list++;
+      for (double &moment : angular_impulse)
+        moment = *list++;
+      area          = *list++;
+      friction_work = *list++;
+      contact_work  = *list++;
+    }
   };
 
 

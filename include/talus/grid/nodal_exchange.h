@@ -31,11 +31,18 @@ namespace talus
     void
     add_to_owners(double *records);
 
+    /// Give owners the least of their own numbers and those of the ghosts.
+    void
+    minimum_to_owners(double *records);
+
     /// Copy the owners' records to the ghosts.
     void
     copy_to_ghosts(double *records);
 
   private:
+    void
+    combine_at_owners(double *records, dealii::VectorOperation::values operation);
+
     std::unique_ptr<dealii::Utilities::MPI::Partitioner> partitioner_;
 
     dealii::AlignedVector<double> buffer_;

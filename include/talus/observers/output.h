@@ -39,6 +39,13 @@ namespace talus
       statistics_->add_source(source);
     }
 
+    /// Add one that looks whenever a row of the statistics is due.
+    void
+    add_row_observer(std::unique_ptr<Observer<dim>> observer)
+    {
+      rows_.observers.push_back(std::move(observer));
+    }
+
     /// Write to this folder, whatever the parameter file says; to be called
     /// after parsing.
     void

@@ -3,6 +3,7 @@
 #define talus_problem_problem_h
 
 #include <talus/boundaries/boundaries.h>
+#include <talus/contact/facet_contact.h>
 #include <talus/problem/body.h>
 #include <talus/problem/loading.h>
 #include <talus/problem/parameter_preview.h>
@@ -76,9 +77,11 @@ namespace talus
     notes(double cell_size) const;
 
     void
-    list_state(StateList &list) const
+    list_state(StateList &list)
     {
       loading.list_state(list);
+      obstacles.list_state(list);
+      contact.list_state(list);
     }
 
   private:
@@ -91,9 +94,11 @@ namespace talus
   public:
     // The parts, for those who work with them.
     Materials<dim>  materials;
-    Boundaries<dim> boundaries;
-    Loading<dim>    loading;
-    Trigger<dim>    trigger;
+    Boundaries<dim>   boundaries;
+    Obstacles<dim>    obstacles;
+    FacetContact<dim> contact; ///< with the obstacles
+    Loading<dim>      loading;
+    Trigger<dim>      trigger;
   };
 } // namespace talus
 

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_observers_obstacle_forces_h
+#define talus_observers_obstacle_forces_h
+
+#include <talus/base/quantity.h>
+#include <talus/contact/facet_contact.h>
+#include <talus/io/files.h>
+#include <talus/observers/observer.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// obstacles.csv: what the soil does to each obstacle, one row per interval of
+  /// the statistics. Forces are those on the obstacle: means over all steps
+  /// since the row before, and the least and largest components in any of these
+  /// steps. Impulses and works are those since the start. doc/output.md lists
+  /// the columns.
+  template <int dim>
+  class ObstacleForces : public Observer<dim>
+  {
+  public:
+    /// @p contact starts a new interval with each row.
+    explicit ObstacleForces(FacetContact<dim> &contact);
+
+    /// Where there are obstacles.
+    bool
+    is_enabled(const OutputSettings &settings) const override;
+
+    void
+    begin(const OutputSettings &settings,
+          const State<dim>     &state,
+          Beginning             beginning = Beginning::fresh) override;
+
+    void
+    observe(const State<dim> &state) override;
+
+    void
+    list_state(StateList &list) override;
+
+    std::string
+    cannot_resume(const OutputSettings &settings,
+                  const State<dim>     &state) const override;
+
+    void
+    sync() override;
+
+    /// What a row holds, in the order of the columns. Collective.
+    Quantities
+    evaluate(const State<dim> &state) const;
+
+    static constexpr const char *file_name = "obstacles.csv";
+
+  private:
+    void
+    list_forces(unsigned int k, Quantities &row) const;
+    void
+    list_penetration(unsigned int      k,
+                     const State<dim> &state,
+                     Quantities       &row) const;
+
+    FacetContact<dim> &contact_;
+    CsvFile            file_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/agreement.h>
+#include <talus/observers/obstacle_forces.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  ObstacleForces<dim>::ObstacleForces(FacetContact<dim> &contact)
+    : contact_(contact)
+  {}
+
+
+
+  template <int dim>
+  bool
+  ObstacleForces<dim>::is_enabled(const OutputSettings & /*settings*/) const
+  {
+    return !contact_.obstacles().empty();
+  }
+
+
+
+  template <int dim>
+  void
+  ObstacleForces<dim>::list_forces(const unsigned int k, Quantities &row) const
+  {
+    const Reaction<dim> &reaction = contact_.reactions()[k];
+    const std::string    name     = contact_.obstacles()[k].name() + ' ';
+    const double         per_time =
+      (reaction.duration > 0 ? 1. / reaction.duration : 0.);
+
+    append_vector<dim>(row, name + "force", "N", per_time * reaction.impulse);
+    append_vector<dim>(row,
+                       name + "friction force",
+                       "N",
+                       per_time * reaction.tangential);
+    append_vector<dim>(row, name + "least force", "N", reaction.least);
+    append_vector<dim>(row, name + "largest force", "N", reaction.largest);
+    for (unsigned int i = 0; i < reaction.angular_impulse.size(); ++i)
+      row.push_back({name + "moment " + (dim == 2 ? 'z' : "xyz"[i]),
+                     "N m",
+                     per_time * reaction.angular_impulse[i]});
+    row.push_back({name + "contact area",
+                   dim == 2 ? "m" : "m^2",
+                   per_time * reaction.area_time});
+    append_vector<dim>(row, name + "impulse", "N s", reaction.total.impulse);
+    row.push_back({name + "friction work", "J", reaction.total.friction_work});
+    row.push_back({name + "contact work", "J", reaction.total.contact_work});
+    append_vector<dim>(row,
+                       name + "displacement",
+                       "m",
+                       contact_.obstacles()[k].displacement());
+  }
+
+
+
+  // Nothing pushes points out that have come below a surface; so the user must
+  // see how many have.
+  template <int dim>
+  void
+  ObstacleForces<dim>::list_penetration(const unsigned int k,
+                                        const State<dim>  &state,
+                                        Quantities        &row) const
+  {
+    const Points<dim>   &points   = state.points;
+    const Obstacle<dim> &obstacle = contact_.obstacles()[k];
+    double               mass = 0, inside = 0, deepest = 0; // cells
+    for (const Segment &segment : points.segments())
+      for (unsigned int p = segment.begin; p < segment.end; ++p)
+        {
+          const double m = points.data(points.mass)[p];
+          mass += m;
+          // Others are far from the surface.
+          if (!contact_.facets().is_near(segment.cell))
+            continue;
+          const double distance =
+            obstacle.signed_distance(load_place(points, points.position, p));
+          if (distance < 0)
+            inside += m;
+          deepest = std::max(deepest,
+                             -distance / state.grid.cells()[segment.cell].size);
+        }
+    const MPI_Comm communicator = state.communicator();
+    mass                        = Utilities::MPI::sum(mass, communicator);
+    inside                      = Utilities::MPI::sum(inside, communicator);
+    const std::string name      = obstacle.name() + ' ';
+    row.push_back(
+      {name + "share of mass below surface", "-", mass > 0 ? inside / mass : 0});
+    row.push_back({name + "deepest point",
+                   "cells",
+                   Utilities::MPI::max(deepest, communicator)});
+  }
+
+
+
+  template <int dim>
+  Quantities
+  ObstacleForces<dim>::evaluate(const State<dim> &state) const
+  {
+    Quantities row = {{"time", "s", state.time}};
+    for (unsigned int k = 0; k < contact_.obstacles().size(); ++k)
+      {
+        list_forces(k, row);
+        list_penetration(k, state, row);
+      }
+    return row;
+  }
+
+
+
+  namespace
+  {
+    std::vector<std::string>
+    headings(const Quantities &row)
+    {
+      std::vector<std::string> result;
+      for (const Quantity &quantity : row)
+        result.push_back(quantity.heading());
+      return result;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  ObstacleForces<dim>::begin(const OutputSettings &settings,
+                             const State<dim>     &state,
+                             const Beginning       beginning)
+  {
+    const auto columns = headings(evaluate(state));
+    if (is_first_rank(state.communicator()))
+      file_.open(settings.folder / file_name, columns, beginning);
+  }
+
+
+
+  template <int dim>
+  void
+  ObstacleForces<dim>::observe(const State<dim> &state)
+  {
+    std::vector<double> values;
+    for (const Quantity &quantity : evaluate(state))
+      values.push_back(quantity.value);
+    if (is_first_rank(state.communicator()))
+      {
+        file_.add_row(values);
+        file_.flush();
+      }
+    contact_.start_interval();
+  }
+
+
+
+  template <int dim>
+  void
+  ObstacleForces<dim>::list_state(StateList &list)
+  {
+    if (!contact_.obstacles().empty())
+      file_.list_state(file_name, list);
+  }
+
+
+
+  template <int dim>
+  std::string
+  ObstacleForces<dim>::cannot_resume(const OutputSettings &settings,
+                                     const State<dim>     &state) const
+  {
+    const auto columns = headings(evaluate(state));
+    return is_first_rank(state.communicator()) ?
+             file_.cannot_resume(settings.folder / file_name, columns) :
+             "";
+  }
+
+
+
+  template <int dim>
+  void
+  ObstacleForces<dim>::sync()
+  {
+    if (is_first_rank(MPI_COMM_WORLD))
+      file_.sync();
+  }
+
+
+
+  template class ObstacleForces<2>;
+  template class ObstacleForces<3>;
+} // namespace talus
