@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/geometry/analytic_shapes.h>
 #include <talus/problem/body.h>
 
 #include <deal.II/base/mpi.h>
@@ -28,6 +29,20 @@ namespace talus
                   "number for all axes, or one for each, separated by commas.",
                   this->prm,
                   Patterns::List(Patterns::Integer(1, 16), 1, dim));
+    add_parameter("Filling",
+                  filling_,
+                  "'centres': whole boxes of points, those whose centre lies "
+                  "in the body, so that its surface is a staircase and its "
+                  "volume right to the size of a point. 'clipped': boxes cut "
+                  "by the surface; the points lie at the centroids of what is "
+                  "left, and the mass is that of the shape.",
+                  this->prm,
+                  Patterns::Selection("centres|clipped"));
+    add_parameter("Cut by obstacles",
+                  cut_by_obstacles_,
+                  "Whether what of the body lies inside of obstacles is "
+                  "removed, so that it is filled down to them. false: that is "
+                  "an error.");
   }
 
 
@@ -83,30 +98,25 @@ namespace talus
 
 
 
-  /// A point at @p x, m, at rest and undeformed (F = I), without stress. Its
-  /// box is a part of a cell, so that the boxes of a cell tile it. @p density
-  /// in kg/m^3.
+  /// A point at rest and undeformed (F = I), without stress. @p density in
+  /// kg/m^3.
   template <int dim>
   void
-  Body<dim>::add_point(Points<dim>       &points,
-                       const unsigned int index,
-                       const Point<dim>  &x,
-                       const double       cell_size,
-                       const double       density) const
+  Body<dim>::add_point(Points<dim>         &points,
+                       const unsigned int   index,
+                       const NewPoint<dim> &point,
+                       const double         density) const
   {
     const unsigned int p      = points.append(1);
     double             volume = 1.;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        // One number of points for all axes, or one for each.
-        const double length =
-          cell_size / points_per_cell_[points_per_cell_.size() == 1 ? 0 : d];
-        volume *= length;
-        points.data(points.position, d)[p]                         = x[d];
-        points.data(points.initial_position, d)[p]                 = x[d];
-        points.data(points.reference_length, d)[p]                 = length;
-        points.data(points.stretch, d)[p]                          = 1.;
-        points.data(points.creation_stretch, d)[p]                 = 1.;
+        volume *= point.length[d];
+        points.data(points.position, d)[p]         = point.x[d];
+        points.data(points.initial_position, d)[p] = point.x[d];
+        points.data(points.reference_length, d)[p] = point.length[d];
+        points.data(points.stretch, d)[p]          = 1.;
+        points.data(points.creation_stretch, d)[p] = 1.;
         points.data(points.deformation_gradient, d * (dim + 1))[p] = 1.;
       }
     points.data(points.reference_volume)[p] = volume;
@@ -118,17 +128,16 @@ namespace talus
 
   /// Two bodies that overlap would put twice the mass into the same place,
   /// which no later check would notice. Looked at by the points there are, in
-  /// the order of Bodies/Names. Each rank looks at its own: points and body are
-  /// on the same cells.
+  /// the order of Bodies/Names. Each rank looks at its own: all know the shape.
   template <int dim>
   void
-  Body<dim>::check_apart(const Shape<dim>  &shape,
+  Body<dim>::check_apart(const Region<dim> &region,
                          const Points<dim> &points) const
   {
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         const auto x = load_place(points, points.initial_position, p);
-        AssertThrow(!shape.contains(x),
+        AssertThrow(!region.contains(x),
                     ExcUser(text("The body '",
                                  name_,
                                  "' contains the point at (",
@@ -141,17 +150,36 @@ namespace talus
 
 
 
-  /// Points lie at the centres of the parts into which each cell is cut, and
-  /// belong to the body if their centre does: no part is cut by the surface of
-  /// the body. So its volume is right only to the size of a point, but all
-  /// boxes tile their cells and the weights begin without gaps and overlaps.
-  /// Each rank fills its own cells. Collective.
+  /// Contact with a surface that is already deep in the soil would throw it
+  /// out. The half of a box that a centre may be off is none.
   template <int dim>
   void
-  Body<dim>::create_points(const Grid<dim>   &grid,
-                           const unsigned int index,
-                           const double       density,
-                           Points<dim>       &points) const
+  Body<dim>::check_clear_of(const Solids                     &solids,
+                            const std::vector<NewPoint<dim>> &points) const
+  {
+    for (const Shape<dim> *solid : solids)
+      for (const NewPoint<dim> &point : points)
+        {
+          const double depth = -solid->signed_distance(point.x);
+          AssertThrow(depth <= 0.5 * point.length.norm(),
+                      ExcUser(text("The point at (",
+                                   point.x,
+                                   ") m of the body '",
+                                   name_,
+                                   "' lies ",
+                                   depth,
+                                   " m inside of an obstacle. Set ",
+                                   path("Cut by obstacles"),
+                                   " = true, or move one of them.")));
+        }
+  }
+
+
+
+  /// One number for all axes, or one for each.
+  template <int dim>
+  std::array<unsigned int, dim>
+  Body<dim>::points_per_axis() const
   {
     AssertThrow(points_per_cell_.size() == 1 || points_per_cell_.size() == dim,
                 ExcUser(text(path("Points per cell and axis"),
@@ -160,49 +188,66 @@ namespace talus
                              " numbers; give one, or one for each of the ",
                              dim,
                              " axes.")));
-    const auto     shape = shape_.make(grid.domain_before_growth());
-    const Box<dim> box   = bounding_box(grid.domain_before_growth());
-    check_apart(*shape, points);
+    std::array<unsigned int, dim> n;
+    for (unsigned int d = 0; d < dim; ++d)
+      n[d] = points_per_cell_[points_per_cell_.size() == 1 ? 0 : d];
+    return n;
+  }
 
-    const unsigned int n_before = points.size();
-    // Points per cell whatever its size: in smaller cells there are smaller
-    // boxes.
-    for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
-      {
-        const Cell<dim>              &cell     = grid.cells()[c];
-        bool                          overlaps = true;
-        std::array<unsigned int, dim> n, at{};
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            // Most cells of the mesh are far from the body, and are passed over
-            // at once.
-            overlaps = overlaps && cell.lower[d] < box.upper[d] &&
-                       cell.lower[d] + cell.size > box.lower[d];
-            n[d] = points_per_cell_[points_per_cell_.size() == 1 ? 0 : d];
-          }
-        while (overlaps && at[dim - 1] < n[dim - 1])
-          {
-            Point<dim> x;
-            for (unsigned int d = 0; d < dim; ++d)
-              x[d] = cell.lower[d] + (at[d] + 0.5) / n[d] * cell.size;
-            if (shape->contains(x))
-              add_point(points, index, x, cell.size, density);
-            // Counts through all parts of a cell, the first axis fastest.
-            ++at[0];
-            for (unsigned int d = 0; d + 1 < dim && at[d] == n[d]; ++d)
-              {
-                at[d] = 0;
-                ++at[d + 1];
-              }
-          }
-      }
+
+
+  /// @p others are the points of the bodies before this one. Collective.
+  template <int dim>
+  std::vector<NewPoint<dim>>
+  Body<dim>::places_of_points(const Grid<dim>   &grid,
+                              const Solids      &solids,
+                              const Points<dim> &others) const
+  {
+    const Box<dim>      &domain = grid.domain_before_growth();
+    const auto           shape  = shape_.make(domain);
+    const BoxRegion<dim> mesh(domain);
+    const Box<dim> bounds = bounding_box(domain), box = shape->bounding_box();
+    Region<dim>    region(*shape);
+    // A shape without end must not reach into cells that were added far away.
+    if (!(box.lower == bounds.lower && box.upper == bounds.upper))
+      region.restrict_to(mesh);
+    if (cut_by_obstacles_)
+      for (const Shape<dim> *solid : solids)
+        region.cut_away(*solid);
+    check_apart(region, others);
+    const auto places =
+      is_clipped()
+        ? clipped_filling<dim>(grid, region, bounds, points_per_axis())
+        : filling_by_centres<dim>(grid, region, bounds, points_per_axis());
+    if (!cut_by_obstacles_)
+      check_clear_of(solids, places);
+    return places;
+  }
+
+
+
+  template <int dim>
+  void
+  Body<dim>::create_points(const Grid<dim>   &grid,
+                           const unsigned int index,
+                           const double       density,
+                           Points<dim>       &points,
+                           const Solids      &solids) const
+  {
+    const auto places = places_of_points(grid, solids, points);
+    for (const NewPoint<dim> &place : places)
+      add_point(points, index, place, density);
     // A rank may well have none, but one of them must have some.
-    AssertThrow(Utilities::MPI::max(points.size() - n_before,
-                                    grid.communicator()) > 0,
+    AssertThrow(Utilities::MPI::max(places.size(), grid.communicator()) > 0,
                 ExcUser(text("The body '",
                              name_,
-                             "' got no points: no centre of a point lies in "
-                             "it. Make it larger than a cell (Grid/Cell size) "
+                             "' got no points: ",
+                             is_clipped() ? "no part of its shape was found"
+                                          : "no centre of a point lies in it",
+                             cut_by_obstacles_ && !solids.empty()
+                               ? " outside of the obstacles"
+                               : "",
+                             ". Make it larger than a cell (Grid/Cell size) "
                              "or raise ",
                              path("Points per cell and axis"),
                              ".")));

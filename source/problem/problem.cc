@@ -73,8 +73,9 @@ namespace talus
 
   /// Body by body, as columns of a body depend on its law. K0 stress comes
   /// after the last body, since it needs the weight of all. Displaced points
-  /// may have left the cells of their rank, and go to their owners. The trigger
-  /// chooses its points at the end, by the undeformed places. Collective.
+  /// and those of clipped bodies may have left the cells of their rank, and go
+  /// to their owners. The trigger chooses its points at the end, by the
+  /// undeformed places. Collective.
   template <int dim>
   void
   Problem<dim>::create_points(State<dim> &state)
@@ -105,7 +106,7 @@ namespace talus
                            loading.share_of_gravity(0.) * loading.gravity(),
                            state.communicator());
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const auto &body) {
-          return body->initial_state().is_displaced();
+          return body->initial_state().is_displaced() || body->is_clipped();
         }))
       send_points_to_owners(points, state.grid);
     trigger.choose_points(points, constants_, state.communicator());

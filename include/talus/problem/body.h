@@ -2,9 +2,11 @@
 #ifndef talus_problem_body_h
 #define talus_problem_body_h
 
+#include <talus/geometry/region.h>
 #include <talus/geometry/shape_parameters.h>
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
+#include <talus/problem/filling.h>
 #include <talus/problem/initial_state.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -22,16 +24,28 @@ namespace talus
   public:
     explicit Body(const std::string &name);
 
+    /// Solids in whose inside there is no soil.
+    using Solids = std::vector<const Shape<dim> *>;
+
     /// Fill the body with points: the given number per axis in each cell of the
-    /// mesh, those whose centre lies in the shape. Sets everything that does not
+    /// mesh, by the centres or clipped by the surface of the body, and of
+    /// @p solids unless the parameters forbid it. Sets everything that does not
     /// depend on the material but mass, which is @p density times the volume,
-    /// and the id. Throws ExcUser if the body does not lie in the mesh or gets
-    /// no points. Collective.
+    /// and the id. Points of a clipped body may lie in cells of other ranks.
+    /// Throws ExcUser if the body does not lie in the mesh, gets no points, or
+    /// lies where other bodies or solids are. Collective.
     void
     create_points(const Grid<dim> &grid,
                   unsigned int     index,
                   double           density,
-                  Points<dim>     &points) const;
+                  Points<dim>     &points,
+                  const Solids    &solids = {}) const;
+
+    bool
+    is_clipped() const
+    {
+      return filling_ == "clipped";
+    }
 
     /// Smallest box around the body in a mesh that fills @p domain.
     Box<dim>
@@ -66,18 +80,28 @@ namespace talus
     void
     check_inside(const Box<dim> &box, const Box<dim> &domain) const;
     void
-    check_apart(const Shape<dim> &shape, const Points<dim> &points) const;
+    check_apart(const Region<dim> &region, const Points<dim> &points) const;
     void
-    add_point(Points<dim>              &points,
-              unsigned int              index,
-              const dealii::Point<dim> &x,
-              double                    cell_size,
-              double                    density) const;
+    check_clear_of(const Solids                     &solids,
+                   const std::vector<NewPoint<dim>> &points) const;
+    std::array<unsigned int, dim>
+    points_per_axis() const;
+    std::vector<NewPoint<dim>>
+    places_of_points(const Grid<dim>   &grid,
+                     const Solids      &solids,
+                     const Points<dim> &others) const;
+    void
+    add_point(Points<dim>         &points,
+              unsigned int         index,
+              const NewPoint<dim> &point,
+              double               density) const;
 
     std::string               name_;
     ShapeParameters<dim>      shape_;
     std::string               material_ = "";
     std::vector<unsigned int> points_per_cell_{2};
+    std::string               filling_          = "centres";
+    bool                      cut_by_obstacles_ = true;
     InitialState<dim>         initial_state_;
   };
 } // namespace talus

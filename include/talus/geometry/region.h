@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_geometry_region_h
+#define talus_geometry_region_h
+
+#include <talus/geometry/clip_simplex.h>
+#include <talus/geometry/shape.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// The part of something that lies in a region.
+  template <int dim>
+  struct PartInside
+  {
+    double             volume = 0.; ///< m^dim
+    dealii::Point<dim> centroid;    ///< if the volume is not 0
+  };
+
+
+
+  /// What lies in all of some shapes and outside of some others. The shapes
+  /// must live as long as the region.
+  template <int dim>
+  class Region
+  {
+  public:
+    /// All of space.
+    Region() = default;
+
+    explicit Region(const Shape<dim> &shape)
+    {
+      restrict_to(shape);
+    }
+
+    void
+    restrict_to(const Shape<dim> &shape)
+    {
+      limits_.push_back({&shape, 1.});
+    }
+
+    void
+    cut_away(const Shape<dim> &solid)
+    {
+      limits_.push_back({&solid, -1.});
+    }
+
+    /// The surfaces of shapes and solids belong to it.
+    bool
+    contains(const dealii::Point<dim> &x) const;
+
+    /// Largest of the distances to the surfaces, m: not positive if and only if
+    /// the region contains @p x, up to round-off.
+    double
+    signed_distance(const dealii::Point<dim> &x) const;
+
+    /// How much of @p box lies in the region, from the signed distances at the
+    /// nodes of a lattice of @p n boxes per axis, linear in between: exact for
+    /// planes, of second order in the size of the lattice's boxes for what is
+    /// curved or has corners. What is thinner than those may be missed.
+    PartInside<dim>
+    part_inside(const Box<dim> &box, unsigned int n = 4) const;
+
+  private:
+    /// A shape that the region lies in (sign 1) or outside of (sign -1).
+    struct Limit
+    {
+      double
+      signed_distance(const dealii::Point<dim> &x) const
+      {
+        return sign * shape->signed_distance(x);
+      }
+
+      const Shape<dim> *shape;
+      double            sign;
+    };
+
+    using Limits = std::vector<Limit>;
+
+    static bool
+    keep_those_that_cut(const Box<dim> &box, Limits &limits);
+    static std::vector<Simplex<dim>>
+    clip(const Simplex<dim> &simplex, const Limits &limits, double tolerance);
+
+    Limits limits_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,396 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/problem/filling.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Points that are much lighter than their neighbours become unstable: what
+    /// is less than this of a box is no point of its own.
+    constexpr double least_fraction = 0.2;
+
+
+
+    /// Most cells of the mesh are far from the body, and are passed over at
+    /// once.
+    template <int dim>
+    bool
+    overlap(const Cell<dim> &cell, const Box<dim> &bounds)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (!(cell.lower[d] < bounds.upper[d] &&
+              cell.lower[d] + cell.size > bounds.lower[d]))
+          return false;
+      return true;
+    }
+
+
+
+    /// Of the boxes into which a cell is cut, @p n along each axis.
+    template <int dim>
+    Tensor<1, dim>
+    lattice_lengths(const Cell<dim>                     &cell,
+                    const std::array<unsigned int, dim> &n)
+    {
+      Tensor<1, dim> length;
+      for (unsigned int d = 0; d < dim; ++d)
+        length[d] = cell.size / n[d];
+      return length;
+    }
+
+
+
+    /// Their centres, the first axis fastest.
+    template <int dim>
+    std::vector<Point<dim>>
+    lattice_of(const Cell<dim> &cell, const std::array<unsigned int, dim> &n)
+    {
+      std::vector<Point<dim>>       centres;
+      std::array<unsigned int, dim> at{};
+      while (at[dim - 1] < n[dim - 1])
+        {
+          Point<dim> x;
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = cell.lower[d] + (at[d] + 0.5) / n[d] * cell.size;
+          centres.push_back(x);
+          // Counts through all parts of a cell, the first axis fastest.
+          ++at[0];
+          for (unsigned int d = 0; d + 1 < dim && at[d] == n[d]; ++d)
+            {
+              at[d] = 0;
+              ++at[d + 1];
+            }
+        }
+      return centres;
+    }
+  } // namespace
+
+
+
+  /// No box is cut by the surface of the body: its volume is right only to the
+  /// size of a point, but all boxes tile their cells and the weights begin
+  /// without gaps and overlaps.
+  template <int dim>
+  std::vector<NewPoint<dim>>
+  filling_by_centres(const Grid<dim>                     &grid,
+                     const Region<dim>                   &region,
+                     const Box<dim>                      &bounds,
+                     const std::array<unsigned int, dim> &n)
+  {
+    std::vector<NewPoint<dim>> result;
+    for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+      if (const Cell<dim> &cell = grid.cells()[c]; overlap(cell, bounds))
+        for (const Point<dim> &x : lattice_of<dim>(cell, n))
+          if (region.contains(x))
+            result.push_back({x, lattice_lengths<dim>(cell, n)});
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// What is given to a box: cell and box that get it, cell and box that give
+    /// it, cells by the keys that all ranks know them by; volume, m^dim, and
+    /// its moment. Sorted, they are in the same order for any number of ranks.
+    template <int dim>
+    using Gift =
+      std::pair<std::array<unsigned long, 4>, std::array<double, dim + 1>>;
+
+
+
+    /// The boxes of the lattice in the cells that this rank knows, and what of
+    /// them lies in the region: of ghosts, too, since shapes are known to all.
+    template <int dim>
+    class ClippedBoxes
+    {
+    public:
+      ClippedBoxes(const Grid<dim>                     &grid,
+                   const Region<dim>                   &region,
+                   const Box<dim>                      &bounds,
+                   const std::array<unsigned int, dim> &n);
+
+      /// Give slivers to their neighbours. Collective.
+      void
+      merge_slivers();
+
+      /// What there is now.
+      std::vector<NewPoint<dim>>
+      points() const;
+
+    private:
+      using Parts = std::vector<PartInside<dim>>;
+
+      Parts
+      parts_of_cell(const Cell<dim> &cell, const Region<dim> &region) const;
+      double
+      volume_of_box(unsigned int cell) const;
+      bool
+      is_kept(const PartInside<dim> &part, unsigned int cell) const;
+      std::pair<unsigned int, unsigned int>
+      nearest_kept(const Point<dim> &x, unsigned int cell) const;
+      std::vector<unsigned int>
+      cells_around(unsigned int cell) const;
+      std::map<unsigned int, std::vector<Gift<dim>>>
+      take_slivers();
+
+      const Grid<dim>              &grid_;
+      std::array<unsigned int, dim> n_;
+      // By cell; a cell without any is missing.
+      std::map<unsigned int, Parts> parts_;
+    };
+
+
+
+    template <int dim>
+    ClippedBoxes<dim>::ClippedBoxes(const Grid<dim>                     &grid,
+                                    const Region<dim>                   &region,
+                                    const Box<dim>                      &bounds,
+                                    const std::array<unsigned int, dim> &n)
+      : grid_(grid)
+      , n_(n)
+    {
+      for (unsigned int c = 0; c < grid.cells().size(); ++c)
+        {
+          const Cell<dim> &cell = grid.cells()[c];
+          if (!overlap(cell, bounds))
+            continue;
+          Parts parts = parts_of_cell(cell, region);
+          if (!parts.empty())
+            parts_.emplace(c, std::move(parts));
+        }
+    }
+
+
+
+    /// None if nothing lies inside. A whole box has its centre to the bit, so
+    /// that bodies made of whole boxes are the same as if filled by centres.
+    template <int dim>
+    typename ClippedBoxes<dim>::Parts
+    ClippedBoxes<dim>::parts_of_cell(const Cell<dim>   &cell,
+                                     const Region<dim> &region) const
+    {
+      const Tensor<1, dim> length = lattice_lengths<dim>(cell, n_);
+      Parts                parts;
+      bool                 is_empty = true;
+      for (const Point<dim> &centre : lattice_of<dim>(cell, n_))
+        {
+          const Box<dim> box{centre - 0.5 * length, centre + 0.5 * length};
+          parts.push_back(region.part_inside(box));
+          is_empty = is_empty && parts.back().volume == 0.;
+        }
+      return is_empty ? Parts() : parts;
+    }
+
+
+
+    template <int dim>
+    double
+    ClippedBoxes<dim>::volume_of_box(const unsigned int cell) const
+    {
+      double volume = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        volume *= grid_.cells()[cell].size / n_[d];
+      return volume;
+    }
+
+
+
+    template <int dim>
+    bool
+    ClippedBoxes<dim>::is_kept(const PartInside<dim> &part,
+                               const unsigned int     cell) const
+    {
+      return part.volume >= least_fraction * volume_of_box(cell);
+    }
+
+
+
+    /// Cells of this rank or ghosts that share a corner with @p cell; those
+    /// across a periodic face do not.
+    template <int dim>
+    std::vector<unsigned int>
+    ClippedBoxes<dim>::cells_around(const unsigned int cell) const
+    {
+      const Cell<dim>          &own = grid_.cells()[cell];
+      std::vector<unsigned int> known;
+      if (own.uniform)
+        known.assign(own.neighbors.begin(), own.neighbors.end());
+      else
+        known = grid_.touching_cells(cell);
+      std::vector<unsigned int> around;
+      for (const unsigned int c : known)
+        {
+          if (c == numbers::invalid_unsigned_int)
+            continue;
+          const Cell<dim> &other   = grid_.cells()[c];
+          const double     epsilon = 1e-6 * own.size;
+          bool             touches = true;
+          for (unsigned int d = 0; d < dim; ++d)
+            touches = touches &&
+                      other.lower[d] <= own.lower[d] + own.size + epsilon &&
+                      own.lower[d] <= other.lower[d] + other.size + epsilon;
+          if (touches)
+            around.push_back(c);
+        }
+      return around;
+    }
+
+
+
+    /// Cell and box; invalid_unsigned_int if there is none. Of two that are as
+    /// near the one in the cell with the smaller key, which does not depend on
+    /// the ranks.
+    template <int dim>
+    std::pair<unsigned int, unsigned int>
+    ClippedBoxes<dim>::nearest_kept(const Point<dim>  &x,
+                                    const unsigned int cell) const
+    {
+      using Rank = std::tuple<double, unsigned long, unsigned int>;
+      Rank                                  least;
+      std::pair<unsigned int, unsigned int> nearest{
+        numbers::invalid_unsigned_int, 0};
+      for (const unsigned int c : cells_around(cell))
+        if (const auto parts = parts_.find(c); parts != parts_.end())
+          for (unsigned int i = 0; i < parts->second.size(); ++i)
+            if (const auto &part = parts->second[i]; is_kept(part, c))
+              {
+                const Rank rank(part.centroid.distance_square(x),
+                                grid_.key_of_cell(c),
+                                i);
+                if (nearest.first == numbers::invalid_unsigned_int ||
+                    rank < least)
+                  {
+                    least   = rank;
+                    nearest = {c, i};
+                  }
+              }
+      return nearest;
+    }
+
+
+
+    /// By the rank that gets them; what is taken is no longer there. A sliver
+    /// with no kept neighbour stays.
+    template <int dim>
+    std::map<unsigned int, std::vector<Gift<dim>>>
+    ClippedBoxes<dim>::take_slivers()
+    {
+      std::map<unsigned int, std::vector<Gift<dim>>> gifts;
+      for (auto &[cell, parts] : parts_)
+        for (unsigned int i = 0; i < parts.size(); ++i)
+          {
+            PartInside<dim> &part = parts[i];
+            if (cell >= grid_.n_owned_cells() || part.volume == 0. ||
+                is_kept(part, cell))
+              continue;
+            const auto [to_cell, to_box] = nearest_kept(part.centroid, cell);
+            if (to_cell == numbers::invalid_unsigned_int)
+              continue;
+            Gift<dim> gift;
+            gift.first = {
+              {grid_.key_of_cell(to_cell), to_box, grid_.key_of_cell(cell), i}};
+            gift.second = {{part.volume}};
+            for (unsigned int d = 0; d < dim; ++d)
+              gift.second[d + 1] = part.volume * part.centroid[d];
+            gifts[grid_.owner_of_cell(to_cell)].push_back(gift);
+            part.volume = 0.;
+          }
+      return gifts;
+    }
+
+
+
+    /// The owner of a sliver knows all cells around it and decides, so that
+    /// nobody need know what lies beyond the ghosts.
+    template <int dim>
+    void
+    ClippedBoxes<dim>::merge_slivers()
+    {
+      std::vector<Gift<dim>> received;
+      for (const auto &[rank, gifts] :
+           Utilities::MPI::some_to_some(grid_.communicator(), take_slivers()))
+        received.insert(received.end(), gifts.begin(), gifts.end());
+      std::sort(received.begin(), received.end());
+      for (const auto &[names, numbers] : received)
+        {
+          PartInside<dim> &part =
+            parts_.at(grid_.cell_of_key(names[0]))[names[1]];
+          const double volume = part.volume + numbers[0];
+          for (unsigned int d = 0; d < dim; ++d)
+            part.centroid[d] =
+              (part.volume * part.centroid[d] + numbers[d + 1]) / volume;
+          part.volume = volume;
+        }
+    }
+
+
+
+    template <int dim>
+    std::vector<NewPoint<dim>>
+    ClippedBoxes<dim>::points() const
+    {
+      std::vector<NewPoint<dim>> result;
+      for (const auto &[c, parts] : parts_)
+        {
+          if (c >= grid_.n_owned_cells())
+            break;
+          const Cell<dim>     &cell    = grid_.cells()[c];
+          const auto           centres = lattice_of<dim>(cell, n_);
+          const Tensor<1, dim> length  = lattice_lengths<dim>(cell, n_);
+          for (unsigned int i = 0; i < parts.size(); ++i)
+            {
+              const double fraction = parts[i].volume / volume_of_box(c);
+              if (fraction == 0.)
+                continue;
+              if (std::abs(fraction - 1.) < 1e-12)
+                result.push_back({centres[i], length});
+              else
+                result.push_back(
+                  {parts[i].centroid, std::pow(fraction, 1. / dim) * length});
+            }
+        }
+      return result;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<NewPoint<dim>>
+  clipped_filling(const Grid<dim>                     &grid,
+                  const Region<dim>                   &region,
+                  const Box<dim>                      &bounds,
+                  const std::array<unsigned int, dim> &n)
+  {
+    ClippedBoxes<dim> boxes(grid, region, bounds, n);
+    boxes.merge_slivers();
+    return boxes.points();
+  }
+
+
+
+#define INSTANTIATE(dim)                                       \
+  template std::vector<NewPoint<dim>> filling_by_centres<dim>( \
+    const Grid<dim> &,                                         \
+    const Region<dim> &,                                       \
+    const Box<dim> &,                                          \
+    const std::array<unsigned int, dim> &);                    \
+  template std::vector<NewPoint<dim>> clipped_filling<dim>(    \
+    const Grid<dim> &,                                         \
+    const Region<dim> &,                                       \
+    const Box<dim> &,                                          \
+    const std::array<unsigned int, dim> &)
+
+  INSTANTIATE(2);
+  INSTANTIATE(3);
+} // namespace talus
