@@ -33,6 +33,18 @@ namespace talus
 
 
   template <int dim>
+  std::vector<const Shape<dim> *>
+  Obstacles<dim>::shapes() const
+  {
+    std::vector<const Shape<dim> *> result;
+    for (const auto &obstacle : obstacles_)
+      result.push_back(&obstacle->shape());
+    return result;
+  }
+
+
+
+  template <int dim>
   double
   Obstacles<dim>::signed_distance(const Point<dim> &x) const
   {

@@ -87,7 +87,8 @@ namespace talus
         const InitialState<dim>  &initial  = bodies_[b]->initial_state();
         const unsigned int        begin    = points.size();
         initial.check(material);
-        bodies_[b]->create_points(state.grid, b, material.density(), points);
+        bodies_[b]->create_points(
+          state.grid, b, material.density(), points, obstacles.shapes());
         // At t = 0; set_velocity() sets it anew where it belongs to half a step
         // before.
         initial.set_velocity(points, b, 0., constants_);

@@ -43,6 +43,10 @@ namespace talus
       return *obstacles_[k];
     }
 
+    /// Their shapes, where they are at the start.
+    std::vector<const Shape<dim> *>
+    shapes() const;
+
     /// Distance of @p x from the nearest surface, m; negative inside an
     /// obstacle.
     double
