@@ -106,8 +106,10 @@ namespace talus
           impulse.effective_mass > 0)
         {
           const ContactFacet<dim> &facet = facets_.owned()[c];
+          // In halves, since a double does not hold all digits of a key.
           rows.insert(rows.end(),
-                      {double(facet.key),
+                      {double(facet.key >> 32),
+                       double(facet.key & 0xffffffff),
                        double(facet.obstacle),
                        impulse.normal,
                        impulse.effective_mass});
@@ -123,17 +125,18 @@ namespace talus
   void
   FacetContact<dim>::take_impulses(const std::vector<double> &rows)
   {
-    std::map<std::pair<double, double>, FacetImpulse<dim>> by_key;
+    std::map<std::array<double, 3>, FacetImpulse<dim>> by_key;
     for (std::size_t r = 0; r < rows.size(); r += n_columns)
-      by_key[{rows[r], rows[r + 1]}] = {rows[r + 2],
-                                        vector_at<dim>(rows, r + 4),
-                                        rows[r + 3]};
+      by_key[{{rows[r], rows[r + 1], rows[r + 2]}}] = {
+        rows[r + 3], vector_at<dim>(rows, r + 5), rows[r + 4]};
     impulses_.assign(facets_.owned().size(), {});
     for (unsigned int c = 0; c < impulses_.size(); ++c)
       {
         const ContactFacet<dim> &facet = facets_.owned()[c];
         if (const auto found =
-              by_key.find({double(facet.key), double(facet.obstacle)});
+              by_key.find({{double(facet.key >> 32),
+                            double(facet.key & 0xffffffff),
+                            double(facet.obstacle)}});
             found != by_key.end())
           impulses_[c] = found->second;
       }
@@ -734,7 +737,7 @@ namespace talus
     for (unsigned int k = 0; k < obstacles_.size(); ++k)
       reactions_[k].list_state("obstacle " + obstacles_[k].name(), list);
     list.add_table({"facet impulses",
-                    "key of the cell; obstacle; normal impulse [N s]; "
+                    "key of the cell: upper and lower 32 bits; obstacle; normal impulse [N s]; "
                     "effective mass [kg]; friction impulse [N s]",
                     n_columns,
                     [this]() { return rows_of_impulses(); },

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <set>
 
 namespace talus
 {
@@ -180,16 +179,23 @@ namespace talus
                    const Obstacles<dim> &obstacles,
                    const unsigned int    c)
   {
+    // Points may dip half a cell below a surface, and reach one more.
+    const Cell<dim> &cell     = grid.cells()[c];
+    const double     distance = obstacles.signed_distance(centre_of(cell));
+    if (distance <= 0 && distance > -2. * std::sqrt(double(dim)) * cell.size)
+      cells_inside_.insert(c);
+    else
+      cells_inside_.erase(c);
+
     std::vector<ContactFacet<dim>> facets = facets_in(grid, obstacles, c);
     if (facets.empty())
       {
         cut_cells_.erase(c);
         return;
       }
-    const Cell<dim> &cell    = grid.cells()[c];
-    CutCell         &result  = cut_cells_[c];
-    result.facets            = std::move(facets);
-    result.open_volume       = open_shape_integrals<dim>(
+    CutCell &result    = cut_cells_[c];
+    result.facets      = std::move(facets);
+    result.open_volume = open_shape_integrals<dim>(
       box_of(cell),
       [&](const Point<dim> &x) { return obstacles.signed_distance(x); });
     result.touching = cells_around(grid, cell, 1);
@@ -203,6 +209,7 @@ namespace talus
   Facets<dim>::prepare(const Grid<dim> &grid, const Obstacles<dim> &obstacles)
   {
     cut_cells_.clear();
+    cells_inside_.clear();
     clear_sums();
     n_facets_.assign(grid.n_nodes(), 0);
     open_volume_.assign(grid.n_nodes(), 0.);
@@ -317,11 +324,13 @@ namespace talus
       }
     for (const unsigned int c : touching)
       add_open_volume(grid, obstacles, c);
+    for (const unsigned int c : cells_inside_)
+      find_nodes_inside(grid, obstacles, c);
   }
 
 
 
-  /// What cell @p c has of it, and those of its nodes that lie inside.
+  /// What cell @p c has of it.
   template <int dim>
   void
   Facets<dim>::add_open_volume(const Grid<dim>      &grid,
@@ -340,9 +349,24 @@ namespace talus
       if (n_facets_[nodes[v]] > 0)
         open_volume_[nodes[v]] +=
           (is_cut ? cut_cell->second.open_volume[v] : uncut);
-      else if (const Point<dim> x = place_of_node(cell, v);
-               !is_contact_node_[nodes[v]] &&
-               obstacles.signed_distance(x) <= 0)
+  }
+
+
+
+  // By distances, which all ranks agree on: the owner of such a node need not
+  // know the cut cell that it is beside.
+  /// Those of cell @p c that lie inside of an obstacle and touch no facet.
+  template <int dim>
+  void
+  Facets<dim>::find_nodes_inside(const Grid<dim>      &grid,
+                                 const Obstacles<dim> &obstacles,
+                                 const unsigned int    c)
+  {
+    const Cell<dim> &cell  = grid.cells()[c];
+    const auto       nodes = nodes_of(cell);
+    for (unsigned int v = 0; v < nodes.size(); ++v)
+      if (const Point<dim> x = place_of_node(cell, v);
+          !is_contact_node_[nodes[v]] && obstacles.signed_distance(x) <= 0)
         {
           is_contact_node_[nodes[v]] = 1;
           flagged_inside_.push_back(nodes[v]);

@@ -100,9 +100,9 @@ namespace talus
       double area        = 0;     ///< in contact, m^(dim-1)
     };
 
-    // Impulses of facets as rows of numbers: key of the cell, obstacle, and
-    // those of FacetImpulse.
-    static constexpr unsigned int n_columns = 4 + dim;
+    // Impulses of facets as rows of numbers: key of the cell (two), obstacle,
+    // and those of FacetImpulse.
+    static constexpr unsigned int n_columns = 5 + dim;
     std::vector<double>
     rows_of_impulses() const;
     void

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <map>
+#include <set>
 #include <vector>
 
 namespace talus
@@ -136,7 +137,13 @@ namespace talus
                     const Obstacles<dim> &obstacles,
                     unsigned int          c);
 
-    std::map<unsigned int, CutCell> cut_cells_; ///< ghosts, too
+    void
+    find_nodes_inside(const Grid<dim>      &grid,
+                      const Obstacles<dim> &obstacles,
+                      unsigned int          c);
+
+    std::map<unsigned int, CutCell> cut_cells_;    ///< ghosts, too
+    std::set<unsigned int>          cells_inside_; ///< beside surfaces
     std::vector<unsigned int>       near_cells_;
     std::vector<ContactFacet<dim>>         owned_;
     std::vector<unsigned int>       owned_nodes_, nodes_;
