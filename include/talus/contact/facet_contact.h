@@ -23,8 +23,7 @@ namespace talus
 
 
   /// One-sided contact with friction between soil and obstacles whose surfaces
-  /// lie anywhere in the mesh. @cite alart1991 is the contact law,
-  /// @cite tonge2012 mass splitting.
+  /// lie anywhere in the mesh.
   ///
   /// Each facet is a constraint on the mean velocity of the soil at its contact
   /// point: it must not enter the obstacle. The impulses of all facets are found
