@@ -210,6 +210,17 @@ class Triggered(KillAndResume):
         self.settings = [*self.settings, f"Ground motion/File={record}"]
 
 
+class SlideOverObstacles(KillAndResume):
+    """A seabed through a mesh that changes, and a pipe that moves."""
+
+    N_KILLS = 5
+    file = "landslide-inclined.prm"
+    settings = SETTINGS + ["Mesh tracking/Enabled=true",
+                           "Mesh tracking/Margin=6",
+                           "Mesh tracking/Interval=50",
+                           "Obstacles/bed/Velocity=0.02*t; 0"]
+
+
 class DrivenAndDamped(KillAndResume):
     """Soil that the bottom drives, under growing gravity, with damping, on a
     mesh that changes."""

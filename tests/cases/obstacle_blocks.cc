@@ -263,11 +263,6 @@ TEST(BlockOnPlane, In3d)
     {
       Overrides settings = block_on(angle, 20);
       settings.back() += ",0";
-      settings          = settings + Overrides{"Dimension=3",
-                                      "Grid/Lower corner=-2,-10,-1",
-                                      "Grid/Upper corner=10,2,2",
-                                      "Bodies/block/Extent in z=0,1",
-                                      "Obstacles/plane/Point=0,0,0"};
       const double sine = std::sin(20 * degree), cosine = std::cos(20 * degree);
       const auto   measured = [&](const Overrides &more) {
         return acceleration(run<3>("block-on-plane-3d.prm",

@@ -59,11 +59,18 @@ class Runs(unittest.TestCase):
         self.assertEqual(result.stderr, "")
         return read_table(self.folder / name / "statistics.csv")
 
+    def forces(self, name):
+        return read_table(self.folder / name / "obstacles.csv")
+
     def assert_same(self, found, expected, tolerance=1e-9):
         """All columns, each relative to its largest value; what measures
-        round-off, relative to what it is the round-off of."""
+        round-off, relative to what it is the round-off of. Forces on
+        obstacles relative to the largest force."""
         self.assertEqual(list(found), list(expected))
-        self.assertGreater(len(expected["step"]), 1)
+        self.assertGreater(len(expected["time [s]"]), 1)
+        largest_force = max([0] + [largest(values)
+                                   for name, values in expected.items()
+                                   if name.endswith("[N]")])
         for name, values in expected.items():
             self.assertEqual(len(found[name]), len(values))
             scale = largest(values)
@@ -72,6 +79,8 @@ class Runs(unittest.TestCase):
                 continue
             if name == "energy remainder [J]":
                 scale = largest(expected["gravity work [J]"])
+            if name.endswith("[N]"):
+                scale = largest_force
             error = largest(a - b for a, b in zip(found[name], values))
             self.assertLessEqual(error, tolerance * scale, name)
 
@@ -120,6 +129,25 @@ class Ranks(Runs):
             self.assertGreaterEqual(n_meshes, 3)
             # More often than the mesh changed: for the balance alone, too.
             self.assertGreater(n_shares, max(3, n_meshes))
+
+    def test_obstacles(self):
+        """A seabed through a mesh that changes; a pipe that moves."""
+        slide = "landslide-inclined.prm"
+        alone = self.run_on(1, SLIDE + TERSE, slide, name="uniform")
+        settings = SLIDE + TRACKING + BALANCE + TERSE
+        forces = [self.forces("uniform")]
+        for n_ranks in (1, 3):
+            self.assert_same(self.run_on(n_ranks, settings, slide), alone)
+            forces.append(self.forces(f"ranks-{n_ranks}"))
+            self.assert_same(forces[-1], forces[0])
+        _, n_shares = self.changes("ranks-3")
+        self.assertGreaterEqual(n_shares, 3)
+
+        pipe = "verification/pipe.prm"
+        settings = ["End time=0.8"] + BALANCE + TERSE
+        alone = self.run_on(1, settings, pipe, name="pipe-1")
+        self.assert_same(self.run_on(2, settings, pipe, name="pipe-2"), alone)
+        self.assert_same(self.forces("pipe-2"), self.forces("pipe-1"))
 
     def test_three_dimensions(self):
         settings = ["Grid/Cell size=1.6", "Grid/Upper corner=280,8,6.4",
