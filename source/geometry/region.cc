@@ -155,6 +155,45 @@ namespace talus
 
 
 
+  /// The mean of the squares over a simplex is known from its corners.
+  template <int dim>
+  void
+  Region<dim>::Sum::add(const Simplex<dim> &simplex)
+  {
+    const double part = talus::volume<dim>(simplex);
+    volume += part;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        double sum = 0., squares = 0.;
+        for (const Point<dim> &corner : simplex)
+          {
+            const double x = corner[d] - origin[d];
+            sum += x;
+            squares += x * x;
+          }
+        first[d] += part / (dim + 1) * sum;
+        second[d] += part / ((dim + 1) * (dim + 2)) * (squares + sum * sum);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Region<dim>::Sum::add(const Box<dim> &box)
+  {
+    const double part = volume_of(box);
+    volume += part;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double x = centre_of(box)[d] - origin[d], length = box.length(d);
+        first[d] += part * x;
+        second[d] += part * (x * x + length * length / 12.);
+      }
+  }
+
+
+
   /// @p depth says how often the box was halved.
   template <int dim>
   void
@@ -166,13 +205,13 @@ namespace talus
     if (!keep_those_that_cut(box, limits))
       return;
     if (limits.empty())
-      sum.add(volume_of(box), centre_of(box));
+      sum.add(box);
     else if (depth == largest_depth<dim> ||
              (depth >= least_depth && are_linear(box, limits, sum.tolerance)))
       {
         for (const Simplex<dim> &simplex : simplices_of(box))
           for (const auto &part : clip(simplex, limits, 1e-6 * sum.tolerance))
-            sum.add(volume<dim>(part), centroid<dim>(part));
+            sum.add(part);
       }
     else
       for (unsigned int v = 0; v < (1u << dim); ++v)
@@ -191,15 +230,27 @@ namespace talus
   PartInside<dim>
   Region<dim>::part_inside(const Box<dim> &box) const
   {
-    Sum sum{centre_of(box), 1e-3 * box.lower.distance(box.upper), 0., {}};
+    Sum sum;
+    sum.origin    = centre_of(box);
+    sum.tolerance = 1e-3 * box.lower.distance(box.upper);
     add_part(box, limits_, 0, sum);
     // Round-off is neither a sliver nor a hole.
     const double whole = volume_of(box);
     if (sum.volume <= 1e-12 * whole)
       return {};
-    if (sum.volume >= (1. - 1e-12) * whole)
-      return {whole, centre_of(box)};
-    return {sum.volume, sum.origin + sum.moment / sum.volume};
+    const bool      is_whole = sum.volume >= (1. - 1e-12) * whole;
+    PartInside<dim> result;
+    result.volume   = is_whole ? whole : sum.volume;
+    result.centroid = sum.origin;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double shift = is_whole ? 0. : sum.first[d] / sum.volume;
+        result.centroid[d] += shift;
+        result.variance[d] = is_whole
+                               ? box.length(d) * box.length(d) / 12.
+                               : sum.second[d] / sum.volume - shift * shift;
+      }
+    return result;
   }
 
 

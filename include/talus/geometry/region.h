@@ -15,6 +15,9 @@ namespace talus
   {
     double             volume = 0.; ///< m^dim
     dealii::Point<dim> centroid;    ///< if the volume is not 0
+    /// Mean square of the distance from the centroid along each axis, m^2: a
+    /// twelfth of that of the length if the part is a box.
+    dealii::Tensor<1, dim> variance;
   };
 
 
@@ -78,20 +81,18 @@ namespace talus
 
     using Limits = std::vector<Limit>;
 
-    /// Sum of what was found so far, moments about a place.
+    /// Moments of what was found so far, about a place near it.
     struct Sum
     {
       void
-      add(const double part, const dealii::Point<dim> &centroid)
-      {
-        volume += part;
-        moment += part * (centroid - origin);
-      }
+      add(const Simplex<dim> &simplex);
+      void
+      add(const Box<dim> &box);
 
       dealii::Point<dim>     origin;
       double                 tolerance; ///< of distances, m
       double                 volume = 0.;
-      dealii::Tensor<1, dim> moment;
+      dealii::Tensor<1, dim> first, second;
     };
 
     static bool

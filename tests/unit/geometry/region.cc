@@ -272,6 +272,24 @@ namespace
 
 
 
+  // The mean square distance from the centroid of a triangle with a right angle
+  // is leg^2/18 along either leg.
+  TEST(Region, Variance)
+  {
+    const HalfSpace<2> slope(Point<2>(1., 0.), Point<2>(1., 1.));
+    const Box<2>       unit{Point<2>(0., 0.), Point<2>(1., 1.)};
+    const auto         half = Region<2>(slope).part_inside(unit);
+    EXPECT_NEAR(half.volume, 0.5, 1e-15);
+    EXPECT_LT((half.variance - Point<2>(1., 1.) / 18.).norm(), 1e-15);
+    const HalfSpace<3> above(Point<3>(0., 0.3, 0.), Point<3>(0., -1., 0.));
+    const auto         part = Region<3>(above).part_inside(
+      {Point<3>(0., 0., 0.), Point<3>(1., 1., 2.)});
+    EXPECT_LT((part.variance - Point<3>(1., 0.49, 4.) / 12.).norm(), 1e-14);
+    EXPECT_LT(part.centroid.distance(Point<3>(0.5, 0.65, 1.)), 1e-14);
+  }
+
+
+
   TEST(Region, ContainsAndDistance)
   {
     const Ball<2>      disc(Point<2>(), 1.);
