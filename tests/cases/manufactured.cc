@@ -324,15 +324,29 @@ TEST(Vortex, AtLeastFirstOrder)
 
 
 
+/// Order from the coarsest to the finest mesh, each of half the cell size.
+double
+mean_order(const Refinement &refinement)
+{
+  const std::vector<double> &errors = refinement.errors();
+  return std::log2(errors.front() / errors.back()) / (errors.size() - 1.);
+}
+
+
+
 // Edges that move, do not fit the cells, and carry the condition that there is
-// no stress: what is measured is how the body ends.
+// no stress: what is measured is how the body ends. The mean order, since by
+// centres the error goes up and down with the mass.
 TEST(ExpandingRing, ClippedAtLeastFirstOrder)
 {
-  hold_order("Expanding ring, clipped filling, 16 to 128 cells",
-             ring.file,
-             wallstedt,
-             refine("ring", ring, {16, 32, 64, 128}),
-             1.);
+  const auto result = refine("ring", ring, {16, 32, 64, 128});
+  Verification("Expanding ring, clipped filling, 16 to 128 cells",
+               "prm/" + ring.file,
+               wallstedt)
+    .at_least("mean order of the displacement; errors [m] " + result.list(),
+              mean_order(result),
+              1.,
+              "1 to 2");
 }
 
 
@@ -344,7 +358,7 @@ TEST(ExpandingRing, ByCentresBelowFirstOrder)
     refine("ring-by-centres", ring, {16, 32, 64, 128}, [](unsigned int) {
       return Overrides{"Bodies/ring/Filling=centres"};
     });
-  EXPECT_LT(result.least_order(), 1.);
+  EXPECT_LT(mean_order(result), 0.8);
 }
 
 
