@@ -25,7 +25,8 @@ from verification_plots import draw_all
 SECTIONS = [
     ("The bar of the paper", ["Bar", "BarConvergence"]),
     ("Manufactured solutions",
-     ["ManufacturedBar", "Manufactured2d", "Manufactured3d", "Vortex"]),
+     ["ManufacturedBar", "Manufactured2d", "Manufactured3d", "Vortex",
+      "ExpandingRing"]),
     ("Elasticity", ["Discs", "SelfWeightColumn", "ElasticaLoads", "Elastica"]),
     ("Bending and hanging: convected domains", ["Cantilever", "HangingCube"]),
     ("Strength: one point", ["OnePoint"]),

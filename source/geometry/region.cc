@@ -10,6 +10,38 @@ namespace talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    // How often a box is halved.
+    constexpr unsigned int least_depth = 2;
+
+    template <int dim>
+    constexpr unsigned int largest_depth = (dim == 2 ? 6 : 4);
+
+
+
+    template <int dim>
+    Point<dim>
+    centre_of(const Box<dim> &box)
+    {
+      return box.lower + 0.5 * (box.upper - box.lower);
+    }
+
+
+
+    template <int dim>
+    double
+    volume_of(const Box<dim> &box)
+    {
+      double volume = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        volume *= box.length(d);
+      return volume;
+    }
+  } // namespace
+
+
+
   template <int dim>
   bool
   Region<dim>::contains(const Point<dim> &x) const
@@ -44,7 +76,7 @@ namespace talus
   bool
   Region<dim>::keep_those_that_cut(const Box<dim> &box, Limits &limits)
   {
-    const Point<dim> centre = box.lower + 0.5 * (box.upper - box.lower);
+    const Point<dim> centre = centre_of(box);
     const double     radius = 0.5 * box.lower.distance(box.upper);
     Limits           cutting;
     for (const Limit &limit : limits)
@@ -95,78 +127,130 @@ namespace talus
 
 
 
-  namespace
+  /// Whether the distance at the centre is the mean of those at the corners:
+  /// where a surface is curved or has a corner, and where two surfaces are near,
+  /// it is not.
+  template <int dim>
+  bool
+  Region<dim>::are_linear(const Box<dim> &box,
+                          const Limits   &limits,
+                          const double    tolerance)
   {
-    /// Box number @p i of the @p n^dim that tile @p box, the first axis
-    /// fastest.
-    template <int dim>
-    Box<dim>
-    part_of(const Box<dim> &box, unsigned int i, const unsigned int n)
-    {
-      Box<dim> part;
-      for (unsigned int d = 0; d < dim; ++d, i /= n)
+    for (const Limit &limit : limits)
+      {
+        double mean = 0.;
+        for (unsigned int v = 0; v < (1u << dim); ++v)
+          {
+            Point<dim> corner = box.lower;
+            for (unsigned int d = 0; d < dim; ++d)
+              if ((v >> d) & 1)
+                corner[d] = box.upper[d];
+            mean += limit.signed_distance(corner) / (1u << dim);
+          }
+        if (std::abs(limit.signed_distance(centre_of(box)) - mean) > tolerance)
+          return false;
+      }
+    return true;
+  }
+
+
+
+  /// The mean of the squares over a simplex is known from its corners.
+  template <int dim>
+  void
+  Region<dim>::Sum::add(const Simplex<dim> &simplex)
+  {
+    const double part = talus::volume<dim>(simplex);
+    volume += part;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        double sum = 0., squares = 0.;
+        for (const Point<dim> &corner : simplex)
+          {
+            const double x = corner[d] - origin[d];
+            sum += x;
+            squares += x * x;
+          }
+        first[d] += part / (dim + 1) * sum;
+        second[d] += part / ((dim + 1) * (dim + 2)) * (squares + sum * sum);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Region<dim>::Sum::add(const Box<dim> &box)
+  {
+    const double part = volume_of(box);
+    volume += part;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double x = centre_of(box)[d] - origin[d], length = box.length(d);
+        first[d] += part * x;
+        second[d] += part * (x * x + length * length / 12.);
+      }
+  }
+
+
+
+  /// @p depth says how often the box was halved.
+  template <int dim>
+  void
+  Region<dim>::add_part(const Box<dim>    &box,
+                        Limits             limits,
+                        const unsigned int depth,
+                        Sum               &sum)
+  {
+    if (!keep_those_that_cut(box, limits))
+      return;
+    if (limits.empty())
+      sum.add(box);
+    else if (depth == largest_depth<dim> ||
+             (depth >= least_depth && are_linear(box, limits, sum.tolerance)))
+      {
+        for (const Simplex<dim> &simplex : simplices_of(box))
+          for (const auto &part : clip(simplex, limits, 1e-6 * sum.tolerance))
+            sum.add(part);
+      }
+    else
+      for (unsigned int v = 0; v < (1u << dim); ++v)
         {
-          part.lower[d] = box.lower[d] + i % n * box.length(d) / n;
-          part.upper[d] = box.lower[d] + (i % n + 1) * box.length(d) / n;
+          Box<dim>         half   = box;
+          const Point<dim> centre = centre_of(box);
+          for (unsigned int d = 0; d < dim; ++d)
+            ((v >> d) & 1 ? half.lower : half.upper)[d] = centre[d];
+          add_part(half, limits, depth + 1, sum);
         }
-      return part;
-    }
-
-
-
-    template <int dim>
-    double
-    volume_of(const Box<dim> &box)
-    {
-      double volume = 1.;
-      for (unsigned int d = 0; d < dim; ++d)
-        volume *= box.length(d);
-      return volume;
-    }
-  } // namespace
+  }
 
 
 
   template <int dim>
   PartInside<dim>
-  Region<dim>::part_inside(const Box<dim> &box, const unsigned int n) const
+  Region<dim>::part_inside(const Box<dim> &box) const
   {
-    const Point<dim> centre = box.lower + 0.5 * (box.upper - box.lower);
-    const double     whole  = volume_of(box);
-    Limits           near   = limits_;
-    if (!keep_those_that_cut(box, near))
-      return {};
-    if (near.empty())
-      return {whole, centre};
-
-    double         volume_inside = 0.;
-    Tensor<1, dim> moment; // about the centre
-    const auto     add = [&](const double volume, const Point<dim> &centroid) {
-      volume_inside += volume;
-      moment += volume * (centroid - centre);
-    };
-    const double tolerance = 1e-9 * box.lower.distance(box.upper);
-    for (unsigned int i = 0; i < std::pow(n, dim); ++i)
-      {
-        const Box<dim> part    = part_of(box, i, n);
-        Limits         cutting = near;
-        if (!keep_those_that_cut(part, cutting))
-          continue;
-        if (cutting.empty())
-          {
-            add(volume_of(part), part.lower + 0.5 * (part.upper - part.lower));
-            continue;
-          }
-        for (const Simplex<dim> &simplex : simplices_of(part))
-          for (const auto &inside : clip(simplex, cutting, tolerance))
-            add(volume<dim>(inside), centroid<dim>(inside));
-      }
+    Sum sum;
+    sum.origin    = centre_of(box);
+    sum.tolerance = 1e-3 * box.lower.distance(box.upper);
+    add_part(box, limits_, 0, sum);
     // Round-off is neither a sliver nor a hole.
-    if (volume_inside <= 1e-12 * whole)
+    const double whole = volume_of(box);
+    if (sum.volume <= 1e-12 * whole)
       return {};
-    if (volume_inside >= (1. - 1e-12) * whole)
-      return {whole, centre};
-    return {volume_inside, centre + moment / volume_inside};
+    const bool      is_whole = sum.volume >= (1. - 1e-12) * whole;
+    PartInside<dim> result;
+    result.volume   = is_whole ? whole : sum.volume;
+    result.centroid = sum.origin;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const double shift = is_whole ? 0. : sum.first[d] / sum.volume;
+        result.centroid[d] += shift;
+        result.variance[d] = is_whole
+                               ? box.length(d) * box.length(d) / 12.
+                               : sum.second[d] / sum.volume - shift * shift;
+      }
+    return result;
   }
 
 

@@ -100,11 +100,11 @@ namespace talus
   namespace
   {
     /// What is given to a box: cell and box that get it, cell and box that give
-    /// it, cells by the keys that all ranks know them by; volume, m^dim, and
-    /// its moment. Sorted, they are in the same order for any number of ranks.
+    /// it, cells by the keys that all ranks know them by; volume, m^dim,
+    /// centroid and variance. Sorted, they are in the same order for any number of ranks.
     template <int dim>
     using Gift =
-      std::pair<std::array<unsigned long, 4>, std::array<double, dim + 1>>;
+      std::pair<std::array<unsigned long, 4>, std::array<double, 1 + 2 * dim>>;
 
 
 
@@ -301,7 +301,10 @@ namespace talus
               {grid_.key_of_cell(to_cell), to_box, grid_.key_of_cell(cell), i}};
             gift.second = {{part.volume}};
             for (unsigned int d = 0; d < dim; ++d)
-              gift.second[d + 1] = part.volume * part.centroid[d];
+              {
+                gift.second[1 + d]       = part.centroid[d];
+                gift.second[1 + dim + d] = part.variance[d];
+              }
             gifts[grid_.owner_of_cell(to_cell)].push_back(gift);
             part.volume = 0.;
           }
@@ -325,12 +328,38 @@ namespace talus
         {
           PartInside<dim> &part =
             parts_.at(grid_.cell_of_key(names[0]))[names[1]];
-          const double volume = part.volume + numbers[0];
+          // Steiner: the variance of two parts is theirs and that of their
+          // centroids.
+          const double share = numbers[0] / (part.volume + numbers[0]);
           for (unsigned int d = 0; d < dim; ++d)
-            part.centroid[d] =
-              (part.volume * part.centroid[d] + numbers[d + 1]) / volume;
-          part.volume = volume;
+            {
+              const double distance = numbers[1 + d] - part.centroid[d];
+              part.centroid[d] += share * distance;
+              part.variance[d] +=
+                share * (numbers[1 + dim + d] - part.variance[d]) +
+                share * (1. - share) * distance * distance;
+            }
+          part.volume += numbers[0];
         }
+    }
+
+
+
+    /// Those of a box with the volume and the ratios of the second moments of
+    /// @p part. What is cut along an axis keeps its other lengths, so that soil
+    /// that ends on a plane across an axis is tiled as before.
+    template <int dim>
+    Tensor<1, dim>
+    lengths_of(const PartInside<dim> &part)
+    {
+      Tensor<1, dim> length;
+      double         product = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          length[d] = std::sqrt(part.variance[d]);
+          product *= length[d];
+        }
+      return std::pow(part.volume / product, 1. / dim) * length;
     }
 
 
@@ -349,14 +378,11 @@ namespace talus
           const Tensor<1, dim> length  = lattice_lengths<dim>(cell, n_);
           for (unsigned int i = 0; i < parts.size(); ++i)
             {
-              const double fraction = parts[i].volume / volume_of_box(c);
-              if (fraction == 0.)
-                continue;
-              if (std::abs(fraction - 1.) < 1e-12)
+              const double volume = parts[i].volume, whole = volume_of_box(c);
+              if (std::abs(volume - whole) <= 1e-12 * whole)
                 result.push_back({centres[i], length});
-              else
-                result.push_back(
-                  {parts[i].centroid, std::pow(fraction, 1. / dim) * length});
+              else if (volume > 0.)
+                result.push_back({parts[i].centroid, lengths_of(parts[i])});
             }
         }
       return result;

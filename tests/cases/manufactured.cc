@@ -160,6 +160,20 @@ namespace
 
   const Manufactured<2> vortex = vortex_of(0.1);
 
+  const Manufactured<2> ring = {"verification/expanding-ring.prm",
+                                1.6,
+                                100.,
+                                0.02,
+                                [](const Point<2> &X, const double t) {
+                                  const double a = 0.4, b = 0.6, R = X.norm();
+                                  const double u =
+                                    0.05 * std::sin(100. * M_PI * t) * 6. /
+                                    (b * b * (3. * a - b)) *
+                                    (R * R * R / 3. - 0.5 * (a + b) * R * R +
+                                     a * b * R);
+                                  return Tensor<1, 2>(u / R * X);
+                                }};
+
   /// Every point splits once where it is stretched by 1 per cent.
   const Overrides forced_splits = {"Splitting/Enabled=true",
                                    "Splitting/Threshold=1.01",
@@ -306,6 +320,45 @@ TEST(Vortex, AtLeastFirstOrder)
              brannon,
              refine("vortex", vortex, {24, 48, 96}),
              1.);
+}
+
+
+
+/// Order from the coarsest to the finest mesh, each of half the cell size.
+double
+mean_order(const Refinement &refinement)
+{
+  const std::vector<double> &errors = refinement.errors();
+  return std::log2(errors.front() / errors.back()) / (errors.size() - 1.);
+}
+
+
+
+// Edges that move, do not fit the cells, and carry the condition that there is
+// no stress: what is measured is how the body ends. The mean order, since by
+// centres the error goes up and down with the mass.
+TEST(ExpandingRing, ClippedAtLeastFirstOrder)
+{
+  const auto result = refine("ring", ring, {16, 32, 64, 128});
+  Verification("Expanding ring, clipped filling, 16 to 128 cells",
+               "prm/" + ring.file,
+               wallstedt)
+    .at_least("mean order of the displacement; errors [m] " + result.list(),
+              mean_order(result),
+              1.,
+              "1 to 2");
+}
+
+
+
+/// The control: the staircase of whole boxes keeps the order below one.
+TEST(ExpandingRing, ByCentresBelowFirstOrder)
+{
+  const auto result =
+    refine("ring-by-centres", ring, {16, 32, 64, 128}, [](unsigned int) {
+      return Overrides{"Bodies/ring/Filling=centres"};
+    });
+  EXPECT_LT(mean_order(result), 0.8);
 }
 
 

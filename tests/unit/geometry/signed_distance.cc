@@ -21,7 +21,8 @@ namespace
   // Concave, with an acute corner.
   const Vertices corners = {{0., 0.}, {3., 0.}, {3., 2.5}, {1.2, 1.}, {0., 2.}};
   // A slope break, a trench and a run-out that rises a little.
-  const Vertices seabed = {{-1., 2.}, {1., 1.}, {1.2, 0.2}, {2., 0.1}, {3., 0.4}};
+  const Vertices seabed = {
+    {-1., 2.}, {1., 1.}, {1.2, 0.2}, {2., 0.1}, {3., 0.4}};
 
 
 
@@ -98,9 +99,8 @@ namespace
       BoxRegion<3>({Point<3>(0.5, 0., 1.), Point<3>(2., 3., 2.5)}));
     expect_distance(Ball<3>(Point<3>(1., 2., 1.5), 1.5, 0.7));
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    expect_distance(Prism(std::make_unique<Ball<2>>(Point<2>(1., 2.), 1., 0.4),
-                          0.5,
-                          2.));
+    expect_distance(
+      Prism(std::make_unique<Ball<2>>(Point<2>(1., 2.), 1., 0.4), 0.5, 2.));
     expect_distance(Prism(std::make_unique<Ball<2>>(Point<2>(1., 2.), 1.),
                           -infinity,
                           infinity));
@@ -143,7 +143,9 @@ namespace
     const OpenPolygon bed("Vertices", line);
     EXPECT_DOUBLE_EQ(bed.signed_distance(Point<2>(1000., 7.)), 7.);
     EXPECT_DOUBLE_EQ(bed.signed_distance(Point<2>(1000., -7.)), -7.);
-    EXPECT_NEAR(bed.signed_distance(Point<2>(-400. + 3., 303. + 4.)), 5., 1e-12);
+    EXPECT_NEAR(bed.signed_distance(Point<2>(-400. + 3., 303. + 4.)),
+                5.,
+                1e-12);
     EXPECT_NEAR(bed.signed_distance(Point<2>(3., -4.)),
                 -std::hypot(1., 4.),
                 1e-14);

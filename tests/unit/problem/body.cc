@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Bodies filled with points.
 
+#include <talus/geometry/analytic_shapes.h>
 #include <talus/problem/body.h>
 
 #include "core_setup.h"
@@ -203,5 +204,179 @@ namespace
            "leaves nothing of the ball");
     // Neighbours that share a face do not overlap.
     EXPECT_EQ(error<2>({box("0, 0", "2, 2"), box("2, 0", "3, 2")}), "");
+  }
+
+
+
+  const std::string clipped = "set Filling = clipped\n";
+
+  template <int dim>
+  double
+  clipped_volume(const std::string &shape)
+  {
+    WithBodies<dim> all({shape + clipped});
+    all.create();
+    EXPECT_NEAR(all.sum(all.points.mass),
+                density * all.sum(all.points.reference_volume),
+                1e-9);
+    return all.sum(all.points.reference_volume);
+  }
+
+
+
+  // Whole boxes are what they are by centres, to the bit.
+  TEST(ClippedBodies, WholeBoxes)
+  {
+    const std::string shape =
+      box("0, 1, 2", "2, 2, 4") + "set Points per cell and axis = 2, 3, 1\n";
+    WithBodies<3> by_centres({shape});
+    by_centres.create();
+    WithBodies<3> all({shape + clipped});
+    all.create();
+    ASSERT_EQ(all.points.size(), by_centres.points.size());
+    for (unsigned int p = 0; p < all.points.size(); ++p)
+      for (unsigned int array = 0; array < all.points.n_arrays(); ++array)
+        EXPECT_EQ(all.points.data(array)[p], by_centres.points.data(array)[p]);
+  }
+
+
+
+  // Boxes of points of half a metre.
+  TEST(ClippedBodies, VolumeIsThatOfTheShape)
+  {
+    EXPECT_NEAR(clipped_volume<2>(box("0.13, 0.21", "3.17, 3.59")),
+                3.04 * 3.38,
+                1e-4 * 10.);
+    EXPECT_NEAR(clipped_volume<2>(polygon("0,0; 4,0; 0,3.3")),
+                0.5 * 4. * 3.3,
+                1e-4 * 6.);
+    const std::string ball = "set Shape = ball\nset Radius = 1.7\n";
+    EXPECT_NEAR(clipped_volume<2>(ball + "set Centre = 2, 2.1\n"),
+                dealii::numbers::PI * 1.7 * 1.7,
+                1e-3 * 9.);
+    EXPECT_NEAR(clipped_volume<3>(ball + "set Centre = 2, 2.1, 1.9\n"),
+                4. / 3. * dealii::numbers::PI * std::pow(1.7, 3),
+                4e-3 * 20.);
+    EXPECT_NEAR(clipped_volume<3>("set Shape = cylinder\nset Radius = 1.7\n"
+                                  "set Centre = 2, 2, 0\n"
+                                  "set Extent in z = 0.5, 2.3\n"),
+                dealii::numbers::PI * 1.7 * 1.7 * 1.8,
+                1e-2 * 16.);
+  }
+
+
+
+  // What the slivers give goes on: first moments are exact, points keep their
+  // distance, and none is lighter than a fifth of its neighbours.
+  TEST(ClippedBodies, SliversAreMerged)
+  {
+    // The upper row of boxes is a tenth full.
+    WithBodies<2> all({box("0, 0", "4, 1.05") + clipped});
+    all.create();
+    const auto &points = all.points;
+    ASSERT_EQ(points.size(), 8u * 2u);
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const double y = all.get(points.position, p)[1];
+        if (y < 0.5)
+          EXPECT_EQ(points.data(points.reference_volume)[p], 0.25);
+        else
+          {
+            EXPECT_NEAR(y, 0.5 * (0.5 + 1.05), 1e-4);
+            EXPECT_NEAR(points.data(points.reference_volume)[p], 0.275, 1e-4);
+            EXPECT_NEAR(all.get(points.reference_length, p)[0], 0.5, 2e-3);
+            EXPECT_NEAR(all.get(points.reference_length, p)[1], 0.55, 2e-3);
+          }
+      }
+    // A sliver far from everything stays.
+    WithBodies<2> thin({box("0, 0", "4, 0.05") + clipped});
+    thin.create();
+    EXPECT_EQ(thin.points.size(), 8u);
+    EXPECT_NEAR(thin.sum(thin.points.reference_volume), 0.2, 1e-4);
+  }
+
+
+
+  // A slope without end fills the mesh below it.
+  TEST(ClippedBodies, EndAtTheMesh)
+  {
+    EXPECT_NEAR(clipped_volume<2>("set Shape = half-plane\nset Point = 0, 1\n"
+                                  "set Normal = -0.5, 1\n"),
+                4. * 2.,
+                1e-12);
+    EXPECT_NEAR(clipped_volume<3>(polygon("-1,1; 2,1; 4,3") +
+                                  "set Open = true\n"),
+                4. * (2. + 2. * 2.),
+                1e-2);
+  }
+
+
+
+  template <int dim>
+  void
+  fill_down_to(const Shape<dim> &solid, WithBodies<dim> &all)
+  {
+    for (unsigned int b = 0; b < all.bodies.size(); ++b)
+      all.bodies[b]->create_points(all.grid, b, density, all.points, {&solid});
+  }
+
+
+
+  TEST(Bodies, AreFilledDownToObstacles)
+  {
+    const HalfSpace<2> bed(Point<2>(0., 0.5), Point<2>(-0.25, 1.));
+    WithBodies<2>      all({box("0, 0", "4, 2") + clipped});
+    fill_down_to(bed, all);
+    EXPECT_NEAR(all.sum(all.points.reference_volume), 4. * (2. - 1.), 1e-12);
+    for (unsigned int p = 0; p < all.points.size(); ++p)
+      EXPECT_GT(bed.signed_distance(Point<2>(all.get(all.points.position, p))),
+                0.);
+
+    WithBodies<2> by_centres({box("0, 0", "4, 2")});
+    fill_down_to(bed, by_centres);
+    for (unsigned int p = 0; p < by_centres.points.size(); ++p)
+      EXPECT_GE(bed.signed_distance(
+                  Point<2>(by_centres.get(by_centres.points.position, p))),
+                0.);
+    EXPECT_NEAR(by_centres.sum(by_centres.points.reference_volume), 4., 0.5);
+
+    WithBodies<2> whole(
+      {box("0, 0", "4, 2") + "set Cut by obstacles = false\n"});
+    const std::string said =
+      message_of<ExcUser>([&] { fill_down_to(bed, whole); });
+    EXPECT_TRUE(contains(said,
+                         "m inside of an obstacle. Set 'Bodies/0/Cut by "
+                         "obstacles' = true"))
+      << said;
+    WithBodies<2> buried({box("3, 0", "4, 1") + clipped});
+    EXPECT_TRUE(
+      contains(message_of<ExcUser>([&] { fill_down_to(bed, buried); }),
+               "no part of its shape was found outside of the obstacles"));
+  }
+
+
+
+  // Bodies side by side that share cut boxes: their points do not disturb each
+  // other, and their volumes add up.
+  TEST(ClippedBodies, ShareTheirBoxes)
+  {
+    const std::string ring = "set Shape = ball\nset Centre = 2, 2\n"
+                             "set Radius = 1.9\nset Inner radius = 1.1\n",
+                      disc = "set Shape = ball\nset Centre = 2, 2\n"
+                             "set Radius = 1.1\n";
+    for (const bool ring_first : {true, false})
+      {
+        WithBodies<2> all({(ring_first ? ring : disc) + clipped,
+                           (ring_first ? disc : ring) + clipped});
+        all.create();
+        EXPECT_NEAR(all.sum(all.points.reference_volume),
+                    dealii::numbers::PI * 1.9 * 1.9,
+                    2e-3 * 11.);
+      }
+    EXPECT_TRUE(contains(error<2>({ring + clipped,
+                                   "set Shape = ball\nset Centre = 2, 2\n"
+                                   "set Radius = 1.5\n" +
+                                     clipped}),
+                         "Bodies must not overlap"));
   }
 } // namespace
