@@ -43,19 +43,19 @@ def velocity_at(folder, x):
 
 name, folder = sys.argv[1:3]
 place = [float(v) for v in parameter(folder, "Centre").split(",")]
-# The section of the obstacle comes after that of the body.
-radius = 0.3
+radius = 0.3  # of prm/pipeline.prm
 forces = table(folder, "obstacles.csv")
 reader, times = open_points(folder)
 hit = forces["time [s]"][numpy.argmax(forces["pipe contact area [m]"] > 0)]
 wanted = [nearest(times, hit + dt) for dt in (0.5, 1.5, 3, 6)]
 
 figure = plt.figure(figsize=(WIDTH, HEIGHT))
-window = (place[0] - 6, place[0] + 8, 0, 4.5)
-size = [1100, 350]
+# A metre is as long along both axes.
+window = (place[0] - 4.5, place[0] + 6.2, 0, 4)
+size = [1070, 400]
 for i, time in enumerate(wanted):
-    axes = figure.add_axes([0.07 + 0.46 * (i % 2), 0.75 - 0.235 * (i // 2),
-                            0.40, 0.19])
+    axes = figure.add_axes([0.07 + 0.46 * (i % 2), 0.77 - 0.235 * (i // 2),
+                            0.40, 0.188])
     show(axes, render(reader, time, "speed [m/s]", (0, 6), window, size),
          window)
     # Places in the picture of the pipe, which is a circle in metres.
@@ -65,11 +65,12 @@ for i, time in enumerate(wanted):
     axes.set_title("t = %.1f s" % time, pad=2)
     axes.set_ylabel("y [m]" if i % 2 == 0 else "")
     axes.set_xlabel("x [m]" if i // 2 else "")
+    axes.tick_params(labelbottom=bool(i // 2))
 scale = plt.cm.ScalarMappable(plt.Normalize(0, 6), "viridis")
-figure.colorbar(scale, cax=figure.add_axes([0.945, 0.515, 0.012, 0.425]),
+figure.colorbar(scale, cax=figure.add_axes([0.945, 0.535, 0.012, 0.423]),
                 label="speed [m/s]")
 
-axes = figure.add_axes([0.09, 0.075, 0.84, 0.34])
+axes = figure.add_axes([0.09, 0.075, 0.84, 0.33])
 time = forces["time [s]"]
 axes.plot(time, forces["pipe force x [N]"] / 1e3, color=SPLIT,
           label="along the seabed")
