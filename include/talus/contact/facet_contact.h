@@ -71,6 +71,13 @@ namespace talus
     void
     start_interval();
 
+    /// By node, whether soil there feels an obstacle; empty without obstacles.
+    const std::vector<unsigned char> &
+    feels_obstacle() const
+    {
+      return facets_.contact_nodes();
+    }
+
     const Facets<dim> &
     facets() const
     {

@@ -75,6 +75,13 @@ namespace talus
       return is_contact_node_[node];
     }
 
+    /// That of all nodes, 1 or 0.
+    const std::vector<unsigned char> &
+    contact_nodes() const
+    {
+      return is_contact_node_;
+    }
+
     /// Facets of all obstacles in the cells around a node this rank owns.
     unsigned int
     n_facets(const unsigned int node) const
