@@ -37,7 +37,9 @@ namespace talus
                   reference_point_text_,
                   "The point that moments of the forces are about, as x,y or "
                   "x,y,z [m]; it moves with the obstacle. Empty: the middle "
-                  "of the obstacle, or the origin if it has no end.");
+                  "of the obstacle, or the origin if it has no end.",
+                  this->prm,
+                  Patterns::List(Patterns::Double(), 0, dim));
   }
 
 
@@ -102,6 +104,7 @@ namespace talus
         for (unsigned int d = 0; d < dim; ++d)
           reference_point_[d] = Utilities::string_to_double(numbers[d]);
       }
+    velocity(0.); // throws here rather than in the first step
   }
 
 
