@@ -80,9 +80,9 @@ namespace talus
     AssertThrow(seabed_fraction_ == 1. || has_seabed,
                 ExcUser(text("'Trigger/Seabed shear stress fraction' is ",
                              seabed_fraction_,
-                             ", but no face of the mesh is a seabed. Set one "
-                             "in the section Boundaries or remove the "
-                             "entry.")));
+                             ", but no face of the mesh is a seabed, and there "
+                             "are no obstacles. Set one in the section "
+                             "Boundaries or Obstacles, or remove the entry.")));
     AssertThrow(changes_strength() ||
                   (names_of_bodies_.empty() && region_.empty()),
                 ExcUser("'Trigger/Bodies' or 'Trigger/Region' is given, but "
