@@ -302,9 +302,38 @@ namespace talus
 
 
 
-  // In a uniform cell the nodes that a box reaches follow from where it is: a
-  // node is reached if it is nearer than a cell and the half length, along each
-  // axis. In others, and of convected domains, the weights tell.
+  namespace
+  {
+    /// Call action(node) for the nodes in the patch of a uniform cell that a box
+    /// reaches: those that are nearer than a cell and the half length, along each
+    /// axis. @p half in cells.
+    template <int dim, typename Action>
+    void
+    for_each_node_in_reach(const Cell<dim>      &cell,
+                           const Point<dim>     &x,
+                           const Tensor<1, dim> &half,
+                           const Action         &action)
+    {
+      std::array<bool, 4 * dim> reaches;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (int i = 0; i < 4; ++i)
+          reaches[4 * d + i] = std::abs((x[d] - cell.lower[d]) / cell.size -
+                                        (i - 1)) < 1. + half[d];
+      for (unsigned int k = 0; k < cell.patch.size(); ++k)
+        {
+          bool is_reached = true;
+          for (unsigned int d = 0; d < dim; ++d)
+            is_reached = is_reached && reaches[4 * d + k / power(4, d) % 4];
+          if (is_reached)
+            action(cell.patch[k]);
+        }
+    }
+  } // namespace
+
+
+
+  // In a uniform cell the nodes that a box reaches follow from where it is. In
+  // others, and of convected domains, the weights tell.
   template <int dim>
   void
   FacetContact<dim>::add_gaps_of_segment(const State<dim> &state,
@@ -315,6 +344,13 @@ namespace talus
     const bool         is_simple =
       cell.uniform && state.box_shape.rule != BoxRule::convected_domain;
     std::vector<NodeWeight<dim>> weights;
+    const std::size_t            n = obstacles_.size();
+    std::vector<double>          gaps(n);
+    const auto                   reach = [&](const unsigned int node) {
+      if (facets_.is_contact_node(node))
+        for (std::size_t k = 0; k < n; ++k)
+          gaps_[n * node + k] = std::min(gaps_[n * node + k], gaps[k]);
+    };
     for (unsigned int p = segment.begin; p < segment.end; ++p)
       {
         const Point<dim> x = load_place(points, points.position, p);
@@ -322,37 +358,18 @@ namespace talus
         for (unsigned int d = 0; d < dim; ++d)
           half[d] = half_length_in_cells<dim>(
             points, state.box_shape, d, p, 1. / cell.size);
-        std::array<double, 8> gaps; // no more obstacles at a time
-        const unsigned int    n = obstacles_.size();
-        for (unsigned int k = 0; k < n; ++k)
+        for (std::size_t k = 0; k < n; ++k)
           gaps[k] = gap_of_point(obstacles_[k], x, cell.size * half);
-        const auto reach = [&](const unsigned int node) {
-          for (unsigned int k = 0; k < n; ++k)
-            gaps_[std::size_t(n) * node + k] =
-              std::min(gaps_[std::size_t(n) * node + k], gaps[k]);
-        };
-        if (!is_simple)
+        if (is_simple)
           {
-            weights_of_point(
-              points, state.grid, state.box_shape, segment.cell, p, weights);
-            for (const NodeWeight<dim> &weight : weights)
-              if (weight.value > 0)
-                reach(weight.node);
+            for_each_node_in_reach(cell, x, half, reach);
             continue;
           }
-        std::array<bool, 4 * dim> reaches;
-        for (unsigned int d = 0; d < dim; ++d)
-          for (int i = 0; i < 4; ++i)
-            reaches[4 * d + i] = std::abs((x[d] - cell.lower[d]) / cell.size -
-                                          (i - 1)) < 1. + half[d];
-        for (unsigned int k = 0; k < cell.patch.size(); ++k)
-          {
-            bool is_reached = true;
-            for (unsigned int d = 0; d < dim; ++d)
-              is_reached = is_reached && reaches[4 * d + k / power(4, d) % 4];
-            if (is_reached && facets_.is_contact_node(cell.patch[k]))
-              reach(cell.patch[k]);
-          }
+        weights_of_point(
+          points, state.grid, state.box_shape, segment.cell, p, weights);
+        for (const NodeWeight<dim> &weight : weights)
+          if (weight.value > 0)
+            reach(weight.node);
       }
   }
 

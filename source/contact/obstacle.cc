@@ -15,8 +15,7 @@ namespace talus
   Obstacle<dim>::Obstacle(const std::string &name)
     : ParameterAcceptor("/Obstacles/" + name)
     , name_(name)
-    , shape_parameters_("/Obstacles/" + name,
-                        "half-plane")
+    , shape_parameters_("/Obstacles/" + name, "half-plane")
   {
     add_parameter("Friction coefficient",
                   friction_coefficient_,
@@ -75,12 +74,9 @@ namespace talus
         everywhere.upper[d] = std::numeric_limits<double>::infinity();
         everywhere.lower[d] = -everywhere.upper[d];
       }
-    shape_ = shape_parameters_.make(everywhere);
-    maximum_shear_stress_ =
-      std::make_unique<Expression<dim>>(path("Maximum shear stress"),
-                                        maximum_shear_stress_text_,
-                                        1,
-                                        constants);
+    shape_                = shape_parameters_.make(everywhere);
+    maximum_shear_stress_ = std::make_unique<Expression<dim>>(
+      path("Maximum shear stress"), maximum_shear_stress_text_, 1, constants);
     velocity_.reset();
     if (!velocity_text_.empty())
       velocity_ = std::make_unique<Expression<dim>>(path("Velocity"),

@@ -61,9 +61,8 @@ namespace talus
   // messages apart.
   template <int dim>
   void
-  NodalExchange<dim>::combine_at_owners(
-    double                       *records,
-    const VectorOperation::values operation)
+  NodalExchange<dim>::combine_at_owners(double                       *records,
+                                        const VectorOperation::values operation)
   {
     // In doubles, not in nodes.
     const unsigned int      n_owned = partitioner_->locally_owned_size();

@@ -90,8 +90,9 @@ namespace talus
     mass                        = Utilities::MPI::sum(mass, communicator);
     inside                      = Utilities::MPI::sum(inside, communicator);
     const std::string name      = obstacle.name() + ' ';
-    row.push_back(
-      {name + "share of mass below surface", "-", mass > 0 ? inside / mass : 0});
+    row.push_back({name + "share of mass below surface",
+                   "-",
+                   mass > 0 ? inside / mass : 0});
     row.push_back({name + "deepest point",
                    "cells",
                    Utilities::MPI::max(deepest, communicator)});
@@ -174,9 +175,9 @@ namespace talus
                                      const State<dim>     &state) const
   {
     const auto columns = headings(evaluate(state));
-    return is_first_rank(state.communicator()) ?
-             file_.cannot_resume(settings.folder / file_name, columns) :
-             "";
+    return is_first_rank(state.communicator())
+             ? file_.cannot_resume(settings.folder / file_name, columns)
+             : "";
   }
 
 

@@ -41,7 +41,8 @@ namespace talus
 
   private:
     void
-    combine_at_owners(double *records, dealii::VectorOperation::values operation);
+    combine_at_owners(double                         *records,
+                      dealii::VectorOperation::values operation);
 
     std::unique_ptr<dealii::Utilities::MPI::Partitioner> partitioner_;
 

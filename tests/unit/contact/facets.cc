@@ -139,8 +139,10 @@ TEST(Facets, SumsAtNodesOfAllRanks)
   for (const unsigned int node : cut.facets.owned_nodes())
     touches += cut.facets.n_facets(node);
   const unsigned long n_facets =
-    dealii::Utilities::MPI::sum(cut.facets.owned().size(), cut.grid.communicator());
-  EXPECT_EQ(dealii::Utilities::MPI::sum(touches, cut.grid.communicator()), 4 * n_facets);
+    dealii::Utilities::MPI::sum(cut.facets.owned().size(),
+                                cut.grid.communicator());
+  EXPECT_EQ(dealii::Utilities::MPI::sum(touches, cut.grid.communicator()),
+            4 * n_facets);
 }
 
 
