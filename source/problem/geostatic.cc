@@ -310,18 +310,20 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                                                    \
-  template std::vector<double>      overburden(const Points<dim> &,         \
-                                               const std::vector<double> &, \
-                                               MPI_Comm);                   \
-  template std::vector<std::string> set_geostatic_stress(                   \
-    Points<dim> &,                                                          \
-    const std::vector<std::unique_ptr<Body<dim>>> &,                        \
-    const Materials<dim> &,                                                 \
-    const Tensor<1, dim> &,                                                 \
-    MPI_Comm);
-
-  INSTANTIATE(2)
-  INSTANTIATE(3)
-#undef INSTANTIATE
+  template std::vector<double>
+  overburden(const Points<2> &, const std::vector<double> &, MPI_Comm);
+  template std::vector<double>
+  overburden(const Points<3> &, const std::vector<double> &, MPI_Comm);
+  template std::vector<std::string>
+  set_geostatic_stress(Points<2> &,
+                       const std::vector<std::unique_ptr<Body<2>>> &,
+                       const Materials<2> &,
+                       const Tensor<1, 2> &,
+                       MPI_Comm);
+  template std::vector<std::string>
+  set_geostatic_stress(Points<3> &,
+                       const std::vector<std::unique_ptr<Body<3>>> &,
+                       const Materials<3> &,
+                       const Tensor<1, 3> &,
+                       MPI_Comm);
 } // namespace talus
