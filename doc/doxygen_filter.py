@@ -3,9 +3,10 @@
 
 Usage: doxygen_filter.py FILE.md, which writes to standard output.
 
-Formulas between $$ become \\f[ ... \\f], keys of references.bib in brackets
-become citations, and links and headings get names that are unique among all
-pages, since those of Doxygen are: Doxygen 1.9.4 knows no links to headings.
+Formulas between $$ become \\f[ ... \\f], those between $ \\f$ ... \\f$, keys of
+references.bib in brackets become citations, and links and headings get names
+that are unique among all pages, since those of Doxygen are: Doxygen 1.9.4 knows
+no links to headings.
 """
 
 import pathlib
@@ -15,6 +16,7 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 KEYS = set(re.findall(r"^@\w+\{(\w+),", (ROOT / "doc/references.bib").read_text(),
                       re.MULTILINE))
+CITATION = re.compile(r"\[(\w+(?:,\s\w+)*)\]")
 LINK = re.compile(r"(!?)\[([^\]]*)\]\(([^)\s]+)\)")
 
 
@@ -50,10 +52,22 @@ def citation(match):
     return " ".join("\\cite " + key for key in keys)
 
 
+def code_or_formula(match):
+    words = match.group(0)
+    if words.startswith("$"):
+        return "\\f$%s\\f$" % words[1:-1]
+    # Doxygen ends code in simple backticks at an apostrophe.
+    return "`%s`" % words if "'" in words else words
+
+
 def heading(file, match):
     marks, words = match.groups()
     name = page_name(file) if marks == "#" else heading_name(file, words)
-    return "%s %s {#%s}" % (marks, words, name)
+    # Doxygen shows citations and marks of code in headings as they are written.
+    keys = CITATION.search(words)
+    words = CITATION.sub("", words).strip().replace("`", "")
+    return "%s %s {#%s}" % (marks, words, name) + (
+        "\n\nSee %s." % citation(keys) if keys else "")
 
 
 def convert(file, text):
@@ -66,12 +80,10 @@ def convert(file, text):
             part = re.sub(r"^(#+) (.*)$", lambda match: heading(file, match),
                           part, flags=re.MULTILINE)
             part = LINK.sub(lambda match: link(file, match), part)
-            part = re.sub(r"\[(\w+(?:,\s\w+)*)\]", citation, part)
-            # Doxygen ends code in simple backticks at an apostrophe.
-            part = re.sub(r"`[^`]*`", lambda match: "`%s`" % match.group(0)
-                          if "'" in match.group(0) else match.group(0), part)
+            part = CITATION.sub(citation, part)
+            part = re.sub(r"`[^`]*`|\$[^$`]+\$", code_or_formula, part)
             # Doxygen takes a colon that follows for a part of the key.
-            part = re.sub(r"(\\cite \w+):", r"\1&#58;", part)
+            part = re.sub(r"(\\cite \w+):", r"\1&zwj;:", part)
         yield part
 
 

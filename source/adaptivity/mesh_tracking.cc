@@ -38,7 +38,7 @@ namespace talus
 
 
   // Only the cells with points are asked, each by a bit that was set when the
-  // mesh was made (Grid::find_larger_cells()): next to nothing per step.
+  // mesh was made (CellCache::find_larger_cells()): next to nothing per step.
   // Whether any rank says yes takes an operation of all of them.
   template <int dim>
   bool

@@ -33,9 +33,10 @@ namespace talus
   // once per mesh; a step then needs no operation of all ranks.
   template <int dim>
   void
-  NodalExchange<dim>::prepare(const Grid<dim> &grid, const unsigned int width)
+  NodalExchange<dim>::prepare(const NodeNumbering<dim> &nodes,
+                              const unsigned int        width)
   {
-    const IndexSet &owned = grid.owned_nodes();
+    const IndexSet &owned = nodes.owned_nodes();
     const double largest  = std::numeric_limits<types::global_dof_index>::max();
     AssertThrow(1. * owned.size() * width < largest,
                 ExcUser(text("The mesh has ",
@@ -45,11 +46,10 @@ namespace talus
                              ". Choose a larger 'Grid/Cell size' or a smaller "
                              "box.")));
     // A new one: deal.II 9.4's reinit() forgets ghosts that had become none.
-    partitioner_ =
-      std::make_unique<Utilities::MPI::Partitioner>(widened(owned, width),
-                                                    widened(grid.ghost_nodes(),
-                                                            width),
-                                                    grid.communicator());
+    partitioner_ = std::make_unique<Utilities::MPI::Partitioner>(
+      widened(owned, width),
+      widened(nodes.ghost_nodes(), width),
+      nodes.dof_handler().get_communicator());
     buffer_.resize_fast(partitioner_->n_import_indices());
   }
 

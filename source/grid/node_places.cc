@@ -20,16 +20,13 @@ namespace talus
         const auto       place = grid.place_of_cell(c);
         for (unsigned int v = 0; v < power(2, dim); ++v)
           {
-            Point<dim>   x;
-            unsigned int at = 0;
+            auto corner = place;
             for (unsigned int d = 0; d < dim; ++d)
-              {
-                const unsigned int side = (v >> d) & 1;
-                at += (1 + side) * power(4, d);
-                x[d] = grid.domain().lower[d] + (place[d] + side) * cell.size;
-              }
-            if (cell.patch[at] < grid.n_owned_nodes())
-              places[cell.patch[at]] = x;
+              corner[d] += (v >> d) & 1;
+            const unsigned int node = cell.patch[patch_of_vertex<dim>(v)];
+            if (node < grid.n_owned_nodes())
+              places[node] =
+                grid.lower_corner_of(corner, grid.level_of_cell(c));
           }
       }
     return places;

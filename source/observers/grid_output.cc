@@ -87,15 +87,11 @@ namespace talus
     {
       for (unsigned int v = 0; v < cells.n_vertices_per_cell(); ++v)
         {
-          unsigned int at     = 0;
-          Point<dim>   corner = cell.lower;
+          Point<dim> corner = cell.lower;
           for (unsigned int d = 0; d < dim; ++d)
-            {
-              corner[d] += ((v >> d) & 1) * cell.size;
-              at += (1 + ((v >> d) & 1)) * power(4, d);
-            }
+            corner[d] += ((v >> d) & 1) * cell.size;
           cells.add_vertex(corner);
-          cells.items.push_back(cell.patch[at]);
+          cells.items.push_back(cell.patch[patch_of_vertex<dim>(v)]);
         }
     }
   } // namespace

@@ -406,18 +406,24 @@ namespace talus
 
 
 
-#define INSTANTIATE(dim)                                       \
-  template std::vector<NewPoint<dim>> filling_by_centres<dim>( \
-    const Grid<dim> &,                                         \
-    const Region<dim> &,                                       \
-    const Box<dim> &,                                          \
-    const std::array<unsigned int, dim> &);                    \
-  template std::vector<NewPoint<dim>> clipped_filling<dim>(    \
-    const Grid<dim> &,                                         \
-    const Region<dim> &,                                       \
-    const Box<dim> &,                                          \
-    const std::array<unsigned int, dim> &)
-
-  INSTANTIATE(2);
-  INSTANTIATE(3);
+  template std::vector<NewPoint<2>>
+  filling_by_centres(const Grid<2> &,
+                     const Region<2> &,
+                     const Box<2> &,
+                     const std::array<unsigned int, 2> &);
+  template std::vector<NewPoint<3>>
+  filling_by_centres(const Grid<3> &,
+                     const Region<3> &,
+                     const Box<3> &,
+                     const std::array<unsigned int, 3> &);
+  template std::vector<NewPoint<2>>
+  clipped_filling(const Grid<2> &,
+                  const Region<2> &,
+                  const Box<2> &,
+                  const std::array<unsigned int, 2> &);
+  template std::vector<NewPoint<3>>
+  clipped_filling(const Grid<3> &,
+                  const Region<3> &,
+                  const Box<3> &,
+                  const std::array<unsigned int, 3> &);
 } // namespace talus

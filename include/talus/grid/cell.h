@@ -2,14 +2,11 @@
 #ifndef talus_grid_cell_h
 #define talus_grid_cell_h
 
-#include <talus/base/box.h>
 #include <talus/base/large_pages.h>
 
 #include <deal.II/base/point.h>
 
 #include <array>
-#include <utility>
-#include <vector>
 
 namespace talus
 {
@@ -51,6 +48,19 @@ namespace talus
 
 
 
+  /// Entry of a patch that is the cell's own node at vertex @p v.
+  template <int dim>
+  constexpr unsigned int
+  patch_of_vertex(const unsigned int v)
+  {
+    unsigned int k = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      k += (1 + ((v >> d) & 1)) * power(4, d);
+    return k;
+  }
+
+
+
   /// Whether entry @p k of a patch is one of the cell's own nodes.
   template <int dim>
   constexpr bool
@@ -66,36 +76,6 @@ namespace talus
 
   template <int dim>
   using Cells = LargePageVector<Cell<dim>>;
-
-
-
-  /// A box in which cells are halved some times.
-  template <int dim>
-  struct RefinementBox
-  {
-    Box<dim>     box;
-    unsigned int n_levels;
-  };
-
-
-
-  /// What a node on a face of the mesh stands for, hanging nodes condensed.
-  struct FaceShare
-  {
-    /// Integral of its shape function over the face, m^(dim-1).
-    double area = 0;
-    /// Integral of its shape function over the cells at the face, m^dim.
-    double volume = 0;
-  };
-
-
-
-  /// A hanging node: its value is a mean of those of its masters.
-  struct HangingNode
-  {
-    unsigned int                                 node;
-    std::vector<std::pair<unsigned int, double>> masters;
-  };
 } // namespace talus
 
 #endif

@@ -2,7 +2,7 @@
 #ifndef talus_grid_nodal_exchange_h
 #define talus_grid_nodal_exchange_h
 
-#include <talus/grid/grid.h>
+#include <talus/grid/node_numbering.h>
 
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/partitioner.h>
@@ -24,7 +24,7 @@ namespace talus
     /// @p width: doubles per node. Throws ExcUser if the mesh is too large for
     /// deal.II's indices.
     void
-    prepare(const Grid<dim> &grid, unsigned int width);
+    prepare(const NodeNumbering<dim> &nodes, unsigned int width);
 
     /// Add what the ghosts hold to their owners' records, in the order of the
     /// ranks, so that the sums are the same in each run. Ghosts become zero.

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The part of Grid that numbers the nodes and knows those of other ranks.
-
-#include <talus/grid/grid.h>
-#include <talus/grid/nodal_exchange.h>
+#include <talus/grid/node_numbering.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/mpi.templates.h>
@@ -114,6 +111,52 @@ namespace talus
 
 
 
+  template <int dim>
+  NodeNumbering<dim>::NodeNumbering(const Mesh<dim> &mesh)
+    : fe_(1)
+    , dof_handler_(mesh.triangulation())
+  {}
+
+
+
+  template <int dim>
+  void
+  NodeNumbering<dim>::prepare_nodes(const Mesh<dim> &mesh)
+  {
+    number_nodes(mesh);
+    find_ghost_nodes(mesh);
+    find_interface_nodes(mesh.communicator());
+  }
+
+
+
+  template <int dim>
+  std::vector<types::global_dof_index>
+  NodeNumbering<dim>::dofs_of(const CellIterator &cell) const
+  {
+    std::vector<types::global_dof_index> dofs(fe_.n_dofs_per_cell());
+    typename DoFHandler<dim>::active_cell_iterator(&cell->get_triangulation(),
+                                                   cell->level(),
+                                                   cell->index(),
+                                                   &dof_handler_)
+      ->get_dof_indices(dofs);
+    return dofs;
+  }
+
+
+
+  template <int dim>
+  std::vector<unsigned int>
+  NodeNumbering<dim>::nodes_of(const CellIterator &cell) const
+  {
+    std::vector<unsigned int> nodes;
+    for (const auto dof : dofs_of(cell))
+      nodes.push_back(local_node(dof));
+    return nodes;
+  }
+
+
+
   /// Number the nodes as the cells in their order meet them.
   /// deal.II numbers nodes in an order that depends on how the mesh came about.
   /// This one depends on the mesh alone, so that sums over nodes have the same
@@ -122,25 +165,21 @@ namespace talus
   /// of the rank, so no rank need know what the others do.
   template <int dim>
   void
-  Grid<dim>::number_nodes()
+  NodeNumbering<dim>::number_nodes(const Mesh<dim> &mesh)
   {
     dof_handler_.distribute_dofs(fe_);
     const IndexSet &owned = dof_handler_.locally_owned_dofs();
     std::vector<types::global_dof_index> numbers(owned.n_elements(),
-                                                 numbers::invalid_dof_index),
-      dofs(fe_.n_dofs_per_cell());
-    types::global_dof_index next =
+                                                 numbers::invalid_dof_index);
+    types::global_dof_index              next =
       owned.n_elements() == 0 ? 0 : owned.nth_index_in_set(0);
-    for (const auto &cell : cells_in_order())
+    for (const auto &cell : mesh.cells_in_order())
       if (cell->is_locally_owned())
-        {
-          cell->get_dof_indices(dofs);
-          for (const auto dof : dofs)
-            if (owned.is_element(dof))
-              if (auto &number = numbers[owned.index_within_set(dof)];
-                  number == numbers::invalid_dof_index)
-                number = next++;
-        }
+        for (const auto dof : dofs_of(cell))
+          if (owned.is_element(dof))
+            if (auto &number = numbers[owned.index_within_set(dof)];
+                number == numbers::invalid_dof_index)
+              number = next++;
     dof_handler_.renumber_dofs(numbers);
   }
 
@@ -151,7 +190,7 @@ namespace talus
   /// do.
   template <int dim>
   unsigned int
-  Grid<dim>::local_node(const types::global_dof_index node) const
+  NodeNumbering<dim>::local_node(const types::global_dof_index node) const
   {
     // Cells at an upper periodic face get the nodes of the lower one: those of
     // their own are never used.
@@ -175,15 +214,16 @@ namespace talus
   /// get the number of the twin, and nothing has to be passed on.
   template <int dim>
   void
-  Grid<dim>::find_ghost_nodes()
+  NodeNumbering<dim>::find_ghost_nodes(const Mesh<dim> &mesh)
   {
-    const MPI_Comm comm = communicator();
-    owned_nodes_        = dof_handler_.locally_owned_dofs();
+    const MPI_Comm comm        = mesh.communicator();
+    const bool     is_periodic = mesh.periodicity().any();
+    owned_nodes_               = dof_handler_.locally_owned_dofs();
     IndexSet relevant;
     DoFTools::extract_locally_relevant_dofs(dof_handler_, relevant);
     Hanging hanging =
-      (periodicity_.any()
-         ? masters_at_seams(dof_handler_, periodicity_, cell_size())
+      (is_periodic
+         ? masters_at_seams(dof_handler_, mesh.periodicity(), mesh.cell_size())
          : masters_of_hanging_nodes(dof_handler_, relevant));
 
     ghost_nodes_ = relevant;
@@ -206,7 +246,7 @@ namespace talus
     hanging_nodes_.clear();
     twins_.clear();
     for (const auto &[node, masters] : hanging)
-      if (periodicity_.any())
+      if (is_periodic)
         twins_[node] = masters[0].first;
       else
         {
@@ -219,11 +259,18 @@ namespace talus
             }
           hanging_nodes_.push_back(entry);
         }
+  }
 
+
+
+  template <int dim>
+  void
+  NodeNumbering<dim>::find_interface_nodes(const MPI_Comm communicator)
+  {
     // The partitioner has asked the other ranks what they import from here.
     const Utilities::MPI::Partitioner partitioner(owned_nodes_,
                                                   ghost_nodes_,
-                                                  comm);
+                                                  communicator);
     interface_nodes_.clear();
     for (const auto &[begin, end] : partitioner.import_indices())
       for (unsigned int node = begin; node < end; ++node)
@@ -236,14 +283,6 @@ namespace talus
 
 
 
-  template void
-  Grid<2>::number_nodes();
-  template void
-                        Grid<3>::number_nodes();
-  template unsigned int Grid<2>::local_node(types::global_dof_index) const;
-  template unsigned int Grid<3>::local_node(types::global_dof_index) const;
-  template void
-  Grid<2>::find_ghost_nodes();
-  template void
-  Grid<3>::find_ghost_nodes();
+  template class NodeNumbering<2>;
+  template class NodeNumbering<3>;
 } // namespace talus

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The part of Grid that links cells to their neighbours and to the boundary.
-
-#include <talus/grid/grid.h>
+#include <talus/grid/cell_cache.h>
 #include <talus/grid/nodal_exchange.h>
 
 #include <algorithm>
@@ -40,6 +38,103 @@ namespace talus
 
 
 
+  template <int dim>
+  CellCache<dim>::CellCache(const Mesh<dim> &mesh)
+    : mesh_(mesh)
+  {}
+
+
+
+  // The transfer asks millions of times a second which nodes are around a
+  // place; deal.II's iterators answer that through several tables, and find
+  // neighbours of the same size only level by level. So what is needed is
+  // written down once per mesh: two lines of the cache per cell in 2-D, seven
+  // in 3-D, and a pass over all cells whenever the mesh changes.
+  //
+  // Own nodes of all cells are there before patches are put together from them.
+  template <int dim>
+  void
+  CellCache<dim>::prepare_cells(const NodeNumbering<dim> &nodes)
+  {
+    list_cells(nodes);
+    touching_.clear();
+    // Ghosts are not linked: no point is in them, and not all of their
+    // neighbours are known here.
+    for (unsigned int c = 0; c < n_owned_cells_; ++c)
+      link_cell(c);
+  }
+
+
+
+  /// Fill what a cell knows of itself: place, size and own nodes; and the lists
+  /// that go with it. Neighbours come in link_cell().
+  template <int dim>
+  void
+  CellCache<dim>::list_cells(const NodeNumbering<dim> &nodes)
+  {
+    const auto cells = mesh_.cells_in_order();
+    cells_.clear();
+    level_of_cell_.clear();
+    cell_map_.clear();
+    cell_map_.reserve(cells.size());
+    owner_of_ghost_.clear();
+    n_owned_cells_ = 0;
+    index_of_active_cell_.assign(mesh_.triangulation().n_active_cells(),
+                                 numbers::invalid_unsigned_int);
+    for (const auto &cell : cells)
+      {
+        const unsigned int level = cell->level();
+        const auto         place = mesh_.lattice_place(cell->center(), level);
+        Cell<dim>          data;
+        // By the place in the lattice and not by deal.II's vertices, which come
+        // from halving after halving: the same whatever the mesh was before.
+        data.lower   = mesh_.lower_corner_of(place, level);
+        data.size    = mesh_.size_of_level(level);
+        data.uniform = false;
+        data.patch.fill(numbers::invalid_unsigned_int);
+        data.neighbors.fill(numbers::invalid_unsigned_int);
+        const auto own_nodes = nodes.nodes_of(cell);
+        for (unsigned int v = 0; v < own_nodes.size(); ++v)
+          data.patch[patch_of_vertex<dim>(v)] = own_nodes[v];
+        if (cell->is_locally_owned())
+          ++n_owned_cells_;
+        else
+          owner_of_ghost_.push_back(cell->subdomain_id());
+        index_of_active_cell_[cell->active_cell_index()] = cells_.size();
+        cell_map_[key_of_place<dim>(place, level)]       = cells_.size();
+        cells_.push_back(data);
+        level_of_cell_.push_back(level);
+      }
+    neighbor_ranks_.assign(owner_of_ghost_.begin(), owner_of_ghost_.end());
+    std::sort(neighbor_ranks_.begin(), neighbor_ranks_.end());
+    neighbor_ranks_.erase(std::unique(neighbor_ranks_.begin(),
+                                      neighbor_ranks_.end()),
+                          neighbor_ranks_.end());
+  }
+
+
+
+  /// Indices of cells are those of one rank and one mesh; the place in the
+  /// lattice of a level is the same for all.
+  template <int dim>
+  unsigned long
+  CellCache<dim>::key_of_cell(const unsigned int c) const
+  {
+    return key_of_place<dim>(place_of_cell(c), level_of_cell_[c]);
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  CellCache<dim>::cell_of_key(const unsigned long key) const
+  {
+    const auto it = cell_map_.find(key);
+    return it == cell_map_.end() ? numbers::invalid_unsigned_int : it->second;
+  }
+
+
+
   /// Find the neighbours of an owned cell by their places in the lattice of its
   /// level, and with them whether the cell is uniform, that is, all that
   /// touches it has its size or lies beyond the boundary of the mesh.
@@ -50,31 +145,32 @@ namespace talus
   /// graded mesh costs where the sizes meet and nowhere else.
   template <int dim>
   void
-  Grid<dim>::link_cell(const unsigned int c)
+  CellCache<dim>::link_cell(const unsigned int c)
   {
-    Cell<dim>         &cell   = cells_[c];
-    const Lattice      place  = place_of_cell(c);
-    const Lattice      extent = extent_of_lattice(level_of_cell_[c]);
-    const unsigned int level  = level_of_cell_[c];
+    Cell<dim>              &cell        = cells_[c];
+    const unsigned int      level       = level_of_cell_[c];
+    const Lattice<dim>      place       = place_of_cell(c);
+    const Lattice<dim>      extent      = mesh_.extent_of_lattice(level);
+    const Periodicity<dim> &periodicity = mesh_.periodicity();
 
     cell.uniform            = true;
     cell.sides_of_same_size = (1u << (2 * dim)) - 1;
     for (unsigned int k = 0; k < cell.neighbors.size(); ++k)
       {
-        const auto offset = digits<dim>(k, 3);
-        Lattice    other  = place;
-        bool       inside = true;
+        const auto   offset = digits<dim>(k, 3);
+        Lattice<dim> other  = place;
+        bool         inside = true;
         for (unsigned int d = 0; d < dim; ++d)
           {
             other[d] += offset[d] - 1;
-            inside = inside && (periodicity_.along(d) ||
+            inside = inside && (periodicity.along(d) ||
                                 (other[d] >= 0 && other[d] < extent[d]));
           }
         // Beyond a periodic face the mesh goes on; beyond another one there is
         // nothing that could have another size.
         if (!inside)
           continue;
-        periodicity_.wrap(other, extent);
+        periodicity.wrap(other, extent);
         cell.neighbors[k] = cell_at(other, level);
         if (cell.neighbors[k] != numbers::invalid_unsigned_int)
           continue;
@@ -102,11 +198,11 @@ namespace talus
   /// 1).
   template <int dim>
   void
-  Grid<dim>::fill_patch(const unsigned int c)
+  CellCache<dim>::fill_patch(const unsigned int c)
   {
-    Cell<dim>    &cell   = cells_[c];
-    const Lattice place  = place_of_cell(c);
-    const Lattice extent = extent_of_lattice(level_of_cell_[c]);
+    Cell<dim>         &cell   = cells_[c];
+    const Lattice<dim> place  = place_of_cell(c);
+    const Lattice<dim> extent = mesh_.extent_of_lattice(level_of_cell_[c]);
 
     for (unsigned int k = 0; k < cell.patch.size(); ++k)
       {
@@ -115,7 +211,7 @@ namespace talus
         for (unsigned int d = 0; d < dim; ++d)
           {
             // Beyond the boundary: the boundary row once more.
-            const bool folds = !periodicity_.along(d);
+            const bool folds = !mesh_.periodicity().along(d);
             if (folds && at[d] == 0 && place[d] == 0)
               at[d] = 1;
             if (folds && at[d] == 3 && place[d] == extent[d] - 1)
@@ -136,16 +232,16 @@ namespace talus
   /// that sums over them have one order.
   template <int dim>
   void
-  Grid<dim>::find_touching_cells(const unsigned int c)
+  CellCache<dim>::find_touching_cells(const unsigned int c)
   {
-    const Lattice              place    = place_of_cell(c);
+    const Lattice<dim>         place    = place_of_cell(c);
     const int                  level    = level_of_cell_[c];
     std::vector<unsigned int> &touching = touching_[c];
 
     // Neighbours are at most one level apart (2:1 balance over corners).
     for (int l = std::max(level - 1, 0); l <= level + 1; ++l)
       {
-        Lattice first, last;
+        Lattice<dim> first, last;
         for (unsigned int d = 0; d < dim; ++d)
           {
             // One row of cells of this level around those in which the cell
@@ -159,7 +255,7 @@ namespace talus
                 last[d] /= 2;
               }
           }
-        Lattice at = first;
+        Lattice<dim> at = first;
         while (at[dim - 1] <= last[dim - 1])
           {
             const unsigned int t = cell_at(at, l);
@@ -178,56 +274,6 @@ namespace talus
 
 
 
-  /// Which nodes lie on which faces, and what they stand for there: summed over
-  /// the cells of all ranks.
-  /// The shape functions are bilinear, so the integral of one over a face of
-  /// its cell is (size/2)^(dim-1), and over the cell (size/2)^dim: no
-  /// quadrature. Each cell is counted by its owner only. A hanging node carries
-  /// nothing, so its share goes to its masters as its forces do; the sum over
-  /// the nodes remains the area of the face.
-  template <int dim>
-  void
-  Grid<dim>::mark_boundary_nodes(NodalExchange<dim> &exchange)
-  {
-    faces_of_node_.assign(n_nodes(), 0);
-    for (unsigned int c = 0; c < cells_.size(); ++c)
-      for (unsigned int face = 0; face < 2 * dim; ++face)
-        for (const unsigned int node : nodes_on_face(c, face))
-          faces_of_node_[node] |= 1u << face;
-
-    AlignedVector<double> shares(2 * n_nodes());
-    for (unsigned int face = 0; face < 2 * dim; ++face)
-      {
-        shares.fill(0.);
-        for (unsigned int c = 0; c < n_owned_cells_; ++c)
-          {
-            const double length = 0.5 * cells_[c].size;
-            const double area   = std::pow(length, dim - 1.);
-            for (const unsigned int node : nodes_on_face(c, face))
-              {
-                shares[2 * node] += area;
-                shares[2 * node + 1] += area * length;
-              }
-          }
-        for (const auto &hanging : hanging_nodes_)
-          for (unsigned int i = 0; i < 2; ++i)
-            {
-              for (const auto &[master, weight] : hanging.masters)
-                shares[2 * master + i] += weight * shares[2 * hanging.node + i];
-              shares[2 * hanging.node + i] = 0;
-            }
-        exchange.add_to_owners(shares.data());
-        face_shares_[face].clear();
-        for (unsigned int node = 0; node < n_owned_nodes(); ++node)
-          // Few nodes lie on a face: a table by node would be empty but for
-          // them.
-          if (shares[2 * node] > 0)
-            face_shares_[face][node] = {shares[2 * node], shares[2 * node + 1]};
-      }
-  }
-
-
-
   /// A node is marked if it is a corner of a cell larger than h, on whatever
   /// rank, or hangs on one.
   /// Which cells have points that could touch a mark: those with one in their
@@ -237,19 +283,20 @@ namespace talus
   /// is occupied.
   template <int dim>
   void
-  Grid<dim>::find_larger_cells(NodalExchange<dim> &exchange)
+  CellCache<dim>::find_larger_cells(const NodeNumbering<dim> &nodes,
+                                    NodalExchange<dim>       &exchange)
   {
     is_near_larger_cell_.assign(n_owned_cells_, false);
     // Of the two numbers that travel for each node, the second is not used.
-    AlignedVector<double> mark(2 * n_nodes(), 0.);
+    AlignedVector<double> mark(2 * nodes.n_nodes(), 0.);
     for (unsigned int c = 0; c < n_owned_cells_; ++c)
-      if (level_of_cell_[c] < base_level_)
+      if (level_of_cell_[c] < mesh_.base_level())
         for (const unsigned int node : cells_[c].patch)
           if (node != numbers::invalid_unsigned_int)
             mark[2 * node] = 1.;
     exchange.add_to_owners(mark.data());
     exchange.copy_to_ghosts(mark.data());
-    for (const auto &hanging : hanging_nodes_)
+    for (const auto &hanging : nodes.hanging_nodes())
       for (const auto &master : hanging.masters)
         mark[2 * hanging.node] += mark[2 * master.first];
 
@@ -269,47 +316,54 @@ namespace talus
 
 
 
-  /// The nodes of cell @p c on face @p face of the mesh; none if the cell does
-  /// not lie at it, or if the face is periodic, and so no boundary.
+  // By the centre, which round-off cannot move into a neighbour.
   template <int dim>
-  std::vector<unsigned int>
-  Grid<dim>::nodes_on_face(const unsigned int c, const unsigned int face) const
+  Lattice<dim>
+  CellCache<dim>::place_of_cell(const unsigned int c) const
   {
-    const Lattice      place  = place_of_cell(c);
-    const Lattice      extent = extent_of_lattice(level_of_cell_[c]);
-    const unsigned int d = face / 2, side = face % 2;
-    if (periodicity_.along(d) || place[d] != (side == 0 ? 0 : extent[d] - 1))
-      return {};
-    std::vector<unsigned int> nodes;
-    for (unsigned int v = 0; v < power(2, dim); ++v)
-      {
-        auto at = digits<dim>(v, 2);
-        if (at[d] != static_cast<int>(side))
-          continue;
-        for (auto &a : at)
-          ++a;
-        nodes.push_back(cells_[c].patch[number<dim>(at, 4)]);
-      }
-    return nodes;
+    Point<dim> center = cells_[c].lower;
+    for (unsigned int d = 0; d < dim; ++d)
+      center[d] += 0.5 * cells_[c].size;
+    return mesh_.lattice_place(center, level_of_cell_[c]);
   }
 
 
 
-  // grid.cc instantiates the class, but does not see what is defined here.
-  template void
-  Grid<2>::link_cell(unsigned int);
-  template void
-  Grid<3>::link_cell(unsigned int);
-  template void
-  Grid<2>::find_larger_cells(NodalExchange<2> &);
-  template void
-  Grid<3>::find_larger_cells(NodalExchange<3> &);
-  template std::vector<unsigned int>
-  Grid<2>::nodes_on_face(unsigned int, unsigned int) const;
-  template std::vector<unsigned int>
-  Grid<3>::nodes_on_face(unsigned int, unsigned int) const;
-  template void
-  Grid<2>::mark_boundary_nodes(NodalExchange<2> &);
-  template void
-  Grid<3>::mark_boundary_nodes(NodalExchange<3> &);
+  /// The active cell of this level at this place; invalid_unsigned_int if there
+  /// is none, or none that this rank knows. Negative numbers would run into the
+  /// other fields of the key; places beyond the upper end have keys that no
+  /// cell has.
+  template <int dim>
+  unsigned int
+  CellCache<dim>::cell_at(const Lattice<dim> &place,
+                          const unsigned int  level) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (place[d] < 0)
+        return numbers::invalid_unsigned_int;
+    return cell_of_key(key_of_place<dim>(place, level));
+  }
+
+
+
+  // From the smallest cells on: most points are in one of these. One look into
+  // a hash table per level, whatever the number of cells. It is for points that
+  // are new or went astray; Relocation::locate() asks the neighbours first.
+  template <int dim>
+  unsigned int
+  CellCache<dim>::find_cell(const Point<dim> &x) const
+  {
+    for (int level = mesh_.triangulation().n_levels() - 1; level >= 0; --level)
+      {
+        const unsigned int c = cell_at(mesh_.lattice_place(x, level), level);
+        if (c != numbers::invalid_unsigned_int)
+          return c;
+      }
+    return numbers::invalid_unsigned_int;
+  }
+
+
+
+  template class CellCache<2>;
+  template class CellCache<3>;
 } // namespace talus

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/grid/mesh.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/grid/grid_generator.h>
+#include <deal.II/grid/tria_iterator.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  // Neighbours differ by one level at most across corners, too, since the boxes
+  // of the points reach across them: so the cells that touch a cell are of
+  // three levels (CellCache::find_touching_cells()). Cells change their rank
+  // only when we ask for it: points travel with them (LoadBalance), or wait to
+  // be sent (BackgroundMesh).
+  template <int dim>
+  Mesh<dim>::Mesh(MPI_Comm communicator)
+    : triangulation_(
+        communicator,
+        typename Triangulation<dim>::MeshSmoothing(
+          Triangulation<dim>::limit_level_difference_at_vertices),
+        parallel::distributed::Triangulation<dim>::no_automatic_repartitioning)
+  {}
+
+
+
+  template <int dim>
+  void
+  Mesh<dim>::create(const std::array<bool, 2 * dim> &may_move,
+                    const bool                       grow,
+                    const std::array<bool, dim>     &periodic)
+  {
+    const auto trees = this->lay_out(may_move, grow, periodic);
+    triangulation_.clear();
+    GridGenerator::subdivided_hyper_rectangle(triangulation_,
+                                              trees,
+                                              this->domain().lower,
+                                              this->domain().upper,
+                                              /*colorize=*/true);
+    if (this->periodicity().any())
+      this->periodicity().join_faces(triangulation_);
+  }
+
+
+
+  // First down to h everywhere, which asks nobody, and the cells spread over
+  // the ranks; then the boxes, which may lie on one of them.
+  template <int dim>
+  void
+  Mesh<dim>::refine()
+  {
+    triangulation_.refine_global(this->base_level());
+    triangulation_.repartition();
+    if (this->has_refinement_boxes())
+      refine(
+        [&](const Lattice &, const unsigned int level) {
+          return level < this->base_level();
+        },
+        true);
+  }
+
+
+
+  /// Returns what any rank flagged cells for: 1 to be divided, 2 joined, 3
+  /// both. Whether a cell is to be divided or joined follows from what lies in
+  /// it now, not from its history: a cell is joined with its siblings if what
+  /// contains them all asks for nothing. So two runs that come to the same soil
+  /// have the same mesh.
+  template <int dim>
+  unsigned int
+  Mesh<dim>::flag_cells(const WantsFiner &wants_finer)
+  {
+    const auto wants = [&](const Lattice &place, const unsigned int level) {
+      return this->box_wants_finer(place, level) || wants_finer(place, level);
+    };
+    const MPI_Comm communicator = triangulation_.get_communicator();
+    unsigned int   flags        = 0;
+    for (const auto &cell : triangulation_.active_cell_iterators())
+      if (cell->is_locally_owned())
+        {
+          const unsigned int level = cell->level();
+          Lattice            place = this->lattice_place(cell->center(), level);
+          if (wants(place, level))
+            {
+              cell->set_refine_flag();
+              flags |= 1;
+            }
+          else if (level > 0)
+            {
+              for (auto &p : place)
+                p /= 2;
+              if (!wants(place, level - 1))
+                {
+                  cell->set_coarsen_flag();
+                  flags |= 2;
+                }
+            }
+        }
+    return (Utilities::MPI::max(flags & 1, communicator) |
+            Utilities::MPI::max(flags & 2, communicator));
+  }
+
+
+
+  // deal.II changes cells by one level at a time, and keeps neighbours within a
+  // factor of two by dividing more, or joining fewer, than were flagged: so
+  // flag and change until nothing is left to do. Each round looks at every cell
+  // once; what they agree on is the same on all ranks.
+  template <int dim>
+  bool
+  Mesh<dim>::refine(const WantsFiner &wants_finer, const bool spread)
+  {
+    bool changed = false;
+    while (true)
+      {
+        const auto n_before = triangulation_.n_global_active_cells();
+        const auto flags    = flag_cells(wants_finer);
+        if (flags == 0)
+          return changed;
+        triangulation_.execute_coarsening_and_refinement();
+        // Cells that cannot be joined beside smaller ones stay flagged for
+        // ever.
+        if (!(flags & 1) && n_before == triangulation_.n_global_active_cells())
+          return changed;
+        changed = true;
+        // Only before there are points, which would be left behind on the rank
+        // that owned their cell.
+        if (spread)
+          triangulation_.repartition();
+      }
+  }
+
+
+
+  // The mesh is state: it follows from where the soil was when the mesh was
+  // last adapted, not from where it is now.
+  template <int dim>
+  void
+  Mesh<dim>::save(const std::string &path) const
+  {
+    triangulation_.save(path);
+  }
+
+
+
+  template <int dim>
+  void
+  Mesh<dim>::load(const std::string &path)
+  {
+    triangulation_.load(path);
+  }
+
+
+
+  // p4est cuts its curve where the sums of the weights ask for it, so the same
+  // weights give the same cells to the same ranks: that is how a resumed run
+  // finds the partition it had, and with it the order of all sums. deal.II asks
+  // for weights by its own cells, which are in another order than ours.
+  template <int dim>
+  void
+  Mesh<dim>::repartition(const std::vector<double> &weights)
+  {
+    AssertDimension(weights.size(), n_locally_owned_cells());
+    std::vector<unsigned int> weight_of_active_cell(
+      triangulation_.n_active_cells(), 0);
+    auto weight = weights.begin();
+    for (const auto &cell : cells_in_order())
+      if (cell->is_locally_owned())
+        weight_of_active_cell[cell->active_cell_index()] =
+          static_cast<unsigned int>(*weight++);
+
+    // For this one time: later repartitions have other weights.
+    const auto connection = triangulation_.signals.weight.connect(
+      [&](const typename Triangulation<dim>::cell_iterator &cell,
+          const typename Triangulation<dim>::CellStatus) {
+        return weight_of_active_cell[cell->active_cell_index()];
+      });
+    triangulation_.repartition();
+    connection.disconnect();
+  }
+
+
+
+  namespace
+  {
+    /// Depth first, as p4est's curve goes.
+    template <int dim>
+    void
+    append_active(
+      const typename Triangulation<dim>::cell_iterator               &cell,
+      std::vector<typename Triangulation<dim>::active_cell_iterator> &cells)
+    {
+      if (cell->is_active())
+        {
+          if (!cell->is_artificial())
+            cells.push_back(cell);
+          return;
+        }
+      for (unsigned int child = 0; child < cell->n_children(); ++child)
+        append_active<dim>(cell->child(child), cells);
+    }
+  } // namespace
+
+
+
+  // deal.II's own order of the cells depends on how the mesh came about.
+  // Results must not depend on what the mesh looked like before, or a resumed
+  // run would differ from one that was not interrupted: so cells go along
+  // p4est's curve. It also keeps cells close in memory that are close in space.
+  template <int dim>
+  std::vector<typename Triangulation<dim>::active_cell_iterator>
+  Mesh<dim>::cells_in_order() const
+  {
+    std::vector<typename Triangulation<dim>::active_cell_iterator> cells;
+    for (const auto tree :
+         triangulation_.get_p4est_tree_to_coarse_cell_permutation())
+      append_active<dim>(
+        typename Triangulation<dim>::cell_iterator(&triangulation_, 0, tree),
+        cells);
+    std::stable_partition(cells.begin(), cells.end(), [](const auto &cell) {
+      return cell->is_locally_owned();
+    });
+    return cells;
+  }
+
+
+
+  template class Mesh<2>;
+  template class Mesh<3>;
+} // namespace talus
