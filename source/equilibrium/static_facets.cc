@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace talus
 {
@@ -36,6 +35,11 @@ namespace talus
                            const Unknowns<dim>      &unknowns,
                            const double              modulus)
   {
+    is_symmetric_ = true;
+    for (unsigned int k = 0; k < problem.contact.obstacles().size(); ++k)
+      is_symmetric_ =
+        is_symmetric_ &&
+        problem.contact.obstacles()[k].friction_coefficient() == 0;
     if (problem.contact.obstacles().empty())
       return;
     problem.contact.find_constraints(problem.state);
@@ -44,17 +48,12 @@ namespace talus
     n_facets_ = problem.contact.facets().owned().size();
     add_facets(problem, before, modulus);
     add_nodes_inside(problem, unknowns, before, modulus);
-    for (unsigned int k = 0; k < points_.size(); ++k)
+    for (ContactPoint &point : points_)
       {
-        ContactPoint &point = points_[k];
         if (point.given.normal > 0)
           point.gap = 0;
-        // Nothing is known of the normal force on soil that has just come: it
-        // sticks as far as the cap lets it.
-        point.friction =
-          largest_friction(problem,
-                           k,
-                           point.given.normal > 0 ? point.given.normal : 1e100);
+        // Soil that has just come has no normal force yet, and so no friction.
+        point.sticks_first = (point.given.normal == 0);
         find_force(point, {});
       }
   }
@@ -82,6 +81,11 @@ namespace talus
             point.area      = constraint.area;
             point.stiffness = spring * modulus * constraint.area /
                               problem.state.grid.cells()[facets[k].cell].size;
+            point.coefficient = problem.contact.obstacles().friction_factor() *
+                                problem.contact.obstacles()[facets[k].obstacle]
+                                  .friction_coefficient();
+            point.largest_friction = problem.contact.friction_limit(
+              facets[k], constraint, /*normal_impulse=*/1e100, /*dt=*/1.);
             point.given = {impulse.normal, impulse.tangential};
             if (before.size() > k && before[k].node == point.node)
               point.opened = before[k].opened;
@@ -131,22 +135,6 @@ namespace talus
 
 
 
-  template <int dim>
-  double
-  StaticFacets<dim>::largest_friction(const StaticProblem<dim> &problem,
-                                      const unsigned int        k,
-                                      const double normal_force) const
-  {
-    if (k >= n_facets_ || points_[k].stiffness == 0)
-      return 0.;
-    return problem.contact.friction_limit(problem.contact.facets().owned()[k],
-                                          problem.contact.constraints()[k],
-                                          normal_force,
-                                          /*dt=*/1.);
-  }
-
-
-
   /// Of the contact point; without @p u, none.
   template <int dim>
   Tensor<1, dim>
@@ -167,17 +155,14 @@ namespace talus
 
   // With the gap g, the displacement u and the spring k
   //   N = max(0, N_given - k (g + u n)),
-  //   T = T_given - k (u - (u n) n), cut to the largest friction.
-  // The friction is that of the normal force of the loop before: the matrix
-  // stays symmetric, and the step is the minimum of an energy.
+  //   T = T_given - k (u - (u n) n), cut to min(mu N, tau_max A).
   template <int dim>
   void
   StaticFacets<dim>::find_force(ContactPoint              &point,
                                 const std::vector<double> &u) const
   {
     point.found     = {};
-    point.is_closed = false;
-    point.overload  = 1.;
+    point.is_closed = point.slips = false;
     if (point.stiffness == 0)
       return;
     const Tensor<1, dim> d   = displacement(point, u);
@@ -188,45 +173,41 @@ namespace talus
       return;
     point.is_closed    = true;
     point.found.normal = normal;
-    point.found.tangential =
+    const Tensor<1, dim> tangential =
       point.given.tangential - point.stiffness * (d - d_n * point.normal);
-    const double length = point.found.tangential.norm();
-    if (point.friction == 0)
-      {
-        point.overload         = std::numeric_limits<double>::infinity();
-        point.found.tangential = Tensor<1, dim>();
-      }
-    else if (length > point.friction * slack)
-      {
-        point.overload = length / point.friction;
-        point.found.tangential /= point.overload;
-      }
+    const double length = tangential.norm();
+    const double friction =
+      std::min(point.coefficient * normal, point.largest_friction);
+    point.slips = (friction == 0 || length > friction * slack);
+    if (point.slips && length > 0)
+      point.direction = tangential / length;
+    point.cut = (point.slips && length > 0 ? friction / length : 0.);
+    point.found.tangential =
+      (point.slips ? friction * point.direction : tangential);
   }
 
 
 
-  /// Where it slips, the force along the slip is given, and that across it turns
-  /// with the slip.
+  /// Where it slips, the force along the slip is that of the normal force or the
+  /// cap, and the force across turns with the slip.
   template <int dim>
   Tensor<2, dim>
   StaticFacets<dim>::tangent(const ContactPoint &point) const
   {
-    Tensor<2, dim> result;
+    const Tensor<2, dim> identity = unit_symmetric_tensor<dim>();
     if (!point.is_closed)
-      return result;
+      return Tensor<2, dim>();
+    if (!point.slips || point.sticks_first)
+      return point.stiffness * identity;
     const Tensor<2, dim> along_normal =
       outer_product(point.normal, point.normal);
-    const Tensor<2, dim> identity = unit_symmetric_tensor<dim>();
-    result                        = along_normal;
-    if (point.overload <= 1. || point.sticks_first)
-      result = identity;
-    else if (point.friction > 0)
-      {
-        const Tensor<1, dim> slip =
-          point.found.tangential / point.found.tangential.norm();
-        result += (identity - along_normal - outer_product(slip, slip)) /
-                  point.overload;
-      }
+    Tensor<2, dim> result =
+      along_normal +
+      point.cut * (identity - along_normal -
+                   outer_product(point.direction, point.direction));
+    if (point.coefficient * point.found.normal < point.largest_friction)
+      result +=
+        point.coefficient * outer_product(point.direction, point.normal);
     return point.stiffness * result;
   }
 
@@ -301,16 +282,17 @@ namespace talus
   template <int dim>
   void
   StaticFacets<dim>::add_to_matrix(const Unknowns<dim>            &unknowns,
-                                   TrilinosWrappers::SparseMatrix &matrix) const
+                                   TrilinosWrappers::SparseMatrix &matrix)
   {
     std::vector<unsigned int>            vertices;
     std::vector<types::global_dof_index> indices;
     FullMatrix<double>                   block;
-    for (const ContactPoint &point : points_)
+    for (ContactPoint &point : points_)
       {
+        const Tensor<2, dim> k = tangent(point);
+        point.sticks_first     = false;
         if (!point.is_closed)
           continue;
-        const Tensor<2, dim> k = tangent(point);
         list_unknowns(point, unknowns, vertices, indices);
         block.reinit(indices.size(), indices.size());
         for (unsigned int i = 0; i < indices.size(); ++i)
@@ -337,29 +319,20 @@ namespace talus
   {
     if (problem.contact.obstacles().empty())
       return true;
-    // Area, its integral of the square of the error, change of forces, forces,
-    // change of friction.
-    std::vector<double> sums(5, 0.);
-    for (unsigned int k = 0; k < points_.size(); ++k)
+    // Area, its integral of the square of the error, change of forces, forces.
+    std::vector<double> sums(4, 0.);
+    for (ContactPoint &point : points_)
       {
-        ContactPoint &point = points_[k];
         if (point.stiffness == 0)
           continue;
         const double change =
           std::abs(point.found.normal - point.given.normal) +
           (point.found.tangential - point.given.tangential).norm();
-        const double friction =
-          largest_friction(problem, k, point.found.normal);
-        const double length = point.found.tangential.norm();
         sums[0] += point.area;
         sums[1] += point.area * std::pow(change / point.stiffness, 2);
         sums[2] += change;
-        sums[3] += point.found.normal + length;
-        if (length > friction || point.overload > 1.)
-          sums[4] += std::abs(friction - point.friction);
-        point.given        = point.found;
-        point.friction     = friction;
-        point.sticks_first = false;
+        sums[3] += point.found.normal + point.found.tangential.norm();
+        point.given = point.found;
       }
     const MPI_Comm communicator = unknowns.communicator();
     Utilities::MPI::sum(sums, communicator, sums);
@@ -367,9 +340,8 @@ namespace talus
     for (const double x : u)
       largest = std::max(largest, std::abs(x));
     largest = Utilities::MPI::max(largest, communicator);
-    return (std::sqrt(sums[1]) <= tolerance * largest * std::sqrt(sums[0]) ||
-            sums[2] <= 1e-9 * sums[3]) &&
-           sums[4] <= tolerance * sums[3];
+    return std::sqrt(sums[1]) <= tolerance * largest * std::sqrt(sums[0]) ||
+           sums[2] <= 1e-9 * sums[3];
   }
 
 
@@ -383,7 +355,7 @@ namespace talus
   {
     unsigned int n_changes = 0;
     for (ContactPoint &point : points_)
-      if (point.is_closed && point.overload > 1. && !point.sticks_first &&
+      if (point.slips && !point.sticks_first &&
           point.found.tangential * displacement(point, direction) > 0)
         {
           point.sticks_first = true;

@@ -120,7 +120,8 @@ namespace talus
     bool
     is_symmetric() const
     {
-      return parameters_.measure == StrainMeasure::small;
+      return parameters_.measure == StrainMeasure::small &&
+             contact_.facets().is_symmetric();
     }
 
     void

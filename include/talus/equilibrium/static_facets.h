@@ -45,7 +45,14 @@ namespace talus
     /// Add the derivative, with its sign changed, of the last add_forces().
     void
     add_to_matrix(const Unknowns<dim>                    &unknowns,
-                  dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+                  dealii::TrilinosWrappers::SparseMatrix &matrix);
+
+    /// Whether the matrix always is; that of friction by a coefficient is not.
+    bool
+    is_symmetric() const
+    {
+      return is_symmetric_;
+    }
 
     /// Give the points the forces that were found with @p u. Returns whether
     /// these are those that were given, so that nothing moves into an obstacle
@@ -82,15 +89,16 @@ namespace talus
       std::array<double, n_nodes>       share;
       dealii::Tensor<1, dim>            normal;
       double                            area = 0; ///< in contact, m^(dim-1)
-      double stiffness = 0; ///< of the spring, N/m; 0: there is no soil
-      double gap       = 0; ///< at the start of the step, m
-      double opened    = 0; ///< since points were last moved, m
-      double friction  = 0; ///< the largest, N
+      double stiffness        = 0; ///< of the spring, N/m; 0: there is no soil
+      double gap              = 0; ///< at the start of the step, m
+      double opened           = 0; ///< since points were last moved, m
+      double coefficient      = 0; ///< of friction
+      double largest_friction = 0; ///< whatever the normal force, N
       Force  given, found;
-      bool   is_closed = false;
-      /// Length of the tangential force before it was cut over that after.
-      double overload     = 1.;
-      bool   sticks_first = false; ///< whatever the friction
+      bool   is_closed = false, slips = false;
+      dealii::Tensor<1, dim> direction; ///< of friction where it slips
+      double                 cut = 0;   ///< what is left of the spring's, there
+      bool sticks_first = false;        ///< in the next matrix, though it slips
     };
 
     void
@@ -107,13 +115,9 @@ namespace talus
     void
     find_force(ContactPoint &point, const std::vector<double> &u) const;
     dealii::Tensor<2, dim>
-    tangent(const ContactPoint &point) const;
-    double
-    largest_friction(const StaticProblem<dim> &problem,
-                     unsigned int              k,
-                     double                    normal_force) const;
-
-    unsigned int n_facets_ = 0;
+                 tangent(const ContactPoint &point) const;
+    bool         is_symmetric_ = true;
+    unsigned int n_facets_     = 0;
     /// Those of the facets of this rank, then those of nodes inside that touch
     /// no facet.
     std::vector<ContactPoint> points_;
