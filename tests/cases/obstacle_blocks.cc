@@ -3,8 +3,7 @@
 // (prm/verification/block-on-plane.prm), soil in a container (container.prm), a
 // pendulum in a bowl (bowl.prm).
 
-#include "case.h"
-#include "verification.h"
+#include "static_case.h"
 
 #include <gtest/gtest.h>
 
@@ -249,6 +248,51 @@ TEST(BlockOnPlane, SticksBelowTheAngleOfFriction)
       const double creep = std::abs(u.back() - u[u.size() / 2]) / 1.;
       gates.at_most("creep [m/s]" + degrees(angle), creep, 1e-3);
       EXPECT_LT(lift(table, angle), 1e-3);
+    }
+}
+
+
+
+// Strength reduction divides the friction of obstacles, too.
+TEST(BlockOnPlane, FactorOfSafety)
+{
+  Verification gates(
+    "Block on a plane of 20 degrees through the mesh, mu = 0.5",
+    "prm/" + block + " with static stages",
+    "F = mu/tan 20 degrees");
+  for (const double angle : {0., 17.})
+    {
+      const StaticCase<2> at_rest(
+        block,
+        "block-safety",
+        block_on(angle, 20) + friction("0.5", "1e12") +
+          Overrides{"Stages=equilibrium, strength reduction"});
+      gates.near("factor of safety" + degrees(angle),
+                 at_rest.factor_of_safety(),
+                 0.5 / std::tan(20 * degree),
+                 0.01);
+    }
+}
+
+
+
+// The dynamics begin with what the plane bore in equilibrium.
+TEST(BlockOnPlane, StaysAtRestAfterEquilibrium)
+{
+  Verification gates("Block on a plane of 20 degrees, after equilibrium",
+                     "prm/" + block + " with the stages equilibrium, dynamics",
+                     "at rest");
+  for (const double angle : {0., 17.})
+    {
+      const Table table =
+        run<2>(block,
+               "block-after-equilibrium",
+               block_on(angle, 20) + friction("0.5", "1e12") +
+                 Overrides{"Stages=equilibrium, dynamics", "End time=0.5"});
+      gates.at_most("speed of the fastest point after 0.5 s [m/s]" +
+                      degrees(angle),
+                    table["maximum speed [m/s]"].back(),
+                    1e-5);
     }
 }
 
