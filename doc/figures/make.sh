@@ -33,6 +33,7 @@ run landslide prm/landslide-quick.prm --set "Splitting/Directions=stretched" \
     --set "Output/Field interval=5"
 run landslide-unsplit prm/landslide-quick.prm --set "Splitting/Enabled=false" \
     --set "Output/Field interval=5"
+run pipeline prm/pipeline.prm
 run first-slope prm/first-slope.prm --set "Output/Boxes as cells=true" \
     --set "Output/Field interval=5"
 run bar prm/bar.prm --set "Output/Boxes as cells=true" \
@@ -54,6 +55,7 @@ xvfb-run -a sh -eu -c '
   pvbatch $here/bar.py $here/bar.png $scratch/bar $scratch/bar-unsplit
   pvbatch $here/landslide.py $scratch/landslide $here/landslide.png
   pvbatch $here/landslide.py $scratch/first-slope $here/first-slope.png
+  pvbatch $here/pipeline.py $here/pipeline.png $scratch/pipeline
   pvbatch $here/toe.py $here/toe.png $scratch/landslide-unsplit \
           $scratch/landslide
   pvbatch $here/mechanism.py $here/mechanism.png \

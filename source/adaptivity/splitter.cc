@@ -190,11 +190,11 @@ namespace talus
                                        const unsigned int cell,
                                        double            &cell_size) const
   {
-    Point<dim>                      x, length;
+    const Point<dim>                x = load_place(points, points.position, p);
+    Point<dim>                      length;
     std::array<Tensor<1, dim>, dim> edge;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        x[d]      = points.data(points.position, d)[p];
         edge[d]   = edge_of_box(points, rule, d, p);
         length[d] = points.data(points.stretch, d)[p] *
                     points.data(points.reference_length, d)[p];
@@ -240,17 +240,15 @@ namespace talus
   Splitter<dim>::check_budget(const Points<dim> &points,
                               const std::size_t  n_points) const
   {
-    Point<dim> place;
-    for (unsigned int d = 0; d < dim; ++d)
-      place[d] = points.data(points.position, d)[marked_[0].point];
+    const unsigned int first = marked_[0].point;
     AssertThrow(n_points <= maximum_points_,
                 ExcPoint(text(
                   "Splitting ",
                   marked_.size(),
                   " points, the first of them point ",
-                  points.data(points.id)[marked_[0].point],
+                  points.data(points.id)[first],
                   " at (",
-                  place,
+                  load_place(points, points.position, first),
                   ") m, would make ",
                   n_points,
                   " points, more than 'Splitting/Maximum number of points' = ",

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/application/command_line.h>
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/base/processor.h>
 #include <talus/simulation/simulation.h>
 #include <talus/version.h>
 
 #include <deal.II/base/config.h>
-#include <deal.II/base/mpi.h>
 
 #include <boost/program_options.hpp>
 
@@ -72,9 +72,7 @@ namespace talus
 
     // A stream without buffer drops what it gets.
     std::ostream  nowhere(nullptr);
-    std::ostream &out =
-      dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0 ? std::cout
-                                                                    : nowhere;
+    std::ostream &out = is_first_rank(MPI_COMM_WORLD) ? std::cout : nowhere;
     if (variables.count("help"))
       {
         out << "talus: submarine landslides by the material point "

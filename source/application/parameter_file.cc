@@ -5,6 +5,8 @@
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -139,14 +141,13 @@ namespace talus
     preview.obstacles = names(prm.get("Names"), "Obstacles/Names");
     prm.leave_subsection();
     prm.enter_subsection("Materials");
-    const auto  materials = needed_names(prm.get("Names"), "Materials/Names");
-    std::string laws;
-    for (const std::string &law : material_names<2>())
-      laws += (laws.empty() ? "" : "|") + law;
+    const auto materials = needed_names(prm.get("Names"), "Materials/Names");
+    const Patterns::Selection laws(
+      boost::algorithm::join(material_names<2>(), "|"));
     for (const std::string &name : materials)
       {
         prm.enter_subsection(name);
-        prm.declare_entry("Law", "linear elastic", Patterns::Selection(laws));
+        prm.declare_entry("Law", "linear elastic", laws);
         prm.leave_subsection();
       }
     prm.leave_subsection();

@@ -3,6 +3,7 @@
 #include <talus/application/message.h>
 #include <talus/application/parameter_file.h>
 #include <talus/application/program.h>
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/base/mpi_io.h>
 #include <talus/simulation/simulation.h>
@@ -20,14 +21,6 @@ namespace
   /// Exit status of a run that was stopped and can be resumed: EX_TEMPFAIL of
   /// sysexits.h.
   constexpr int stopped = 75;
-
-
-
-  bool
-  is_first_rank()
-  {
-    return dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) == 0;
-  }
 
 
 
@@ -49,7 +42,7 @@ namespace
         if (!is_complete)
           std::this_thread::sleep_for(std::chrono::milliseconds(10));
       }
-    if (is_first_rank() || !is_complete)
+    if (is_first_rank(MPI_COMM_WORLD) || !is_complete)
       std::cerr << "talus: " << sentence << std::endl;
     if (!is_complete)
       MPI_Abort(MPI_COMM_WORLD, 1);
@@ -101,7 +94,7 @@ namespace
       simulation.set_up();
     if (command_line.validate)
       {
-        if (is_first_rank())
+        if (is_first_rank(MPI_COMM_WORLD))
           std::cout << command_line.parameter_file << " is valid." << std::endl;
         return 0;
       }
@@ -124,7 +117,7 @@ namespace
   {
     if (command_line.document)
       {
-        if (is_first_rank())
+        if (is_first_rank(MPI_COMM_WORLD))
           document(std::cout);
         return 0;
       }

@@ -30,16 +30,18 @@ namespace talus
   // which the limit 2 |w| keeps from turning around: so it is never negative.
   template <int dim>
   double
-  Damping<dim>::apply(NodalFields<dim>      &nodes,
-                      const Grid<dim>       &grid,
-                      const Boundaries<dim> &boundaries,
-                      const double           mass_cutoff) const
+  Damping<dim>::apply(NodalFields<dim>                 &nodes,
+                      const Grid<dim>                  &grid,
+                      const Boundaries<dim>            &boundaries,
+                      const std::vector<unsigned char> &feels_obstacle,
+                      const double                      mass_cutoff) const
   {
     double work = 0;
     if (coefficient_ == 0)
       return work;
     for (const unsigned int node : nodes.active_nodes())
-      if (nodes.mass(node) > mass_cutoff)
+      if (nodes.mass(node) > mass_cutoff &&
+          (feels_obstacle.empty() || !feels_obstacle[node]))
         {
           const unsigned char faces = grid.faces_of_node(node);
           const unsigned char held =

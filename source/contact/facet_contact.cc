@@ -133,10 +133,9 @@ namespace talus
     for (unsigned int c = 0; c < impulses_.size(); ++c)
       {
         const ContactFacet<dim> &facet = facets_.owned()[c];
-        if (const auto found =
-              by_key.find({{double(facet.key >> 32),
-                            double(facet.key & 0xffffffff),
-                            double(facet.obstacle)}});
+        if (const auto found = by_key.find({{double(facet.key >> 32),
+                                             double(facet.key & 0xffffffff),
+                                             double(facet.obstacle)}});
             found != by_key.end())
           impulses_[c] = found->second;
       }
@@ -158,15 +157,11 @@ namespace talus
       return;
     move_obstacles(state);
     hold_walls(state, boundaries);
-    find_gaps(state);
-    load_nodes(state);
-    constraints_.clear();
-    for (const ContactFacet<dim> &facet : facets_.owned())
-      constraints_.push_back(constraint_of(state.grid, facet));
+    find_constraints(state);
     warm_start(state);
-    const unsigned int n_sweeps = (!has_begun_         ? n_first_sweeps :
-                                   obstacles_.move() ? n_sweeps_moving :
-                                                       n_sweeps_at_rest);
+    const unsigned int n_sweeps = (!has_begun_         ? n_first_sweeps
+                                   : obstacles_.move() ? n_sweeps_moving
+                                                       : n_sweeps_at_rest);
     for (unsigned int s = 0; s < n_sweeps; ++s)
       sweep(state);
     has_begun_          = true;
@@ -180,18 +175,55 @@ namespace talus
 
 
 
+  template <int dim>
+  void
+  FacetContact<dim>::find_constraints(const State<dim> &state)
+  {
+    take_restored(state);
+    find_gaps(state);
+    load_nodes(state);
+    constraints_.clear();
+    for (const ContactFacet<dim> &facet : facets_.owned())
+      constraints_.push_back(constraint_of(state.grid, facet));
+  }
+
+
+
+  // A force is an impulse of one second, which the first step scales to its own
+  // length as it does with that of a step before.
+  template <int dim>
+  void
+  FacetContact<dim>::set_forces(const std::vector<FacetImpulse<dim>> &forces)
+  {
+    AssertDimension(forces.size(), facets_.owned().size());
+    impulses_           = forces;
+    previous_time_step_ = 1.;
+    has_begun_          = true;
+  }
+
+
+
+  /// What a checkpoint held, once there are facets to give it to.
+  template <int dim>
+  void
+  FacetContact<dim>::take_restored(const State<dim> &state)
+  {
+    if (restored_.empty())
+      return;
+    if (obstacles_.move())
+      facets_.update(state.grid, obstacles_);
+    take_impulses(restored_);
+    restored_.clear();
+  }
+
+
+
   /// To where they are at the end of the step. Impulses stay with their cells.
   template <int dim>
   void
   FacetContact<dim>::move_obstacles(const State<dim> &state)
   {
-    if (!restored_.empty())
-      {
-        if (obstacles_.move())
-          facets_.update(state.grid, obstacles_);
-        take_impulses(restored_);
-        restored_.clear();
-      }
+    take_restored(state);
     if (!obstacles_.move())
       return;
     const std::vector<double> rows = rows_of_impulses();
@@ -214,11 +246,11 @@ namespace talus
     for (const unsigned int node : facets_.owned_nodes())
       if (held_[node] && state.nodes.mass(node) > state.mass_cutoff)
         {
-          const Tensor<1, dim> impulse = boundaries.impose_walls(
-            state.nodes,
-            state.grid.faces_of_node(node),
-            node,
-            state.time + 0.5 * state.time_step);
+          const Tensor<1, dim> impulse =
+            boundaries.impose_walls(state.nodes,
+                                    state.grid.faces_of_node(node),
+                                    node,
+                                    state.time + 0.5 * state.time_step);
           state.works.wall_impulse += impulse;
           // Of the components that are held, which nothing changes any more.
           state.works.contact -= impulse * state.nodes.mean_velocity(node);
@@ -233,7 +265,7 @@ namespace talus
   void
   FacetContact<dim>::find_gaps(const State<dim> &state)
   {
-    const unsigned int n = obstacles_.size();
+    const unsigned int n    = obstacles_.size();
     const auto         open = [&](const unsigned int node) {
       std::fill_n(gaps_.begin() + std::size_t(n) * node, n, no_gap);
     };
@@ -270,19 +302,55 @@ namespace talus
 
 
 
-  // In a uniform cell the nodes that a box reaches follow from where it is: a
-  // node is reached if it is nearer than a cell and the half length, along each
-  // axis. In others, and of convected domains, the weights tell.
+  namespace
+  {
+    /// Call action(node) for the nodes in the patch of a uniform cell that a box
+    /// reaches: those that are nearer than a cell and the half length, along each
+    /// axis. @p half in cells.
+    template <int dim, typename Action>
+    void
+    for_each_node_in_reach(const Cell<dim>      &cell,
+                           const Point<dim>     &x,
+                           const Tensor<1, dim> &half,
+                           const Action         &action)
+    {
+      std::array<bool, 4 * dim> reaches;
+      for (unsigned int d = 0; d < dim; ++d)
+        for (int i = 0; i < 4; ++i)
+          reaches[4 * d + i] = std::abs((x[d] - cell.lower[d]) / cell.size -
+                                        (i - 1)) < 1. + half[d];
+      for (unsigned int k = 0; k < cell.patch.size(); ++k)
+        {
+          bool is_reached = true;
+          for (unsigned int d = 0; d < dim; ++d)
+            is_reached = is_reached && reaches[4 * d + k / power(4, d) % 4];
+          if (is_reached)
+            action(cell.patch[k]);
+        }
+    }
+  } // namespace
+
+
+
+  // In a uniform cell the nodes that a box reaches follow from where it is. In
+  // others, and of convected domains, the weights tell.
   template <int dim>
   void
   FacetContact<dim>::add_gaps_of_segment(const State<dim> &state,
                                          const Segment    &segment)
   {
-    const Points<dim>           &points = state.points;
-    const Cell<dim>             &cell   = state.grid.cells()[segment.cell];
-    const bool                   is_simple =
+    const Points<dim> &points = state.points;
+    const Cell<dim>   &cell   = state.grid.cells()[segment.cell];
+    const bool         is_simple =
       cell.uniform && state.box_shape.rule != BoxRule::convected_domain;
     std::vector<NodeWeight<dim>> weights;
+    const std::size_t            n = obstacles_.size();
+    std::vector<double>          gaps(n);
+    const auto                   reach = [&](const unsigned int node) {
+      if (facets_.is_contact_node(node))
+        for (std::size_t k = 0; k < n; ++k)
+          gaps_[n * node + k] = std::min(gaps_[n * node + k], gaps[k]);
+    };
     for (unsigned int p = segment.begin; p < segment.end; ++p)
       {
         const Point<dim> x = load_place(points, points.position, p);
@@ -290,42 +358,18 @@ namespace talus
         for (unsigned int d = 0; d < dim; ++d)
           half[d] = half_length_in_cells<dim>(
             points, state.box_shape, d, p, 1. / cell.size);
-        std::array<double, 8> gaps; // no more obstacles at a time
-        const unsigned int    n = obstacles_.size();
-        for (unsigned int k = 0; k < n; ++k)
+        for (std::size_t k = 0; k < n; ++k)
           gaps[k] = gap_of_point(obstacles_[k], x, cell.size * half);
-        const auto reach = [&](const unsigned int node) {
-          for (unsigned int k = 0; k < n; ++k)
-            gaps_[std::size_t(n) * node + k] =
-              std::min(gaps_[std::size_t(n) * node + k], gaps[k]);
-        };
-        if (!is_simple)
+        if (is_simple)
           {
-            weights_of_point(points,
-                             state.grid,
-                             state.box_shape,
-                             segment.cell,
-                             p,
-                             weights);
-            for (const NodeWeight<dim> &weight : weights)
-              if (weight.value > 0)
-                reach(weight.node);
+            for_each_node_in_reach(cell, x, half, reach);
             continue;
           }
-        std::array<bool, 4 * dim> reaches;
-        for (unsigned int d = 0; d < dim; ++d)
-          for (int i = 0; i < 4; ++i)
-            reaches[4 * d + i] =
-              std::abs((x[d] - cell.lower[d]) / cell.size - (i - 1)) <
-              1. + half[d];
-        for (unsigned int k = 0; k < cell.patch.size(); ++k)
-          {
-            bool is_reached = true;
-            for (unsigned int d = 0; d < dim; ++d)
-              is_reached = is_reached && reaches[4 * d + k / power(4, d) % 4];
-            if (is_reached && facets_.is_contact_node(cell.patch[k]))
-              reach(cell.patch[k]);
-          }
+        weights_of_point(
+          points, state.grid, state.box_shape, segment.cell, p, weights);
+        for (const NodeWeight<dim> &weight : weights)
+          if (weight.value > 0)
+            reach(weight.node);
       }
   }
 
@@ -393,24 +437,22 @@ namespace talus
         result.share[v] /= sum;
         if (result.share[v] == 0)
           continue;
-        const double inverse =
-          result.share[v] * result.share[v] *
-          records_[std::size_t(width) * node + splitting];
+        const double inverse = result.share[v] * result.share[v] *
+                               records_[std::size_t(width) * node + splitting];
         double free = 1.; // share of the normal that no wall holds
         for (unsigned int d = 0; d < dim; ++d)
           if (held_[node] & (1u << d))
             free -= facet.normal[d] * facet.normal[d];
         inverse_mass += inverse;
         inverse_normal_mass += free * inverse;
-        gap = std::min(gap,
-                       gaps_[std::size_t(obstacles_.size()) * node +
-                             facet.obstacle]);
+        gap = std::min(
+          gap, gaps_[std::size_t(obstacles_.size()) * node + facet.obstacle]);
       }
     result.is_loaded = true;
     result.mass      = 1. / inverse_mass;
     result.normal_mass =
-      (inverse_normal_mass > 1e-6 * inverse_mass ? 1. / inverse_normal_mass :
-                                                   0.);
+      (inverse_normal_mass > 1e-6 * inverse_mass ? 1. / inverse_normal_mass
+                                                 : 0.);
     result.gap  = std::max(0., gap - dead_band * cell.size);
     result.area = facet.area * sum;
     return result;
@@ -425,10 +467,11 @@ namespace talus
                                     const double             normal_impulse,
                                     const double             dt) const
   {
-    return std::min(
-      obstacles_[facet.obstacle].friction_coefficient() * normal_impulse,
-      obstacles_.shear_stress_factor() * facet.maximum_shear_stress *
-        constraint.area * dt);
+    return std::min(obstacles_.friction_factor() *
+                      obstacles_[facet.obstacle].friction_coefficient() *
+                      normal_impulse,
+                    obstacles_.shear_stress_factor() *
+                      facet.maximum_shear_stress * constraint.area * dt);
   }
 
 
@@ -471,10 +514,9 @@ namespace talus
         const double factor =
           longer * std::min(1., constraint.mass / impulse.effective_mass);
         impulse.normal *= factor;
-        impulse.tangential =
-          cut_to_length(factor * impulse.tangential,
-                        friction_limit(
-                          facet, constraint, impulse.normal, state.time_step));
+        impulse.tangential = cut_to_length(
+          factor * impulse.tangential,
+          friction_limit(facet, constraint, impulse.normal, state.time_step));
         impulse.effective_mass = constraint.mass;
         add_impulse(facet,
                     constraint,
@@ -493,9 +535,9 @@ namespace talus
   {
     Tensor<1, dim> u;
     for (unsigned int v = 0; v < facet.node.size(); ++v)
-      u += constraint.share[v] *
-           vector_at<dim>(records_,
-                          std::size_t(width) * facet.node[v] + velocity);
+      u +=
+        constraint.share[v] *
+        vector_at<dim>(records_, std::size_t(width) * facet.node[v] + velocity);
     return u;
   }
 
@@ -568,6 +610,18 @@ namespace talus
 
 
 
+  template <int dim>
+  double
+  FacetContact<dim>::gap_inside(
+    const Grid<dim> &grid, const typename Facets<dim>::NodeInside &inside) const
+  {
+    const double gap =
+      gaps_[std::size_t(obstacles_.size()) * inside.node + inside.obstacle];
+    return std::max(0., gap - dead_band * grid.finest_size());
+  }
+
+
+
   // Soil that dips below the surface reaches nodes that no facet touches. They
   // carry less than a thousandth of the force, and without a rule they would
   // fall. Their area in contact is zero, so they pass no friction.
@@ -584,12 +638,9 @@ namespace talus
           continue;
         const Obstacle<dim> &obstacle = obstacles_[inside.obstacle];
         const Tensor<1, dim> n        = obstacle.normal(inside.place);
-        const double         gap =
-          gaps_[std::size_t(obstacles_.size()) * inside.node + inside.obstacle];
-        const double may_move =
-          -std::max(0., gap - dead_band * state.grid.finest_size()) / dt;
-        const Tensor<1, dim> v   = state.nodes.velocity(inside.node);
-        const double         v_n = (v - obstacle.velocity(state.time + 0.5 * dt)) * n;
+        const double         may_move = -gap_inside(state.grid, inside) / dt;
+        const Tensor<1, dim> v        = state.nodes.velocity(inside.node);
+        const double v_n = (v - obstacle.velocity(state.time + 0.5 * dt)) * n;
         if (v_n < may_move)
           impulses_inside_.push_back(
             {inside.node,
@@ -736,14 +787,14 @@ namespace talus
              Reduction::equal);
     for (unsigned int k = 0; k < obstacles_.size(); ++k)
       reactions_[k].list_state("obstacle " + obstacles_[k].name(), list);
-    list.add_table({"facet impulses",
-                    "key of the cell: upper and lower 32 bits; obstacle; normal impulse [N s]; "
-                    "effective mass [kg]; friction impulse [N s]",
-                    n_columns,
-                    [this]() { return rows_of_impulses(); },
-                    [this](const std::vector<double> &rows) {
-                      restored_ = rows;
-                    }});
+    list.add_table(
+      {"facet impulses",
+       "key of the cell: upper and lower 32 bits; obstacle; normal impulse [N "
+       "s]; "
+       "effective mass [kg]; friction impulse [N s]",
+       n_columns,
+       [this]() { return rows_of_impulses(); },
+       [this](const std::vector<double> &rows) { restored_ = rows; }});
   }
 
 

@@ -138,9 +138,9 @@ namespace talus
                          const Obstacles<dim> &obstacles,
                          const unsigned int    c) const
   {
-    const Cell<dim>        &cell   = grid.cells()[c];
-    const Point<dim>        centre = centre_of(cell);
-    const Box<dim>          box    = box_of(cell);
+    const Cell<dim>               &cell   = grid.cells()[c];
+    const Point<dim>               centre = centre_of(cell);
+    const Box<dim>                 box    = box_of(cell);
     std::vector<ContactFacet<dim>> result;
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       {
@@ -193,11 +193,12 @@ namespace talus
         cut_cells_.erase(c);
         return;
       }
-    CutCell &result    = cut_cells_[c];
-    result.facets      = std::move(facets);
-    result.open_volume = open_shape_integrals<dim>(
-      box_of(cell),
-      [&](const Point<dim> &x) { return obstacles.signed_distance(x); });
+    CutCell &result = cut_cells_[c];
+    result.facets   = std::move(facets);
+    result.open_volume =
+      open_shape_integrals<dim>(box_of(cell), [&](const Point<dim> &x) {
+        return obstacles.signed_distance(x);
+      });
     result.touching = cells_around(grid, cell, 1);
     result.near     = cells_around(grid, cell, 2);
   }
@@ -246,8 +247,7 @@ namespace talus
         Point<dim>                    first;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            first[d] =
-              std::max(around.lower[d] - h, grid.domain().lower[d]);
+            first[d] = std::max(around.lower[d] - h, grid.domain().lower[d]);
             const double last =
               std::min(around.upper[d] + h, grid.domain().upper[d]);
             n[d] = std::max(0., std::ceil((last - first[d]) / h) + 1.);
@@ -342,9 +342,9 @@ namespace talus
     const auto       cut_cell = cut_cells_.find(c);
     const bool       is_cut   = cut_cell != cut_cells_.end();
     const double     uncut =
-      (!is_cut && obstacles.signed_distance(centre_of(cell)) > 0 ?
-               std::pow(cell.size, dim) / nodes.size() :
-               0.);
+      (!is_cut && obstacles.signed_distance(centre_of(cell)) > 0
+         ? std::pow(cell.size, dim) / nodes.size()
+         : 0.);
     for (unsigned int v = 0; v < nodes.size(); ++v)
       if (n_facets_[nodes[v]] > 0)
         open_volume_[nodes[v]] +=

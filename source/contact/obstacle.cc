@@ -15,8 +15,7 @@ namespace talus
   Obstacle<dim>::Obstacle(const std::string &name)
     : ParameterAcceptor("/Obstacles/" + name)
     , name_(name)
-    , shape_parameters_("/Obstacles/" + name,
-                        "half-plane")
+    , shape_parameters_("/Obstacles/" + name, "half-plane")
   {
     add_parameter("Friction coefficient",
                   friction_coefficient_,
@@ -37,7 +36,9 @@ namespace talus
                   reference_point_text_,
                   "The point that moments of the forces are about, as x,y or "
                   "x,y,z [m]; it moves with the obstacle. Empty: the middle "
-                  "of the obstacle, or the origin if it has no end.");
+                  "of the obstacle, or the origin if it has no end.",
+                  this->prm,
+                  Patterns::List(Patterns::Double(), 0, dim));
   }
 
 
@@ -73,12 +74,9 @@ namespace talus
         everywhere.upper[d] = std::numeric_limits<double>::infinity();
         everywhere.lower[d] = -everywhere.upper[d];
       }
-    shape_ = shape_parameters_.make(everywhere);
-    maximum_shear_stress_ =
-      std::make_unique<Expression<dim>>(path("Maximum shear stress"),
-                                        maximum_shear_stress_text_,
-                                        1,
-                                        constants);
+    shape_                = shape_parameters_.make(everywhere);
+    maximum_shear_stress_ = std::make_unique<Expression<dim>>(
+      path("Maximum shear stress"), maximum_shear_stress_text_, 1, constants);
     velocity_.reset();
     if (!velocity_text_.empty())
       velocity_ = std::make_unique<Expression<dim>>(path("Velocity"),
@@ -102,6 +100,7 @@ namespace talus
         for (unsigned int d = 0; d < dim; ++d)
           reference_point_[d] = Utilities::string_to_double(numbers[d]);
       }
+    velocity(0.); // throws here rather than in the first step
   }
 
 

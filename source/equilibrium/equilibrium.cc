@@ -159,7 +159,8 @@ namespace talus
   Equilibrium<dim>::advance(StaticProblem<dim> &problem,
                             const Observer     &observe)
   {
-    newton_.begin(problem, parameters_of_step());
+    newton_.begin(problem,
+                  parameters_of_step(!problem.contact.obstacles().empty()));
     imbalance_ = newton_.imbalance();
     if (load_ >= 1. && imbalance_ <= limits_.allowed_imbalance)
       {
@@ -193,14 +194,18 @@ namespace talus
   /// stiffer the stabilization is against what they have of stiffness: so once
   /// all load is on it gives way. With large strain they would move too far.
   /// The floor of a thousandth keeps nodes without stiffness of their own from
-  /// making the matrix singular.
+  /// making the matrix singular. Nodes inside obstacles have hardly any soil,
+  /// too, but all of the pressure that there is: they hold what their springs
+  /// and the stabilization pass, and follow only when that is next to nothing.
   template <int dim>
   typename Newton<dim>::Parameters
-  Equilibrium<dim>::parameters_of_step() const
+  Equilibrium<dim>::parameters_of_step(const bool has_obstacles) const
   {
     auto parameters = newton_parameters_;
     if (parameters.measure == StrainMeasure::small)
-      parameters.ghost_penalty *= std::max(1e-3, std::pow(0.5, n_settling_));
+      parameters.ghost_penalty *=
+        (has_obstacles ? std::max(1e-9, std::pow(0.1, n_settling_))
+                       : std::max(1e-3, std::pow(0.5, n_settling_)));
     return parameters;
   }
 

@@ -15,14 +15,26 @@ namespace talus
   using namespace dealii;
 
   /// Slipping nodes are free, and their friction is known: it is a load as any
-  /// other. What held components bear is left out by the norm.
+  /// other, and so is what obstacles bear.
+  template <int dim>
+  std::vector<double>
+  Newton<dim>::out_of_balance() const
+  {
+    std::vector<double> force = unbalanced_;
+    for (std::size_t i = 0; i < of_facets_.size(); ++i)
+      force[i] += of_facets_[i];
+    contact_.add_friction(force);
+    return force;
+  }
+
+
+
+  /// What held components bear is left out by the norm.
   template <int dim>
   double
   Newton<dim>::imbalance() const
   {
-    std::vector<double> force = unbalanced_;
-    contact_.add_friction(force);
-    const double norm = unknowns_.norm(force);
+    const double norm = unknowns_.norm(out_of_balance());
     return norm == 0. ? 0. : norm / reference_;
   }
 
@@ -66,10 +78,8 @@ namespace talus
   std::pair<double, std::string>
   Newton<dim>::largest_imbalance() const
   {
-    std::vector<double> force = unbalanced_;
-    contact_.add_friction(force);
     std::pair<double, std::string> result;
-    result.second = where_largest(force, result.first);
+    result.second = where_largest(out_of_balance(), result.first);
     return result;
   }
 
@@ -79,7 +89,7 @@ namespace talus
   /// rank would be turned inside out.
   /// Collective: all ranks take the same way, since a rank that went on alone
   /// would wait for messages for ever.
-  ///   r = target + friction - f(u) - K_g u
+  ///   r = target + friction - f(u) - K_g u + forces of obstacles(u)
   /// at all nodes; at held ones -r is the reaction.
   template <int dim>
   bool
@@ -91,6 +101,7 @@ namespace talus
     if (!Utilities::MPI::logical_or(!sound, unknowns_.communicator()))
       {
         ghost_.add_forces(u, forces);
+        contact_.facets().add_forces(-1., u, forces);
         unknowns_.add_to_owners(forces);
         residual_ = target_;
         contact_.add_friction(residual_);
@@ -122,7 +133,8 @@ namespace talus
 
 
   /// The target of f(u) + K_g u is f(0) + s (f_ext - f(0)) - (1 - s) c, with
-  /// share s of the load step and the force c that the seabed bore before: put
+  /// share s of the load step and the force c that seabed and obstacles bore
+  /// before: put
   /// into the residual of doc/method.md, section 12. With s = 1 it is f_ext,
   /// whatever was borne before.
   ///
@@ -138,6 +150,8 @@ namespace talus
     for (std::size_t i = 0; i < target_.size(); ++i)
       target_[i] += share * unbalanced_[i];
     contact_.add_contact_force(-(1. - share), target_);
+    for (std::size_t i = 0; i < of_facets_.size(); ++i)
+      target_[i] -= (1. - share) * of_facets_[i];
     u_                               = unknowns_.field();
     const StaticContact<dim> before  = contact_;
     const Outcome            outcome = solve_with_contact(problem, observe);
@@ -185,7 +199,8 @@ namespace talus
           return outcome;
         unknowns_.copy_to_ghosts(u_);
       }
-    return failure("The contact with the seabed does not come to rest");
+    return failure(
+      "The contact with seabed and obstacles does not come to rest");
   }
 
 
@@ -241,6 +256,7 @@ namespace talus
     matrix_ = 0.;
     internal_forces_.add_tangent(weights_, unknowns_, matrix_);
     ghost_.add_to_matrix(unknowns_, matrix_);
+    contact_.facets().add_to_matrix(unknowns_, matrix_);
     matrix_.compress(VectorOperation::add);
     // Where soil can move freely the solution is to be large, not infinite.
     for (const auto i : unknowns_.owned())
@@ -431,6 +447,7 @@ namespace talus
   void
   Newton<dim>::commit(StaticProblem<dim> &problem)
   {
+    contact_.facets().commit(problem, u_, parameters_.measure);
     Points<dim> &points = problem.state.points;
     // Whatever displacements were evaluated last.
     internal_forces_.set_gradients(problem, weights_, u_);
@@ -502,11 +519,12 @@ namespace talus
                      problem.state.grid,
                      problem.transfer.box_shape(),
                      unknowns_);
+    const double modulus = largest_shear_modulus(problem);
     ghost_.find_faces(problem.state.grid,
                       unknowns_,
                       parameters.ghost_penalty,
-                      largest_shear_modulus(problem));
-    contact_.begin(problem, unknowns_);
+                      modulus);
+    contact_.begin(problem, unknowns_, modulus);
     unknowns_.constrain(contact_.constrained(problem, unknowns_));
     make_pattern();
     make_rigid_modes(problem.state.grid);
@@ -515,6 +533,13 @@ namespace talus
     mechanism_.resize(u_.size(), 0.);
     internal_   = unknowns_.field();
     unbalanced_ = unknowns_.field();
+    of_facets_.clear();
+    if (!problem.contact.obstacles().empty())
+      {
+        of_facets_ = unknowns_.field();
+        contact_.facets().add_forces(1., u_, of_facets_);
+        unknowns_.add_to_owners(of_facets_);
+      }
     // Without displacements no point can be turned inside out.
     internal_forces_.evaluate(problem, weights_, u_, internal_);
     unknowns_.add_to_owners(internal_);
@@ -570,6 +595,7 @@ namespace talus
                                                             true);
       }
     ghost_.add_to_pattern(unknowns_, pattern);
+    contact_.facets().add_to_pattern(unknowns_, pattern);
     pattern.compress();
     matrix_.reinit(pattern);
   }

@@ -19,8 +19,10 @@ namespace talus
   template <int dim>
   void
   StaticContact<dim>::begin(const StaticProblem<dim> &problem,
-                            const Unknowns<dim>      &unknowns)
+                            const Unknowns<dim>      &unknowns,
+                            const double              modulus)
   {
+    facets_.begin(problem, unknowns, modulus);
     std::map<unsigned int, Contact> known;
     for (const Contact &contact : contacts_)
       known[contact.node] = contact;
@@ -248,7 +250,9 @@ namespace talus
         if (was_open)
           u[dim * contact.node + contact.face / 2] = 0.;
       }
-    return Utilities::MPI::sum(n_changes, unknowns.communicator());
+    const bool facets_rest = facets_.update(problem, unknowns, u);
+    return (facets_rest ? 0 : 1) +
+           Utilities::MPI::sum(n_changes, unknowns.communicator());
   }
 
 
@@ -260,7 +264,7 @@ namespace talus
   StaticContact<dim>::stick_again(const Unknowns<dim>       &unknowns,
                                   const std::vector<double> &direction)
   {
-    unsigned int n_changes = 0;
+    unsigned int n_changes = facets_.stick_again(direction);
     for (Contact &contact : contacts_)
       {
         double power = 0;

@@ -130,8 +130,9 @@ namespace talus
         const ClippedSimplex<dim> clipped = clip_simplex<dim>(simplex, values);
         if (clipped.facet.empty())
           return;
-        const Tensor<1, dim> vector_area = talus::vector_area<dim>(clipped.facet);
-        const double         area        = vector_area.norm();
+        const Tensor<1, dim> vector_area =
+          talus::vector_area<dim>(clipped.facet);
+        const double area = vector_area.norm();
         // One corner on the surface: a facet without area.
         if (area == 0)
           return;

@@ -128,8 +128,8 @@ namespace talus
 
 
   /// Whether the distance at the centre is the mean of those at the corners:
-  /// where a surface is curved or has a corner, and where two surfaces are near,
-  /// it is not.
+  /// where a surface is curved or has a corner, and where two surfaces are
+  /// near, it is not.
   template <int dim>
   bool
   Region<dim>::are_linear(const Box<dim> &box,

@@ -2,6 +2,8 @@
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -149,9 +151,6 @@ namespace talus
     n_columns_ = names.size();
     file_.close();
     file_.clear();
-    std::string header;
-    for (const std::string &name : names)
-      header += (header.empty() ? "" : ",") + name;
     errno = 0;
     if (beginning == Beginning::resumed)
       {
@@ -165,7 +164,7 @@ namespace talus
         return;
       }
     file_.open(path);
-    file_ << header << '\n';
+    file_ << boost::algorithm::join(names, ",") << '\n';
     flush();
   }
 

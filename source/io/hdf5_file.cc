@@ -104,9 +104,11 @@ namespace talus
       const hsize_t start[2] = {first, 0}, count[2] = {n_rows, n_columns};
       const int     rank = (n_columns == 1 ? 1 : 2);
       const Handle  file_space(H5Dget_space(array), H5Sclose);
-      const Handle  memory_space(H5Screate_simple(rank, count, nullptr),
+      if (H5Sget_simple_extent_npoints(file_space) == 0)
+        return true;
+      const Handle memory_space(H5Screate_simple(rank, count, nullptr),
                                 H5Sclose);
-      const Handle  together(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
+      const Handle together(H5Pcreate(H5P_DATASET_XFER), H5Pclose);
       H5Pset_dxpl_mpio(together, H5FD_MPIO_COLLECTIVE);
       // A rank without rows takes part with an empty selection: the call is
       // collective.
@@ -295,7 +297,7 @@ namespace talus
 
 
 
-  // ------------------------------------------------------ groups and attributes
+  // ----------------------------------------------------- groups and attributes
 
   void
   Hdf5File::create_group(const std::string &name)
@@ -380,39 +382,21 @@ namespace talus
 
 
 
-  void
-  Hdf5File::set_attribute(const std::string &object,
-                          const std::string &name,
-                          const double       value)
-  {
-    write_attribute(object, name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, &value);
-  }
-
-
-
-  void
-  Hdf5File::set_attribute(const std::string  &object,
-                          const std::string  &name,
-                          const std::uint64_t value)
-  {
-    write_attribute(object, name, H5T_NATIVE_UINT64, H5T_STD_U64LE, &value);
-  }
-
-
-
   /// Numbers are converted from the file's type to that of memory.
-  void
+  template <typename Number>
+  Number
   Hdf5File::read_attribute(const std::string &object,
                            const std::string &name,
-                           const hid_t        type,
-                           void              *value)
+                           const hid_t        type)
   {
+    Number value = 0;
     if (!error_.empty())
-      return;
+      return value;
     const Handle attribute = open_attribute(file_, object, name);
     check_on_all_ranks(attribute.is_valid() &&
-                         H5Aread(attribute, type, value) >= 0,
+                         H5Aread(attribute, type, &value) >= 0,
                        is_missing(object, name));
+    return value;
   }
 
 
@@ -430,27 +414,6 @@ namespace talus
                          H5Aread(attribute, type, value.data()) >= 0,
                        is_missing(object, name));
     return value.substr(0, value.find('\0'));
-  }
-
-
-
-  double
-  Hdf5File::number_attribute(const std::string &object, const std::string &name)
-  {
-    double value = 0;
-    read_attribute(object, name, H5T_NATIVE_DOUBLE, &value);
-    return value;
-  }
-
-
-
-  std::uint64_t
-  Hdf5File::integer_attribute(const std::string &object,
-                              const std::string &name)
-  {
-    std::uint64_t value = 0;
-    read_attribute(object, name, H5T_NATIVE_UINT64, &value);
-    return value;
   }
 
 
@@ -521,13 +484,8 @@ namespace talus
       create_array(name, file_type, rows.n_on_all_ranks, rows.n_columns);
     if (!check_on_all_ranks(array.is_valid(), failure))
       return;
-    bool success = (rows.n_on_all_ranks == 0 || transfer_rows(H5Dwrite,
-                                                              array,
-                                                              memory_type,
-                                                              rows.first,
-                                                              rows.n,
-                                                              rows.n_columns,
-                                                              values));
+    bool success = transfer_rows(
+      H5Dwrite, array, memory_type, rows.first, rows.n, rows.n_columns, values);
     n_bytes_ =
       before + with_overhead(Utilities::MPI::broadcast(
                  communicator_, std::uint64_t(H5Dget_storage_size(array))));
@@ -660,19 +618,18 @@ namespace talus
                  const std::uint64_t first,
                  const std::uint64_t n_rows)
   {
-    const auto [total, n_columns] = shape(name);
+    const unsigned int n_columns = shape(name).second;
     if (!error_.empty())
       return {};
     std::vector<double> rows(n_rows * n_columns);
-    const Handle        array = open_array(file_, name);
-    const bool          success =
-      array.is_valid() && (total == 0 || transfer_rows(H5Dread,
-                                                       array,
-                                                       H5T_NATIVE_DOUBLE,
-                                                       first,
-                                                       n_rows,
-                                                       n_columns,
-                                                       rows.data()));
+    const Handle        array   = open_array(file_, name);
+    const bool          success = array.is_valid() && transfer_rows(H5Dread,
+                                                           array,
+                                                           H5T_NATIVE_DOUBLE,
+                                                           first,
+                                                           n_rows,
+                                                           n_columns,
+                                                           rows.data());
     check_on_all_ranks(success, "the array '" + name + "' could not be read");
     return rows;
   }
@@ -740,6 +697,10 @@ namespace talus
 
 
 
+  template double
+  Hdf5File::read_attribute(const std::string &, const std::string &, hid_t);
+  template std::uint64_t
+  Hdf5File::read_attribute(const std::string &, const std::string &, hid_t);
   template void
   Hdf5File::write(const std::string &,
                   const std::vector<double> &,

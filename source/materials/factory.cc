@@ -115,16 +115,12 @@ namespace talus
 
 
 
-  template std::vector<std::string>
-  material_names<2>();
-  template std::vector<std::string>
-  material_names<3>();
-  template std::string
-  names_of_laws_with_strength<2>();
-  template std::string
-  names_of_laws_with_strength<3>();
-  template std::unique_ptr<MaterialModel<2>>
-  make_material(const std::string &, const std::string &);
-  template std::unique_ptr<MaterialModel<3>>
-  make_material(const std::string &, const std::string &);
+  template decltype(material_names<2>) material_names<2>;
+  template decltype(material_names<3>) material_names<3>;
+  template decltype(names_of_laws_with_strength<2>)
+    names_of_laws_with_strength<2>;
+  template decltype(names_of_laws_with_strength<3>)
+                                      names_of_laws_with_strength<3>;
+  template decltype(make_material<2>) make_material<2>;
+  template decltype(make_material<3>) make_material<3>;
 } // namespace talus

@@ -5,7 +5,6 @@
 #include <talus/materials/rate_law.templates.h>
 #include <talus/materials/shear_band.h>
 
-#include <algorithm>
 #include <limits>
 
 namespace talus

@@ -5,22 +5,6 @@
 
 namespace talus
 {
-  namespace
-  {
-    /// Coordinates of the centre of point @p p, m, separated by commas.
-    template <int dim>
-    std::string
-    place_in_words(const Points<dim> &points, const unsigned int p)
-    {
-      std::string place;
-      for (unsigned int d = 0; d < dim; ++d)
-        place += (d > 0 ? ", " : "") + text(points.data(points.position, d)[p]);
-      return place;
-    }
-  } // namespace
-
-
-
   // The loops over points, several at a time, only notice that some determinant
   // is not positive; which point it is, is looked for here, when the run is
   // lost anyway, so that the loops carry no branch.
@@ -42,7 +26,7 @@ namespace talus
           ExcPoint(text("Point ",
                         points.data(points.id)[p],
                         " at (",
-                        place_in_words(points, p),
+                        load_place(points, points.position, p),
                         ") m was turned inside out: the determinant of its "
                         "deformation gradient is ",
                         J,
@@ -69,7 +53,7 @@ namespace talus
                     text("The viscoplastic flow of point ",
                          points.data(points.id)[p],
                          " at (",
-                         place_in_words(points, p),
+                         load_place(points, points.position, p),
                          ") m could not be solved for, which should not be. "
                          "Look for what throws the points there about, or "
                          "change the material's consistency.")));
@@ -77,18 +61,8 @@ namespace talus
 
 
 
-  template void
-  throw_inverted_point(const Points<2> &, unsigned int, unsigned int);
-  template void
-  throw_inverted_point(const Points<3> &, unsigned int, unsigned int);
-  template void
-  throw_unsolved_point(const Points<2> &,
-                       unsigned int,
-                       unsigned int,
-                       unsigned int);
-  template void
-  throw_unsolved_point(const Points<3> &,
-                       unsigned int,
-                       unsigned int,
-                       unsigned int);
+  template decltype(throw_inverted_point<2>) throw_inverted_point<2>;
+  template decltype(throw_inverted_point<3>) throw_inverted_point<3>;
+  template decltype(throw_unsolved_point<2>) throw_unsolved_point<2>;
+  template decltype(throw_unsolved_point<3>) throw_unsolved_point<3>;
 } // namespace talus

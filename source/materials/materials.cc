@@ -2,6 +2,8 @@
 #include <talus/base/errors.h>
 #include <talus/materials/materials.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 
 namespace talus
@@ -22,17 +24,13 @@ namespace talus
                   listed_names_,
                   "Names of the materials, separated by commas; each has a "
                   "section of that name.");
-    std::string laws;
-    for (const std::string &law : material_names<dim>())
-      laws += (laws.empty() ? "" : "|") + law;
+    const Patterns::Selection laws(
+      boost::algorithm::join(material_names<dim>(), "|"));
     for (MaterialName &material : names_)
       {
         enter_subsection(material.name);
-        add_parameter("Law",
-                      material.law,
-                      "Constitutive law.",
-                      this->prm,
-                      Patterns::Selection(laws));
+        add_parameter(
+          "Law", material.law, "Constitutive law.", this->prm, laws);
         leave_subsection();
         models_.push_back(
           make_material<dim>(material.law, "/Materials/" + material.name));

@@ -220,12 +220,8 @@ namespace talus
 
 
 
-  template FractureCounts
-  count_fractures(const Points<2> &, const Grid<2> &);
-  template FractureCounts
-  count_fractures(const Points<3> &, const Grid<3> &);
-  template void
-  list_fractures(const State<2> &, Quantities &);
-  template void
-  list_fractures(const State<3> &, Quantities &);
+  template decltype(count_fractures<2>) count_fractures<2>;
+  template decltype(count_fractures<3>) count_fractures<3>;
+  template decltype(list_fractures<2>)  list_fractures<2>;
+  template decltype(list_fractures<3>)  list_fractures<3>;
 } // namespace talus

@@ -2,8 +2,6 @@
 #include <talus/grid/nodal_exchange.h>
 #include <talus/observers/grid_output.h>
 
-#include <algorithm>
-
 namespace talus
 {
   using namespace dealii;
@@ -100,39 +98,6 @@ namespace talus
 
 
 
-  template <int dim>
-  void
-  GridOutput<dim>::begin(const OutputSettings &settings,
-                         const State<dim>     &state,
-                         const Beginning       beginning)
-  {
-    series_.begin(settings.folder,
-                  "grid",
-                  state.communicator(),
-                  settings.format,
-                  beginning);
-  }
-
-
-
-  template <int dim>
-  void
-  GridOutput<dim>::list_state(StateList &list)
-  {
-    series_.list_state("files of grid", list);
-  }
-
-
-
-  template <int dim>
-  void
-  GridOutput<dim>::sync()
-  {
-    series_.sync();
-  }
-
-
-
   /// Cells with points only: the mesh far from the soil has nothing to show and
   /// may be most of it. Points are sorted by cell, so the segments of a cell
   /// follow each other. A corner that several cells share is written once for
@@ -156,7 +121,7 @@ namespace talus
           add_cell(cells, state.grid.cells()[segment.cell]);
           previous = segment.cell;
         }
-    series_.write(cells);
+    this->series_.write(cells);
   }
 
 

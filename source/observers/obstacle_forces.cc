@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/agreement.h>
 #include <talus/observers/obstacle_forces.h>
 
 #include <deal.II/base/mpi.h>
@@ -12,7 +11,8 @@ namespace talus
 
   template <int dim>
   ObstacleForces<dim>::ObstacleForces(FacetContact<dim> &contact)
-    : contact_(contact)
+    : TableObserver<dim>("obstacles.csv")
+    , contact_(contact)
   {}
 
 
@@ -90,8 +90,9 @@ namespace talus
     mass                        = Utilities::MPI::sum(mass, communicator);
     inside                      = Utilities::MPI::sum(inside, communicator);
     const std::string name      = obstacle.name() + ' ';
-    row.push_back(
-      {name + "share of mass below surface", "-", mass > 0 ? inside / mass : 0});
+    row.push_back({name + "share of mass below surface",
+                   "-",
+                   mass > 0 ? inside / mass : 0});
     row.push_back({name + "deepest point",
                    "cells",
                    Utilities::MPI::max(deepest, communicator)});
@@ -114,29 +115,15 @@ namespace talus
 
 
 
-  namespace
-  {
-    std::vector<std::string>
-    headings(const Quantities &row)
-    {
-      std::vector<std::string> result;
-      for (const Quantity &quantity : row)
-        result.push_back(quantity.heading());
-      return result;
-    }
-  } // namespace
-
-
-
   template <int dim>
-  void
-  ObstacleForces<dim>::begin(const OutputSettings &settings,
-                             const State<dim>     &state,
-                             const Beginning       beginning)
+  std::vector<std::string>
+  ObstacleForces<dim>::columns(const OutputSettings & /*settings*/,
+                               const State<dim> &state) const
   {
-    const auto columns = headings(evaluate(state));
-    if (is_first_rank(state.communicator()))
-      file_.open(settings.folder / file_name, columns, beginning);
+    std::vector<std::string> result;
+    for (const Quantity &quantity : evaluate(state))
+      result.push_back(quantity.heading());
+    return result;
   }
 
 
@@ -148,45 +135,20 @@ namespace talus
     std::vector<double> values;
     for (const Quantity &quantity : evaluate(state))
       values.push_back(quantity.value);
-    if (is_first_rank(state.communicator()))
-      {
-        file_.add_row(values);
-        file_.flush();
-      }
+    this->add_rows(state, {values});
     contact_.start_interval();
   }
 
 
 
+  /// Without obstacles there is no file, and nothing that a checkpoint would
+  /// have to know of it.
   template <int dim>
   void
   ObstacleForces<dim>::list_state(StateList &list)
   {
     if (!contact_.obstacles().empty())
-      file_.list_state(file_name, list);
-  }
-
-
-
-  template <int dim>
-  std::string
-  ObstacleForces<dim>::cannot_resume(const OutputSettings &settings,
-                                     const State<dim>     &state) const
-  {
-    const auto columns = headings(evaluate(state));
-    return is_first_rank(state.communicator()) ?
-             file_.cannot_resume(settings.folder / file_name, columns) :
-             "";
-  }
-
-
-
-  template <int dim>
-  void
-  ObstacleForces<dim>::sync()
-  {
-    if (is_first_rank(MPI_COMM_WORLD))
-      file_.sync();
+      TableObserver<dim>::list_state(list);
   }
 
 

@@ -188,12 +188,8 @@ namespace talus
 
 
 
-  template double
-  front_of_mass(const Points<2> &, double, MPI_Comm);
-  template double
-  front_of_mass(const Points<3> &, double, MPI_Comm);
-  template void
-  list_motion(const State<2> &, bool, Quantities &);
-  template void
-  list_motion(const State<3> &, bool, Quantities &);
+  template decltype(front_of_mass<2>) front_of_mass<2>;
+  template decltype(front_of_mass<3>) front_of_mass<3>;
+  template decltype(list_motion<2>)   list_motion<2>;
+  template decltype(list_motion<3>)   list_motion<3>;
 } // namespace talus

@@ -125,10 +125,10 @@ namespace talus
                         "m",
                         FieldKind::vector,
                         [&points](const unsigned int p, float *values) {
-                          for (unsigned int d = 0; d < dim; ++d)
-                            values[d] =
-                              points.data(points.position, d)[p] -
-                              points.data(points.initial_position, d)[p];
+                          const Tensor<1, dim> u =
+                            load_vector(points, points.position, p) -
+                            load_vector(points, points.initial_position, p);
+                          std::copy_n(u.begin_raw(), dim, values);
                         }});
       fields.push_back({"box length",
                         "m",
@@ -159,10 +159,7 @@ namespace talus
                           }});
       };
       add("speed", "m/s", [&points](const unsigned int p) {
-        Tensor<1, dim> v;
-        for (unsigned int d = 0; d < dim; ++d)
-          v[d] = points.data(points.velocity, d)[p];
-        return v.norm();
+        return load_vector(points, points.velocity, p).norm();
       });
       add("mean stress", "Pa", [&points](const unsigned int p) {
         return stress_measures(points, p).first;
@@ -261,27 +258,8 @@ namespace talus
                            const State<dim>     &state,
                            const Beginning       beginning)
   {
-    series_.begin(
-      settings.folder, name_, state.communicator(), settings.format, beginning);
+    SeriesObserver<dim>::begin(settings, state, beginning);
     boxes_as_cells_ = settings.boxes_as_cells;
-  }
-
-
-
-  template <int dim>
-  void
-  PointsOutput<dim>::list_state(StateList &list)
-  {
-    series_.list_state("files of " + name_, list);
-  }
-
-
-
-  template <int dim>
-  void
-  PointsOutput<dim>::sync()
-  {
-    series_.sync();
   }
 
 
@@ -296,7 +274,7 @@ namespace talus
     cells.fields.insert(cells.fields.end(),
                         further_fields.begin(),
                         further_fields.end());
-    series_.write(cells);
+    this->series_.write(cells);
   }
 
 
@@ -314,14 +292,10 @@ namespace talus
 
 
 
-  template std::vector<Field>
-  point_fields(const State<2> &);
-  template std::vector<Field>
-  point_fields(const State<3> &);
+  template decltype(point_fields<2>) point_fields<2>;
+  template decltype(point_fields<3>) point_fields<3>;
   template class PointsOutput<2>;
   template class PointsOutput<3>;
-  template void
-  write_points(const State<2> &, const std::filesystem::path &);
-  template void
-  write_points(const State<3> &, const std::filesystem::path &);
+  template decltype(write_points<2>) write_points<2>;
+  template decltype(write_points<3>) write_points<3>;
 } // namespace talus

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/agreement.h>
 #include <talus/observers/boxes.h>
 #include <talus/observers/cell_lattice.h>
 #include <talus/observers/profile.h>
@@ -205,6 +204,13 @@ namespace talus
 
 
 
+  template <int dim>
+  Profile<dim>::Profile()
+    : TableObserver<dim>(file_name)
+  {}
+
+
+
   /// z comes behind x in 3-D, as in observe().
   template <int dim>
   std::vector<std::string>
@@ -228,56 +234,10 @@ namespace talus
 
   template <int dim>
   void
-  Profile<dim>::begin(const OutputSettings &settings,
-                      const State<dim>     &state,
-                      const Beginning       beginning)
-  {
-    if (is_first_rank(state.communicator()))
-      file_.open(settings.folder / file_name, names(), beginning);
-  }
-
-
-
-  template <int dim>
-  void
-  Profile<dim>::list_state(StateList &list)
-  {
-    file_.list_state(file_name, list);
-  }
-
-
-
-  template <int dim>
-  std::string
-  Profile<dim>::cannot_resume(const OutputSettings &settings,
-                              const State<dim>     &state) const
-  {
-    return is_first_rank(state.communicator())
-             ? file_.cannot_resume(settings.folder / file_name, names())
-             : "";
-  }
-
-
-
-  /// The file belongs to the first rank.
-  template <int dim>
-  void
-  Profile<dim>::sync()
-  {
-    if (is_first_rank(MPI_COMM_WORLD))
-      file_.sync();
-  }
-
-
-
-  template <int dim>
-  void
   Profile<dim>::observe(const State<dim> &state)
   {
-    const auto profile = find_profile(state);
-    if (!is_first_rank(state.communicator()))
-      return;
-    for (const ProfileColumn &column : profile)
+    std::vector<std::vector<double>> rows;
+    for (const ProfileColumn &column : find_profile(state))
       {
         std::vector<double> row = {state.time,
                                    column.x,
@@ -290,17 +250,15 @@ namespace talus
             row.insert(row.begin() + 2, column.z);
             row.push_back(column.velocity_z);
           }
-        file_.add_row(row);
+        rows.push_back(row);
       }
-    file_.flush();
+    this->add_rows(state, rows);
   }
 
 
 
-  template std::vector<ProfileColumn>
-  find_profile(const State<2> &);
-  template std::vector<ProfileColumn>
-  find_profile(const State<3> &);
+  template decltype(find_profile<2>) find_profile<2>;
+  template decltype(find_profile<3>) find_profile<3>;
   template class Profile<2>;
   template class Profile<3>;
 } // namespace talus

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/agreement.h>
 #include <talus/observers/fracture.h>
 #include <talus/observers/point_motion.h>
 #include <talus/observers/statistics.h>
 
 namespace talus
 {
+  template <int dim>
+  Statistics<dim>::Statistics()
+    : TableObserver<dim>(file_name)
+  {}
+
+
+
   template <int dim>
   void
   Statistics<dim>::add_source(const Source &source)
@@ -36,8 +42,6 @@ namespace talus
 
 
 
-  /// The header needs the quantities, and so a state: all ranks evaluate them,
-  /// the first one writes.
   template <int dim>
   void
   Statistics<dim>::begin(const OutputSettings &settings,
@@ -45,10 +49,7 @@ namespace talus
                          const Beginning       beginning)
   {
     has_runout_ = settings.write_runout;
-    const std::vector<std::string> columns =
-      names(state, settings.write_runout);
-    if (is_first_rank(state.communicator()))
-      file_.open(settings.folder / file_name, columns, beginning);
+    TableObserver<dim>::begin(settings, state, beginning);
   }
 
 
@@ -64,8 +65,7 @@ namespace talus
 
 
 
-  /// The file is flushed row by row, so that a run can be looked at while it
-  /// goes on. The next mean of the seabed's force begins here.
+  /// The next mean of the seabed's force begins here.
   template <int dim>
   void
   Statistics<dim>::observe(const State<dim> &state)
@@ -73,11 +73,7 @@ namespace talus
     std::vector<double> values;
     for (const Quantity &quantity : evaluate(state, has_runout_))
       values.push_back(quantity.value);
-    if (is_first_rank(state.communicator()))
-      {
-        file_.add_row(values);
-        file_.flush();
-      }
+    this->add_rows(state, {values});
     seabed_force_.restart(state);
   }
 
@@ -101,33 +97,18 @@ namespace talus
   Statistics<dim>::list_state(StateList &list)
   {
     seabed_force_.list_state(list);
-    file_.list_state(file_name, list);
+    TableObserver<dim>::list_state(list);
     budget_.list_state(list);
   }
 
 
 
-  /// All ranks evaluate the names, the first one has the file.
   template <int dim>
-  std::string
-  Statistics<dim>::cannot_resume(const OutputSettings &settings,
-                                 const State<dim>     &state) const
+  std::vector<std::string>
+  Statistics<dim>::columns(const OutputSettings &settings,
+                           const State<dim>     &state) const
   {
-    const std::vector<std::string> columns =
-      names(state, settings.write_runout);
-    return is_first_rank(state.communicator())
-             ? file_.cannot_resume(settings.folder / file_name, columns)
-             : "";
-  }
-
-
-
-  template <int dim>
-  void
-  Statistics<dim>::sync()
-  {
-    if (is_first_rank(MPI_COMM_WORLD))
-      file_.sync();
+    return names(state, settings.write_runout);
   }
 
 

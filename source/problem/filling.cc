@@ -101,7 +101,8 @@ namespace talus
   {
     /// What is given to a box: cell and box that get it, cell and box that give
     /// it, cells by the keys that all ranks know them by; volume, m^dim,
-    /// centroid and variance. Sorted, they are in the same order for any number of ranks.
+    /// centroid and variance. Sorted, they are in the same order for any number
+    /// of ranks.
     template <int dim>
     using Gift =
       std::pair<std::array<unsigned long, 4>, std::array<double, 1 + 2 * dim>>;

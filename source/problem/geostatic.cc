@@ -3,6 +3,8 @@
 #include <talus/points/points_kernel.h>
 #include <talus/problem/geostatic.h>
 
+#include <boost/serialization/array.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -27,6 +29,14 @@ namespace talus
       operator<(const Brick &other) const
       {
         return centre < other.centre;
+      }
+
+      /// For the message between ranks.
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &centre &length &density;
       }
     };
 
@@ -149,29 +159,15 @@ namespace talus
              const std::vector<double> &weight_density,
              const MPI_Comm             communicator)
   {
-    std::vector<double> own;
+    std::vector<Brick<dim>> own, bricks;
     for (unsigned int p = 0; p < points.size(); ++p)
-      {
-        const auto brick = brick_of(points, p, weight_density);
-        own.insert(own.end(), brick.centre.begin(), brick.centre.end());
-        own.insert(own.end(), brick.length.begin(), brick.length.end());
-        own.push_back(brick.density);
-      }
-    std::vector<Brick<dim>> bricks;
+      own.push_back(brick_of(points, p, weight_density));
     for (const auto &part : Utilities::MPI::all_gather(communicator, own))
-      for (auto number = part.begin(); number != part.end();
-           number += 2 * dim + 1)
-        {
-          Brick<dim> brick;
-          std::copy_n(number, dim, brick.centre.begin());
-          std::copy_n(number + dim, dim, brick.length.begin());
-          brick.density = number[2 * dim];
-          bricks.push_back(brick);
-        }
+      bricks.insert(bricks.end(), part.begin(), part.end());
     const Columns<dim>  columns(bricks);
     std::vector<double> result(points.size());
     for (unsigned int p = 0; p < points.size(); ++p)
-      result[p] = columns.mass_above(brick_of(points, p, weight_density));
+      result[p] = columns.mass_above(own[p]);
     return result;
   }
 
@@ -310,20 +306,8 @@ namespace talus
 
 
 
-  template std::vector<double>
-  overburden(const Points<2> &, const std::vector<double> &, MPI_Comm);
-  template std::vector<double>
-  overburden(const Points<3> &, const std::vector<double> &, MPI_Comm);
-  template std::vector<std::string>
-  set_geostatic_stress(Points<2> &,
-                       const std::vector<std::unique_ptr<Body<2>>> &,
-                       const Materials<2> &,
-                       const Tensor<1, 2> &,
-                       MPI_Comm);
-  template std::vector<std::string>
-  set_geostatic_stress(Points<3> &,
-                       const std::vector<std::unique_ptr<Body<3>>> &,
-                       const Materials<3> &,
-                       const Tensor<1, 3> &,
-                       MPI_Comm);
+  template decltype(overburden<2>)           overburden<2>;
+  template decltype(overburden<3>)           overburden<3>;
+  template decltype(set_geostatic_stress<2>) set_geostatic_stress<2>;
+  template decltype(set_geostatic_stress<3>) set_geostatic_stress<3>;
 } // namespace talus

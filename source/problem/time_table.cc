@@ -3,7 +3,6 @@
 #include <talus/io/checksum.h>
 #include <talus/problem/time_table.h>
 
-#include <deal.II/base/types.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>

@@ -4,6 +4,8 @@
 
 #include <deal.II/base/numbers.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -80,9 +82,9 @@ namespace talus
     AssertThrow(seabed_fraction_ == 1. || has_seabed,
                 ExcUser(text("'Trigger/Seabed shear stress fraction' is ",
                              seabed_fraction_,
-                             ", but no face of the mesh is a seabed. Set one "
-                             "in the section Boundaries or remove the "
-                             "entry.")));
+                             ", but no face of the mesh is a seabed, and there "
+                             "are no obstacles. Set one in the section "
+                             "Boundaries or Obstacles, or remove the entry.")));
     AssertThrow(changes_strength() ||
                   (names_of_bodies_.empty() && region_.empty()),
                 ExcUser("'Trigger/Bodies' or 'Trigger/Region' is given, but "
@@ -103,9 +105,6 @@ namespace talus
   Trigger<dim>::check_bodies(const std::vector<std::string> &names_of_bodies,
                              const Materials<dim>           &materials)
   {
-    std::string known;
-    for (const std::string &name : names_of_bodies)
-      known += (known.empty() ? "" : ", ") + name;
     weakens_body_.assign(names_of_bodies.size(), false);
     for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
       // Without a list, all that can become weaker.
@@ -121,7 +120,8 @@ namespace talus
           std::find(names_of_bodies.begin(), names_of_bodies.end(), name);
         AssertThrow(found != names_of_bodies.end(),
                     ExcUser("'Trigger/Bodies' lists '" + name +
-                            "', but Bodies/Names lists only: " + known +
+                            "', but Bodies/Names lists only: " +
+                            boost::algorithm::join(names_of_bodies, ", ") +
                             ". Correct the name or add the body."));
         const unsigned int b = found - names_of_bodies.begin();
         AssertThrow(materials.of_body(b).has_strength(),

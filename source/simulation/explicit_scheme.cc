@@ -167,6 +167,7 @@ namespace talus
       state_.works.damping += damping_.apply(state_.nodes,
                                              state_.grid,
                                              boundaries,
+                                             problem_.contact.feels_obstacle(),
                                              state_.mass_cutoff);
     }
     {

@@ -51,7 +51,8 @@ namespace talus
             transfer_,
             problem_.materials,
             problem_.boundaries,
-            problem_.loading.loads()};
+            problem_.loading.loads(),
+            problem_.contact};
   }
 
 
@@ -182,8 +183,8 @@ namespace talus
 
 
 
-  /// A copy of all columns in memory, and the seabed's contact, which belongs
-  /// to it: trials must be undone, and a checkpoint on the disk would take
+  /// A copy of all columns in memory, and the contact with seabed and
+  /// obstacles, which belongs to it: trials must be undone, and a checkpoint on the disk would take
   /// longer.
   template <int dim>
   typename StaticSolver<dim>::Saved
@@ -194,7 +195,8 @@ namespace talus
     for (unsigned int i = 0; i < points.n_arrays(); ++i)
       saved.columns.emplace_back(points.data(i),
                                  points.data(i) + points.size());
-    saved.contact = equilibrium_.contact();
+    saved.contact      = equilibrium_.contact();
+    saved.facet_forces = problem_.contact.save();
     return saved;
   }
 
@@ -211,6 +213,7 @@ namespace talus
                 saved.columns[i].end(),
                 points.data(i));
     equilibrium_.set_contact(saved.contact);
+    problem_.contact.restore(saved.facet_forces);
   }
 
 

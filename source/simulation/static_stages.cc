@@ -80,7 +80,7 @@ namespace talus
     if (!stages_.contain(Stage::strength_reduction))
       return;
     bool has_strength =
-      problem_.boundaries.has_seabed() && strength_reduction_.includes_seabed();
+      problem_.has_seabed() && strength_reduction_.includes_seabed();
     for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
       has_strength |= problem_.materials.of_body(b).has_strength();
     AssertThrow(has_strength,
@@ -90,7 +90,7 @@ namespace talus
                         problem_.materials.of_body(0).section() +
                         ". Choose the law " +
                         names_of_laws_with_strength<dim>() +
-                        ", let a face be a seabed with "
+                        ", let a face be a seabed or give an obstacle, with "
                         "'Strength reduction/Seabed', or remove the stage."));
   }
 
@@ -164,7 +164,7 @@ namespace talus
               strength_factor + state_.points.size(),
               1. / factor);
     if (strength_reduction_.includes_seabed())
-      problem_.boundaries.scale_seabed_strength(1. / factor);
+      problem_.scale_seabed_strength(1. / factor);
   }
 
 
@@ -255,7 +255,7 @@ namespace talus
         solver_.restore(state);
       }
     solver_.restore(before);
-    problem_.boundaries.scale_seabed_strength(
+    problem_.scale_seabed_strength(
       strength_reduction_.includes_seabed() ? 1. / standing_factor_ : 1.);
     log_.say(LogLevel::result, strength_reduction_.result());
   }

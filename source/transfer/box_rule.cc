@@ -294,30 +294,12 @@ namespace talus
 
 
 
-  template void
-  update_stretch(Points<2> &,
-                 const StepWorkspace<2> &,
-                 unsigned int,
-                 unsigned int,
-                 BoxRule,
-                 double);
-  template void
-  update_stretch(Points<3> &,
-                 const StepWorkspace<3> &,
-                 unsigned int,
-                 unsigned int,
-                 BoxRule,
-                 double);
-  template void
-  initialize_stretch(Points<2> &, unsigned int, unsigned int, BoxRule);
-  template void
-  initialize_stretch(Points<3> &, unsigned int, unsigned int, BoxRule);
-  template Tensor<1, 2>
-  edge_of_box(const Points<2> &, BoxRule, unsigned int, unsigned int);
-  template Tensor<1, 3>
-  edge_of_box(const Points<3> &, BoxRule, unsigned int, unsigned int);
-  template unsigned long
-  count_clipped_boxes(const Points<2> &, const Grid<2> &, const BoxShape &);
-  template unsigned long
-  count_clipped_boxes(const Points<3> &, const Grid<3> &, const BoxShape &);
+  template decltype(update_stretch<2>)      update_stretch<2>;
+  template decltype(update_stretch<3>)      update_stretch<3>;
+  template decltype(initialize_stretch<2>)  initialize_stretch<2>;
+  template decltype(initialize_stretch<3>)  initialize_stretch<3>;
+  template decltype(edge_of_box<2>)         edge_of_box<2>;
+  template decltype(edge_of_box<3>)         edge_of_box<3>;
+  template decltype(count_clipped_boxes<2>) count_clipped_boxes<2>;
+  template decltype(count_clipped_boxes<3>) count_clipped_boxes<3>;
 } // namespace talus

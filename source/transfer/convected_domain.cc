@@ -54,12 +54,8 @@ namespace talus
 
 
 
-  template double
-  smallest_size_around(const Grid<2> &, unsigned int);
-  template double
-  smallest_size_around(const Grid<3> &, unsigned int);
-  template const Cell<2> &
-  touching_cell_at(const Grid<2> &, unsigned int, Point<2> &);
-  template const Cell<3> &
-  touching_cell_at(const Grid<3> &, unsigned int, Point<3> &);
+  template decltype(smallest_size_around<2>) smallest_size_around<2>;
+  template decltype(smallest_size_around<3>) smallest_size_around<3>;
+  template decltype(touching_cell_at<2>)     touching_cell_at<2>;
+  template decltype(touching_cell_at<3>)     touching_cell_at<3>;
 } // namespace talus

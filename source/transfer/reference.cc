@@ -10,21 +10,6 @@ namespace talus
 
   namespace
   {
-    /// A column of vectors at point @p p.
-    template <int dim>
-    Tensor<1, dim>
-    load_vector(const Points<dim> &points,
-                const unsigned int column,
-                const unsigned int p)
-    {
-      Tensor<1, dim> value;
-      for (unsigned int d = 0; d < dim; ++d)
-        value[d] = points.data(column, d)[p];
-      return value;
-    }
-
-
-
     /// What weight and body force give to point @p p per mass, m/s^2.
     template <int dim>
     Tensor<1, dim>
@@ -171,58 +156,10 @@ namespace talus
 
 
 
-  template void
-  scatter_by_definition(const Points<2> &,
-                        const WorkspaceView<2> &,
-                        const Segment &,
-                        const Grid<2> &,
-                        const Loads<2> &,
-                        const BoxShape &,
-                        NodalFields<2> &,
-                        NodeWeights<2> &);
-  template void
-  scatter_by_definition(const Points<3> &,
-                        const WorkspaceView<3> &,
-                        const Segment &,
-                        const Grid<3> &,
-                        const Loads<3> &,
-                        const BoxShape &,
-                        NodalFields<3> &,
-                        NodeWeights<3> &);
-  template MotionByDefinition<2>
-  interpolate_by_definition(const Points<2> &,
-                            unsigned int,
-                            unsigned int,
-                            const Grid<2> &,
-                            const BoxShape &,
-                            const NodalFields<2> &,
-                            NodeWeights<2> &);
-  template MotionByDefinition<3>
-  interpolate_by_definition(const Points<3> &,
-                            unsigned int,
-                            unsigned int,
-                            const Grid<3> &,
-                            const BoxShape &,
-                            const NodalFields<3> &,
-                            NodeWeights<3> &);
-  template double
-  gather_by_definition(const NodalFields<2> &,
-                       const Grid<2> &,
-                       const Loads<2> &,
-                       const BoxShape &,
-                       const Segment &,
-                       double,
-                       double,
-                       Points<2> &,
-                       StepWorkspace<2> &);
-  template double
-  gather_by_definition(const NodalFields<3> &,
-                       const Grid<3> &,
-                       const Loads<3> &,
-                       const BoxShape &,
-                       const Segment &,
-                       double,
-                       double,
-                       Points<3> &,
-                       StepWorkspace<3> &);
+  template decltype(scatter_by_definition<2>)     scatter_by_definition<2>;
+  template decltype(scatter_by_definition<3>)     scatter_by_definition<3>;
+  template decltype(interpolate_by_definition<2>) interpolate_by_definition<2>;
+  template decltype(interpolate_by_definition<3>) interpolate_by_definition<3>;
+  template decltype(gather_by_definition<2>)      gather_by_definition<2>;
+  template decltype(gather_by_definition<3>)      gather_by_definition<3>;
 } // namespace talus

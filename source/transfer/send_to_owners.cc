@@ -84,8 +84,6 @@ namespace talus
 
 
 
-  template void
-  send_points_to_owners(Points<2> &, const Grid<2> &);
-  template void
-  send_points_to_owners(Points<3> &, const Grid<3> &);
+  template decltype(send_points_to_owners<2>) send_points_to_owners<2>;
+  template decltype(send_points_to_owners<3>) send_points_to_owners<3>;
 } // namespace talus

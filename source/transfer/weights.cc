@@ -237,15 +237,12 @@ namespace talus
                    std::vector<NodeWeight<dim>> &weights)
     {
       const double   size = grid.cells()[c].size;
-      Point<dim>     centre;
       Tensor<1, dim> half;
       for (unsigned int d = 0; d < dim; ++d)
-        {
-          centre[d] = points.data(points.position, d)[p];
-          half[d] =
-            size * half_length_in_cells<dim>(points, shape, d, p, 1. / size);
-        }
-      general_weights(grid, c, centre, half, weights);
+        half[d] =
+          size * half_length_in_cells<dim>(points, shape, d, p, 1. / size);
+      general_weights(
+        grid, c, load_place(points, points.position, p), half, weights);
     }
   } // namespace
 
@@ -280,30 +277,8 @@ namespace talus
 
 
 
-  template void
-  general_weights(const Grid<2> &,
-                  unsigned int,
-                  const Point<2> &,
-                  const Tensor<1, 2> &,
-                  std::vector<NodeWeight<2>> &);
-  template void
-  general_weights(const Grid<3> &,
-                  unsigned int,
-                  const Point<3> &,
-                  const Tensor<1, 3> &,
-                  std::vector<NodeWeight<3>> &);
-  template void
-  weights_of_point(const Points<2> &,
-                   const Grid<2> &,
-                   const BoxShape &,
-                   unsigned int,
-                   unsigned int,
-                   std::vector<NodeWeight<2>> &);
-  template void
-  weights_of_point(const Points<3> &,
-                   const Grid<3> &,
-                   const BoxShape &,
-                   unsigned int,
-                   unsigned int,
-                   std::vector<NodeWeight<3>> &);
+  template decltype(general_weights<2>)  general_weights<2>;
+  template decltype(general_weights<3>)  general_weights<3>;
+  template decltype(weights_of_point<2>) weights_of_point<2>;
+  template decltype(weights_of_point<3>) weights_of_point<3>;
 } // namespace talus

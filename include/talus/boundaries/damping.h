@@ -6,6 +6,8 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <vector>
+
 namespace talus
 {
   /// Local non-viscous damping, with which a quasi-static problem comes to rest
@@ -33,13 +35,15 @@ namespace talus
 
     /// Damp the motion of the active nodes after the momentum update and before
     /// Boundaries::apply(). Components that @p boundaries may hold are left
-    /// alone: their force is no unbalanced one, the boundary bears it. Nor are
+    /// alone: their force is no unbalanced one, the boundary bears it; so are
+    /// nodes at which @p feels_obstacle is not zero (empty: none). Nor are
     /// nodes with less than @p mass_cutoff touched. Returns the work taken, J.
     double
-    apply(NodalFields<dim>      &nodes,
-          const Grid<dim>       &grid,
-          const Boundaries<dim> &boundaries,
-          double                 mass_cutoff) const;
+    apply(NodalFields<dim>                 &nodes,
+          const Grid<dim>                  &grid,
+          const Boundaries<dim>            &boundaries,
+          const std::vector<unsigned char> &feels_obstacle,
+          double                            mass_cutoff) const;
 
   private:
     double coefficient_ = 0.;

@@ -15,8 +15,8 @@ namespace talus
   template <int dim>
   struct FacetImpulse
   {
-    double                 normal = 0;         ///< along the facet's normal, N s
-    dealii::Tensor<1, dim> tangential;         ///< along the facet, N s
+    double                 normal = 0; ///< along the facet's normal, N s
+    dealii::Tensor<1, dim> tangential; ///< along the facet, N s
     double                 effective_mass = 0; ///< that the facet sees, kg
   };
 
@@ -35,6 +35,17 @@ namespace talus
   class FacetContact
   {
   public:
+    /// A facet with the soil as it is: shares of its nodes in its velocity, and so on.
+    struct Constraint
+    {
+      std::array<double, ContactFacet<dim>::n_nodes> share;
+      bool   is_loaded   = false; ///< whether there is soil at its nodes
+      double normal_mass = 0;     ///< kg; 0 where walls hold all nodes
+      double mass        = 0;     ///< kg
+      double gap         = 0;     ///< m
+      double area        = 0;     ///< in contact, m^(dim-1)
+    };
+
     explicit FacetContact(Obstacles<dim> &obstacles);
 
     const Obstacles<dim> &
@@ -71,6 +82,13 @@ namespace talus
     void
     start_interval();
 
+    /// By node, whether soil there feels an obstacle; empty without obstacles.
+    const std::vector<unsigned char> &
+    feels_obstacle() const
+    {
+      return facets_.contact_nodes();
+    }
+
     const Facets<dim> &
     facets() const
     {
@@ -84,21 +102,53 @@ namespace talus
       return impulses_;
     }
 
+    /// Find the constraints of facets().owned() for soil whose masses and
+    /// volumes at the nodes are known. Collective.
+    void
+    find_constraints(const State<dim> &state);
+
+    const std::vector<Constraint> &
+    constraints() const
+    {
+      return constraints_;
+    }
+
+    /// Room between such a node's soil and the obstacle, m; after
+    /// find_constraints().
+    double
+    gap_inside(const Grid<dim>                        &grid,
+               const typename Facets<dim>::NodeInside &inside) const;
+
+    /// Largest impulse along the facet in a step of @p dt, N s.
+    double
+    friction_limit(const ContactFacet<dim> &facet,
+                   const Constraint        &constraint,
+                   double                   normal_impulse,
+                   double                   dt) const;
+
+    /// For soil at rest: what facets().owned() pass to it, as impulses of one
+    /// second. The first step takes its share of them.
+    void
+    set_forces(const std::vector<FacetImpulse<dim>> &forces);
+
+    /// The impulses, to be kept, and back to them.
+    std::vector<double>
+    save() const
+    {
+      return restored_.empty() ? rows_of_impulses() : restored_;
+    }
+
+    void
+    restore(const std::vector<double> &saved)
+    {
+      restored_.clear();
+      take_impulses(saved);
+    }
+
     void
     list_state(StateList &list);
 
   private:
-    /// A facet in this step: shares of its nodes in its velocity, and so on.
-    struct Constraint
-    {
-      std::array<double, ContactFacet<dim>::n_nodes> share;
-      bool   is_loaded   = false; ///< whether there is soil at its nodes
-      double normal_mass = 0;     ///< kg; 0 where walls hold all nodes
-      double mass        = 0;     ///< kg
-      double gap         = 0;     ///< m
-      double area        = 0;     ///< in contact, m^(dim-1)
-    };
-
     // Impulses of facets as rows of numbers: key of the cell (two), obstacle,
     // and those of FacetImpulse.
     static constexpr unsigned int n_columns = 5 + dim;
@@ -106,6 +156,8 @@ namespace talus
     rows_of_impulses() const;
     void
     take_impulses(const std::vector<double> &rows);
+    void
+    take_restored(const State<dim> &state);
     void
     move_obstacles(const State<dim> &state);
     void
@@ -137,11 +189,6 @@ namespace talus
     update_velocities(const State<dim> &state);
     void
     hold_nodes_inside(State<dim> &state);
-    double
-    friction_limit(const ContactFacet<dim> &facet,
-                   const Constraint        &constraint,
-                   double                   normal_impulse,
-                   double                   dt) const;
     void
     book_walls(State<dim> &state) const;
     void

@@ -27,7 +27,7 @@ namespace talus
     dealii::Point<dim>                centroid;    ///< m
     dealii::Tensor<1, dim>            normal; ///< out of the obstacle, mean
     double                            area;   ///< m^(dim-1)
-    double maximum_shear_stress;              ///< Pa
+    double                            maximum_shear_stress; ///< Pa
   };
 
 
@@ -73,6 +73,13 @@ namespace talus
     is_contact_node(const unsigned int node) const
     {
       return is_contact_node_[node];
+    }
+
+    /// That of all nodes, 1 or 0.
+    const std::vector<unsigned char> &
+    contact_nodes() const
+    {
+      return is_contact_node_;
     }
 
     /// Facets of all obstacles in the cells around a node this rank owns.
@@ -145,14 +152,14 @@ namespace talus
     std::map<unsigned int, CutCell> cut_cells_;    ///< ghosts, too
     std::set<unsigned int>          cells_inside_; ///< beside surfaces
     std::vector<unsigned int>       near_cells_;
-    std::vector<ContactFacet<dim>>         owned_;
+    std::vector<ContactFacet<dim>>  owned_;
     std::vector<unsigned int>       owned_nodes_, nodes_;
     std::vector<unsigned int>       flagged_inside_; ///< ghosts, too
     std::vector<NodeInside>         nodes_inside_;
     std::vector<unsigned char>      is_contact_node_; ///< by node
-    std::vector<unsigned int>       n_facets_;    ///< by node
-    std::vector<double>             open_volume_; ///< by node
-    std::vector<unsigned char>      is_near_;     ///< by cell
+    std::vector<unsigned int>       n_facets_;        ///< by node
+    std::vector<double>             open_volume_;     ///< by node
+    std::vector<unsigned char>      is_near_;         ///< by cell
   };
 } // namespace talus
 

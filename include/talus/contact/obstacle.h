@@ -115,8 +115,8 @@ namespace talus
 
     std::unique_ptr<Shape<dim>>      shape_;
     std::unique_ptr<Expression<dim>> maximum_shear_stress_; ///< Pa
-    std::unique_ptr<Expression<dim>> velocity_;             ///< m/s, if it moves
-    dealii::Point<dim>               reference_point_;      ///< at the start, m
+    std::unique_ptr<Expression<dim>> velocity_;        ///< m/s, if it moves
+    dealii::Point<dim>               reference_point_; ///< at the start, m
     dealii::Tensor<1, dim>           displacement_;
   };
 } // namespace talus

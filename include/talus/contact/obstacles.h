@@ -78,13 +78,30 @@ namespace talus
       return factor_;
     }
 
+    /// From now on all that resists sliding on the surfaces is @p factor times
+    /// its parameter [-].
+    void
+    scale_strength(const double factor)
+    {
+      factor_          = factor;
+      friction_factor_ = factor;
+    }
+
+    /// That factor, of the friction coefficients.
+    double
+    friction_factor() const
+    {
+      return friction_factor_;
+    }
+
     void
     list_state(StateList &list);
 
   private:
     std::vector<std::string>                    listed_names_;
     std::vector<std::unique_ptr<Obstacle<dim>>> obstacles_;
-    double                                      factor_ = 1.;
+    double                                      factor_          = 1.;
+    double                                      friction_factor_ = 1.;
   };
 } // namespace talus
 

@@ -18,11 +18,11 @@ namespace talus
   {
     static constexpr unsigned int n_moments = (dim == 2 ? 1 : 3);
 
-    dealii::Tensor<1, dim>        impulse;         ///< on the obstacle, N s
-    dealii::Tensor<1, dim>        tangential;      ///< its part by friction, N s
+    dealii::Tensor<1, dim>        impulse;    ///< on the obstacle, N s
+    dealii::Tensor<1, dim>        tangential; ///< its part by friction, N s
     std::array<double, n_moments> angular_impulse{}; ///< about the reference
-                                                   ///< point, N m s
-    double area          = 0; ///< in contact, m^(dim-1)
+                                                     ///< point, N m s
+    double area          = 0;                        ///< in contact, m^(dim-1)
     double friction_work = 0; ///< energy that friction took from the soil, J
     double contact_work  = 0; ///< energy that normal contact took, J
 
@@ -70,7 +70,7 @@ namespace talus
     StepReaction<dim> total; ///< since the start; the area is that of the last
                              ///< step
 
-    double                 duration = 0;       ///< since the last row, s
+    double                 duration = 0;        ///< since the last row, s
     dealii::Tensor<1, dim> impulse, tangential; ///< since then, N s
     std::array<double, StepReaction<dim>::n_moments> angular_impulse{};
     double                 area_time = 0; ///< integral of the area, m^(dim-1) s
@@ -129,10 +129,14 @@ namespace talus
                  total.angular_impulse,
                  total.angular_impulse.size());
       list.add(name + " area", "", total.area, Reduction::equal);
-      list.add(
-        name + " friction work", "J", total.friction_work, Reduction::equal);
-      list.add(
-        name + " contact work", "J", total.contact_work, Reduction::equal);
+      list.add(name + " friction work",
+               "J",
+               total.friction_work,
+               Reduction::equal);
+      list.add(name + " contact work",
+               "J",
+               total.contact_work,
+               Reduction::equal);
       list.add(name + " interval", "s", duration, Reduction::equal);
       components("impulse of interval", "N s", impulse, dim);
       components("friction impulse of interval", "N s", tangential, dim);

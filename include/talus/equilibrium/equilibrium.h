@@ -138,7 +138,7 @@ namespace talus
 
   private:
     typename Newton<dim>::Parameters
-    parameters_of_step() const;
+    parameters_of_step(bool has_obstacles) const;
     bool
     is_settling();
     bool

@@ -7,7 +7,6 @@
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 

@@ -127,6 +127,8 @@ namespace talus
     assemble_matrix();
     RigidModes
     free_rigid_modes() const;
+    std::vector<double>
+    out_of_balance() const;
     void
     make_pattern();
     void
@@ -169,6 +171,7 @@ namespace talus
     // Fields at the nodes
     std::vector<double> unbalanced_;      ///< f_ext - f_int(0), N
     std::vector<double> internal_;        ///< f_int(0), N
+    std::vector<double> of_facets_;       ///< force of obstacles at u = 0, N
     std::vector<double> target_;          ///< what f_int + ghost are to be, N
     std::vector<double> residual_;        ///< N
     std::vector<double> u_;               ///< m

@@ -2,6 +2,7 @@
 #ifndef talus_equilibrium_static_contact_h
 #define talus_equilibrium_static_contact_h
 
+#include <talus/equilibrium/static_facets.h>
 #include <talus/equilibrium/static_problem.h>
 #include <talus/equilibrium/unknowns.h>
 
@@ -9,17 +10,20 @@
 
 namespace talus
 {
-  /// Walls and seabed in equilibrium. Walls hold what they hold. A node on the
+  /// Walls, seabed and obstacles in equilibrium. Walls hold what they hold. A node on the
   /// seabed sticks to it, slips against the largest friction, or has lifted
   /// off; which of these is found by trial, Newton's method by Newton's method.
   template <int dim>
   class StaticContact
   {
   public:
-    /// Find the nodes. Those that were known before stay as they were, but for
+    /// Find the nodes, and the facets of obstacles. Those that were known before stay as they were, but for
     /// friction that exceeds what the seabed bears now; the others stick.
+    /// @p modulus, Pa, is the largest shear modulus of the soil. Collective.
     void
-    begin(const StaticProblem<dim> &problem, const Unknowns<dim> &unknowns);
+    begin(const StaticProblem<dim> &problem,
+          const Unknowns<dim>      &unknowns,
+          double                    modulus);
 
     /// Components that are held, by active node.
     std::vector<unsigned char>
@@ -38,7 +42,8 @@ namespace talus
     /// Look at what became of the nodes: @p reaction, N, is what the boundary
     /// bears and @p u the displacement of the step, m, which is taken back where
     /// soil went into the seabed. Returns how many nodes stick, slip or lift off
-    /// now that did not before. Collective.
+    /// now that did not before, and one more if facets have not come to rest.
+    /// Collective.
     unsigned int
     update_active_set(const StaticProblem<dim>  &problem,
                       const Unknowns<dim>       &unknowns,
@@ -47,10 +52,22 @@ namespace talus
 
     /// The soil can move freely along @p direction. Let those slipping nodes
     /// stick whose friction would push it on: when it moves, friction turns
-    /// against the motion. Returns how many there are. Collective.
+    /// against the motion; facets, too. Returns how many there are. Collective.
     unsigned int
     stick_again(const Unknowns<dim>       &unknowns,
                 const std::vector<double> &direction);
+
+    StaticFacets<dim> &
+    facets()
+    {
+      return facets_;
+    }
+
+    const StaticFacets<dim> &
+    facets() const
+    {
+      return facets_;
+    }
 
   private:
     enum class State
@@ -83,6 +100,7 @@ namespace talus
                       double                        weight) const;
 
     std::vector<Contact> contacts_;
+    StaticFacets<dim>    facets_;
   };
 } // namespace talus
 

@@ -3,6 +3,7 @@
 #define talus_equilibrium_static_problem_h
 
 #include <talus/boundaries/boundaries.h>
+#include <talus/contact/facet_contact.h>
 #include <talus/materials/materials.h>
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
@@ -19,6 +20,7 @@ namespace talus
     const Materials<dim> &materials;
     Boundaries<dim>      &boundaries;
     const Loads<dim>     &loads;
+    FacetContact<dim>    &contact; ///< with obstacles
   };
 
 

@@ -22,8 +22,8 @@ namespace talus
   {
     double                 area = 0;    ///< m^(dim-1); 0 if there is none
     dealii::Tensor<1, dim> vector_area; ///< integral of the normal, m^(dim-1),
-                                        ///< which points to where it is positive
-    dealii::Point<dim> centroid;        ///< m
+      ///< which points to where it is positive
+    dealii::Point<dim> centroid; ///< m
   };
 
   template <int dim>

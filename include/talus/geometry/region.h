@@ -59,9 +59,10 @@ namespace talus
 
     /// How much of @p box lies in the region, from signed distances that are
     /// linear on simplices. The box is halved until they are so to a thousandth
-    /// of it, twice at least, and where surfaces have corners six times at most
-    /// (in 3-D four). So planes are exact, curved surfaces right to a thousandth
-    /// of the box, and what is thicker than an eighth of it is not missed.
+    /// of it, twice at least, and where surfaces have corners six times at
+    /// most (in 3-D four). So planes are exact, curved surfaces right to a
+    /// thousandth of the box, and what is thicker than an eighth of it is not
+    /// missed.
     PartInside<dim>
     part_inside(const Box<dim> &box) const;
 

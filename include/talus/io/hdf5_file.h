@@ -111,18 +111,32 @@ namespace talus
     void
     set_attribute(const std::string &object,
                   const std::string &name,
-                  double             value);
+                  const double       value)
+    {
+      write_attribute(object, name, H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, &value);
+    }
     void
-    set_attribute(const std::string &object,
-                  const std::string &name,
-                  std::uint64_t      value);
+    set_attribute(const std::string  &object,
+                  const std::string  &name,
+                  const std::uint64_t value)
+    {
+      write_attribute(object, name, H5T_NATIVE_UINT64, H5T_STD_U64LE, &value);
+    }
 
     std::string
     text_attribute(const std::string &object, const std::string &name);
+
     double
-    number_attribute(const std::string &object, const std::string &name);
+    number_attribute(const std::string &object, const std::string &name)
+    {
+      return read_attribute<double>(object, name, H5T_NATIVE_DOUBLE);
+    }
+
     std::uint64_t
-    integer_attribute(const std::string &object, const std::string &name);
+    integer_attribute(const std::string &object, const std::string &name)
+    {
+      return read_attribute<std::uint64_t>(object, name, H5T_NATIVE_UINT64);
+    }
 
     /// Where the rows of this rank, @p n_rows, begin among those of all, and
     /// how many there are on all ranks.
@@ -212,11 +226,11 @@ namespace talus
                     hid_t              memory_type,
                     hid_t              file_type,
                     const void        *value);
-    void
+    template <typename Number>
+    Number
     read_attribute(const std::string &object,
                    const std::string &name,
-                   hid_t              type,
-                   void              *value);
+                   hid_t              type);
     bool
     is_text(const std::string &name);
 

@@ -5,8 +5,6 @@
 #include <talus/base/simd.h>
 #include <talus/points/points.h>
 
-#include <deal.II/base/types.h>
-
 namespace talus
 {
   /// The strength factor of points that have none: 1, at no cost.

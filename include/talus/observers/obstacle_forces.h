@@ -4,8 +4,7 @@
 
 #include <talus/base/quantity.h>
 #include <talus/contact/facet_contact.h>
-#include <talus/io/files.h>
-#include <talus/observers/observer.h>
+#include <talus/observers/table_observer.h>
 
 #include <string>
 #include <vector>
@@ -18,7 +17,7 @@ namespace talus
   /// steps. Impulses and works are those since the start. doc/output.md lists
   /// the columns.
   template <int dim>
-  class ObstacleForces : public Observer<dim>
+  class ObstacleForces : public TableObserver<dim>
   {
   public:
     /// @p contact starts a new interval with each row.
@@ -29,30 +28,19 @@ namespace talus
     is_enabled(const OutputSettings &settings) const override;
 
     void
-    begin(const OutputSettings &settings,
-          const State<dim>     &state,
-          Beginning             beginning = Beginning::fresh) override;
-
-    void
     observe(const State<dim> &state) override;
 
     void
     list_state(StateList &list) override;
 
-    std::string
-    cannot_resume(const OutputSettings &settings,
-                  const State<dim>     &state) const override;
-
-    void
-    sync() override;
-
     /// What a row holds, in the order of the columns. Collective.
     Quantities
     evaluate(const State<dim> &state) const;
 
-    static constexpr const char *file_name = "obstacles.csv";
-
   private:
+    std::vector<std::string>
+    columns(const OutputSettings &settings,
+            const State<dim>     &state) const override;
     void
     list_forces(unsigned int k, Quantities &row) const;
     void
@@ -61,7 +49,6 @@ namespace talus
                      Quantities       &row) const;
 
     FacetContact<dim> &contact_;
-    CsvFile            file_;
   };
 } // namespace talus
 

@@ -2,8 +2,7 @@
 #ifndef talus_observers_points_output_h
 #define talus_observers_points_output_h
 
-#include <talus/io/series.h>
-#include <talus/observers/observer.h>
+#include <talus/observers/series_observer.h>
 
 #include <string>
 #include <vector>
@@ -23,17 +22,17 @@ namespace talus
 
 
 
-  /// The series of files called points, in one of the formats of FieldWriter:
-  /// each point as a vertex, or its box as a quad (hex), so that ParaView shows a
-  /// continuum. Boxes are as long as the weights let them be; see box_edges().
-  /// The values of a point are at its vertex or at the cell that is its box.
+  /// The series of files called points: each point as a vertex, or its box as a
+  /// quad (hex), so that ParaView shows a continuum. Boxes are as long as the
+  /// weights let them be; see box_edges(). The values of a point are at its
+  /// vertex or at the cell that is its box.
   template <int dim>
-  class PointsOutput : public Observer<dim>
+  class PointsOutput : public SeriesObserver<dim>
   {
   public:
     /// @p name of the series.
     explicit PointsOutput(const std::string &name = "points")
-      : name_(name)
+      : SeriesObserver<dim>(name)
     {}
 
     bool
@@ -48,9 +47,6 @@ namespace talus
           Beginning             beginning = Beginning::fresh) override;
 
     void
-    list_state(StateList &list) override;
-
-    void
     observe(const State<dim> &state) override
     {
       write(state);
@@ -62,13 +58,8 @@ namespace talus
     write(const State<dim>         &state,
           const std::vector<Field> &further_fields = {});
 
-    void
-    sync() override;
-
   private:
-    std::string name_;
-    FieldSeries series_;
-    bool        boxes_as_cells_ = false;
+    bool boxes_as_cells_ = false;
   };
 
 

@@ -2,7 +2,7 @@
 #ifndef talus_observers_profile_h
 #define talus_observers_profile_h
 
-#include <talus/observers/observer.h>
+#include <talus/observers/table_observer.h>
 
 #include <vector>
 
@@ -37,33 +37,20 @@ namespace talus
   /// profile.csv: for each output time, one row per column of the mesh (of
   /// size h) with points.
   template <int dim>
-  class Profile : public Observer<dim>
+  class Profile : public TableObserver<dim>
   {
   public:
+    Profile();
+
     bool
     is_enabled(const OutputSettings &settings) const override
     {
       return settings.write_runout;
     }
 
-    void
-    begin(const OutputSettings &settings,
-          const State<dim>     &state,
-          Beginning             beginning = Beginning::fresh) override;
-
     /// Append the rows of one output time.
     void
     observe(const State<dim> &state) override;
-
-    void
-    list_state(StateList &list) override;
-
-    std::string
-    cannot_resume(const OutputSettings &settings,
-                  const State<dim>     &state) const override;
-
-    void
-    sync() override;
 
     /// Names of the columns.
     static std::vector<std::string>
@@ -72,7 +59,12 @@ namespace talus
     static constexpr const char *file_name = "profile.csv";
 
   private:
-    CsvFile file_;
+    std::vector<std::string>
+    columns(const OutputSettings & /*settings*/,
+            const State<dim> & /*state*/) const override
+    {
+      return names();
+    }
   };
 } // namespace talus
 

@@ -3,10 +3,9 @@
 #define talus_observers_statistics_h
 
 #include <talus/base/quantity.h>
-#include <talus/io/files.h>
 #include <talus/observers/energy_budget.h>
-#include <talus/observers/observer.h>
 #include <talus/observers/seabed_force.h>
+#include <talus/observers/table_observer.h>
 #include <talus/state/state.h>
 
 #include <functional>
@@ -32,9 +31,11 @@ namespace talus
   /// - The energy terms are those of EnergyTerms; the columns from `empty
   ///   interior cells` on are those of FractureCounts and of the splitter.
   template <int dim>
-  class Statistics : public Observer<dim>
+  class Statistics : public TableObserver<dim>
   {
   public:
+    Statistics();
+
     /// Appends the quantities of somebody; collective.
     using Source = std::function<void(const State<dim> &, Quantities &)>;
 
@@ -67,20 +68,16 @@ namespace talus
     void
     list_state(StateList &list) override;
 
-    std::string
-    cannot_resume(const OutputSettings &settings,
-                  const State<dim>     &state) const override;
-
-    void
-    sync() override;
-
     static constexpr const char *file_name = "statistics.csv";
 
   private:
+    std::vector<std::string>
+    columns(const OutputSettings &settings,
+            const State<dim>     &state) const override;
+
     SeabedForce<dim>    seabed_force_;
     EnergyBudget<dim>   budget_;
     std::vector<Source> sources_;
-    CsvFile             file_;
     bool                has_runout_ = true;
   };
 } // namespace talus

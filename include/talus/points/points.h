@@ -295,6 +295,21 @@ namespace talus
 
 
 
+  /// Read a column of vectors at point p.
+  template <int dim>
+  inline dealii::Tensor<1, dim>
+  load_vector(const Points<dim> &points,
+              const unsigned int column,
+              const unsigned int p)
+  {
+    dealii::Tensor<1, dim> v;
+    for (unsigned int d = 0; d < dim; ++d)
+      v[d] = points.data(column, d)[p];
+    return v;
+  }
+
+
+
   /// Read a column of places, m, at point p.
   template <int dim>
   inline dealii::Point<dim>
@@ -302,10 +317,7 @@ namespace talus
              const unsigned int column,
              const unsigned int p)
   {
-    dealii::Point<dim> x;
-    for (unsigned int d = 0; d < dim; ++d)
-      x[d] = points.data(column, d)[p];
-    return x;
+    return dealii::Point<dim>(load_vector(points, column, p));
   }
 } // namespace talus
 

@@ -19,8 +19,8 @@ namespace talus
   };
 
   /// Points at the centres of those boxes of the lattice of @p n per cell and
-  /// axis whose centre lies in @p region, which lies in @p bounds. For the owned
-  /// cells, in smaller cells there are smaller boxes.
+  /// axis whose centre lies in @p region, which lies in @p bounds. For the
+  /// owned cells, in smaller cells there are smaller boxes.
   template <int dim>
   std::vector<NewPoint<dim>>
   filling_by_centres(const Grid<dim>                     &grid,
@@ -29,11 +29,12 @@ namespace talus
                      const std::array<unsigned int, dim> &n);
 
   /// Points whose volumes add up to that of @p region: one for each box of the
-  /// lattice of which at least a fifth lies in the region, at the centroid of that part. What lies in
-  /// other boxes is added to the nearest of these points, in the same cell or
-  /// one that touches it, with its moment; without such a neighbour it is a
-  /// point of its own. For the owned cells; a point may come to lie in a cell
-  /// of somebody else. Does not depend on the ranks. Collective.
+  /// lattice of which at least a fifth lies in the region, at the centroid of
+  /// that part. What lies in other boxes is added to the nearest of these
+  /// points, in the same cell or one that touches it, with its moments; without
+  /// such a neighbour it is a point of its own. For the owned cells; a point
+  /// may come to lie in a cell of somebody else. Does not depend on the ranks.
+  /// Collective.
   template <int dim>
   std::vector<NewPoint<dim>>
   clipped_filling(const Grid<dim>                     &grid,

@@ -72,6 +72,23 @@ namespace talus
     bool
     has_hyperelastic_body() const;
 
+    /// Whether soil can slide on something: a face that is a seabed, or an
+    /// obstacle.
+    bool
+    has_seabed() const
+    {
+      return boundaries.has_seabed() || !obstacles.empty();
+    }
+
+    /// From now on all that resists sliding there is @p factor times its
+    /// parameter [-].
+    void
+    scale_seabed_strength(const double factor)
+    {
+      boundaries.scale_seabed_strength(factor);
+      obstacles.scale_strength(factor);
+    }
+
     /// Sentences for the log at the start of a run on cells of @p cell_size m.
     std::vector<std::string>
     notes(double cell_size) const;
@@ -93,7 +110,7 @@ namespace talus
 
   public:
     // The parts, for those who work with them.
-    Materials<dim>  materials;
+    Materials<dim>    materials;
     Boundaries<dim>   boundaries;
     Obstacles<dim>    obstacles;
     FacetContact<dim> contact; ///< with the obstacles

@@ -61,6 +61,7 @@ namespace talus
     {
       std::vector<std::vector<double>> columns; ///< of the points
       StaticContact<dim>               contact;
+      std::vector<double>              facet_forces;
     };
 
     Saved

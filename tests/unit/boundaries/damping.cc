@@ -40,7 +40,7 @@ namespace
     apply()
     {
       nodes.update_momentum(dt, 0.);
-      return damping.apply(nodes, grid, boundaries, 0.);
+      return damping.apply(nodes, grid, boundaries, {}, 0.);
     }
 
     Damping<2> damping;

@@ -1,0 +1,427 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/equilibrium/static_facets.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <deal.II/lac/full_matrix.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Of the springs, over shear modulus times area over cell: each loop leaves
+    // about its inverse of the error, while the matrix becomes worse conditioned
+    // by it. A spring in proportion to the area leaves the facets that are
+    // slivers to their neighbours, with which they are nearly redundant.
+    constexpr double spring = 100.;
+
+    // Of the displacements of the step, that facets may give way.
+    constexpr double tolerance = 1e-6;
+
+    // Round-off of forces that were cut to the friction.
+    constexpr double slack = 1. + 1e-12;
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  StaticFacets<dim>::begin(const StaticProblem<dim> &problem,
+                           const Unknowns<dim>      &unknowns,
+                           const double              modulus)
+  {
+    if (problem.contact.obstacles().empty())
+      return;
+    problem.contact.find_constraints(problem.state);
+    const std::vector<ContactPoint> before = std::move(points_);
+    points_.clear();
+    n_facets_ = problem.contact.facets().owned().size();
+    add_facets(problem, before, modulus);
+    add_nodes_inside(problem, unknowns, before, modulus);
+    for (unsigned int k = 0; k < points_.size(); ++k)
+      {
+        ContactPoint &point = points_[k];
+        if (point.given.normal > 0)
+          point.gap = 0;
+        // Nothing is known of the normal force on soil that has just come: it
+        // sticks as far as the cap lets it.
+        point.friction =
+          largest_friction(problem,
+                           k,
+                           point.given.normal > 0 ? point.given.normal : 1e100);
+        find_force(point, {});
+      }
+  }
+
+
+
+  /// All of them, those without soil, too, so that numbers stay as they are.
+  template <int dim>
+  void
+  StaticFacets<dim>::add_facets(const StaticProblem<dim>        &problem,
+                                const std::vector<ContactPoint> &before,
+                                const double                     modulus)
+  {
+    const auto &facets = problem.contact.facets().owned();
+    for (unsigned int k = 0; k < n_facets_; ++k)
+      {
+        const auto  &constraint = problem.contact.constraints()[k];
+        const auto  &impulse    = problem.contact.impulses()[k];
+        ContactPoint point;
+        point.node   = facets[k].node;
+        point.share  = constraint.share;
+        point.normal = facets[k].normal;
+        if (constraint.is_loaded)
+          {
+            point.area      = constraint.area;
+            point.stiffness = spring * modulus * constraint.area /
+                              problem.state.grid.cells()[facets[k].cell].size;
+            point.given = {impulse.normal, impulse.tangential};
+            if (before.size() > k && before[k].node == point.node)
+              point.opened = before[k].opened;
+            point.gap = std::max(0., constraint.gap + point.opened);
+          }
+        points_.push_back(point);
+      }
+  }
+
+
+
+  /// As in the dynamics: these have no area, so they pass no friction.
+  template <int dim>
+  void
+  StaticFacets<dim>::add_nodes_inside(const StaticProblem<dim>        &problem,
+                                      const Unknowns<dim>             &unknowns,
+                                      const std::vector<ContactPoint> &before,
+                                      const double                     modulus)
+  {
+    const Grid<dim> &grid = problem.state.grid;
+    const double     h    = grid.finest_size();
+    for (const auto &inside : problem.contact.facets().nodes_inside())
+      {
+        ContactPoint       point;
+        const unsigned int k = points_.size();
+        point.node.fill(inside.node);
+        point.share.fill(0.);
+        point.share[0] = 1.;
+        point.normal =
+          problem.contact.obstacles()[inside.obstacle].normal(inside.place);
+        if (unknowns.is_active(inside.node))
+          {
+            point.stiffness =
+              spring * modulus * unknowns.volume(inside.node) / (h * h);
+            if (before.size() > k && before[k].node == point.node)
+              {
+                point.given  = before[k].found;
+                point.opened = before[k].opened;
+              }
+            point.gap =
+              std::max(0.,
+                       problem.contact.gap_inside(grid, inside) + point.opened);
+          }
+        points_.push_back(point);
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  StaticFacets<dim>::largest_friction(const StaticProblem<dim> &problem,
+                                      const unsigned int        k,
+                                      const double normal_force) const
+  {
+    if (k >= n_facets_ || points_[k].stiffness == 0)
+      return 0.;
+    return problem.contact.friction_limit(problem.contact.facets().owned()[k],
+                                          problem.contact.constraints()[k],
+                                          normal_force,
+                                          /*dt=*/1.);
+  }
+
+
+
+  /// Of the contact point; without @p u, none.
+  template <int dim>
+  Tensor<1, dim>
+  StaticFacets<dim>::displacement(const ContactPoint        &point,
+                                  const std::vector<double> &u) const
+  {
+    Tensor<1, dim> result;
+    if (!u.empty())
+      for (unsigned int v = 0; v < n_nodes; ++v)
+        if (point.share[v] > 0)
+          for (unsigned int d = 0; d < dim; ++d)
+            result[d] +=
+              point.share[v] * u[std::size_t(dim) * point.node[v] + d];
+    return result;
+  }
+
+
+
+  // With the gap g, the displacement u and the spring k
+  //   N = max(0, N_given - k (g + u n)),
+  //   T = T_given - k (u - (u n) n), cut to the largest friction.
+  // The friction is that of the normal force of the loop before: the matrix
+  // stays symmetric, and the step is the minimum of an energy.
+  template <int dim>
+  void
+  StaticFacets<dim>::find_force(ContactPoint              &point,
+                                const std::vector<double> &u) const
+  {
+    point.found     = {};
+    point.is_closed = false;
+    point.overload  = 1.;
+    if (point.stiffness == 0)
+      return;
+    const Tensor<1, dim> d   = displacement(point, u);
+    const double         d_n = d * point.normal;
+    const double         normal =
+      point.given.normal - point.stiffness * (point.gap + d_n);
+    if (normal < 0)
+      return;
+    point.is_closed    = true;
+    point.found.normal = normal;
+    point.found.tangential =
+      point.given.tangential - point.stiffness * (d - d_n * point.normal);
+    const double length = point.found.tangential.norm();
+    if (point.friction == 0)
+      {
+        point.overload         = std::numeric_limits<double>::infinity();
+        point.found.tangential = Tensor<1, dim>();
+      }
+    else if (length > point.friction * slack)
+      {
+        point.overload = length / point.friction;
+        point.found.tangential /= point.overload;
+      }
+  }
+
+
+
+  /// Where it slips, the force along the slip is given, and that across it turns
+  /// with the slip.
+  template <int dim>
+  Tensor<2, dim>
+  StaticFacets<dim>::tangent(const ContactPoint &point) const
+  {
+    Tensor<2, dim> result;
+    if (!point.is_closed)
+      return result;
+    const Tensor<2, dim> along_normal =
+      outer_product(point.normal, point.normal);
+    const Tensor<2, dim> identity = unit_symmetric_tensor<dim>();
+    result                        = along_normal;
+    if (point.overload <= 1. || point.sticks_first)
+      result = identity;
+    else if (point.friction > 0)
+      {
+        const Tensor<1, dim> slip =
+          point.found.tangential / point.found.tangential.norm();
+        result += (identity - along_normal - outer_product(slip, slip)) /
+                  point.overload;
+      }
+    return point.stiffness * result;
+  }
+
+
+
+  template <int dim>
+  void
+  StaticFacets<dim>::add_forces(const double               factor,
+                                const std::vector<double> &u,
+                                std::vector<double>       &forces)
+  {
+    for (ContactPoint &point : points_)
+      {
+        find_force(point, u);
+        if (!point.is_closed)
+          continue;
+        const Tensor<1, dim> force =
+          factor * (point.found.normal * point.normal + point.found.tangential);
+        for (unsigned int v = 0; v < n_nodes; ++v)
+          for (unsigned int d = 0; d < dim; ++d)
+            forces[std::size_t(dim) * point.node[v] + d] +=
+              point.share[v] * force[d];
+      }
+  }
+
+
+
+  namespace
+  {
+    /// Nodes with a share and their unknowns, one node after the other.
+    template <int dim, typename ContactPoint>
+    void
+    list_unknowns(const ContactPoint                   &point,
+                  const Unknowns<dim>                  &unknowns,
+                  std::vector<unsigned int>            &vertices,
+                  std::vector<types::global_dof_index> &indices)
+    {
+      vertices.clear();
+      indices.clear();
+      for (unsigned int v = 0; v < point.share.size(); ++v)
+        if (point.stiffness > 0 && point.share[v] > 0)
+          {
+            vertices.push_back(v);
+            for (unsigned int d = 0; d < dim; ++d)
+              indices.push_back(unknowns.first(point.node[v]) + d);
+          }
+    }
+  } // namespace
+
+
+
+  /// Nodes of a cut cell are coupled even if no point is in it.
+  template <int dim>
+  void
+  StaticFacets<dim>::add_to_pattern(
+    const Unknowns<dim>               &unknowns,
+    TrilinosWrappers::SparsityPattern &pattern) const
+  {
+    std::vector<unsigned int>            vertices;
+    std::vector<types::global_dof_index> indices;
+    for (const ContactPoint &point : points_)
+      {
+        list_unknowns(point, unknowns, vertices, indices);
+        unknowns.constraints().add_entries_local_to_global(indices,
+                                                           pattern,
+                                                           true);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  StaticFacets<dim>::add_to_matrix(const Unknowns<dim>            &unknowns,
+                                   TrilinosWrappers::SparseMatrix &matrix) const
+  {
+    std::vector<unsigned int>            vertices;
+    std::vector<types::global_dof_index> indices;
+    FullMatrix<double>                   block;
+    for (const ContactPoint &point : points_)
+      {
+        if (!point.is_closed)
+          continue;
+        const Tensor<2, dim> k = tangent(point);
+        list_unknowns(point, unknowns, vertices, indices);
+        block.reinit(indices.size(), indices.size());
+        for (unsigned int i = 0; i < indices.size(); ++i)
+          for (unsigned int j = 0; j < indices.size(); ++j)
+            block(i, j) = point.share[vertices[i / dim]] *
+                          point.share[vertices[j / dim]] * k[i % dim][j % dim];
+        unknowns.constraints().distribute_local_to_global(block,
+                                                          indices,
+                                                          matrix);
+      }
+  }
+
+
+
+  // What the springs still bear, over their stiffness, is how far the soil went
+  // where it must not: a mean over the area, so that slivers, whose springs are
+  // soft, do not decide. Where next to no force is left to change, the
+  // displacements are round-off, and nothing to compare with.
+  template <int dim>
+  bool
+  StaticFacets<dim>::update(const StaticProblem<dim>  &problem,
+                            const Unknowns<dim>       &unknowns,
+                            const std::vector<double> &u)
+  {
+    if (problem.contact.obstacles().empty())
+      return true;
+    // Area, its integral of the square of the error, change of forces, forces,
+    // change of friction.
+    std::vector<double> sums(5, 0.);
+    for (unsigned int k = 0; k < points_.size(); ++k)
+      {
+        ContactPoint &point = points_[k];
+        if (point.stiffness == 0)
+          continue;
+        const double change =
+          std::abs(point.found.normal - point.given.normal) +
+          (point.found.tangential - point.given.tangential).norm();
+        const double friction =
+          largest_friction(problem, k, point.found.normal);
+        const double length = point.found.tangential.norm();
+        sums[0] += point.area;
+        sums[1] += point.area * std::pow(change / point.stiffness, 2);
+        sums[2] += change;
+        sums[3] += point.found.normal + length;
+        if (length > friction || point.overload > 1.)
+          sums[4] += std::abs(friction - point.friction);
+        point.given        = point.found;
+        point.friction     = friction;
+        point.sticks_first = false;
+      }
+    const MPI_Comm communicator = unknowns.communicator();
+    Utilities::MPI::sum(sums, communicator, sums);
+    double largest = 0;
+    for (const double x : u)
+      largest = std::max(largest, std::abs(x));
+    largest = Utilities::MPI::max(largest, communicator);
+    return (std::sqrt(sums[1]) <= tolerance * largest * std::sqrt(sums[0]) ||
+            sums[2] <= 1e-9 * sums[3]) &&
+           sums[4] <= tolerance * sums[3];
+  }
+
+
+
+  /// As for nodes of the seabed: friction turns around as soon as the soil moves
+  /// along it. With the matrix of sticking the next iterate is not one of a
+  /// mechanism; the force stays cut to the friction.
+  template <int dim>
+  unsigned int
+  StaticFacets<dim>::stick_again(const std::vector<double> &direction)
+  {
+    unsigned int n_changes = 0;
+    for (ContactPoint &point : points_)
+      if (point.is_closed && point.overload > 1. && !point.sticks_first &&
+          point.found.tangential * displacement(point, direction) > 0)
+        {
+          point.sticks_first = true;
+          ++n_changes;
+        }
+    return n_changes;
+  }
+
+
+
+  /// Points that stay where they are keep their gaps, too, so that what the soil
+  /// moved towards the obstacle must be remembered.
+  template <int dim>
+  void
+  StaticFacets<dim>::commit(const StaticProblem<dim>  &problem,
+                            const std::vector<double> &u,
+                            const StrainMeasure        measure)
+  {
+    if (problem.contact.obstacles().empty())
+      return;
+    std::vector<FacetImpulse<dim>> forces;
+    for (unsigned int k = 0; k < points_.size(); ++k)
+      {
+        ContactPoint &point = points_[k];
+        point.opened        = (measure == StrainMeasure::small
+                                 ? point.opened + displacement(point, u) * point.normal
+                                 : 0.);
+        if (k < n_facets_)
+          forces.push_back(
+            {point.found.normal,
+             point.found.tangential,
+             point.stiffness > 0 ? problem.contact.constraints()[k].mass : 0.});
+      }
+    problem.contact.set_forces(forces);
+  }
+
+
+
+  template class StaticFacets<2>;
+  template class StaticFacets<3>;
+} // namespace talus
