@@ -406,24 +406,8 @@ namespace talus
 
 
 
-  template std::vector<NewPoint<2>>
-  filling_by_centres<2>(const Grid<2> &,
-                        const Region<2> &,
-                        const Box<2> &,
-                        const std::array<unsigned int, 2> &);
-  template std::vector<NewPoint<3>>
-  filling_by_centres<3>(const Grid<3> &,
-                        const Region<3> &,
-                        const Box<3> &,
-                        const std::array<unsigned int, 3> &);
-  template std::vector<NewPoint<2>>
-  clipped_filling<2>(const Grid<2> &,
-                     const Region<2> &,
-                     const Box<2> &,
-                     const std::array<unsigned int, 2> &);
-  template std::vector<NewPoint<3>>
-  clipped_filling<3>(const Grid<3> &,
-                     const Region<3> &,
-                     const Box<3> &,
-                     const std::array<unsigned int, 3> &);
+  template decltype(filling_by_centres<2>) filling_by_centres<2>;
+  template decltype(filling_by_centres<3>) filling_by_centres<3>;
+  template decltype(clipped_filling<2>)    clipped_filling<2>;
+  template decltype(clipped_filling<3>)    clipped_filling<3>;
 } // namespace talus
