@@ -34,8 +34,6 @@ namespace talus
 
 
 
-  template std::vector<Point<2>>
-  places_of_owned_nodes(const Grid<2> &);
-  template std::vector<Point<3>>
-  places_of_owned_nodes(const Grid<3> &);
+  template decltype(places_of_owned_nodes<2>) places_of_owned_nodes<2>;
+  template decltype(places_of_owned_nodes<3>) places_of_owned_nodes<3>;
 } // namespace talus

@@ -98,12 +98,8 @@ namespace talus
 
 
 
-  template std::vector<RefinementBox<2>>
-  parse_refinement_boxes(const std::string &, const Box<2> &);
-  template std::vector<RefinementBox<3>>
-  parse_refinement_boxes(const std::string &, const Box<3> &);
-  template bool
-  overlap(const RefinementBox<2> &, const Point<2> &, double);
-  template bool
-  overlap(const RefinementBox<3> &, const Point<3> &, double);
+  template decltype(parse_refinement_boxes<2>) parse_refinement_boxes<2>;
+  template decltype(parse_refinement_boxes<3>) parse_refinement_boxes<3>;
+  template decltype(overlap<2>)                overlap<2>;
+  template decltype(overlap<3>)                overlap<3>;
 } // namespace talus
