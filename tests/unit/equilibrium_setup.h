@@ -105,7 +105,7 @@ namespace
     StaticProblem<dim>
     problem()
     {
-      return {*this, transfer, materials, boundaries, loads};
+      return {*this, transfer, materials, boundaries, loads, no_obstacles};
     }
 
     /// Search until the end. Returns whether equilibrium is found; residuals by
@@ -139,6 +139,8 @@ namespace
     }
 
     Materials<dim>                            materials;
+    Obstacles<dim>                            obstacles{{}};
+    FacetContact<dim>                         no_obstacles{obstacles};
     Equilibrium<dim>                          equilibrium;
     unsigned int                              n_before = 0;
     std::vector<std::vector<NewtonIteration>> runs;

@@ -17,8 +17,9 @@ namespace talus
   class StaticContact
   {
   public:
-    /// Find the nodes, and the facets of obstacles. Those that were known before stay as they were, but for
-    /// friction that exceeds what the seabed bears now; the others stick.
+    /// Find the nodes, and the facets of obstacles. Those that were known
+    /// before stay as they were, but for friction that exceeds what the seabed
+    /// bears now; the others stick.
     /// @p modulus, Pa, is the largest shear modulus of the soil. Collective.
     void
     begin(const StaticProblem<dim> &problem,

@@ -280,7 +280,7 @@ namespace
             place = k;
           }
       const StaticProblem<2> all = problem();
-      contact.begin(all, parts.unknowns);
+      contact.begin(all, parts.unknowns, 1e6);
     }
 
     /// Returns the number of changes; displacement becomes what update_active_set() left.
