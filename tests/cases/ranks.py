@@ -64,8 +64,9 @@ class Runs(unittest.TestCase):
 
     def assert_same(self, found, expected, tolerance=1e-9):
         """All columns, each relative to its largest value; what measures
-        round-off, relative to what it is the round-off of. Forces on
-        obstacles relative to the largest force."""
+        round-off, relative to what it is the round-off of. A component of a
+        vector, which may vanish by symmetry, relative to its largest one, and
+        forces on obstacles relative to the largest force."""
         self.assertEqual(list(found), list(expected))
         self.assertGreater(len(expected["time [s]"]), 1)
         largest_force = max([0] + [largest(values)
@@ -78,9 +79,16 @@ class Runs(unittest.TestCase):
                 self.assertLess(largest(found[name]), 1e-12)
                 continue
             if name == "energy remainder [J]":
-                scale = largest(expected["gravity work [J]"])
+                scale = max(largest(expected["gravity work [J]"]),
+                            largest(expected["contact work [J]"]))
             if name.endswith("[N]"):
                 scale = largest_force
+            elif component := re.match(r"(.*) [xyz] (\[.*)", name):
+                scale = max(largest(others) for other, others
+                            in expected.items()
+                            if re.fullmatch(
+                                re.escape(component[1]) + " [xyz] " +
+                                re.escape(component[2]), other))
             error = largest(a - b for a, b in zip(found[name], values))
             self.assertLessEqual(error, tolerance * scale, name)
 
