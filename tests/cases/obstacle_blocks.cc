@@ -271,6 +271,35 @@ TEST(BlockOnPlane, FactorOfSafety)
 
 
 
+// A slab, so that its rear edge, which lifts off, counts for little. On fine
+// cells facets share nodes with many others, whose forces must not keep the
+// contact from coming to rest.
+TEST(BlockOnPlane, FactorOfSafetyWithCap)
+{
+  Verification gates("Slab on a plane of 20 degrees, tau_max = 4 kPa",
+                     "prm/" + block + " with static stages",
+                     "F = tau_max/(rho g H sin 20 degrees)");
+  for (const double angle : {0., 17.})
+    {
+      const Turned        at(angle);
+      const StaticCase<2> at_rest(
+        block,
+        "slab-safety",
+        block_on(angle, 20) + friction("10", "4e3") +
+          Overrides{"Stages=equilibrium, strength reduction",
+                    "Grid/Cell size=0.125",
+                    "Bodies/block/Vertices=" + at.place(0, 0) + "; " +
+                      at.place(6, 0) + "; " + at.place(6, 0.5) + "; " +
+                      at.place(0, 0.5)});
+      gates.near("factor of safety" + degrees(angle),
+                 at_rest.factor_of_safety(),
+                 4e3 / (2000 * g * 0.5 * std::sin(20 * degree)),
+                 0.01);
+    }
+}
+
+
+
 // The dynamics begin with what the plane bore in equilibrium.
 TEST(BlockOnPlane, StaysAtRestAfterEquilibrium)
 {

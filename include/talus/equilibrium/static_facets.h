@@ -55,8 +55,8 @@ namespace talus
     }
 
     /// Give the points the forces that were found with @p u. Returns whether
-    /// these are those that were given, so that nothing moves into an obstacle
-    /// or along it where it sticks. Collective.
+    /// these are nearly those that were given, so that nothing moves into an
+    /// obstacle, or along it where it sticks, or enough was tried. Collective.
     bool
     update(const StaticProblem<dim>  &problem,
            const Unknowns<dim>       &unknowns,
@@ -117,6 +117,7 @@ namespace talus
     dealii::Tensor<2, dim>
                  tangent(const ContactPoint &point) const;
     bool         is_symmetric_ = true;
+    unsigned int n_loops_      = 0; ///< of this step
     unsigned int n_facets_     = 0;
     /// Those of the facets of this rank, then those of nodes inside that touch
     /// no facet.
