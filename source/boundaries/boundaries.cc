@@ -2,6 +2,7 @@
 #include <talus/base/errors.h>
 #include <talus/boundaries/boundaries.h>
 #include <talus/boundaries/contact_area.h>
+#include <talus/boundaries/wall_conditions.h>
 #include <talus/grid/node_places.h>
 
 #include <algorithm>
@@ -10,49 +11,93 @@ namespace talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    template <int dim>
+    using ConditionPtr = std::unique_ptr<BoundaryCondition<dim>>;
+
+
+
+    template <typename Condition, int dim>
+    ConditionPtr<dim>
+    make(const FaceDescription<dim> &description)
+    {
+      return std::make_unique<Condition>(description);
+    }
+
+
+
+    template <int dim>
+    struct ConditionKind
+    {
+      std::string name; ///< in the parameter file
+      /// Null if such a face does nothing to the nodes.
+      ConditionPtr<dim> (*make)(const FaceDescription<dim> &);
+    };
+
+
+
+    /// All kinds, in the order in which they act at a node: what comes later
+    /// overrides. Velocities first; then rollers, since nothing may pass a wall,
+    /// whatever another face prescribes; then `fixed`, which holds all
+    /// (doc/method.md, section 5). The seabed is last: what a wall holds must not
+    /// use up the friction.
+    template <int dim>
+    const std::vector<ConditionKind<dim>> &
+    condition_kinds()
+    {
+      static const std::vector<ConditionKind<dim>> list = {
+        {"free", nullptr},
+        {"periodic", nullptr},
+        {"traction", make<TractionCondition<dim>, dim>},
+        {"velocity", make<VelocityCondition<dim>, dim>},
+        {"roller", make<RollerCondition<dim>, dim>},
+        {"fixed", make<FixedCondition<dim>, dim>},
+        {"seabed", make<SeabedCondition<dim>, dim>}};
+      return list;
+    }
+
+
+
+    /// As the pattern of a selection.
+    template <int dim>
+    std::string
+    all_condition_names()
+    {
+      std::string result;
+      for (const ConditionKind<dim> &kind : condition_kinds<dim>())
+        result += (result.empty() ? "" : "|") + kind.name;
+      return result;
+    }
+  } // namespace
+
+
+
   // Without one, a trigger or a strength reduction that is to weaken it has
   // nothing to act on.
   template <int dim>
   bool
   Boundaries<dim>::has_seabed() const
   {
-    return std::count(conditions_.begin(),
-                      conditions_.end(),
-                      FaceCondition::seabed) > 0;
+    return std::count(names_.begin(), names_.end(), "seabed") > 0;
   }
 
 
 
-  // A pass over all owned cells, and a place per node: spared where no
-  // expression asks for it.
+  // A pass over all owned cells, and a place per node: spared where nobody asks
+  // for it.
   template <int dim>
   void
   Boundaries<dim>::locate_nodes(const Grid<dim> &grid)
   {
     places_.clear();
-    const auto is_given = [](const auto &expression) {
-      return expression != nullptr;
-    };
-    if (std::none_of(velocities_.begin(), velocities_.end(), is_given) &&
-        std::none_of(tractions_.begin(), tractions_.end(), is_given))
-      return;
-    places_ = places_of_owned_nodes(grid);
-  }
-
-
-
-  /// Call action(face) for those of @p faces (see Grid::faces_of_node()) with
-  /// this condition, in the order of the faces.
-  template <int dim>
-  template <typename Action>
-  void
-  Boundaries<dim>::for_faces_with(const FaceCondition condition,
-                                  const unsigned char faces,
-                                  const Action       &action) const
-  {
-    for (unsigned int face = 0; face < 2 * dim; ++face)
-      if ((faces & (1u << face)) && conditions_[face] == condition)
-        action(face);
+    if (reactions_.is_enabled() ||
+        std::any_of(conditions_.begin(),
+                    conditions_.end(),
+                    [](const auto &condition) {
+                      return condition->depends_on_place();
+                    }))
+      places_ = places_of_owned_nodes(grid);
   }
 
 
@@ -65,19 +110,11 @@ namespace talus
     const unsigned char faces) const
   {
     unsigned char result = 0;
-    for_faces_with(FaceCondition::fixed, faces, [&](unsigned int) {
-      result = (1u << dim) - 1;
-    });
-    for_faces_with(FaceCondition::roller, faces, [&](const unsigned int face) {
-      result |= 1u << (face / 2);
-    });
-    for_faces_with(FaceCondition::velocity,
-                   faces,
-                   [&](const unsigned int face) {
-                     for (unsigned int d = 0; d < dim; ++d)
-                       if (velocities_[face]->prescribes(d))
-                         result |= 1u << d;
-                   });
+    for (const auto &condition : conditions_)
+      if (condition->acts_on(faces))
+        for (unsigned int d = 0; d < dim; ++d)
+          if (condition->constrains(d))
+            result |= 1u << d;
     return result;
   }
 
@@ -89,80 +126,88 @@ namespace talus
   unsigned char
   Boundaries<dim>::constrained_components(const unsigned char faces) const
   {
-    unsigned char result = components_constrained_by_walls(faces);
-    for_faces_with(FaceCondition::seabed, faces, [&](unsigned int) {
-      result = (1u << dim) - 1;
-    });
-    return result;
+    for (const auto &condition : conditions_)
+      if (condition->is_one_sided() && condition->acts_on(faces))
+        return (1u << dim) - 1;
+    return components_constrained_by_walls(faces);
+  }
+
+
+
+  template <int dim>
+  const Point<dim> &
+  Boundaries<dim>::place_of(const unsigned int node) const
+  {
+    static const Point<dim> unknown; // nobody asks for it
+    return places_.empty() ? unknown : places_[node];
+  }
+
+
+
+  /// What walls prescribe for a node on these faces at time @p t.
+  template <int dim>
+  VelocityConstraints<dim>
+  Boundaries<dim>::constraints_at(const unsigned char faces,
+                                  const unsigned int  node,
+                                  const double        t)
+  {
+    VelocityConstraints<dim> constraints;
+    for (unsigned int c = 0; c < conditions_.size(); ++c)
+      if (conditions_[c]->acts_on(faces))
+        conditions_[c]->constrain(place_of(node), t, c, constraints);
+    return constraints;
+  }
+
+
+
+  /// Each constraint bears the part of the impulse along its normal.
+  template <int dim>
+  void
+  Boundaries<dim>::add_wall_reactions(
+    const VelocityConstraints<dim> &constraints,
+    const NodalFields<dim>         &nodes,
+    const unsigned int              node,
+    const Tensor<1, dim>           &impulse)
+  {
+    if (reactions_.is_enabled())
+      for (const VelocityConstraint<dim> &constraint : constraints)
+        reactions_.add(constraint.owner,
+                       place_of(node),
+                       (impulse * constraint.normal) * constraint.normal,
+                       Tensor<1, dim>(),
+                       nodes.mean_velocity(node));
   }
 
 
 
   template <int dim>
   void
-  Boundaries<dim>::PrescribedVelocity::set(const unsigned int component,
-                                           const double       value)
+  Boundaries<dim>::book_walls(const NodalFields<dim> &nodes,
+                              const unsigned char     faces,
+                              const unsigned int      node,
+                              const Tensor<1, dim>   &impulse,
+                              Works<dim>             &work)
   {
-    is_prescribed[component] = true;
-    velocity[component]      = value;
+    work.contact -= impulse * nodes.mean_velocity(node);
+    work.wall_impulse += impulse;
+    // Whose constraint it is does not depend on the time.
+    add_wall_reactions(constraints_at(faces, node, 0.), nodes, node, impulse);
   }
 
 
 
   template <int dim>
-  Tensor<1, dim>
-  Boundaries<dim>::PrescribedVelocity::impose(NodalFields<dim>  &nodes,
-                                              const unsigned int node) const
-  {
-    Tensor<1, dim> v = nodes.velocity(node);
-    for (unsigned int d = 0; d < dim; ++d)
-      if (is_prescribed[d])
-        v[d] = velocity[d];
-    return nodes.set_velocity(node, v);
-  }
-
-
-
-  /// What walls prescribe for a node on these faces at time @p t.
-  /// The order of the loops is the order of precedence: what comes later
-  /// overrides. Velocities first, of which the one whose normal the component
-  /// is counts most, then the first face; then rollers, since nothing may pass
-  /// a wall, whatever another face prescribes; then `fixed`, which holds all
-  /// (doc/method.md, section 5).
-  template <int dim>
-  typename Boundaries<dim>::PrescribedVelocity
-  Boundaries<dim>::prescribed_velocity(const unsigned char faces,
-                                       const unsigned int  node,
-                                       const double        t)
-  {
-    PrescribedVelocity prescribed;
-    for_faces_with(
-      FaceCondition::velocity, faces, [&](const unsigned int face) {
-        for (unsigned int d = 0; d < dim; ++d)
-          if (velocities_[face]->prescribes(d) &&
-              (!prescribed.is_prescribed[d] || d == face / 2))
-            prescribed.set(d, velocities_[face]->value(places_[node], t, d));
-      });
-    for_faces_with(FaceCondition::roller, faces, [&](const unsigned int face) {
-      prescribed.set(face / 2, 0.);
-    });
-    for_faces_with(FaceCondition::fixed, faces, [&](unsigned int) {
-      for (unsigned int d = 0; d < dim; ++d)
-        prescribed.set(d, 0.);
-    });
-    return prescribed;
-  }
-
-
-
-  template <int dim>
-  Tensor<1, dim>
+  void
   Boundaries<dim>::impose_walls(NodalFields<dim>   &nodes,
                                 const unsigned char faces,
                                 const unsigned int  node,
-                                const double        t)
+                                const double        t,
+                                const double        dt,
+                                Works<dim>         &work)
   {
-    return prescribed_velocity(faces, node, t).impose(nodes, node);
+    const Tensor<1, dim> impulse =
+      constraints_at(faces, node, t + 0.5 * dt).impose(nodes, node);
+    book_walls(nodes, faces, node, impulse, work);
   }
 
 
@@ -179,25 +224,25 @@ namespace talus
                                  const double      mass_cutoff)
   {
     loaded_.clear();
-    if (std::count(conditions_.begin(),
-                   conditions_.end(),
-                   FaceCondition::traction) == 0)
+    if (std::none_of(conditions_.begin(),
+                     conditions_.end(),
+                     [](const auto &condition) {
+                       return condition->has_traction();
+                     }))
       return;
     for (const unsigned int node : nodes.active_boundary_nodes())
       if (nodes.mass(node) > mass_cutoff)
-        for_faces_with(FaceCondition::traction,
-                       grid.faces_of_node(node),
-                       [&](const unsigned int face) {
-                         const double area =
-                           contact_area(nodes, grid, face, node);
-                         Tensor<1, dim> force;
-                         for (unsigned int d = 0; d < dim; ++d)
-                           force[d] =
-                             area *
-                             tractions_[face]->value(places_[node], t, d);
-                         nodes.add_force(node, force);
-                         loaded_.emplace_back(node, force);
-                       });
+        for (unsigned int c = 0; c < conditions_.size(); ++c)
+          if (BoundaryCondition<dim> &condition = *conditions_[c];
+              condition.has_traction() &&
+              condition.acts_on(grid.faces_of_node(node)))
+            {
+              const Tensor<1, dim> force =
+                contact_area(nodes, grid, condition.face(), node) *
+                condition.traction(place_of(node), t);
+              nodes.add_force(node, force);
+              loaded_.push_back({node, c, force});
+            }
   }
 
 
@@ -217,26 +262,42 @@ namespace talus
                                  Works<dim>        &work)
   {
     const unsigned char faces = grid.faces_of_node(node);
-    Tensor<1, dim>      contact, friction, wall;
+    using Impulses            = std::pair<Tensor<1, dim>, Tensor<1, dim>>;
+    std::array<Impulses, 2 * dim> of_condition;
 
     // Walls before the seabed: what a wall holds must not use up the friction.
-    const PrescribedVelocity prescribed =
-      prescribed_velocity(faces, node, t + 0.5 * dt);
-    wall += prescribed.impose(nodes, node);
-    for_faces_with(FaceCondition::seabed, faces, [&](const unsigned int face) {
-      const auto [normal, tangential] =
-        seabed_.apply(nodes, grid, face, node, dt);
-      contact += normal;
-      friction += tangential;
-    });
+    const VelocityConstraints<dim> constraints =
+      constraints_at(faces, node, t + 0.5 * dt);
+    Tensor<1, dim> wall = constraints.impose(nodes, node);
+    Tensor<1, dim> contact, friction;
+    for (unsigned int c = 0; c < conditions_.size(); ++c)
+      if (const BoundaryCondition<dim> &condition = *conditions_[c];
+          condition.is_one_sided() && condition.acts_on(faces))
+        {
+          const double gap =
+            (seabed_.has_gap() ? gap_(condition.face(), node) : 0.);
+          of_condition[c] = condition.apply_contact(nodes, grid, node, dt, gap);
+          contact += of_condition[c].first;
+          friction += of_condition[c].second;
+        }
     // Nor does friction brake what a wall drives: the wall takes it up.
-    wall += prescribed.impose(nodes, node);
+    wall += constraints.impose(nodes, node);
 
     const Tensor<1, dim> v = nodes.mean_velocity(node);
     work.friction -= friction * v;
     work.contact -= (contact + wall) * v;
     work.seabed_impulse += contact + friction;
     work.wall_impulse += wall;
+    add_wall_reactions(constraints, nodes, node, wall);
+    if (reactions_.is_enabled())
+      for (unsigned int c = 0; c < conditions_.size(); ++c)
+        if (const auto &[normal, tangential] = of_condition[c];
+            normal.norm_square() > 0)
+          {
+            reactions_.add(c, place_of(node), normal, tangential, v);
+            reactions_.add_area(
+              c, contact_area(nodes, grid, conditions_[c]->face(), node));
+          }
   }
 
 
@@ -255,68 +316,21 @@ namespace talus
     for (const unsigned int node : nodes.active_boundary_nodes())
       if (nodes.mass(node) > mass_cutoff)
         apply_to_node(nodes, grid, node, t, dt, work);
-    for (const auto &[node, force] : loaded_)
+    for (const LoadedNode &loaded : loaded_)
       {
-        work.contact -= dt * force * nodes.mean_velocity(node);
-        work.wall_impulse += dt * force;
+        const Tensor<1, dim> impulse = dt * loaded.force;
+        const Tensor<1, dim> v       = nodes.mean_velocity(loaded.node);
+        work.contact -= impulse * v;
+        work.wall_impulse += impulse;
+        if (reactions_.is_enabled())
+          reactions_.add(loaded.condition,
+                         place_of(loaded.node),
+                         impulse,
+                         Tensor<1, dim>(),
+                         v);
       }
     return work;
   }
-
-
-
-  namespace
-  {
-    // A new condition gets its name here; range and messages follow.
-    const std::vector<std::pair<std::string, FaceCondition>> condition_names = {
-      {"free", FaceCondition::free},
-      {"roller", FaceCondition::roller},
-      {"fixed", FaceCondition::fixed},
-      {"seabed", FaceCondition::seabed},
-      {"periodic", FaceCondition::periodic},
-      {"velocity", FaceCondition::velocity},
-      {"traction", FaceCondition::traction}};
-
-
-
-    /// As the pattern of a selection.
-    std::string
-    all_condition_names()
-    {
-      std::string result;
-      for (const auto &entry : condition_names)
-        result += (result.empty() ? "" : "|") + entry.first;
-      return result;
-    }
-
-
-
-    /// The word in the parameter file, for messages.
-    std::string
-    name_of(const FaceCondition condition)
-    {
-      return std::find_if(condition_names.begin(),
-                          condition_names.end(),
-                          [=](const auto &entry) {
-                            return entry.second == condition;
-                          })
-        ->first;
-    }
-
-
-
-    /// The parser has made sure that it is one of the list.
-    FaceCondition
-    condition_by_name(const std::string &name)
-    {
-      return std::find_if(condition_names.begin(),
-                          condition_names.end(),
-                          [&](const auto &entry) {
-                            return entry.first == name;
-                          })
-        ->second;
-    }
-  } // namespace
 
 
 
@@ -330,7 +344,6 @@ namespace talus
     // A face that the file does not name is free: a point that crosses it ends
     // the run, so that a wall which was forgotten does not go unnoticed.
     names_.fill("free");
-    conditions_.fill(FaceCondition::free);
     for (unsigned int face = 0; face < 2 * dim; ++face)
       {
         add_parameter(
@@ -344,7 +357,7 @@ namespace talus
           "'traction' (by the expressions of this face). In 3-D there are Back "
           "(lower z) and Front (upper z), too.",
           this->prm,
-          Patterns::Selection(all_condition_names()));
+          Patterns::Selection(all_condition_names<dim>()));
         add_parameter(
           face_names[face] + " velocity",
           velocity_texts_[face],
@@ -359,11 +372,10 @@ namespace talus
           "components of the force per area in contact, separated by "
           "semicolons [Pa].");
       }
-    // Conditions are known from now on; the expressions wait for prepare().
-    parse_parameters_call_back.connect([this]() {
-      for (unsigned int face = 0; face < 2 * dim; ++face)
-        conditions_[face] = condition_by_name(names_[face]);
-    });
+    add_parameter("Write forces",
+                  writes_forces_,
+                  "Write boundaries.csv: the force of the soil on each face of "
+                  "the mesh that has a condition.");
   }
 
 
@@ -377,9 +389,8 @@ namespace talus
     for (unsigned int face = 0; face < 2 * dim; ++face)
       {
         const unsigned int opposite = face ^ 1;
-        axes[face / 2] = (conditions_[face] == FaceCondition::periodic);
-        AssertThrow(!axes[face / 2] ||
-                      conditions_[opposite] == FaceCondition::periodic,
+        axes[face / 2]              = (names_[face] == "periodic");
+        AssertThrow(!axes[face / 2] || names_[opposite] == "periodic",
                     ExcUser("The face '" + face_names[face] +
                             "' is periodic, but the opposite one is not: "
                             "'Boundaries/" +
@@ -396,13 +407,12 @@ namespace talus
   /// believes that it acts.
   template <int dim>
   void
-  Boundaries<dim>::check_expression(const unsigned int  face,
-                                    const FaceCondition condition,
-                                    const std::string  &expressions) const
+  Boundaries<dim>::check_expression(const unsigned int face,
+                                    const std::string &word,
+                                    const std::string &expressions) const
   {
     const std::string parameter = "Boundaries/" + face_names[face];
-    const std::string word      = name_of(condition);
-    AssertThrow(conditions_[face] != condition || !expressions.empty(),
+    AssertThrow(names_[face] != word || !expressions.empty(),
                 ExcUser(text("'",
                              parameter,
                              "' is '",
@@ -414,7 +424,7 @@ namespace talus
                              "' is empty, where one expression for each "
                              "component was expected, separated by semicolons. "
                              "Give them.")));
-    AssertThrow(conditions_[face] == condition || expressions.empty(),
+    AssertThrow(names_[face] == word || expressions.empty(),
                 ExcUser(text("'",
                              parameter,
                              ' ',
@@ -433,6 +443,44 @@ namespace talus
 
 
 
+  template <int dim>
+  void
+  Boundaries<dim>::check_expressions(const unsigned int face) const
+  {
+    check_expression(face, "velocity", velocity_texts_[face]);
+    check_expression(face, "traction", traction_texts_[face]);
+    const std::string &traction = traction_texts_[face];
+    // The parser of expressions would not know the word, and would not say why.
+    AssertThrow(traction.find("free") == std::string::npos,
+                ExcUser(text("'Boundaries/",
+                             face_names[face],
+                             " traction = ",
+                             traction,
+                             "' contains the word 'free', which only a "
+                             "velocity may be. Give 0 for a component "
+                             "without traction.")));
+  }
+
+
+
+  /// Kind by kind, and among those of a kind in the order of the faces.
+  template <int dim>
+  void
+  Boundaries<dim>::make_conditions(const Constants &constants)
+  {
+    conditions_.clear();
+    for (const ConditionKind<dim> &kind : condition_kinds<dim>())
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+        if (kind.make != nullptr && names_[face] == kind.name)
+          conditions_.push_back(kind.make({face,
+                                           velocity_texts_[face],
+                                           traction_texts_[face],
+                                           constants,
+                                           seabed_}));
+  }
+
+
+
   // Expressions are parsed here, after all parameters are known: constants may
   // stand anywhere in the file.
   template <int dim>
@@ -440,35 +488,12 @@ namespace talus
   Boundaries<dim>::prepare(const Constants &constants)
   {
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      {
-        const std::string name = "'Boundaries/" + face_names[face];
-        check_expression(face, FaceCondition::velocity, velocity_texts_[face]);
-        check_expression(face, FaceCondition::traction, traction_texts_[face]);
-        const std::string &traction = traction_texts_[face];
-        // The parser of expressions would not know the word, and would not say
-        // why.
-        AssertThrow(traction.find("free") == std::string::npos,
-                    ExcUser(text(name,
-                                 " traction = ",
-                                 traction,
-                                 "' contains the word 'free', which only a "
-                                 "velocity may be. Give 0 for a component "
-                                 "without traction.")));
-        velocities_[face].reset();
-        tractions_[face].reset();
-        if (conditions_[face] == FaceCondition::velocity)
-          velocities_[face] =
-            std::make_unique<FaceExpression<dim>>(name + " velocity'",
-                                                  velocity_texts_[face],
-                                                  constants,
-                                                  /*may_be_free=*/true);
-        if (conditions_[face] == FaceCondition::traction)
-          tractions_[face] =
-            std::make_unique<FaceExpression<dim>>(name + " traction'",
-                                                  traction,
-                                                  constants,
-                                                  /*may_be_free=*/false);
-      }
+      check_expressions(face);
+    make_conditions(constants);
+    std::vector<std::string> names;
+    for (const auto &condition : conditions_)
+      names.push_back(face_names[condition->face()]);
+    reactions_.prepare(names, writes_forces_);
   }
 
 

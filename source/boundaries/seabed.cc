@@ -23,6 +23,13 @@ namespace talus
                   "soil [Pa].",
                   this->prm,
                   Patterns::Double(0.));
+    add_parameter("Gap",
+                  has_gap_,
+                  "Let soil come to the seabed before it feels it: contact "
+                  "begins where the boxes of the points come nearer than a "
+                  "twentieth of a cell, and a falling body is caught at the "
+                  "face. Else (as in the paper) a node on the face feels it as "
+                  "soon as it carries soil, up to a cell early.");
   }
 
 
@@ -44,12 +51,13 @@ namespace talus
                      const Grid<dim>   &grid,
                      const unsigned int face,
                      const unsigned int node,
-                     const double       dt) const
+                     const double       dt,
+                     const double       gap) const
   {
     const unsigned int   axis     = face / 2;
     const double         outwards = (face % 2 == 0 ? -1. : 1.);
     const Tensor<1, dim> trial    = nodes.velocity(node);
-    const double         v_n      = outwards * trial[axis];
+    const double         v_n      = outwards * trial[axis] - gap / dt;
     if (v_n <= 0)
       return {};
 

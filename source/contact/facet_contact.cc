@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/contact/facet_contact.h>
-#include <talus/transfer/weights.h>
-#include <talus/transfer/weights_kernel.h>
 
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 
 namespace talus
@@ -17,13 +14,6 @@ namespace talus
 
   namespace
   {
-    constexpr double no_gap = std::numeric_limits<double>::max();
-
-    // In cells. Boxes come this near before a facet closes: at rest they lie a
-    // little above the surface or below, and a facet that opens whenever one is
-    // 1e-4 of a cell above would be switched on and off from step to step.
-    constexpr double dead_band = 0.05;
-
     // Sweeps of a run's first step, which has no impulses to start from.
     constexpr unsigned int n_first_sweeps = 50;
 
@@ -84,13 +74,32 @@ namespace talus
     facets_.prepare(grid, obstacles_);
     take_impulses(rows);
     exchange_of_records_.prepare(grid, width);
-    exchange_of_gaps_.prepare(grid, obstacles_.size());
     exchange_of_impulses_.prepare(grid, dim);
+    gaps_.prepare(grid, surfaces());
     records_.assign(std::size_t(width) * grid.n_nodes(), 0.);
-    gaps_.assign(std::size_t(obstacles_.size()) * grid.n_nodes(), no_gap);
     nodal_impulses_.assign(std::size_t(dim) * grid.n_nodes(), 0.);
     total_impulses_.assign(std::size_t(dim) * grid.n_nodes(), 0.);
     held_.assign(grid.n_nodes(), 0);
+  }
+
+
+
+  /// The support function of a box along the normal.
+  template <int dim>
+  std::vector<typename NodalGaps<dim>::Surface>
+  FacetContact<dim>::surfaces() const
+  {
+    std::vector<typename NodalGaps<dim>::Surface> result;
+    for (unsigned int k = 0; k < obstacles_.size(); ++k)
+      result.push_back([&obstacle = obstacles_[k]](const Point<dim>     &x,
+                                                   const Tensor<1, dim> &half) {
+        const Tensor<1, dim> normal = obstacle.normal(x);
+        double               gap    = obstacle.signed_distance(x);
+        for (unsigned int d = 0; d < dim; ++d)
+          gap -= half[d] * std::abs(normal[d]);
+        return gap;
+      });
+    return result;
   }
 
 
@@ -180,7 +189,9 @@ namespace talus
   FacetContact<dim>::find_constraints(const State<dim> &state)
   {
     take_restored(state);
-    find_gaps(state);
+    gaps_.find(state,
+               facets_.nodes_and_obstacles(),
+               facets_.nearness_of_cells());
     load_nodes(state);
     constraints_.clear();
     for (const ContactFacet<dim> &facet : facets_.owned())
@@ -245,132 +256,12 @@ namespace talus
         state.grid.faces_of_node(node));
     for (const unsigned int node : facets_.owned_nodes())
       if (held_[node] && state.nodes.mass(node) > state.mass_cutoff)
-        {
-          const Tensor<1, dim> impulse =
-            boundaries.impose_walls(state.nodes,
-                                    state.grid.faces_of_node(node),
-                                    node,
-                                    state.time + 0.5 * state.time_step);
-          state.works.wall_impulse += impulse;
-          // Of the components that are held, which nothing changes any more.
-          state.works.contact -= impulse * state.nodes.mean_velocity(node);
-        }
-  }
-
-
-
-  /// How near the points whose boxes reach a node come to an obstacle, as far
-  /// as their boxes know: a support function of the box along the normal.
-  template <int dim>
-  void
-  FacetContact<dim>::find_gaps(const State<dim> &state)
-  {
-    const unsigned int n    = obstacles_.size();
-    const auto         open = [&](const unsigned int node) {
-      std::fill_n(gaps_.begin() + std::size_t(n) * node, n, no_gap);
-    };
-    for (const unsigned int node : facets_.nodes())
-      open(node);
-    for (const auto &inside : facets_.nodes_inside())
-      open(inside.node);
-    // Ghosts without exception: their records travel whether anybody reached
-    // them or not.
-    std::fill(gaps_.begin() + std::size_t(n) * state.grid.n_owned_nodes(),
-              gaps_.end(),
-              no_gap);
-    for (const Segment &segment : state.points.segments())
-      if (facets_.is_near(segment.cell))
-        add_gaps_of_segment(state, segment);
-    exchange_of_gaps_.minimum_to_owners(gaps_.data());
-    exchange_of_gaps_.copy_to_ghosts(gaps_.data());
-  }
-
-
-
-  template <int dim>
-  double
-  FacetContact<dim>::gap_of_point(const Obstacle<dim>  &obstacle,
-                                  const Point<dim>     &x,
-                                  const Tensor<1, dim> &half) const
-  {
-    const Tensor<1, dim> normal = obstacle.normal(x);
-    double               gap    = obstacle.signed_distance(x);
-    for (unsigned int d = 0; d < dim; ++d)
-      gap -= half[d] * std::abs(normal[d]);
-    return gap;
-  }
-
-
-
-  namespace
-  {
-    /// Call action(node) for the nodes in the patch of a uniform cell that a box
-    /// reaches: those that are nearer than a cell and the half length, along each
-    /// axis. @p half in cells.
-    template <int dim, typename Action>
-    void
-    for_each_node_in_reach(const Cell<dim>      &cell,
-                           const Point<dim>     &x,
-                           const Tensor<1, dim> &half,
-                           const Action         &action)
-    {
-      std::array<bool, 4 * dim> reaches;
-      for (unsigned int d = 0; d < dim; ++d)
-        for (int i = 0; i < 4; ++i)
-          reaches[4 * d + i] = std::abs((x[d] - cell.lower[d]) / cell.size -
-                                        (i - 1)) < 1. + half[d];
-      for (unsigned int k = 0; k < cell.patch.size(); ++k)
-        {
-          bool is_reached = true;
-          for (unsigned int d = 0; d < dim; ++d)
-            is_reached = is_reached && reaches[4 * d + k / power(4, d) % 4];
-          if (is_reached)
-            action(cell.patch[k]);
-        }
-    }
-  } // namespace
-
-
-
-  // In a uniform cell the nodes that a box reaches follow from where it is. In
-  // others, and of convected domains, the weights tell.
-  template <int dim>
-  void
-  FacetContact<dim>::add_gaps_of_segment(const State<dim> &state,
-                                         const Segment    &segment)
-  {
-    const Points<dim> &points = state.points;
-    const Cell<dim>   &cell   = state.grid.cells()[segment.cell];
-    const bool         is_simple =
-      cell.uniform && state.box_shape.rule != BoxRule::convected_domain;
-    std::vector<NodeWeight<dim>> weights;
-    const std::size_t            n = obstacles_.size();
-    std::vector<double>          gaps(n);
-    const auto                   reach = [&](const unsigned int node) {
-      if (facets_.is_contact_node(node))
-        for (std::size_t k = 0; k < n; ++k)
-          gaps_[n * node + k] = std::min(gaps_[n * node + k], gaps[k]);
-    };
-    for (unsigned int p = segment.begin; p < segment.end; ++p)
-      {
-        const Point<dim> x = load_place(points, points.position, p);
-        Tensor<1, dim>   half; // in cells
-        for (unsigned int d = 0; d < dim; ++d)
-          half[d] = half_length_in_cells<dim>(
-            points, state.box_shape, d, p, 1. / cell.size);
-        for (std::size_t k = 0; k < n; ++k)
-          gaps[k] = gap_of_point(obstacles_[k], x, cell.size * half);
-        if (is_simple)
-          {
-            for_each_node_in_reach(cell, x, half, reach);
-            continue;
-          }
-        weights_of_point(
-          points, state.grid, state.box_shape, segment.cell, p, weights);
-        for (const NodeWeight<dim> &weight : weights)
-          if (weight.value > 0)
-            reach(weight.node);
-      }
+        boundaries.impose_walls(state.nodes,
+                                state.grid.faces_of_node(node),
+                                node,
+                                state.time,
+                                state.time_step,
+                                state.works);
   }
 
 
@@ -430,7 +321,8 @@ namespace talus
                               "'Grid/Refinement boxes' cover the surface as "
                               "far as soil may come, or leave more cells in "
                               "'Mesh tracking' around the soil.")));
-    double inverse_mass = 0, inverse_normal_mass = 0, gap = no_gap;
+    double inverse_mass = 0, inverse_normal_mass = 0;
+    result.gap = NodalGaps<dim>::none;
     for (unsigned int v = 0; v < facet.node.size(); ++v)
       {
         const unsigned int node = facet.node[v];
@@ -445,15 +337,14 @@ namespace talus
             free -= facet.normal[d] * facet.normal[d];
         inverse_mass += inverse;
         inverse_normal_mass += free * inverse;
-        gap = std::min(
-          gap, gaps_[std::size_t(obstacles_.size()) * node + facet.obstacle]);
+        result.gap =
+          std::min(result.gap, gaps_.room(node, facet.obstacle, cell.size));
       }
     result.is_loaded = true;
     result.mass      = 1. / inverse_mass;
     result.normal_mass =
       (inverse_normal_mass > 1e-6 * inverse_mass ? 1. / inverse_normal_mass
                                                  : 0.);
-    result.gap  = std::max(0., gap - dead_band * cell.size);
     result.area = facet.area * sum;
     return result;
   }
@@ -615,9 +506,7 @@ namespace talus
   FacetContact<dim>::gap_inside(
     const Grid<dim> &grid, const typename Facets<dim>::NodeInside &inside) const
   {
-    const double gap =
-      gaps_[std::size_t(obstacles_.size()) * inside.node + inside.obstacle];
-    return std::max(0., gap - dead_band * grid.finest_size());
+    return gaps_.room(inside.node, inside.obstacle, grid.finest_size());
   }
 
 
@@ -655,42 +544,23 @@ namespace talus
   /// Walls take up what obstacles do to the components that they hold.
   template <int dim>
   void
-  FacetContact<dim>::book_walls(State<dim> &state) const
+  FacetContact<dim>::book_walls(State<dim>      &state,
+                                Boundaries<dim> &boundaries) const
   {
     for (const unsigned int node : facets_.owned_nodes())
-      for (unsigned int d = 0; d < dim; ++d)
-        if (held_[node] & (1u << d))
-          {
-            const double taken_up =
-              total_impulses_[std::size_t(dim) * node + d];
-            state.works.wall_impulse[d] -= taken_up;
-            state.works.contact +=
-              taken_up * state.nodes.mean_velocity(node)[d];
-          }
-  }
-
-
-
-  namespace
-  {
-    /// Add an impulse on the soil at @p arm from the reference point.
-    template <int dim>
-    void
-    add_to(StepReaction<dim>    &step,
-           const Tensor<1, dim> &arm,
-           const Tensor<1, dim> &impulse)
-    {
-      step.impulse -= impulse;
-      if constexpr (dim == 2)
-        step.angular_impulse[0] -= arm[0] * impulse[1] - arm[1] * impulse[0];
-      else
+      if (held_[node])
         {
-          const Tensor<1, dim> moment = cross_product_3d(arm, impulse);
+          Tensor<1, dim> taken_up;
           for (unsigned int d = 0; d < dim; ++d)
-            step.angular_impulse[d] -= moment[d];
+            if (held_[node] & (1u << d))
+              taken_up[d] = -total_impulses_[std::size_t(dim) * node + d];
+          boundaries.book_walls(state.nodes,
+                                state.grid.faces_of_node(node),
+                                node,
+                                taken_up,
+                                state.works);
         }
-    }
-  } // namespace
+  }
 
 
 
@@ -712,10 +582,9 @@ namespace talus
         for (unsigned int i = 0; i < facet.node.size(); ++i)
           v += constraint.share[i] * state.nodes.mean_velocity(facet.node[i]);
         const Tensor<1, dim> normal = impulse.normal * facet.normal;
-        add_to<dim>(step,
-                    facet.centroid -
-                      obstacles_[facet.obstacle].reference_point(),
-                    normal + impulse.tangential);
+        step.add_impulse_on_soil(facet.centroid -
+                                   obstacles_[facet.obstacle].reference_point(),
+                                 normal + impulse.tangential);
         step.tangential -= impulse.tangential;
         step.area += constraint.area;
         step.friction_work -= impulse.tangential * v;
@@ -723,11 +592,11 @@ namespace talus
       }
     for (const ImpulseInside &inside : impulses_inside_)
       {
-        add_to<dim>(steps[inside.obstacle],
-                    inside.place -
-                      obstacles_[inside.obstacle].reference_point(),
-                    inside.impulse);
-        steps[inside.obstacle].contact_work -=
+        StepReaction<dim> &step = steps[inside.obstacle];
+        step.add_impulse_on_soil(
+          inside.place - obstacles_[inside.obstacle].reference_point(),
+          inside.impulse);
+        step.contact_work -=
           inside.impulse * state.nodes.mean_velocity(inside.node);
       }
   }
@@ -739,27 +608,19 @@ namespace talus
   // the kinetic energy.
   template <int dim>
   void
-  FacetContact<dim>::book(State<dim> &state)
+  FacetContact<dim>::book(State<dim> &state, Boundaries<dim> &boundaries)
   {
     if (obstacles_.empty())
       return;
-    book_walls(state);
+    book_walls(state, boundaries);
     std::vector<StepReaction<dim>> steps(obstacles_.size());
     book_facets(state, steps);
-    std::vector<double> sums;
     for (const StepReaction<dim> &step : steps)
       {
         state.works.friction += step.friction_work;
         state.works.contact += step.contact_work;
-        const auto values = step.as_list();
-        sums.insert(sums.end(), values.begin(), values.end());
       }
-    Utilities::MPI::sum(sums, state.communicator(), sums);
-    for (unsigned int k = 0; k < steps.size(); ++k)
-      {
-        steps[k].from_list(sums.data() + k * StepReaction<dim>::n_values);
-        reactions_[k].add(steps[k], state.time_step);
-      }
+    add_to_reactions(steps, state.time_step, state.communicator(), reactions_);
   }
 
 

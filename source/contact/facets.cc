@@ -273,17 +273,16 @@ namespace talus
   {
     for (const unsigned int node : nodes_)
       {
-        n_facets_[node]        = 0;
-        open_volume_[node]     = 0;
-        is_contact_node_[node] = 0;
+        n_facets_[node]    = 0;
+        open_volume_[node] = 0;
       }
-    for (const unsigned int node : flagged_inside_)
-      is_contact_node_[node] = 0;
-    flagged_inside_.clear();
-    for (const unsigned int c : near_cells_)
+    for (const NodeAndSurface &pair : nodes_and_obstacles_)
+      is_contact_node_[pair.node] = 0;
+    nodes_and_obstacles_.clear();
+    for (const unsigned int c : listed_near_)
       is_near_[c] = 0;
     nodes_.clear();
-    near_cells_.clear();
+    listed_near_.clear();
     owned_.clear();
     owned_nodes_.clear();
     nodes_inside_.clear();
@@ -305,17 +304,22 @@ namespace talus
             if (c < grid.n_owned_cells())
               owned_.push_back(facet);
             for (const unsigned int node : facet.node)
-              if (n_facets_[node]++ == 0)
-                nodes_.push_back(node);
+              {
+                nodes_and_obstacles_.push_back({node, facet.obstacle});
+                if (n_facets_[node]++ == 0)
+                  nodes_.push_back(node);
+              }
           }
         touching.insert(cut_cell.touching.begin(), cut_cell.touching.end());
         for (const unsigned int near : cut_cell.near)
           if (near < grid.n_owned_cells() && !is_near_[near])
             {
               is_near_[near] = 1;
-              near_cells_.push_back(near);
+              listed_near_.push_back(near);
             }
       }
+    for (const ContactFacet<dim> &facet : owned_)
+      is_near_[facet.cell] = 2;
     for (const unsigned int node : nodes_)
       {
         is_contact_node_[node] = 1;
@@ -368,10 +372,11 @@ namespace talus
       if (const Point<dim> x = place_of_node(cell, v);
           !is_contact_node_[nodes[v]] && obstacles.signed_distance(x) <= 0)
         {
-          is_contact_node_[nodes[v]] = 1;
-          flagged_inside_.push_back(nodes[v]);
+          is_contact_node_[nodes[v]]  = 1;
+          const unsigned int obstacle = obstacles.nearest(x);
+          nodes_and_obstacles_.push_back({nodes[v], obstacle});
           if (nodes[v] < grid.n_owned_nodes())
-            nodes_inside_.push_back({nodes[v], x, obstacles.nearest(x)});
+            nodes_inside_.push_back({nodes[v], x, obstacle});
         }
   }
 

@@ -33,7 +33,7 @@ namespace talus
         if (const unsigned char faces =
               problem.state.grid.faces_of_node(active[k]);
             (faces & (1u << face)) &&
-            problem.boundaries.condition(face) == FaceCondition::seabed)
+            problem.boundaries.is_seabed(face))
           {
             Contact contact;
             contact.node = active[k];

@@ -30,30 +30,10 @@ namespace talus
   void
   ObstacleForces<dim>::list_forces(const unsigned int k, Quantities &row) const
   {
-    const Reaction<dim> &reaction = contact_.reactions()[k];
-    const std::string    name     = contact_.obstacles()[k].name() + ' ';
-    const double         per_time =
-      (reaction.duration > 0 ? 1. / reaction.duration : 0.);
-
-    append_vector<dim>(row, name + "force", "N", per_time * reaction.impulse);
+    const std::string &name = contact_.obstacles()[k].name();
+    contact_.reactions()[k].list_quantities(name, row);
     append_vector<dim>(row,
-                       name + "friction force",
-                       "N",
-                       per_time * reaction.tangential);
-    append_vector<dim>(row, name + "least force", "N", reaction.least);
-    append_vector<dim>(row, name + "largest force", "N", reaction.largest);
-    for (unsigned int i = 0; i < reaction.angular_impulse.size(); ++i)
-      row.push_back({name + "moment " + (dim == 2 ? 'z' : "xyz"[i]),
-                     "N m",
-                     per_time * reaction.angular_impulse[i]});
-    row.push_back({name + "contact area",
-                   dim == 2 ? "m" : "m^2",
-                   per_time * reaction.area_time});
-    append_vector<dim>(row, name + "impulse", "N s", reaction.total.impulse);
-    row.push_back({name + "friction work", "J", reaction.total.friction_work});
-    row.push_back({name + "contact work", "J", reaction.total.contact_work});
-    append_vector<dim>(row,
-                       name + "displacement",
+                       name + " displacement",
                        "m",
                        contact_.obstacles()[k].displacement());
   }

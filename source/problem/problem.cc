@@ -17,6 +17,7 @@ namespace talus
   Problem<dim>::Problem(const ParameterPreview &preview)
     : ParameterAcceptor("/")
     , materials(preview.materials)
+    , seabed_gaps(boundaries)
     , obstacles(preview.obstacles)
     , contact(obstacles)
     , loading(preview.folder)
@@ -133,7 +134,7 @@ namespace talus
   {
     std::array<bool, 2 * dim> result;
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      result[face] = boundaries.condition(face) == FaceCondition::free;
+      result[face] = boundaries.is_free(face);
     return result;
   }
 

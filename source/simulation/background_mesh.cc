@@ -146,8 +146,7 @@ namespace talus
 
     state_.grid.prepare();
     state_.nodes.prepare(state_.grid);
-    problem_.boundaries.locate_nodes(state_.grid);
-    problem_.contact.prepare(state_.grid);
+    problem_.locate(state_.grid);
     relocation_.rebuild(state_.points, state_.grid);
     activate_nodes();
     // Of the smallest cell, so that the same nodes carry motion at any level.
@@ -193,8 +192,7 @@ namespace talus
     ++n_repartitions_;
     const auto cells = load_balance_.repartition(state_.grid, state_.points);
     state_.nodes.prepare(state_.grid);
-    problem_.boundaries.locate_nodes(state_.grid);
-    problem_.contact.prepare(state_.grid);
+    problem_.locate(state_.grid);
     relocation_.rebuild(state_.points, cells);
     activate_nodes();
   }

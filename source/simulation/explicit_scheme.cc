@@ -177,6 +177,7 @@ namespace talus
       boundaries.scale_seabed_shear_stress(factor);
       problem_.obstacles.scale_maximum_shear_stress(factor);
       problem_.contact.apply(state_, boundaries);
+      problem_.seabed_gaps.find(state_);
       state_.works += boundaries.apply(
         state_.nodes, state_.grid, time, dt, state_.mass_cutoff);
     }
@@ -185,7 +186,8 @@ namespace talus
       state_.nodes.share_with_ghosts(state_.grid);
     }
     PhaseTimer::Scope scope(timer_, "boundaries");
-    problem_.contact.book(state_);
+    problem_.contact.book(state_, boundaries);
+    boundaries.reactions().finish_step(dt, state_.communicator());
   }
 
 

@@ -96,3 +96,85 @@ TEST(Block, CappedInterface)
                "g sin - tau_max/(rho H)")
     .near("acceleration [m/s^2]", acceleration(table), exact, 0.02);
 }
+
+
+
+// The force that the seabed feels is the one that brakes the block, and what it
+// bears is the block's weight.
+TEST(Block, ForceOnTheSeabed)
+{
+  const Table statistics =
+    run<2>(file, "block-force", {"Boundaries/Write forces=true"});
+  const Table forces(std::filesystem::path(TALUS_RESULTS_DIR) / "block-force" /
+                     "boundaries.csv");
+  for (unsigned int row = 0; row < forces.n_rows(); ++row)
+    EXPECT_NEAR(forces["Bottom impulse x [N s]"][row],
+                -statistics["seabed impulse x [N s]"][row],
+                1e-9);
+  double weight = 0, friction = 0;
+  int    n = 0;
+  for (unsigned int row = 0; row < forces.n_rows(); ++row)
+    if (forces["time [s]"][row] > 0.3)
+      {
+        weight -= forces["Bottom force y [N]"][row];
+        friction += forces["Bottom friction force x [N]"][row];
+        ++n;
+      }
+  Verification gates("Block on 30 degrees, mu = 0.3",
+                     "prm/" + file + " with Boundaries/Write forces",
+                     "weight");
+  gates.near("normal force on the seabed [N]",
+             weight / n,
+             4000 * gravity_across,
+             0.005);
+  gates.near("friction over normal force", friction / weight, 0.3, 1e-6);
+}
+
+
+
+// Without the gap, soil is caught when the nodes of the face begin to carry it,
+// up to a cell early.
+TEST(Block, FallsOntoASeabedWithGap)
+{
+  for (const std::string gap : {"false", "true"})
+    {
+      const Table table = run<2>(file,
+                                 "block-falls-on-seabed",
+                                 {"Boundaries/Seabed/Gap=" + gap,
+                                  "Boundaries/Write forces=true",
+                                  "Gravity/Slope angle=0",
+                                  "Bodies/block/Lower corner=0, 0.75",
+                                  "Bodies/block/Upper corner=2, 1.75",
+                                  "Output/Statistics interval=0.002",
+                                  "End time=0.6"});
+      const Table forces(std::filesystem::path(TALUS_RESULTS_DIR) /
+                         "block-falls-on-seabed" / "boundaries.csv");
+      std::size_t i = 0;
+      while (i + 1 < forces.n_rows() &&
+             forces["Bottom contact area [m]"][i] == 0)
+        ++i;
+      const double time   = forces["time [s]"][i];
+      const double fallen = 0.5 * 9.81 * time * time;
+      if (gap == "false")
+        {
+          EXPECT_LT(fallen, 0.56) << "the gap changes nothing";
+          continue;
+        }
+      Verification gates("Block falls 0.75 m onto a seabed with a gap",
+                         "prm/" + file + " with Boundaries/Seabed/Gap",
+                         "free fall; energy");
+      gates.holds("height of fall at the first contact [m]",
+                  std::to_string(fallen),
+                  "0.70 to 0.76",
+                  fallen > 0.7 && fallen < 0.76);
+      double gain = 0;
+      for (unsigned int row = 0; row < table.n_rows(); ++row)
+        gain = std::max(gain,
+                        table["kinetic energy [J]"][row] +
+                          table["elastic energy [J]"][row] -
+                          table["gravity work [J]"][row]);
+      gates.at_most("energy gained, over that of the fall",
+                    gain / (0.75 * 9.81 * 4000),
+                    0.001);
+    }
+}

@@ -3,13 +3,14 @@
 #define talus_boundaries_boundaries_h
 
 #include <talus/base/works.h>
-#include <talus/boundaries/face_expression.h>
+#include <talus/boundaries/boundary_condition.h>
+#include <talus/boundaries/boundary_reactions.h>
 #include <talus/boundaries/seabed.h>
-#include <talus/grid/nodal_fields.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -17,17 +18,6 @@
 
 namespace talus
 {
-  enum class FaceCondition
-  {
-    free,     ///< nothing; a point that crosses the face has left
-    roller,   ///< no motion along the normal, in either direction
-    fixed,    ///< no motion
-    seabed,   ///< one-sided contact with friction
-    periodic, ///< what leaves here enters through the opposite face
-    velocity, ///< velocity by expression, for some components or all
-    traction  ///< force per area by expression
-  };
-
   /// Conditions on the faces of the mesh.
   ///
   /// A node on several faces: tractions are forces and come first, of all
@@ -36,6 +26,9 @@ namespace talus
   /// of the first of them; rollers then hold their normals, since nothing may
   /// pass a wall. The seabed acts last, on what is so prescribed, but moves only
   /// the other components.
+  ///
+  /// A new condition is a class that derives from BoundaryCondition and a line
+  /// in the list of source/boundaries/boundaries.cc.
   template <int dim>
   class Boundaries : public dealii::ParameterAcceptor
   {
@@ -52,10 +45,17 @@ namespace talus
     void
     locate_nodes(const Grid<dim> &grid);
 
-    FaceCondition
-    condition(const unsigned int face) const
+    /// Whether nothing is there; a point that crosses the face has left.
+    bool
+    is_free(const unsigned int face) const
     {
-      return conditions_[face];
+      return names_[face] == "free";
+    }
+
+    bool
+    is_seabed(const unsigned int face) const
+    {
+      return names_[face] == "seabed";
     }
 
     bool
@@ -106,13 +106,33 @@ namespace talus
                   double            t,
                   double            mass_cutoff);
 
-    /// Give a node on @p faces the velocity that walls prescribe for time @p t,
-    /// s. Returns the impulse that this takes, N s.
-    dealii::Tensor<1, dim>
+    /// Give a node on @p faces the velocity that walls prescribe in a step from
+    /// time @p t over @p dt, s, and book the impulse that this takes.
+    void
     impose_walls(NodalFields<dim> &nodes,
                  unsigned char     faces,
                  unsigned int      node,
-                 double            t);
+                 double            t,
+                 double            dt,
+                 Works<dim>       &work);
+
+    /// Book an impulse on the soil, N s, that walls took up at a node on @p faces,
+    /// in components that they hold.
+    void
+    book_walls(const NodalFields<dim>       &nodes,
+               unsigned char                 faces,
+               unsigned int                  node,
+               const dealii::Tensor<1, dim> &impulse,
+               Works<dim>                   &work);
+
+    /// For a seabed with a gap: how far soil at a node is from a face, m, beyond
+    /// what counts as contact.
+    using Gap = std::function<double(unsigned int face, unsigned int node)>;
+    void
+    set_gap(const Gap &gap)
+    {
+      gap_ = gap;
+    }
 
     /// Change the velocities of the active nodes on the faces as their
     /// conditions ask, after the momentum update of a step from time @p t over
@@ -125,35 +145,37 @@ namespace talus
           double            dt,
           double            mass_cutoff);
 
-  private:
-    using Expressions =
-      std::array<std::unique_ptr<FaceExpression<dim>>, 2 * dim>;
-
-    /// Components of a node's velocity that do not depend on what the soil does.
-    struct PrescribedVelocity
+    /// Forces on each face that has a condition, if they are asked for.
+    BoundaryReactions<dim> &
+    reactions()
     {
-      std::array<bool, dim>  is_prescribed = {};
-      dealii::Tensor<1, dim> velocity; ///< m/s
+      return reactions_;
+    }
 
-      void
-      set(unsigned int component, double value);
+    const BoundaryReactions<dim> &
+    reactions() const
+    {
+      return reactions_;
+    }
 
-      /// Give them to a node; returns the impulse that this takes, N s.
-      dealii::Tensor<1, dim>
-      impose(NodalFields<dim> &nodes, unsigned int node) const;
-    };
-
-    template <typename Action>
-    void
-    for_faces_with(FaceCondition condition,
-                   unsigned char faces,
-                   const Action &action) const;
+  private:
     void
     check_expression(unsigned int       face,
-                     FaceCondition      condition,
+                     const std::string &condition,
                      const std::string &text) const;
-    PrescribedVelocity
-    prescribed_velocity(unsigned char faces, unsigned int node, double t);
+    void
+    check_expressions(unsigned int face) const;
+    void
+    make_conditions(const Constants &constants);
+    const dealii::Point<dim> &
+    place_of(unsigned int node) const;
+    VelocityConstraints<dim>
+    constraints_at(unsigned char faces, unsigned int node, double t);
+    void
+    add_wall_reactions(const VelocityConstraints<dim> &constraints,
+                       const NodalFields<dim>         &nodes,
+                       unsigned int                    node,
+                       const dealii::Tensor<1, dim>   &impulse);
     void
     apply_to_node(NodalFields<dim> &nodes,
                   const Grid<dim>  &grid,
@@ -166,16 +188,25 @@ namespace talus
     std::array<std::string, 2 * dim> names_;
     std::array<std::string, 2 * dim> velocity_texts_;
     std::array<std::string, 2 * dim> traction_texts_;
+    bool                             writes_forces_ = false;
 
-    std::array<FaceCondition, 2 * dim> conditions_;
-    Seabed<dim>                        seabed_;
-    Expressions                        velocities_; // m/s
-    Expressions                        tractions_;  // Pa
+    Seabed<dim> seabed_;
+    /// In the order in which they act.
+    std::vector<std::unique_ptr<BoundaryCondition<dim>>> conditions_;
+    BoundaryReactions<dim> reactions_; ///< of these
+    Gap                    gap_;
 
-    /// Of the owned nodes, by node, if there are expressions; m.
+    /// Of the owned nodes, by node, if somebody asks for them; m.
     std::vector<dealii::Point<dim>> places_;
-    /// Nodes with tractions in this step, and the forces, N.
-    std::vector<std::pair<unsigned int, dealii::Tensor<1, dim>>> loaded_;
+
+    /// What a condition with a traction does to a node in this step.
+    struct LoadedNode
+    {
+      unsigned int           node;
+      unsigned int           condition;
+      dealii::Tensor<1, dim> force; ///< N
+    };
+    std::vector<LoadedNode> loaded_;
   };
 } // namespace talus
 

@@ -2,7 +2,7 @@
 #ifndef talus_boundaries_seabed_h
 #define talus_boundaries_seabed_h
 
-#include <talus/grid/nodal_fields.h>
+#include <talus/boundaries/boundary_condition.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -23,14 +23,25 @@ namespace talus
     /// it would move into the seabed, its normal velocity becomes zero with the
     /// force N = m |v_n|/dt, and friction of at most
     /// min(m |v_t|/dt, mu N, tau_max A) acts against the tangential velocity.
-    /// Soil that moves away is free. Returns normal and tangential impulse, N s.
+    /// Soil that moves away is free, and so is soil that does not cover @p gap,
+    /// m, in the step. Returns normal and tangential impulse, N s.
     /// A is the area in contact, see contact_area().
     std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
     apply(NodalFields<dim> &nodes,
           const Grid<dim>  &grid,
           unsigned int      face,
           unsigned int      node,
-          double            dt) const;
+          double            dt,
+          double            gap = 0.) const;
+
+    /// Whether contact waits until the boxes of the points have come to the
+    /// face. Else a node feels the seabed as soon as it carries soil, which may
+    /// be a cell above.
+    bool
+    has_gap() const
+    {
+      return has_gap_;
+    }
 
     /// Largest friction force on soil that is pressed onto @p area, m^(dim-1),
     /// with @p normal_force, N.
@@ -60,6 +71,39 @@ namespace talus
     double factor_               = 1.; ///< of the maximum shear stress
     double friction_coefficient_ = 10.;
     double maximum_shear_stress_ = 1000.;
+    bool   has_gap_              = false;
+  };
+
+
+
+  /// A face of the mesh that is a seabed. All such faces are the same Seabed.
+  template <int dim>
+  class SeabedCondition : public BoundaryCondition<dim>
+  {
+  public:
+    explicit SeabedCondition(const FaceDescription<dim> &description)
+      : BoundaryCondition<dim>(description)
+      , seabed_(description.seabed)
+    {}
+
+    bool
+    is_one_sided() const override
+    {
+      return true;
+    }
+
+    std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
+    apply_contact(NodalFields<dim>  &nodes,
+                  const Grid<dim>   &grid,
+                  const unsigned int node,
+                  const double       dt,
+                  const double       gap) const override
+    {
+      return seabed_.apply(nodes, grid, this->face(), node, dt, gap);
+    }
+
+  private:
+    const Seabed<dim> &seabed_;
   };
 } // namespace talus
 

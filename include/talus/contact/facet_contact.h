@@ -3,8 +3,9 @@
 #define talus_contact_facet_contact_h
 
 #include <talus/boundaries/boundaries.h>
+#include <talus/boundaries/reaction.h>
 #include <talus/contact/facets.h>
-#include <talus/contact/reaction.h>
+#include <talus/contact/nodal_gaps.h>
 #include <talus/state/state.h>
 
 #include <vector>
@@ -69,7 +70,7 @@ namespace talus
     /// Add up what the step did, when the velocities of all nodes, ghosts too,
     /// are final. Collective.
     void
-    book(State<dim> &state);
+    book(State<dim> &state, Boundaries<dim> &boundaries);
 
     /// Of the obstacles; all ranks have the same.
     const std::vector<Reaction<dim>> &
@@ -162,14 +163,8 @@ namespace talus
     move_obstacles(const State<dim> &state);
     void
     hold_walls(State<dim> &state, Boundaries<dim> &boundaries);
-    void
-    find_gaps(const State<dim> &state);
-    void
-    add_gaps_of_segment(const State<dim> &state, const Segment &segment);
-    double
-    gap_of_point(const Obstacle<dim>          &obstacle,
-                 const dealii::Point<dim>     &x,
-                 const dealii::Tensor<1, dim> &half) const;
+    std::vector<typename NodalGaps<dim>::Surface>
+    surfaces() const;
     void
     load_nodes(const State<dim> &state);
     Constraint
@@ -190,7 +185,7 @@ namespace talus
     void
     hold_nodes_inside(State<dim> &state);
     void
-    book_walls(State<dim> &state) const;
+    book_walls(State<dim> &state, Boundaries<dim> &boundaries) const;
     void
     book_facets(const State<dim>               &state,
                 std::vector<StepReaction<dim>> &steps) const;
@@ -226,12 +221,11 @@ namespace talus
     std::vector<Constraint>    constraints_;
     std::vector<ImpulseInside> impulses_inside_;
     std::vector<double>        records_;        ///< see Record
-    std::vector<double>        gaps_;           ///< by node and obstacle, m
+    NodalGaps<dim>             gaps_;           ///< the obstacles' surfaces
     std::vector<double>        nodal_impulses_; ///< of a sweep, N s
     std::vector<double>        total_impulses_; ///< of the step, N s
     std::vector<unsigned char> held_;           ///< components, by node
-    NodalExchange<dim>         exchange_of_records_, exchange_of_gaps_,
-      exchange_of_impulses_;
+    NodalExchange<dim>         exchange_of_records_, exchange_of_impulses_;
   };
 } // namespace talus
 

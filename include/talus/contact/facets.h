@@ -2,6 +2,7 @@
 #ifndef talus_contact_facets_h
 #define talus_contact_facets_h
 
+#include <talus/contact/nodal_gaps.h>
 #include <talus/contact/obstacles.h>
 #include <talus/grid/grid.h>
 
@@ -82,6 +83,13 @@ namespace talus
       return is_contact_node_;
     }
 
+    /// Nodes for which it is 1, with the obstacles that they feel; ghosts, too.
+    const std::vector<NodeAndSurface> &
+    nodes_and_obstacles() const
+    {
+      return nodes_and_obstacles_;
+    }
+
     /// Facets of all obstacles in the cells around a node this rank owns.
     unsigned int
     n_facets(const unsigned int node) const
@@ -119,6 +127,14 @@ namespace talus
       return is_near_[cell];
     }
 
+    /// Of all cells: 0 for those that are not near, 2 for those with a facet, 1
+    /// for the others.
+    const std::vector<unsigned char> &
+    nearness_of_cells() const
+    {
+      return is_near_;
+    }
+
   private:
     /// What the surfaces make of a cell.
     struct CutCell
@@ -151,10 +167,10 @@ namespace talus
 
     std::map<unsigned int, CutCell> cut_cells_;    ///< ghosts, too
     std::set<unsigned int>          cells_inside_; ///< beside surfaces
-    std::vector<unsigned int>       near_cells_;
+    std::vector<unsigned int>       listed_near_;
     std::vector<ContactFacet<dim>>  owned_;
     std::vector<unsigned int>       owned_nodes_, nodes_;
-    std::vector<unsigned int>       flagged_inside_; ///< ghosts, too
+    std::vector<NodeAndSurface>     nodes_and_obstacles_;
     std::vector<NodeInside>         nodes_inside_;
     std::vector<unsigned char>      is_contact_node_; ///< by node
     std::vector<unsigned int>       n_facets_;        ///< by node

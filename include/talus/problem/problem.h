@@ -4,6 +4,7 @@
 
 #include <talus/boundaries/boundaries.h>
 #include <talus/contact/facet_contact.h>
+#include <talus/contact/seabed_gaps.h>
 #include <talus/problem/body.h>
 #include <talus/problem/loading.h>
 #include <talus/problem/parameter_preview.h>
@@ -93,12 +94,23 @@ namespace talus
     std::vector<std::string>
     notes(double cell_size) const;
 
+    /// Find what depends on cells and nodes; to be called after each change of
+    /// the mesh or its partition. Collective.
+    void
+    locate(const Grid<dim> &grid)
+    {
+      boundaries.locate_nodes(grid);
+      seabed_gaps.prepare(grid);
+      contact.prepare(grid);
+    }
+
     void
     list_state(StateList &list)
     {
       loading.list_state(list);
       obstacles.list_state(list);
       contact.list_state(list);
+      boundaries.reactions().list_state(list);
     }
 
   private:
@@ -112,6 +124,7 @@ namespace talus
     // The parts, for those who work with them.
     Materials<dim>    materials;
     Boundaries<dim>   boundaries;
+    SeabedGaps<dim>   seabed_gaps;
     Obstacles<dim>    obstacles;
     FacetContact<dim> contact; ///< with the obstacles
     Loading<dim>      loading;

@@ -226,6 +226,74 @@ namespace
 
 
 
+  /// In the corner of a roller and a seabed, each has what it did itself, and
+  /// together they have all.
+  TEST(Boundaries, EachFaceKnowsItsForce)
+  {
+    OneNode<2> n("set Write forces = true\nset Left = roller\n" + bottom,
+                 law(0.5, 1e9),
+                 Point<2>(0., 0.),
+                 2.,
+                 before,
+                 trial);
+    n.boundaries.reactions().finish_step(dt, MPI_COMM_SELF);
+    Quantities row;
+    n.boundaries.reactions().list_quantities(row);
+    const auto value = [&](const std::string &name) {
+      for (const Quantity &quantity : row)
+        if (quantity.name == name)
+          return quantity.value;
+      ADD_FAILURE() << name;
+      return 0.;
+    };
+    // The roller stops 3 m/s, the seabed 0.5 m/s, of 2 kg; without motion along
+    // the face there is no friction left.
+    EXPECT_DOUBLE_EQ(value("Left impulse x"), 6.);
+    EXPECT_DOUBLE_EQ(value("Left force x"), 60.);
+    EXPECT_DOUBLE_EQ(value("Left impulse y"), 0.);
+    EXPECT_DOUBLE_EQ(value("Bottom impulse y"), -1.);
+    EXPECT_DOUBLE_EQ(value("Bottom impulse x"), 0.);
+    EXPECT_DOUBLE_EQ(value("Bottom contact area"), 0.5);
+    EXPECT_NEAR(value("Left contact work") + value("Bottom contact work"),
+                n.work.contact,
+                1e-14);
+  }
+
+
+
+  /// Soil that has not come to the seabed by more than the gap is let fall to it.
+  TEST(Seabed, GapLeavesRoomToFall)
+  {
+    Core<2> core(
+      cube<2>() +
+      in_section("Boundaries",
+                 bottom + "\n" + in_section("Seabed", "set Gap = true")));
+    for (const double gap : {0., 0.02, 1.})
+      {
+        auto                     &nodes = core.nodes;
+        std::vector<unsigned int> all(core.grid.cells().size());
+        for (unsigned int c = 0; c < all.size(); ++c)
+          all[c] = c;
+        nodes.activate(core.grid, all);
+        nodes.clear();
+        unsigned int node = 0;
+        while (places_of_nodes(core.grid)[node].distance(on_bottom) > 1e-12)
+          ++node;
+        nodes.set_sums(node, 2., 1., 2. * before, 2. * (trial - before) / dt);
+        core.boundaries.prepare(Constants());
+        core.boundaries.set_gap(
+          [=](const unsigned int, const unsigned int) { return gap; });
+        nodes.update_momentum(dt, 0.);
+        core.boundaries.apply(nodes, core.grid, 0., dt, 0.);
+        // 0.5 m/s would take it 0.05 m.
+        EXPECT_NEAR(nodes.velocity(node)[1],
+                    std::max(trial[1], -gap / dt),
+                    1e-14);
+      }
+  }
+
+
+
   /// What forces and boundaries do is the change of the kinetic energy.
   TEST(Boundaries, WorkClosesTheBudget)
   {
@@ -270,6 +338,7 @@ namespace
     dealii::ParameterAcceptor::prm.parse_input_from_string(
       in_section("Boundaries", "set Bottom = fixed"));
     dealii::ParameterAcceptor::parse_all_parameters();
+    n.boundaries.prepare(Constants());
     n.boundaries.apply(n.nodes, n.grid, 0., dt, 2.1);
     n.expect_velocity(trial);
     n.boundaries.apply(n.nodes, n.grid, 0., dt, 1.9);

@@ -1,30 +1,50 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef talus_contact_reaction_h
-#define talus_contact_reaction_h
+#ifndef talus_boundaries_reaction_h
+#define talus_boundaries_reaction_h
 
+#include <talus/base/quantity.h>
 #include <talus/base/state.h>
 
 #include <deal.II/base/tensor.h>
 
+#include <mpi.h>
+
 #include <array>
-#include <limits>
 #include <string>
+#include <vector>
 
 namespace talus
 {
-  /// What the soil does to an obstacle in one step, summed over its surface.
+  /// What the soil does to an obstacle or a face of the mesh in one step, summed
+  /// over the surface.
   template <int dim>
   struct StepReaction
   {
     static constexpr unsigned int n_moments = (dim == 2 ? 1 : 3);
 
-    dealii::Tensor<1, dim>        impulse;    ///< on the obstacle, N s
+    dealii::Tensor<1, dim>        impulse;    ///< of the soil, N s
     dealii::Tensor<1, dim>        tangential; ///< its part by friction, N s
     std::array<double, n_moments> angular_impulse{}; ///< about the reference
                                                      ///< point, N m s
     double area          = 0;                        ///< in contact, m^(dim-1)
     double friction_work = 0; ///< energy that friction took from the soil, J
     double contact_work  = 0; ///< energy that normal contact took, J
+
+    /// Add an impulse that the soil got at @p arm, m, from the reference point.
+    void
+    add_impulse_on_soil(const dealii::Tensor<1, dim> &arm,
+                        const dealii::Tensor<1, dim> &on_soil)
+    {
+      impulse -= on_soil;
+      if constexpr (dim == 2)
+        angular_impulse[0] -= arm[0] * on_soil[1] - arm[1] * on_soil[0];
+      else
+        {
+          const auto moment = dealii::cross_product_3d(arm, on_soil);
+          for (unsigned int d = 0; d < dim; ++d)
+            angular_impulse[d] -= moment[d];
+        }
+    }
 
     /// All of it, to be summed over the ranks.
     static constexpr unsigned int n_values = 2 * dim + n_moments + 3;
@@ -113,42 +133,24 @@ namespace talus
     }
 
     void
-    list_state(const std::string &name, StateList &list)
-    {
-      const auto components = [&](const std::string &what,
-                                  const std::string &unit,
-                                  auto              &values,
-                                  const unsigned int n) {
-        list.add_components(
-          name + " " + what, unit, values, n, Reduction::equal);
-      };
-      components("impulse", "N s", total.impulse, dim);
-      components("friction impulse", "N s", total.tangential, dim);
-      components("angular impulse",
-                 "N m s",
-                 total.angular_impulse,
-                 total.angular_impulse.size());
-      list.add(name + " area", "", total.area, Reduction::equal);
-      list.add(name + " friction work",
-               "J",
-               total.friction_work,
-               Reduction::equal);
-      list.add(name + " contact work",
-               "J",
-               total.contact_work,
-               Reduction::equal);
-      list.add(name + " interval", "s", duration, Reduction::equal);
-      components("impulse of interval", "N s", impulse, dim);
-      components("friction impulse of interval", "N s", tangential, dim);
-      components("angular impulse of interval",
-                 "N m s",
-                 angular_impulse,
-                 angular_impulse.size());
-      list.add(name + " area by time", "", area_time, Reduction::equal);
-      components("least force", "N", least, dim);
-      components("largest force", "N", largest, dim);
-    }
+    list_state(const std::string &name, StateList &list);
+
+    /// Append forces, the means of the interval and the extremes, then what
+    /// happened since the start; the names begin with @p name.
+    void
+    list_quantities(const std::string &name, Quantities &row) const;
   };
+
+
+
+  /// Sum @p steps over the ranks and add them to @p reactions, of a step of
+  /// @p dt, s. Collective.
+  template <int dim>
+  void
+  add_to_reactions(std::vector<StepReaction<dim>> &steps,
+                   double                          dt,
+                   MPI_Comm                        communicator,
+                   std::vector<Reaction<dim>>     &reactions);
 } // namespace talus
 
 #endif

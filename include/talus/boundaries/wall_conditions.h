@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_boundaries_wall_conditions_h
+#define talus_boundaries_wall_conditions_h
+
+#include <talus/boundaries/boundary_condition.h>
+#include <talus/boundaries/face_expression.h>
+
+namespace talus
+{
+  /// No motion along the normal, in either direction.
+  template <int dim>
+  class RollerCondition : public BoundaryCondition<dim>
+  {
+  public:
+    using BoundaryCondition<dim>::BoundaryCondition;
+
+    bool
+    constrains(const unsigned int d) const override
+    {
+      return d == this->face() / 2;
+    }
+
+    void
+    constrain(const dealii::Point<dim> &x,
+              double                    t,
+              unsigned int              owner,
+              VelocityConstraints<dim> &constraints) override;
+  };
+
+
+
+  /// No motion.
+  template <int dim>
+  class FixedCondition : public BoundaryCondition<dim>
+  {
+  public:
+    using BoundaryCondition<dim>::BoundaryCondition;
+
+    bool
+    constrains(const unsigned int /*d*/) const override
+    {
+      return true;
+    }
+
+    void
+    constrain(const dealii::Point<dim> &x,
+              double                    t,
+              unsigned int              owner,
+              VelocityConstraints<dim> &constraints) override;
+  };
+
+
+
+  /// Velocity by expression, for some components or all. A component that other
+  /// faces prescribe, too, is its own only if it is its normal.
+  template <int dim>
+  class VelocityCondition : public BoundaryCondition<dim>
+  {
+  public:
+    explicit VelocityCondition(const FaceDescription<dim> &description);
+
+    bool
+    depends_on_place() const override
+    {
+      return true;
+    }
+
+    bool
+    constrains(const unsigned int d) const override
+    {
+      return expression_.prescribes(d);
+    }
+
+    void
+    constrain(const dealii::Point<dim> &x,
+              double                    t,
+              unsigned int              owner,
+              VelocityConstraints<dim> &constraints) override;
+
+  private:
+    FaceExpression<dim> expression_; ///< m/s
+  };
+
+
+
+  /// Force per area by expression.
+  template <int dim>
+  class TractionCondition : public BoundaryCondition<dim>
+  {
+  public:
+    explicit TractionCondition(const FaceDescription<dim> &description);
+
+    bool
+    depends_on_place() const override
+    {
+      return true;
+    }
+
+    bool
+    has_traction() const override
+    {
+      return true;
+    }
+
+    dealii::Tensor<1, dim>
+    traction(const dealii::Point<dim> &x, double t) override;
+
+  private:
+    FaceExpression<dim> expression_; ///< Pa
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_contact_nodal_gaps_h
+#define talus_contact_nodal_gaps_h
+
+#include <talus/state/state.h>
+
+#include <functional>
+#include <limits>
+#include <vector>
+
+namespace talus
+{
+  /// A node that may come to a surface, by their numbers.
+  struct NodeAndSurface
+  {
+    unsigned int node, surface;
+  };
+
+
+
+  /// How near soil comes to surfaces, as the nodes know it: at each node and for
+  /// each surface beside it, the least distance of those boxes of points that
+  /// reach the node.
+  template <int dim>
+  class NodalGaps
+  {
+  public:
+    /// Distance from the surface, m, of the box with these half lengths, m, about
+    /// a place; negative if it dips into it.
+    using Surface = std::function<double(const dealii::Point<dim> &,
+                                         const dealii::Tensor<1, dim> &)>;
+
+    /// Of a node that no box reaches.
+    static constexpr double none = std::numeric_limits<double>::max();
+
+    /// To be called after each change of the mesh or its partition.
+    void
+    prepare(const Grid<dim> &grid, std::vector<Surface> surfaces);
+
+    /// Find the gaps of @p pairs, ghosts among them. @p nearness of a cell is not 0 if its points may reach
+    /// one of them; it is 2 for those at the surface, which are looked at before
+    /// those with 1. Collective.
+    void
+    find(const State<dim>                  &state,
+         const std::vector<NodeAndSurface> &pairs,
+         const std::vector<unsigned char>  &nearness);
+
+    /// Room that is left at a node before surface @p k, m: zero as soon as boxes
+    /// come nearer than a twentieth of a cell of @p cell_size, m. At rest they
+    /// lie a little above the surface or below, and contact that ended whenever
+    /// one is 1e-4 of a cell above would be switched on and off from step to
+    /// step.
+    double
+    room(const unsigned int node,
+         const unsigned int k,
+         const double       cell_size) const
+    {
+      return std::max(0.,
+                      gaps_[surfaces_.size() * node + k] -
+                        dead_band * cell_size);
+    }
+
+  private:
+    static constexpr double dead_band = 0.05; // cells
+
+    dealii::Tensor<1, dim>
+    half_lengths(const State<dim> &state,
+                 const Cell<dim>  &cell,
+                 unsigned int      p) const;
+    void
+    lower(unsigned int node, const std::vector<double> &gaps);
+    void
+    add_to_patch(const State<dim>    &state,
+                 const Segment       &segment,
+                 std::vector<double> &gaps);
+    void
+    add_segment(const State<dim> &state, const Segment &segment);
+
+    std::vector<Surface>       surfaces_;
+    std::vector<double>        gaps_;    ///< by node and surface, m
+    std::vector<unsigned char> is_open_; ///< by node, while they are found
+    std::vector<Segment> later_;      ///< of the cells that are not the nearest
+    double               closed_ = 0; ///< gaps this small are none, m
+    NodalExchange<dim>   exchange_;
+  };
+} // namespace talus
+
+#endif
