@@ -34,6 +34,11 @@ run landslide prm/landslide-quick.prm --set "Splitting/Directions=stretched" \
 run landslide-unsplit prm/landslide-quick.prm --set "Splitting/Enabled=false" \
     --set "Output/Field interval=5"
 run pipeline prm/pipeline.prm
+for stress in 0 1e3; do
+  run pipe-$stress prm/verification/pipe.prm --set "Grid/Cell size=0.0625" \
+      --set "Obstacles/pipe/Maximum shear stress=$stress" \
+      --set "Output/Boxes as cells=true" --set "Output/Field interval=10"
+done
 run first-slope prm/first-slope.prm --set "Output/Boxes as cells=true" \
     --set "Output/Field interval=5"
 run bar prm/bar.prm --set "Output/Boxes as cells=true" \
@@ -56,6 +61,8 @@ xvfb-run -a sh -eu -c '
   pvbatch $here/landslide.py $scratch/landslide $here/landslide.png
   pvbatch $here/landslide.py $scratch/first-slope $here/first-slope.png
   pvbatch $here/pipeline.py $here/pipeline.png $scratch/pipeline
+  pvbatch $here/pipe_flow.py $here/pipe-flow.png \
+          $scratch/pipe-0=smooth $scratch/pipe-1e3=rough
   pvbatch $here/toe.py $here/toe.png $scratch/landslide-unsplit \
           $scratch/landslide
   pvbatch $here/mechanism.py $here/mechanism.png \

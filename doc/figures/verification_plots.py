@@ -173,6 +173,10 @@ def draw_all(source, target):
         "Vertical cut in clay under growing weight. Runs end where the crest "
         "has settled by 0.2 % of the height. Grey: bounds of the load at which "
         "it collapses.")
+    add("Obstacles", "pipe-flow.png",
+        "Clay around a pipe that has been dragged by 0.2 D, cells of D/16. "
+        "Speeds of the points, whose noise beside the pipe the grid does not "
+        "see.")
     add("The landslide of the paper", deposits(os.path.join(source, "..", ".."), target),
         "Shape of the deposit.")
     return pictures

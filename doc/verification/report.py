@@ -33,6 +33,9 @@ SECTIONS = [
     ("Seabed and layers",
      ["Block", "ShearLayer", "ViscoplasticLayer", "VerticalCut",
       "VerticalCutBracket"]),
+    ("Obstacles",
+     ["BlockOnPlane", "Arc", "Container", "Bowl", "Pipe", "PipeRefined",
+      "LandslideInclined", "LandslideInclinedFull", "LandslideInclinedFine"]),
     ("Equilibrium without dynamics",
      ["ImplicitColumn", "ImplicitElasticaLoads", "ImplicitElastica",
       "Multigrid"]),
@@ -54,6 +57,7 @@ SUMMARY = [
     ("Bar", "error of v_cm / v0, split, left stretch"),
     ("Block", "acceleration"),
     ("ViscoplasticLayer", "velocity of the surface"),
+    ("Pipe", "N of a rough pipe"),
     ("StripFootingFine", "q F/s_u at failure"),
     ("TaylorSlope", "factor of safety, cells of H/10"),
     ("VerticalCutSafety", "gamma H F/s_u, cells of H/16"),
@@ -63,7 +67,8 @@ SUMMARY = [
 SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
         "VerticalCutBracket", "ElasticaLoads", "ImplicitElasticaLoads",
         "StripFootingFine", "VerticalCutSafetyFine",
-        "LandslideFromEquilibriumFine"}
+        "LandslideFromEquilibriumFine", "PipeRefined",
+        "LandslideInclinedFull", "LandslideInclinedFine"}
 
 HEAD = """# Verification
 

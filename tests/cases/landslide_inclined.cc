@@ -145,3 +145,24 @@ TEST(LandslideInclinedFull, ToRest)
     expect_same_slide(gates, inclined, aligned, 12, times);
   }
 }
+
+
+
+TEST(LandslideInclinedFine, ToRest)
+{
+  const Overrides fine = {"Grid/Cell size=0.2"};
+  const Table     aligned =
+    run<2>("landslide-quick.prm", "landslide-aligned-fine", stretched + fine);
+  const Table  inclined = run<2>(file, "landslide-inclined-fine", fine);
+  Verification gates(
+    "Landslide on a seabed turned by 5 degrees to rest, h = 0.2 m",
+    "prm/" + file,
+    "the same on a face of the mesh");
+  expect_same_slide(
+    gates,
+    inclined,
+    aligned,
+    5,
+    {{5, 0.005}, {10, 0.005}, {15, 0.005}, {20, 0.008}, {30, 0.01}});
+  expect_momentum_closed(gates, inclined, "landslide-inclined-fine");
+}

@@ -472,3 +472,105 @@ TEST(Bowl, Pendulum)
                 1.,
                 "<= 1");
 }
+
+
+
+namespace
+{
+  /// A rigid sector of a ring on an arc of a circle, prm/verification/arc.prm.
+  struct BlockOnArc
+  {
+    double w = 0.05, outer = 20, inner = 19.5; // rad, m
+    double mu = 0, cap = 0;                    // Pa
+    double density = 1000;
+
+    double
+    radius_of_centre() const
+    {
+      return 2 * std::sin(w) / (3 * w) *
+             (std::pow(outer, 3) - std::pow(inner, 3)) /
+             (outer * outer - inner * inner);
+    }
+
+    /// Square of the angular velocity at the bottom, by Runge and Kutta's
+    /// method: I y'/2 = -M g r_c sin - (mu N + tau L) R with y = phi'^2, and the
+    /// normal force N = M (g cos + r_c y) of a block that is short.
+    double
+    y_at_bottom() const
+    {
+      const double mass    = density * w * (outer * outer - inner * inner);
+      const double inertia = 0.5 * mass * (outer * outer + inner * inner);
+      const double r_c     = radius_of_centre();
+      const auto   slope   = [&](const double phi, const double y) {
+        const double normal   = mass * (g * std::cos(phi) + r_c * y);
+        const double friction = mu * normal + cap * 2 * w * outer;
+        return 2 / inertia *
+               (-mass * g * r_c * std::sin(phi) - friction * outer);
+      };
+      const int    n    = 1000;
+      const double step = 30 * degree / n;
+      double       y    = 0;
+      for (int i = 0; i < n; ++i)
+        {
+          const double phi = -30 * degree + i * step;
+          const double k1  = slope(phi, y);
+          const double k2  = slope(phi + step / 2, y + step / 2 * k1);
+          const double k3  = slope(phi + step / 2, y + step / 2 * k2);
+          const double k4  = slope(phi + step, y + step * k3);
+          y += step / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
+        }
+      return y;
+    }
+
+    /// Square of the velocity of the centre when it passes the bottom, m^2/s^2.
+    static double
+    measured(const Table &table)
+    {
+      const auto &x = table["centre x [m]"];
+      const auto &v = table["centre velocity x [m/s]"];
+      std::size_t i = 0;
+      while (i + 2 < x.size() && x[i + 1] < 0)
+        ++i;
+      const double share = -x[i] / (x[i + 1] - x[i]);
+      return std::pow(v[i] + share * (v[i + 1] - v[i]), 2);
+    }
+  };
+} // namespace
+
+
+
+TEST(Arc, CoulombFriction)
+{
+  const std::string file = "verification/arc.prm";
+  BlockOnArc        exact;
+  exact.mu = 0.1;
+  Verification("Block on an arc of 20 m, mu = 0.1",
+               "prm/" + file,
+               "rigid body; a thin one has 30.407")
+    .near("v^2 at the bottom [m^2/s^2]",
+          BlockOnArc::measured(run<2>(file, "arc-coulomb")),
+          exact.y_at_bottom() * std::pow(exact.radius_of_centre(), 2),
+          0.005);
+}
+
+
+
+// With E = 1e7 Pa the block rests on some of its facets only, and they pass 69 % of
+// the cap.
+TEST(Arc, CappedInterface)
+{
+  const std::string file = "verification/arc.prm";
+  BlockOnArc        exact;
+  exact.cap = 500;
+  Verification("Block on an arc of 20 m, tau_max = 500 Pa",
+               "prm/" + file,
+               "rigid body")
+    .near("v^2 at the bottom [m^2/s^2]",
+          BlockOnArc::measured(
+            run<2>(file,
+                   "arc-capped",
+                   {"Obstacles/arc/Friction coefficient=10",
+                    "Obstacles/arc/Maximum shear stress=500"})),
+          exact.y_at_bottom() * std::pow(exact.radius_of_centre(), 2),
+          0.005);
+}
