@@ -2,7 +2,7 @@
 """The bar of the paper: where it splits, and velocity and energy against the
 closed form.
 
-    xvfb-run -a pvbatch bar.py PICTURE.png SPLIT UNSPLIT
+    /usr/bin/python3 bar.py PICTURE.png SPLIT UNSPLIT
 """
 
 import os

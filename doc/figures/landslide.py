@@ -2,7 +2,7 @@
 """Picture of one landslide: the soil at several times, coloured by speed, and
 by plastic strain at the end.
 
-    xvfb-run -a pvbatch landslide.py FOLDER PICTURE.png
+    /usr/bin/python3 landslide.py FOLDER PICTURE.png
 
 FOLDER holds the output of a run with Output/Boxes as cells = true.
 """

@@ -5,7 +5,7 @@
 #
 #   doc/figures/landslide.sh FOLDER
 #
-# Needs Debian's packages paraview, xvfb, xauth and python3-matplotlib.
+# Needs Debian's package python3-matplotlib.
 set -eu
 
 if [ $# -ne 1 ] || [ ! -f "$1/points.pvd" ]; then
@@ -16,4 +16,4 @@ fi
 here=$(dirname "$0")
 
 /usr/bin/python3 "$here/runout.py" "$1/runout.png" "$1"
-xvfb-run -a pvbatch "$here/landslide.py" "$1" "$1/landslide.png"
+/usr/bin/python3 "$here/landslide.py" "$1" "$1/landslide.png"

@@ -8,7 +8,7 @@
 # the results (default build/figures, about 200 MB). Takes some minutes. A case
 # whose folder is there is not run again: remove the folder to repeat it.
 #
-# Needs Debian's packages paraview, xvfb, xauth and python3-matplotlib.
+# Needs Debian's package python3-matplotlib.
 set -eu
 
 cd "$(dirname "$0")/../.."
@@ -54,20 +54,22 @@ run safety-landslide prm/landslide-trigger.prm --set "Stages=$static" \
     --set "Output/Boxes as cells=false" \
     --set "Strength reduction/First factor=3.7"
 
-# One display for all that ParaView draws.
-export here scratch
-xvfb-run -a sh -eu -c '
-  pvbatch $here/bar.py $here/bar.png $scratch/bar $scratch/bar-unsplit
-  pvbatch $here/landslide.py $scratch/landslide $here/landslide.png
-  pvbatch $here/landslide.py $scratch/first-slope $here/first-slope.png
-  pvbatch $here/pipeline.py $here/pipeline.png $scratch/pipeline
-  pvbatch $here/pipe_flow.py $here/pipe-flow.png \
+draw() {
+  script=$1
+  shift
+  /usr/bin/python3 "$here/$script.py" "$@"
+}
+draw bar $here/bar.png $scratch/bar $scratch/bar-unsplit
+draw landslide $scratch/landslide $here/landslide.png
+draw landslide $scratch/first-slope $here/first-slope.png
+draw pipeline $here/pipeline.png $scratch/pipeline
+draw pipe_flow $here/pipe-flow.png \
           $scratch/pipe-0=smooth $scratch/pipe-1e3=rough
-  pvbatch $here/toe.py $here/toe.png $scratch/landslide-unsplit \
+draw toe $here/toe.png $scratch/landslide-unsplit \
           $scratch/landslide
-  pvbatch $here/mechanism.py $here/mechanism.png \
+draw mechanism $here/mechanism.png \
           "$scratch/safety-cut=Vertical cut in clay" \
-          "$scratch/safety-landslide=The landslide before it is let go"'
-/usr/bin/python3 $here/runout.py $here/runout.png \
+          "$scratch/safety-landslide=The landslide before it is let go"
+draw runout $here/runout.png \
   "$scratch/landslide=with splitting" \
   "$scratch/landslide-unsplit=without splitting"

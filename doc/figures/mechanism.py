@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How soil fails when its strength is reduced: mechanism.pvd of some runs.
 
-    xvfb-run -a pvbatch mechanism.py PICTURE.png FOLDER=TITLE ...
+    /usr/bin/python3 mechanism.py PICTURE.png FOLDER=TITLE ...
 
 The runs must have written points as dots (Output/Boxes as cells = false).
 """
@@ -12,18 +12,12 @@ import sys
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
 from talus_output import *
 
-from paraview import servermanager, simple
-from paraview.vtk.util.numpy_support import vtk_to_numpy
-
 
 def mechanism(folder):
     """Places of the points and how they move, the largest component 1."""
-    reader = simple.PVDReader(
-        FileName=os.path.join(folder, "mechanism.pvd"))
-    reader.UpdatePipeline()
-    data = servermanager.Fetch(simple.MergeBlocks(Input=reader))
-    return (vtk_to_numpy(data.GetPoints().GetData()),
-            vtk_to_numpy(data.GetPointData().GetArray("mechanism [-]")))
+    series, times = open_points(folder, "mechanism")
+    corners, values = series.read(times[-1])
+    return corners[:, 0], values["mechanism [-]"]
 
 
 name, runs = sys.argv[1], [run.split("=", 1) for run in sys.argv[2:]]

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Speed of clay around a pipe that is dragged through it.
 
-    xvfb-run -a pvbatch pipe_flow.py PICTURE.png FOLDER=TITLE ...
+    /usr/bin/python3 pipe_flow.py PICTURE.png FOLDER=TITLE ...
 
 FOLDER holds the output of prm/verification/pipe.prm.
 """

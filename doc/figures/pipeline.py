@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The slide around a pipe at some times, and the force on the pipe.
 
-    xvfb-run -a pvbatch pipeline.py PICTURE.png FOLDER [UNDISTURBED C_D N_P]
+    /usr/bin/python3 pipeline.py PICTURE.png FOLDER [UNDISTURBED C_D N_P]
 
 FOLDER holds the output of prm/pipeline.prm. UNDISTURBED is that of the same
 slide without the pipe (without the section Obstacles): with

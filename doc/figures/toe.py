@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The points near the toe without and with splitting, over the background grid.
 
-    xvfb-run -a pvbatch toe.py PICTURE.png UNSPLIT SPLIT [TIME ...]
+    /usr/bin/python3 toe.py PICTURE.png UNSPLIT SPLIT [TIME ...]
 """
 
 import os
