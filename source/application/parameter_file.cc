@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/application/parameter_file.h>
 #include <talus/base/errors.h>
+#include <talus/io/files.h>
+#include <talus/io/run_record.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/utilities.h>
@@ -80,17 +82,91 @@ namespace talus
 
 
 
-  /// Only whether it can be read; deal.II's own message would show its stack.
+  namespace
+  {
+    /// The whole of a file that parameters may be in. A folder opens as a stream,
+    /// too, and a device may have no end. Only the first file may be a @p pipe.
+    std::string
+    read_parameter_file(const std::string &name, const bool may_be_pipe)
+    {
+      namespace fs = std::filesystem;
+      std::error_code       error;
+      const fs::file_status status = fs::status(name, error);
+      const bool            is_file =
+        fs::is_regular_file(status) || (may_be_pipe && fs::is_fifo(status));
+      std::ostringstream  content;
+      const std::ifstream file(name);
+      if (is_file && file.good())
+        content << file.rdbuf();
+      AssertThrow(is_file && file.good(),
+                  ExcUser("The parameter file '" + name +
+                          "' cannot be read. Give the path of an existing "
+                          "file."));
+      return content.str();
+    }
+
+
+
+    /// What a line includes; empty if it does not.
+    std::string
+    included_file(const std::string &line)
+    {
+      std::istringstream words(line);
+      std::string        word, file;
+      words >> word;
+      if (word != "include" && word != "INCLUDE")
+        return "";
+      std::getline(words >> std::ws, file);
+      return Utilities::trim(file.substr(0, file.find('#')));
+    }
+
+
+
+    /// Protect the files that @p content includes, and those that they do. deal.II
+    /// reads them, as parts of the text, but would follow a circle for ever.
+    /// @p chain: the file that has the content, and whose include has led to it.
+    void
+    check_includes(const std::string              &content,
+                   const std::vector<std::string> &chain)
+    {
+      std::istringstream in(content);
+      for (std::string line; std::getline(in, line);)
+        {
+          const std::string file = included_file(line);
+          if (file.empty())
+            continue;
+          AssertThrow(std::find(chain.begin(), chain.end(), file) ==
+                        chain.end(),
+                      ExcUser("The parameter file '" + chain.back() +
+                              "' includes '" + file +
+                              "', which includes it in turn, directly or by "
+                              "others. Remove one of the lines 'include'."));
+          protect_input(file);
+          std::vector<std::string> longer = chain;
+          longer.push_back(file);
+          AssertThrow(longer.size() <= 20,
+                      ExcUser("The parameter file '" + chain.front() +
+                              "' includes others through more than 20 files, "
+                              "down to '" +
+                              file + "'. Include fewer."));
+          check_includes(read_parameter_file(file, false), longer);
+        }
+    }
+  } // namespace
+
+
+
+  /// deal.II's own message would show its stack. The record of an earlier run may
+  /// be replaced by that of this one, which says the same.
   ParameterFile::ParameterFile(const std::string              &file_name,
                                const std::vector<std::string> &overrides)
     : file_name_(file_name)
+    , content_(read_parameter_file(file_name, true))
     , overrides_(overrides)
   {
-    AssertThrow(std::ifstream(file_name_).good() &&
-                  !std::filesystem::is_directory(file_name_),
-                ExcUser(
-                  "The parameter file '" + file_name_ +
-                  "' cannot be read. Give the path of an existing file."));
+    if (!is_run_record(file_name_))
+      protect_input(file_name_);
+    check_includes(content_, {file_name_});
   }
 
 
@@ -102,7 +178,7 @@ namespace talus
   ParameterFile::parse_into(ParameterHandler &prm,
                             const bool        skip_undefined) const
   {
-    std::ifstream file(file_name_);
+    std::istringstream file(content_);
     prm.parse_input(file, file_name_, "", skip_undefined);
     for (const std::string &override_text : overrides_)
       {

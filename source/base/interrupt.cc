@@ -26,8 +26,13 @@ namespace talus
   remember_signals()
   {
     last_signal = 0;
-    for (const int signal : {SIGTERM, SIGINT, SIGUSR1})
+    for (const int signal : {SIGTERM, SIGINT, SIGUSR1, SIGHUP, SIGXCPU})
       {
+        struct sigaction before = {};
+        sigaction(signal, nullptr, &before);
+        // By `nohup`, or a shell that runs it in the background.
+        if (before.sa_handler == SIG_IGN)
+          continue;
         struct sigaction action = {};
         action.sa_handler       = &talus_remember_signal;
         // A write that was under way goes on.
@@ -52,6 +57,10 @@ namespace talus
           return "SIGTERM";
         case SIGINT:
           return "SIGINT";
+        case SIGHUP:
+          return "SIGHUP";
+        case SIGXCPU:
+          return "SIGXCPU";
         default:
           return "SIGUSR1";
       }

@@ -212,6 +212,24 @@ namespace talus
 
 
 
+  template <int dim>
+  void
+  Boundaries<dim>::check_values(const NodalFields<dim> &nodes,
+                                const Grid<dim>        &grid,
+                                const double            t)
+  {
+    for (const unsigned int node : nodes.active_boundary_nodes())
+      {
+        const unsigned char faces = grid.faces_of_node(node);
+        constraints_at(faces, node, t);
+        for (const auto &condition : conditions_)
+          if (condition->acts_on(faces))
+            condition->traction(place_of(node), t);
+      }
+  }
+
+
+
   // A traction is a force, so it goes into the momentum update and not into
   // what changes velocities after it: on a node that a wall holds it is then
   // simply borne by the wall. Its work is known only when all conditions have

@@ -34,7 +34,42 @@ namespace talus
     {
       return talus::failed_write(path, reason());
     }
+
+
+
+    std::vector<std::filesystem::path> &
+    inputs()
+    {
+      static std::vector<std::filesystem::path> list;
+      return list;
+    }
   } // namespace
+
+
+
+  void
+  protect_input(const std::filesystem::path &path)
+  {
+    inputs().push_back(path);
+  }
+
+
+
+  // By what the file is, not by its name: there may be links.
+  void
+  check_not_input(const std::filesystem::path &path)
+  {
+    std::error_code ignored;
+    for (const std::filesystem::path &input : inputs())
+      AssertThrow(!std::filesystem::equivalent(path, input, ignored),
+                  ExcUser(text("The run would write '",
+                               path.string(),
+                               "', but that is '",
+                               input.string(),
+                               "', which it reads. Choose another folder with "
+                               "Output/Folder or --output, or give the input "
+                               "another name.")));
+  }
 
 
 
@@ -63,6 +98,7 @@ namespace talus
   write_file(const std::filesystem::path               &path,
              const std::function<void(std::ostream &)> &write)
   {
+    check_not_input(path);
     std::filesystem::path part = path;
     part += ".part";
     errno = 0;
@@ -119,6 +155,7 @@ namespace talus
   void
   LogFile::open(const std::filesystem::path &path, const Beginning beginning)
   {
+    check_not_input(path);
     path_ = path;
     errno = 0;
     file_ = std::ofstream(path,
@@ -147,6 +184,7 @@ namespace talus
                 const std::vector<std::string> &names,
                 const Beginning                 beginning)
   {
+    check_not_input(path);
     path_      = path;
     n_columns_ = names.size();
     file_.close();

@@ -14,6 +14,14 @@ namespace talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    const std::string first_line =
+      "# The parameters of this run as they were understood by";
+  }
+
+
+
   /// One line per library that results may depend on, as a comment in a
   /// parameter file (@p prefix).
   std::string
@@ -73,9 +81,20 @@ namespace talus
                    const ParameterHandler      &parameters)
   {
     write_file(path, [&](std::ostream &out) {
-      out << "# The parameters of this run as they were understood by\n"
+      out << first_line << '\n'
           << versions("#   ") << '\n'
           << parameters_as_text(parameters);
     });
+  }
+
+
+
+  bool
+  is_run_record(const std::filesystem::path &path)
+  {
+    std::ifstream file(path);
+    std::string   line;
+    std::getline(file, line);
+    return line == first_line;
   }
 } // namespace talus

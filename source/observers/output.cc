@@ -2,6 +2,7 @@
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
+#include <talus/io/output_folder.h>
 #include <talus/io/run_record.h>
 #include <talus/observers/grid_output.h>
 #include <talus/observers/output.h>
@@ -116,10 +117,16 @@ namespace talus
     if (is_first_rank(communicator))
       {
         make_folder(folder_);
+        check_no_foreign_file(folder_);
+        // Else nobody knows whose the files are.
+        const std::filesystem::path record =
+          std::filesystem::path(folder_) / "parameters.prm";
+        const bool had_a_run = is_run_record(record);
         // First, as it shows whether the folder can be written and replaces
         // an earlier file only on success.
-        write_run_record(std::filesystem::path(folder_) / "parameters.prm",
-                         this->prm);
+        write_run_record(record, this->prm);
+        if (had_a_run && beginning == Beginning::fresh)
+          remove_earlier_results(folder_);
       }
     log_.open(folder_, beginning);
     MPI_Barrier(communicator);

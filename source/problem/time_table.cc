@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/checksum.h>
+#include <talus/io/files.h>
 #include <talus/problem/time_table.h>
 
 #include <deal.II/base/utilities.h>
@@ -37,6 +38,7 @@ namespace talus
                           "' cannot be read or is empty. Give the path of an "
                           "existing CSV file, from the folder of the parameter "
                           "file."));
+      protect_input(file);
       return content.str();
     }
 

@@ -3,6 +3,7 @@
 #include <talus/base/errors.h>
 #include <talus/base/interrupt.h>
 #include <talus/checkpoint/parameter_changes.h>
+#include <talus/io/output_folder.h>
 #include <talus/io/run_record.h>
 #include <talus/observers/boundary_forces.h>
 #include <talus/observers/obstacle_forces.h>
@@ -62,6 +63,9 @@ namespace talus
     mesh_.create();
     create_points();
     mesh_.repartition();
+    // What would stop the first step stops here, where nothing is written yet.
+    problem_.loading.update(state_.points, state_.time);
+    problem_.boundaries.check_values(state_.nodes, state_.grid, state_.time);
   }
 
 
@@ -78,6 +82,7 @@ namespace talus
     state_.grid.check();
     transfer_.check();
     output_.check(scheme_.damping().coefficient());
+    check_can_be_made(output_.folder());
     problem_.prepare(state_.points,
                      static_stages_.stages().contain(Stage::strength_reduction),
                      end_time_);
@@ -246,6 +251,7 @@ namespace talus
   Simulation<dim>::begin_run()
   {
     const bool is_resumed = !resumed_from_.path.empty();
+    output_.lock_folder(state_.communicator());
     if (is_resumed && is_finished())
       {
         // It may have been killed after its last step.

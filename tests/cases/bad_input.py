@@ -11,6 +11,7 @@ import sys
 import unittest
 
 from bad_input_case import Case, DUST, GOOD
+from bad_input_folder import BadInputFolder
 from bad_input_motion import BadInputMotion
 from bad_input_stages import BadInputStages
 
@@ -261,8 +262,14 @@ class BadInput(Case):
                    "Body force/Expression", "nan", ") m, t = 0.05", "finite")
 
     def test_not_a_number_from_the_start(self):
-        self.stops(["Body force/Expression=sqrt(x-1.5); 0"],
-                   "Body force/Expression", "nan", ") m, t = 0 s", "finite")
+        self.refuse_set(["Body force/Expression=sqrt(x-1.5); 0"],
+                        "Body force/Expression", "nan", ") m, t = 0 s",
+                        "finite")
+
+    def test_velocity_at_a_face_is_not_a_number_from_the_start(self):
+        self.refuse_set(["Boundaries/Bottom=velocity",
+                         "Boundaries/Bottom velocity=log(-1); 0"],
+                        "'Boundaries/Bottom velocity'", "nan")
 
     def test_velocity_at_a_face_is_not_a_number(self):
         self.assert_refused(
@@ -316,6 +323,14 @@ class CommandLine(Case):
     def test_validate_finds_faults(self):
         (self.folder / "bad.prm").write_text(GOOD.replace("4, 4", "2, 4"))
         self.assert_refused(self.run_talus("--validate", "bad.prm"), "block")
+
+    def test_validate_computes_what_the_first_step_needs(self):
+        for setting in ("Body force/Expression=1/0; 0",
+                        "Output/Folder=/dev/null/results"):
+            (self.folder / "bad.prm").write_text(GOOD)
+            self.assert_refused(
+                self.run_talus("--validate", "--set", setting, "bad.prm"),
+                setting.split("=")[0])
 
     def test_softening_is_in_the_log(self):
         result = self.run_file(GOOD.replace("linear elastic", "Bingham"),
@@ -383,7 +398,8 @@ class DiskFull(Case):
 
 if __name__ == "__main__":
     print()
-    tests = [BadInput, BadInputMotion, BadInputStages, CommandLine, DiskFull]
+    tests = [BadInput, BadInputFolder, BadInputMotion, BadInputStages,
+             CommandLine, DiskFull]
     names = sys.argv[3:] or [test.__name__ for test in tests]
     suite = unittest.TestSuite(
         unittest.defaultTestLoader.loadTestsFromTestCase(globals()[name])

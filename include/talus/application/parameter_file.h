@@ -11,12 +11,15 @@
 
 namespace talus
 {
-  /// A parameter file and what the command line sets on top of it.
+  /// A parameter file, which may include others by lines `include FILE`, and
+  /// what the command line sets on top of it. It is read once, so that it may be
+  /// a pipe.
   class ParameterFile
   {
   public:
     /// @p overrides: "Section/Subsection/Entry=value" each. Throws ExcUser if
-    /// the file cannot be read or an override has another form.
+    /// the file, or one that it includes, cannot be read, if files include each
+    /// other in a circle, or if an override has another form.
     ParameterFile(const std::string              &file_name,
                   const std::vector<std::string> &overrides);
 
@@ -34,6 +37,7 @@ namespace talus
     parse_into(dealii::ParameterHandler &prm, bool skip_undefined) const;
 
     std::string              file_name_;
+    std::string              content_;
     std::vector<std::string> overrides_;
   };
 } // namespace talus

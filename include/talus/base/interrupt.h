@@ -6,7 +6,7 @@
 
 namespace talus
 {
-  /// From now on SIGTERM, SIGINT and SIGUSR1 do not end the program but are
+  /// From now on SIGTERM, SIGINT, SIGUSR1, SIGHUP and SIGXCPU do not end the program but are
   /// remembered. A second SIGINT (Ctrl-C) ends it at once.
   void
   remember_signals();

@@ -97,6 +97,13 @@ namespace talus
     unsigned char
     constrained_components(unsigned char faces) const;
 
+    /// Throws ExcPoint if an expression has no finite value at the active nodes
+    /// of its face at time @p t, s.
+    void
+    check_values(const NodalFields<dim> &nodes,
+                 const Grid<dim>        &grid,
+                 double                  t);
+
     /// Add the tractions at time @p t, s, to the forces of the active nodes on
     /// the faces, before the momentum update. Nodes with less than
     /// @p mass_cutoff carry nothing and are left alone, here and in apply().

@@ -28,6 +28,19 @@ namespace talus
 
 
 
+  /// Remember a file that the run reads, such as its parameters: no output is
+  /// written over it.
+  void
+  protect_input(const std::filesystem::path &path);
+
+
+
+  /// Throw ExcUser if @p path is such a file, under whatever name.
+  void
+  check_not_input(const std::filesystem::path &path);
+
+
+
   /// Make the file @p path from what @p write puts into the stream: all of it
   /// or, with ExcUser, nothing; an older file of that name survives a failure.
   /// If the machine dies, not only the program, the new file may be found

@@ -28,6 +28,12 @@ namespace talus
   void
   write_run_record(const std::filesystem::path    &path,
                    const dealii::ParameterHandler &parameters);
+
+
+
+  /// Whether @p path is such a record.
+  bool
+  is_run_record(const std::filesystem::path &path);
 } // namespace talus
 
 #endif

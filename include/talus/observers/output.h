@@ -4,6 +4,7 @@
 
 #include <talus/base/phase_timer.h>
 #include <talus/io/files.h>
+#include <talus/io/folder_lock.h>
 #include <talus/io/log.h>
 #include <talus/observers/observer.h>
 #include <talus/observers/output_times.h>
@@ -62,6 +63,15 @@ namespace talus
     /// is asked for while @p local_damping falsifies it.
     void
     check(double local_damping) const;
+
+    /// Let no other run write into the folder, which is made if it is not there.
+    /// Throws ExcUser if one does. Collective.
+    void
+    lock_folder(const MPI_Comm communicator)
+    {
+      lock_.acquire(folder_, communicator);
+    }
+
 
     /// Make the folder, write the parameters and begin all files of a run to
     /// @p end_time, s; in a resumed run go on with them. Throws ExcUser if the folder cannot be written; then no file of an
@@ -125,6 +135,7 @@ namespace talus
     // Parameters
     std::string    folder_ = "output";
     OutputSettings settings_;
+    FolderLock     lock_;
 
     Schedule         rows_{0.25, {}, 0, {}};
     Schedule         fields_{1., {}, 0, {}};

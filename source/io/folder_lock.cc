@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/agreement.h>
+#include <talus/base/errors.h>
+#include <talus/io/files.h>
+#include <talus/io/folder_lock.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  FolderLock::~FolderLock()
+  {
+    if (file_ >= 0)
+      ::close(file_);
+  }
+
+
+
+  namespace
+  {
+    /// Who wrote the lock, for a sentence.
+    std::string
+    content_of(const int file)
+    {
+      std::array<char, 256> buffer;
+      const ssize_t         n = ::pread(file, buffer.data(), buffer.size(), 0);
+      const std::string     content(buffer.data(), n > 0 ? n : 0);
+      return content.empty() ? "somewhere" : content;
+    }
+
+
+
+    std::string
+    process_on_host()
+    {
+      std::array<char, 256> name = {};
+      ::gethostname(name.data(), name.size() - 1);
+      return text("on host '", name.data(), "' as process ", ::getpid());
+    }
+
+
+
+    /// Lock @p path; returns why that is not possible, empty if it is.
+    std::string
+    lock(const std::filesystem::path &path, int &file)
+    {
+      file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+      if (file < 0)
+        return failed_write(path, std::strerror(errno));
+      if (::flock(file, LOCK_EX | LOCK_NB) != 0)
+        return errno == EWOULDBLOCK
+                 ? text("The output folder '",
+                        path.parent_path().string(),
+                        "' belongs to another run, which runs ",
+                        content_of(file),
+                        ". Wait until that has ended, or choose another folder "
+                        "with Output/Folder or --output.")
+                 : "";
+      // The lock is what counts. The content only tells who has it, and may be
+      // missing, as on a full disk.
+      const std::string           content = process_on_host();
+      [[maybe_unused]] const bool is_written =
+        ::ftruncate(file, 0) == 0 &&
+        ::pwrite(file, content.data(), content.size(), 0) > 0;
+      return "";
+    }
+  } // namespace
+
+
+
+  // flock() and not fcntl(): the lock goes with the open file, and not with
+  // whatever else in the program opens and closes a file of that name. The file
+  // stays when the run has ended: who removed it could remove that of a run
+  // which begins just then.
+  void
+  FolderLock::acquire(const std::filesystem::path &folder,
+                      const MPI_Comm               communicator)
+  {
+    std::string error;
+    if (is_first_rank(communicator))
+      {
+        make_folder(folder);
+        error = lock(folder / "lock", file_);
+      }
+    error = Utilities::MPI::broadcast(communicator, error);
+    AssertThrow(error.empty(), ExcUser(error));
+  }
+} // namespace talus

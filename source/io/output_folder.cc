@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/io/files.h>
+#include <talus/io/output_folder.h>
+#include <talus/io/run_record.h>
+
+#include <regex>
+#include <vector>
+
+#include <unistd.h>
+
+namespace talus
+{
+  using namespace dealii;
+  namespace fs = std::filesystem;
+
+  // All names stand here, and not with those who write the files: what an earlier
+  // run has written this one need not write.
+  bool
+  is_output_name(const std::string &file_name)
+  {
+    static const std::regex names(
+      "(statistics|profile|obstacles|boundaries|newton)\\.csv|log\\.txt|"
+      "parameters\\.prm|"
+      "(points|grid|facets|obstacles|mechanism|last-state)([-.][-.0-9]*)?"
+      "\\.(vtu|pvtu|pvd|h5|xdmf)");
+    return std::regex_match(file_name, names);
+  }
+
+
+
+  namespace
+  {
+    /// The files in a folder that bear such names.
+    std::vector<fs::path>
+    outputs_in(const fs::path &folder)
+    {
+      std::vector<fs::path> result;
+      std::error_code       error;
+      for (fs::directory_iterator entry(folder, error), end;
+           !error && entry != end;
+           entry.increment(error))
+        if (entry->is_regular_file() &&
+            is_output_name(entry->path().filename().string()))
+          result.push_back(entry->path());
+      return result;
+    }
+  } // namespace
+
+
+
+  // What is there of the path decides.
+  void
+  check_can_be_made(const fs::path &folder)
+  {
+    std::error_code error;
+    fs::path        there = fs::absolute(folder, error);
+    while (there.has_relative_path() && !fs::exists(there, error))
+      there = there.parent_path();
+    const bool is_folder = fs::is_directory(there, error);
+    AssertThrow(is_folder && ::access(there.c_str(), W_OK | X_OK) == 0,
+                ExcUser(
+                  text("The output folder '",
+                       folder.string(),
+                       "' cannot be made or written ('",
+                       there.string(),
+                       is_folder ? "' cannot be written" : "' is not a folder",
+                       "). Choose another one with Output/Folder or "
+                       "--output.")));
+  }
+
+
+
+  void
+  check_no_foreign_file(const fs::path &folder)
+  {
+    for (const fs::path &path : outputs_in(folder))
+      check_not_input(path);
+    const fs::path record = folder / "parameters.prm";
+    AssertThrow(!fs::exists(record) || is_run_record(record),
+                ExcUser(text("The output folder '",
+                             folder.string(),
+                             "' holds a file 'parameters.prm' that no run has "
+                             "written, and this one would write over it. Move "
+                             "it, or choose another folder with Output/Folder "
+                             "or --output.")));
+  }
+
+
+
+  void
+  remove_earlier_results(const fs::path &folder)
+  {
+    const fs::path record = folder / "parameters.prm";
+    for (const fs::path &path : outputs_in(folder))
+      if (path != record)
+        {
+          std::error_code error;
+          fs::remove(path, error);
+          AssertThrow(!error,
+                      ExcUser(text("The file '",
+                                   path.string(),
+                                   "' of an earlier run could not be removed (",
+                                   error.message(),
+                                   "). Remove it, or choose another folder "
+                                   "with Output/Folder or --output.")));
+        }
+  }
+} // namespace talus

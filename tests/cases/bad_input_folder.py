@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What talus does with the files that it finds: those of an earlier run, those of
+another run that is going on, and those of the user."""
+
+import signal
+import subprocess
+import time
+
+from bad_input_case import Case, GOOD, RECORD, TALUS
+
+LONG = GOOD.replace("set End time = 0.01", "set End time = 1e6")
+
+
+class BadInputFolder(Case):
+    def start_long_run(self):
+        (self.folder / "long.prm").write_text(LONG)
+        run = subprocess.Popen([TALUS, "--output", "results", "long.prm"],
+                               cwd=self.folder, stdout=subprocess.DEVNULL)
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        for _ in range(600):
+            log = self.results / "log.txt"
+            if log.exists() and "time step" in log.read_text():
+                return run
+            time.sleep(0.05)
+        self.fail("The run did not start.")
+
+    # One run per folder
+
+    def test_folder_of_a_run_that_goes_on(self):
+        run = self.start_long_run()
+        self.assert_refused(self.run_file(), "'results'", "another run",
+                            f"process {run.pid}", "--output")
+        self.assert_refused(self.run_talus("--output", "results", "--overwrite",
+                                           "long.prm"), "another run")
+        self.assertIsNone(run.poll())
+
+    def test_resume_beside_a_run_that_goes_on(self):
+        run = self.start_long_run()
+        run.send_signal(signal.SIGUSR1)
+        run.wait()
+        run = subprocess.Popen([TALUS, "--resume", "--output", "results",
+                                "long.prm"], cwd=self.folder,
+                               stdout=subprocess.DEVNULL)
+        self.addCleanup(run.wait)
+        self.addCleanup(run.kill)
+        while "Resumed" not in (self.results / "log.txt").read_text():
+            time.sleep(0.05)
+        self.assert_refused(self.run_talus("--resume", "--output", "results",
+                                           "long.prm"),
+                            "another run", f"process {run.pid}")
+        self.assertIsNone(run.poll())
+
+    def test_killed_run_leaves_no_lock(self):
+        run = self.start_long_run()
+        run.kill()
+        run.wait()
+        result = self.run_file()
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_hang_up_stops_with_a_checkpoint(self):
+        for name in (signal.SIGHUP, signal.SIGXCPU):
+            run = self.start_long_run()
+            run.send_signal(name)
+            self.assertEqual(run.wait(), 75)
+            self.assertIn(name.name, (self.results / "log.txt").read_text())
+            for file in self.results.glob("log.txt"):
+                file.unlink()
+            for file in (self.results / "checkpoints").glob("*/*"):
+                file.unlink()
+            for folder in (self.results / "checkpoints").iterdir():
+                folder.rmdir()
+
+    # Files of the user
+
+    def test_parameters_of_the_user(self):
+        (self.results / "parameters.prm").write_text(GOOD)
+        self.earlier["parameters.prm"] = GOOD
+        self.assert_refused(self.run_file(), "parameters.prm",
+                            "no run has written", "--output")
+        self.assert_untouched()
+        self.assert_refused(self.run_talus("--output", "results",
+                                           "results/parameters.prm"),
+                            "results/parameters.prm", "which it reads")
+        self.assert_untouched()
+
+    def test_ground_motion_that_would_be_written_over(self):
+        table = "time [s],gravity factor [-]\n0,1\n1,1\n"
+        (self.results / "statistics.csv").write_text(table)
+        self.earlier["statistics.csv"] = table
+        self.assert_refused(
+            self.run_file(settings=["Ground motion/File=results/statistics.csv"]),
+            "statistics.csv", "which it reads", "--output")
+        self.assert_untouched()
+
+    def test_record_of_an_earlier_run_is_a_parameter_file(self):
+        self.assertEqual(self.run_file().returncode, 0)
+        first = (self.results / "statistics.csv").read_text()
+        result = self.run_talus("--output", "results", "results/parameters.prm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((self.results / "statistics.csv").read_text(), first)
+
+    # Files of an earlier run
+
+    def test_what_an_earlier_run_left_goes(self):
+        stale = ["points-0000.vtu", "points-0007.0.vtu", "points.pvd",
+                 "grid-0000.pvtu", "last-state.vtu", "last-state.3.vtu",
+                 "mechanism.pvd", "newton.csv", "obstacles.csv", "points.xdmf"]
+        foreign = ["points.txt", "notes.csv", "points-of-mine.vtu", "data.part",
+                   "my-statistics.csv"]
+        for name in stale + foreign:
+            (self.results / name).write_text("of an earlier run")
+        self.assertEqual(self.run_file().returncode, 0)
+        for name in foreign:
+            self.assertEqual((self.results / name).read_text(),
+                             "of an earlier run")
+        for name in stale:
+            if (self.results / name).exists():
+                self.assertNotEqual((self.results / name).read_text(),
+                                    "of an earlier run", name)
+
+    def test_folder_without_a_run_keeps_all(self):
+        (self.results / "parameters.prm").unlink()
+        (self.results / "last-state.vtu").write_text("mine")
+        self.assertEqual(self.run_file().returncode, 0)
+        self.assertEqual((self.results / "last-state.vtu").read_text(), "mine")
+        self.assertTrue((self.results / "parameters.prm").read_text()
+                        .startswith(RECORD))
+
+    # Parameter files that include others
+
+    def write(self, **files):
+        for name, content in files.items():
+            (self.folder / (name + ".prm")).write_text(content)
+
+    def test_include(self):
+        self.write(all="include case.prm\nset End time = 0.005\n", case=GOOD)
+        result = self.run_talus("--output", "results", "all.prm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertIn("to t = 0.005 s", result.stdout)
+
+    def test_include_in_a_circle(self):
+        self.write(a="include b.prm\n", b="# and back\ninclude a.prm\n",
+                   c="include c.prm\n")
+        for file in "ac":
+            self.assert_refused(self.run_talus("--output", "results",
+                                               file + ".prm"),
+                                "includes", file + ".prm")
+        self.assert_untouched()
+
+    def test_include_what_is_no_file(self):
+        for name in ("/dev/zero", ".", "missing.prm"):
+            self.write(a=f"include {name}\n")
+            self.assert_refused(self.run_talus("--output", "results", "a.prm"),
+                                f"'{name}'", "cannot be read")
+        self.assert_untouched()
+
+    def test_included_file_that_would_be_written_over(self):
+        self.write(a="include results/parameters.prm\n")
+        (self.results / "parameters.prm").write_text(GOOD)
+        self.earlier["parameters.prm"] = GOOD
+        self.assert_refused(self.run_talus("--output", "results", "a.prm"),
+                            "results/parameters.prm", "which it reads")
+        self.assert_untouched()
+
+    def test_pipe(self):
+        self.write(case=GOOD)
+        result = subprocess.run(
+            ["bash", "-c", f"'{TALUS}' --output results <(cat case.prm)"],
+            cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assertEqual(result.returncode, 0, result.stderr)
