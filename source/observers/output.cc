@@ -44,14 +44,19 @@ namespace talus
                   settings_.write_grid,
                   "Write the cells of the background grid that hold points, "
                   "with nodal mass, velocity and force, for ParaView.");
+    add_parameter("Write obstacles",
+                  settings_.write_obstacles,
+                  "Write, where there are obstacles, the facets of their "
+                  "surfaces that soil touches, with the traction there, for "
+                  "ParaView.");
     add_parameter("Boxes as cells",
                   settings_.boxes_as_cells,
                   "Write each point as its box, a quad or hex, so that "
                   "ParaView shows a continuum, instead of as a dot.");
     add_parameter("Format",
                   settings_.format,
-                  "Files of points and grid: " + field_format_documentation() +
-                    ".",
+                  "Files of points, grid and obstacles: " +
+                    field_format_documentation() + ".",
                   this->prm,
                   Patterns::Selection(field_format_names()));
     add_parameter("Runout",

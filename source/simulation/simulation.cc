@@ -4,6 +4,7 @@
 #include <talus/base/interrupt.h>
 #include <talus/checkpoint/parameter_changes.h>
 #include <talus/io/run_record.h>
+#include <talus/observers/facets_output.h>
 #include <talus/observers/obstacle_forces.h>
 #include <talus/simulation/simulation.h>
 #include <talus/version.h>
@@ -42,6 +43,8 @@ namespace talus
                   Patterns::Double(0.));
     output_.add_row_observer(
       std::make_unique<ObstacleForces<dim>>(problem_.contact));
+    output_.add_field_observer(
+      std::make_unique<FacetsOutput<dim>>(problem_.contact));
     output_.add_quantities([this](const State<dim> &state, Quantities &list) {
       scheme_.splitter().list_quantities(state, list);
     });

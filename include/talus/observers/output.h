@@ -46,6 +46,13 @@ namespace talus
       rows_.observers.push_back(std::move(observer));
     }
 
+    /// Add one that looks whenever fields are due.
+    void
+    add_field_observer(std::unique_ptr<Observer<dim>> observer)
+    {
+      fields_.observers.push_back(std::move(observer));
+    }
+
     /// Write to this folder, whatever the parameter file says; to be called
     /// after parsing.
     void
