@@ -49,10 +49,10 @@ namespace talus
 
 
 
-    /// The rectangle that stands for a facet: as long and as wide as its plane in
-    /// the cell, but of the facet's area. One edge is normal to the axis of the
-    /// mesh that is most nearly so, so that facets side by side on a prism tile
-    /// it.
+    /// The rectangle that stands for a facet: as long and as wide as its plane
+    /// in the cell, but of the facet's area. One edge is normal to the axis of
+    /// the mesh that is most nearly so, so that facets side by side on a prism
+    /// tile it.
     std::array<Tensor<1, 3>, 2>
     edges_of(const Cell<3> &cell, const ContactFacet<3> &facet)
     {
@@ -93,8 +93,8 @@ namespace talus
 
 
 
-    /// Of the soil along the surface, m/s: with the velocities at the nodes after
-    /// the step, which belong to its middle.
+    /// Of the soil along the surface, m/s: with the velocities at the nodes
+    /// after the step, which belong to its middle.
     template <int dim>
     Tensor<1, dim>
     slip_velocity(const FacetContact<dim> &contact,
@@ -140,8 +140,8 @@ namespace talus
 
 
     // Stresses are over the whole area of the facet, of which soil may cover a
-    // part, so that they have the right integrals and stay bounded where soil is
-    // thin.
+    // part, so that they have the right integrals and stay bounded where soil
+    // is thin.
     /// Of facets by their number; they read when a file is written.
     template <int dim>
     std::vector<Field>

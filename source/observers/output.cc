@@ -46,9 +46,9 @@ namespace talus
                   "with nodal mass, velocity and force, for ParaView.");
     add_parameter("Write obstacles",
                   settings_.write_obstacles,
-                  "Write, where there are obstacles, the facets of their "
-                  "surfaces that soil touches, with the traction there, for "
-                  "ParaView.");
+                  "Write, where there are obstacles, their surfaces, and the "
+                  "facets of these that soil touches, with the traction "
+                  "there, for ParaView.");
     add_parameter("Boxes as cells",
                   settings_.boxes_as_cells,
                   "Write each point as its box, a quad or hex, so that "

@@ -6,6 +6,7 @@
 #include <talus/io/run_record.h>
 #include <talus/observers/facets_output.h>
 #include <talus/observers/obstacle_forces.h>
+#include <talus/observers/obstacles_output.h>
 #include <talus/simulation/simulation.h>
 #include <talus/version.h>
 
@@ -43,6 +44,8 @@ namespace talus
                   Patterns::Double(0.));
     output_.add_row_observer(
       std::make_unique<ObstacleForces<dim>>(problem_.contact));
+    output_.add_field_observer(
+      std::make_unique<ObstaclesOutput<dim>>(problem_.obstacles));
     output_.add_field_observer(
       std::make_unique<FacetsOutput<dim>>(problem_.contact));
     output_.add_quantities([this](const State<dim> &state, Quantities &list) {

@@ -161,6 +161,29 @@ class ObstacleFiles(unittest.TestCase):
                     self.assertLess(
                         math.hypot(*cell["slip velocity [m/s]"]), 0.02)
 
+    def test_surfaces(self):
+        """Those at rest once, and those that move where they are."""
+        file = PRM / "pipeline.prm"
+        settings = ["Grid/Refinement boxes=", "End time=0.1",
+                    "Output/Field interval=0.05", "Obstacles/pipe/Radius=0.6"]
+        for name, moves in (("rest", []),
+                            ("moves", ["Obstacles/pipe/Velocity=3;0"])):
+            series = self.series(
+                self.run_talus(name, file, settings + moves), "obstacles")
+            self.assertEqual(len(series) > 1, bool(moves))
+            for time, cells in series.items():
+                x = 108.66 + (3 * time if moves else 0)
+                for cell in cells:
+                    self.assertEqual(cell["type"], 3)  # a line
+                    self.assertEqual(cell["maximum shear stress [Pa]"], 500)
+                    for corner in cell["corners"]:
+                        self.assertAlmostEqual(
+                            math.dist(corner, (x, 0.3, 0)), 0.6, delta=6e-3)
+                # Above the bottom of the mesh, y = 0.
+                self.assertAlmostEqual(
+                    sum(measure(cell["corners"]) for cell in cells),
+                    0.6 * (math.pi + 2 * math.asin(0.5)), delta=0.01)
+
     def test_rectangles_in_space(self):
         folder = self.run_talus(
             "3d", HERE / "block-on-plane-3d.prm",

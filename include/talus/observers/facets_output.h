@@ -11,9 +11,10 @@ namespace talus
   /// that had soil in their cells in the step before, each as one cell, with
   /// what the soil did there.
   ///
-  /// A facet is drawn as a line (in 3-D a rectangle) in its mean plane, about its
-  /// centroid and of its area, so that integrals over the cells are those over
-  /// the facets: the integral of the traction is the force on the obstacle.
+  /// A facet is drawn as a line (in 3-D a rectangle) in its mean plane, about
+  /// its centroid and of its area, so that integrals over the cells are those
+  /// over the facets: the integral of the traction is the force on the
+  /// obstacle.
   template <int dim>
   class FacetsOutput : public SeriesObserver<dim>
   {
