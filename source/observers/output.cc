@@ -14,7 +14,9 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  Output<dim>::Output(PhaseTimer &timer, Log &log)
+  Output<dim>::Output(PhaseTimer           &timer,
+                      Log                  &log,
+                      const Obstacles<dim> *obstacles)
     : ParameterAcceptor("/Output")
     , timer_(timer)
     , log_(log)
@@ -66,10 +68,10 @@ namespace talus
                   "falsifies the runout.");
     // The list of observers: a new one is one line here, among those that look
     // when a row is due (rows_) or when fields are (fields_).
-    auto statistics = std::make_unique<Statistics<dim>>();
+    auto statistics = std::make_unique<Statistics<dim>>(obstacles);
     statistics_     = statistics.get();
     rows_.observers.push_back(std::move(statistics));
-    fields_.observers.push_back(std::make_unique<Profile<dim>>());
+    fields_.observers.push_back(std::make_unique<Profile<dim>>(obstacles));
     fields_.observers.push_back(std::make_unique<PointsOutput<dim>>());
     fields_.observers.push_back(std::make_unique<GridOutput<dim>>());
   }

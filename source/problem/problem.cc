@@ -105,6 +105,7 @@ namespace talus
                            bodies_,
                            materials,
                            loading.share_of_gravity(0.) * loading.gravity(),
+                           Ground<dim>(state.grid.domain(), &obstacles),
                            state.communicator());
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const auto &body) {
           return body->initial_state().is_displaced() || body->is_clipped();

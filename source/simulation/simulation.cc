@@ -27,7 +27,7 @@ namespace talus
     , problem_(preview)
     , mesh_(state_, problem_, transfer_, timer_)
     , scheme_(state_, problem_, transfer_, mesh_, timer_)
-    , output_(timer_, log_)
+    , output_(timer_, log_, &problem_.obstacles)
     , static_stages_(
         state_, problem_, transfer_, mesh_, scheme_.splitter(), output_, log_)
   {

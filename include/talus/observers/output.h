@@ -29,8 +29,10 @@ namespace talus
   {
   public:
     /// @p timer gets the section "output"; see phase_times(). @p log is opened
-    /// in the folder.
-    Output(PhaseTimer &timer, Log &log);
+    /// in the folder. @p obstacles belong to the ground; null for none.
+    Output(PhaseTimer           &timer,
+           Log                  &log,
+           const Obstacles<dim> *obstacles = nullptr);
 
     /// Add columns to statistics.csv.
     void
