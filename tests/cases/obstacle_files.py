@@ -196,5 +196,20 @@ class ObstacleFiles(unittest.TestCase):
                                        cell["area [m^2]"], delta=1e-6)
 
 
+    def test_log_tells_what_obstacles_take(self):
+        """Half of a body, whatever the filling."""
+        for filling in ("clipped", "centres"):
+            folder = self.run_talus(
+                filling, PRM / "verification" / "block-on-plane.prm",
+                ["End time=1e-5", "Bodies/block/Filling=" + filling,
+                 "Bodies/block/Vertices=0,-0.5;2,-0.5;2,0.5;0,0.5",
+                 "Obstacles/plane/Normal=0,1"])
+            self.assertIn("The obstacles take 1 m^2 of the body 'block', 50 % "
+                          "of it", (folder / "log.txt").read_text())
+            with open(folder / "statistics.csv") as lines:
+                mass = float(next(csv.DictReader(lines))["mass [kg]"])
+            self.assertAlmostEqual(mass, 2000 * (2 - 1), delta=1e-6)
+
+
 if __name__ == "__main__":
     unittest.main(argv=[sys.argv[0], "-v"])
