@@ -137,7 +137,10 @@ namespace talus
   {
     // Before MPI starts, as MPI looks at the environment only then.
     choose_mpi_io();
-    dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
+    // Without the options, which are not for the libraries: PETSc, if deal.II has
+    // it, would say at the end that nobody has asked for them.
+    int                                      n_words = 1;
+    dealii::Utilities::MPI::MPI_InitFinalize mpi(n_words, argv, 1);
     try
       {
         const auto command_line = parse_command_line(argc, argv);

@@ -73,6 +73,7 @@ namespace talus
       rows.insert(rows.end(), of_rank.begin(), of_rank.end());
     facets_.prepare(grid, obstacles_);
     take_impulses(rows);
+    constraints_.clear();
     exchange_of_records_.prepare(grid, width);
     exchange_of_impulses_.prepare(grid, dim);
     gaps_.prepare(grid, surfaces());

@@ -15,7 +15,7 @@ namespace talus
   Obstacle<dim>::Obstacle(const std::string &name)
     : ParameterAcceptor("/Obstacles/" + name)
     , name_(name)
-    , shape_parameters_("/Obstacles/" + name, "half-plane")
+    , shape_parameters_("/Obstacles/" + name)
   {
     add_parameter("Friction coefficient",
                   friction_coefficient_,

@@ -11,21 +11,20 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  ShapeParameters<dim>::ShapeParameters(const std::string &section,
-                                        const std::string &default_shape)
+  ShapeParameters<dim>::ShapeParameters(const std::string &section)
     : ParameterAcceptor(section)
     , section_(section)
-    , shape_(default_shape)
   {
-    add_parameter("Shape",
-                  shape_,
-                  "'polygon' (see Vertices, Open; in 3-D a prism over it), "
-                  "'box' (see Lower corner, Upper corner), 'ball' (a disc in "
-                  "2-D; see Centre, Radius, Inner radius), 'cylinder' (along "
-                  "z; in 2-D the same as ball) or 'half-plane' (in 3-D a half "
-                  "of space; see Point, Normal).",
-                  this->prm,
-                  Patterns::Selection("polygon|box|ball|cylinder|half-plane"));
+    add_parameter(
+      "Shape",
+      shape_,
+      "Must be given: 'polygon' (see Vertices, Open; in 3-D a prism over it), "
+      "'box' (see Lower corner, Upper corner), 'ball' (a disc in "
+      "2-D; see Centre, Radius, Inner radius), 'cylinder' (along "
+      "z; in 2-D the same as ball) or 'half-plane' (in 3-D a half "
+      "of space; see Point, Normal).",
+      this->prm,
+      Patterns::Selection("|polygon|box|ball|cylinder|half-plane"));
     add_parameter("Lower corner",
                   lower_corner_,
                   "Corner of the box with the smallest coordinates [m].");
@@ -95,6 +94,18 @@ namespace talus
   std::unique_ptr<Shape<dim>>
   ShapeParameters<dim>::make(const Box<dim> &domain) const
   {
+    // A section that is listed by name but missing looks the same.
+    AssertThrow(!shape_.empty(),
+                ExcUser(text(path("Shape"),
+                             " is not given, but 'polygon', 'box', 'ball', "
+                             "'cylinder' or 'half-plane' is expected there. "
+                             "Add it and the entries that it needs to the "
+                             "section '",
+                             section_.substr(1),
+                             "', or the whole section, or remove the name "
+                             "from '",
+                             section_.substr(1, section_.rfind('/') - 1),
+                             "/Names'.")));
     if (shape_ == "half-plane")
       return make_half_space();
     if (shape_ == "box")

@@ -73,9 +73,7 @@ namespace talus
       void
       write_mesh(const OutputCells &cells)
       {
-        const std::string type    = (cells.cell_dim == 0   ? "Polyvertex"
-                                     : cells.cell_dim == 2 ? "Quadrilateral"
-                                                           : "Hexahedron");
+        const std::string type    = facts_of(cells.shape).xdmf_type;
         const auto [first, total] = file.first_and_total(cells.n_vertices());
         const unsigned int n      = cells.n_vertices_per_cell();
         file.create_group("mesh");

@@ -53,9 +53,7 @@ namespace talus
     void
     write_geometry(std::ostream &out, const OutputCells &cells)
     {
-      // Of VTK: a vertex, a quad, a hexahedron.
-      const std::uint8_t type =
-        (cells.cell_dim == 0 ? 1 : (cells.cell_dim == 2 ? 9 : 12));
+      const std::uint8_t        type = facts_of(cells.shape).vtk_type;
       std::vector<std::int32_t> offsets(cells.size());
       for (unsigned int c = 0; c < cells.size(); ++c)
         offsets[c] = (c + 1) * cells.n_vertices_per_cell();

@@ -143,21 +143,71 @@ namespace talus
 
 
 
-    /// For each cell whether its group has a cell at the bottom of the mesh.
-    /// Soil on the bottom face has to fill the cells below it; soil that hangs,
-    /// or falls, does not.
+    /// Whether soil can be at the centre of a cell.
+    template <int dim>
+    bool
+    is_open(const CellLattice<dim> &lattice,
+            const Ground<dim>      &ground,
+            const std::uint64_t     key)
+    {
+      Point<dim> centre;
+      for (unsigned int d = 0; d < dim; ++d)
+        centre[d] = lattice.center(key, d);
+      return ground.is_open(centre);
+    }
+
+
+
+    /// For each cell whether its group has a cell on the ground: at the bottom
+    /// of the mesh, or above one that is closed. Soil on the ground has to fill
+    /// the cells below it; soil that hangs, or falls, does not.
     template <int dim>
     std::vector<bool>
-    rests_on_bottom(const std::vector<Occupied>    &cells,
-                    const std::vector<std::size_t> &body)
+    rests_on_ground(const std::vector<Occupied>    &cells,
+                    const std::vector<std::size_t> &body,
+                    const CellLattice<dim>         &lattice,
+                    const Ground<dim>              &ground)
     {
+      const auto lies_on_ground = [&](const std::size_t i) {
+        if (CellLattice<dim>::place(cells[i].key)[1] == 0)
+          return true;
+        // Keys of a column follow each other from below.
+        const std::uint64_t below = cells[i].key - 1;
+        return !ground.is_bottom_face() &&
+               !(i > 0 && cells[i - 1].key == below) &&
+               !is_open(lattice, ground, below);
+      };
       std::vector<bool> result(cells.size(), false);
       for (std::size_t i = 0; i < cells.size(); ++i)
-        if (CellLattice<dim>::place(cells[i].key)[1] == 0)
+        if (lies_on_ground(i))
           result[body[i]] = true;
       for (std::size_t i = 0; i < cells.size(); ++i)
         result[i] = result[body[i]];
       return result;
+    }
+
+
+
+    /// Unoccupied cells below an occupied one: down to the one with coordinate
+    /// @p end, exclusive, or to the ground. What lies below a closed cell, as
+    /// under a pipe, is not between the soil and its ground.
+    template <int dim>
+    unsigned long
+    n_empty_below(const std::uint64_t     key,
+                  const int               end,
+                  const bool              is_occupied_at_end,
+                  const bool              rests,
+                  const CellLattice<dim> &lattice,
+                  const Ground<dim>      &ground)
+    {
+      const int n = CellLattice<dim>::place(key)[1] - end - 1;
+      if (!is_occupied_at_end && !rests)
+        return 0;
+      if (!ground.is_bottom_face())
+        for (int i = 1; i <= n; ++i)
+          if (!is_open(lattice, ground, key - i))
+            return rests ? i - 1 : 0;
+      return n;
     }
   } // namespace
 
@@ -169,13 +219,17 @@ namespace talus
   /// unoccupied cells of the mesh, which are most.
   template <int dim>
   FractureCounts
-  count_fractures(const Points<dim> &points, const Grid<dim> &grid)
+  count_fractures(const Points<dim> &points,
+                  const Grid<dim>   &grid,
+                  const Ground<dim> &ground)
   {
-    using Lattice                        = CellLattice<dim>;
+    using Lattice = CellLattice<dim>;
+    const Lattice                  lattice(grid);
     const std::vector<Occupied>    cells = find_occupied(points, grid);
     const std::vector<std::size_t> body  = find_bodies<dim>(cells);
-    const std::vector<bool>        rests = rests_on_bottom<dim>(cells, body);
-    FractureCounts                 counts;
+    const std::vector<bool>        rests =
+      rests_on_ground(cells, body, lattice, ground);
+    FractureCounts counts;
     counts.occupied_cells = cells.size();
 
     for (std::size_t i = 0; i < cells.size(); ++i)
@@ -183,14 +237,16 @@ namespace talus
         counts.connected_bodies += (body[i] == i);
         counts.cells_with_one_point += (cells[i].n_points == 1);
 
-        // What lies unoccupied between this cell and the one below it.
         const auto place     = Lattice::place(cells[i].key);
         const bool is_lowest = (i == 0 || Lattice::column(cells[i - 1].key) !=
                                             Lattice::column(cells[i].key));
-        const int  below     = !is_lowest ? Lattice::place(cells[i - 1].key)[1]
-                               : rests[i] ? -1
-                                          : place[1] - 1;
-        counts.empty_interior_cells += place[1] - below - 1;
+        counts.empty_interior_cells +=
+          n_empty_below(cells[i].key,
+                        is_lowest ? -1 : Lattice::place(cells[i - 1].key)[1],
+                        !is_lowest,
+                        rests[i],
+                        lattice,
+                        ground);
 
         // In 3-D the cells with one x are a slab. Within it the difference is 0
         // or less.
@@ -206,9 +262,12 @@ namespace talus
   /// Without unit, since they are numbers of cells.
   template <int dim>
   void
-  list_fractures(const State<dim> &state, Quantities &list)
+  list_fractures(const State<dim>  &state,
+                 const Ground<dim> &ground,
+                 Quantities        &list)
   {
-    const FractureCounts counts = count_fractures(state.points, state.grid);
+    const FractureCounts counts =
+      count_fractures(state.points, state.grid, ground);
     const auto add = [&list](const std::string &name, const double value) {
       list.push_back({name, "", value});
     };

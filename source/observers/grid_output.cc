@@ -110,7 +110,7 @@ namespace talus
     const AlignedVector<double> sums = mass_and_force(state);
     OutputCells                 cells(node_fields(state.nodes, sums),
                       ItemsAt::vertices,
-                      dim,
+                      box_shape<dim>,
                       state.time,
                       state.step);
 

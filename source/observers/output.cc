@@ -15,7 +15,9 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  Output<dim>::Output(PhaseTimer &timer, Log &log)
+  Output<dim>::Output(PhaseTimer           &timer,
+                      Log                  &log,
+                      const Obstacles<dim> *obstacles)
     : ParameterAcceptor("/Output")
     , timer_(timer)
     , log_(log)
@@ -45,14 +47,19 @@ namespace talus
                   settings_.write_grid,
                   "Write the cells of the background grid that hold points, "
                   "with nodal mass, velocity and force, for ParaView.");
+    add_parameter("Write obstacles",
+                  settings_.write_obstacles,
+                  "Write, where there are obstacles, their surfaces, and the "
+                  "facets of these that soil touches, with the traction "
+                  "there, for ParaView.");
     add_parameter("Boxes as cells",
                   settings_.boxes_as_cells,
                   "Write each point as its box, a quad or hex, so that "
                   "ParaView shows a continuum, instead of as a dot.");
     add_parameter("Format",
                   settings_.format,
-                  "Files of points and grid: " + field_format_documentation() +
-                    ".",
+                  "Files of points, grid and obstacles: " +
+                    field_format_documentation() + ".",
                   this->prm,
                   Patterns::Selection(field_format_names()));
     add_parameter("Runout",
@@ -62,10 +69,10 @@ namespace talus
                   "falsifies the runout.");
     // The list of observers: a new one is one line here, among those that look
     // when a row is due (rows_) or when fields are (fields_).
-    auto statistics = std::make_unique<Statistics<dim>>();
+    auto statistics = std::make_unique<Statistics<dim>>(obstacles);
     statistics_     = statistics.get();
     rows_.observers.push_back(std::move(statistics));
-    fields_.observers.push_back(std::make_unique<Profile<dim>>());
+    fields_.observers.push_back(std::make_unique<Profile<dim>>(obstacles));
     fields_.observers.push_back(std::make_unique<PointsOutput<dim>>());
     fields_.observers.push_back(std::make_unique<GridOutput<dim>>());
   }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/observers/point_motion.h>
+#include <talus/points/points_kernel.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -78,6 +79,22 @@ namespace talus
       sum.top            = Utilities::MPI::max(sum.top, communicator);
       sum.maximum_speed  = Utilities::MPI::max(sum.maximum_speed, communicator);
       return sum;
+    }
+
+
+
+    /// Largest height of a point above the ground below it, m.
+    template <int dim>
+    double
+    height_above(const Ground<dim> &ground, const Points<dim> &points)
+    {
+      double height = std::numeric_limits<double>::lowest();
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          const Point<dim> x = load_place(points, points.position, p);
+          height             = std::max(height, x[1] - ground.elevation(x));
+        }
+      return height;
     }
   } // namespace
 
@@ -161,7 +178,10 @@ namespace talus
   /// written.
   template <int dim>
   void
-  list_motion(const State<dim> &state, const bool with_runout, Quantities &list)
+  list_motion(const State<dim>  &state,
+              const Ground<dim> &ground,
+              const bool         with_runout,
+              Quantities        &list)
   {
     const PointSums<dim> sums =
       sum_over_points(state.points, state.communicator());
@@ -175,7 +195,12 @@ namespace talus
            front_of_mass(state.points, 0.995, state.communicator())});
         list.push_back({"rear x", "m", sums.rear});
       }
-    list.push_back({"height", "m", sums.top - state.grid.domain().lower[1]});
+    list.push_back({"height",
+                    "m",
+                    ground.is_bottom_face()
+                      ? sums.top - state.grid.domain().lower[1]
+                      : Utilities::MPI::max(height_above(ground, state.points),
+                                            state.communicator())});
     append_vector<dim>(list, "centre", "m", sums.moment / sums.mass);
     append_vector<dim>(list,
                        "centre velocity",

@@ -180,12 +180,12 @@ namespace talus
     /// read.
     template <int dim>
     OutputCells
-    one_cell_per_point(const State<dim>  &state,
-                       const ItemsAt      items_at,
-                       const unsigned int cell_dim)
+    one_cell_per_point(const State<dim> &state,
+                       const ItemsAt     items_at,
+                       const CellShape   shape)
     {
       OutputCells cells(
-        point_fields(state), items_at, cell_dim, state.time, state.step);
+        point_fields(state), items_at, shape, state.time, state.step);
       cells.items.resize(state.points.size());
       std::iota(cells.items.begin(), cells.items.end(), 0);
       cells.vertices.reserve(3 * cells.items.size() *
@@ -201,7 +201,8 @@ namespace talus
     points_as_vertices(const State<dim> &state)
     {
       const Points<dim> &points = state.points;
-      OutputCells cells = one_cell_per_point(state, ItemsAt::vertices, 0);
+      OutputCells        cells =
+        one_cell_per_point(state, ItemsAt::vertices, CellShape::vertex);
       for (unsigned int p = 0; p < points.size(); ++p)
         cells.add_vertex(load_place(points, points.position, p));
       return cells;
@@ -218,7 +219,8 @@ namespace talus
     points_as_boxes(const State<dim> &state)
     {
       const Points<dim> &points = state.points;
-      OutputCells        cells = one_cell_per_point(state, ItemsAt::cells, dim);
+      OutputCells        cells =
+        one_cell_per_point(state, ItemsAt::cells, box_shape<dim>);
       for (unsigned int p = 0; p < points.size(); ++p)
         {
           const Point<dim> centre = load_place(points, points.position, p);

@@ -182,7 +182,7 @@ namespace talus
 
   template <int dim>
   std::vector<ProfileColumn>
-  find_profile(const State<dim> &state)
+  find_profile(const State<dim> &state, const Ground<dim> &ground)
   {
     using Lattice = CellLattice<dim>;
     const Lattice              lattice(state.grid);
@@ -190,8 +190,13 @@ namespace talus
     for (const auto &[column, sums] : sum_columns(state))
       {
         const typename Lattice::Key cell = Lattice::lowest_cell(column);
-        profile.push_back({lattice.center(cell, 0),
-                           dim == 3 ? lattice.center(cell, dim - 1) : 0.,
+        Point<dim>                  foot;
+        foot[dim - 1] = lattice.center(cell, dim - 1); // z, in 3-D
+        foot[1]       = sums.lowest;
+        foot[0]       = lattice.center(cell, 0);
+        profile.push_back({foot[0],
+                           dim == 3 ? foot[dim - 1] : 0.,
+                           ground.elevation(foot),
                            sums.lowest,
                            sums.highest,
                            sums.volume / std::pow(lattice.size(), dim - 1),
@@ -205,16 +210,19 @@ namespace talus
 
 
   template <int dim>
-  Profile<dim>::Profile()
+  Profile<dim>::Profile(const Obstacles<dim> *obstacles)
     : TableObserver<dim>(file_name)
+    , obstacles_(obstacles)
   {}
 
 
 
-  /// z comes behind x in 3-D, as in observe().
+  /// z comes behind x in 3-D, as in observe(). The ground is a column only
+  /// where it is not the bottom face of the mesh.
   template <int dim>
   std::vector<std::string>
-  Profile<dim>::names()
+  Profile<dim>::columns(const OutputSettings & /*settings*/,
+                        const State<dim> &state) const
   {
     std::vector<std::string> result = {"time [s]",
                                        "x [m]",
@@ -227,6 +235,8 @@ namespace talus
         result.insert(result.begin() + 2, "z [m]");
         result.push_back("depth-mean velocity z [m/s]");
       }
+    if (!Ground<dim>(state.grid.domain(), obstacles_).is_bottom_face())
+      result.push_back("ground [m]");
     return result;
   }
 
@@ -237,7 +247,8 @@ namespace talus
   Profile<dim>::observe(const State<dim> &state)
   {
     std::vector<std::vector<double>> rows;
-    for (const ProfileColumn &column : find_profile(state))
+    const Ground<dim>                ground(state.grid.domain(), obstacles_);
+    for (const ProfileColumn &column : find_profile(state, ground))
       {
         std::vector<double> row = {state.time,
                                    column.x,
@@ -250,6 +261,8 @@ namespace talus
             row.insert(row.begin() + 2, column.z);
             row.push_back(column.velocity_z);
           }
+        if (!ground.is_bottom_face())
+          row.push_back(column.ground);
         rows.push_back(row);
       }
     this->add_rows(state, rows);

@@ -6,8 +6,9 @@
 namespace talus
 {
   template <int dim>
-  Statistics<dim>::Statistics()
+  Statistics<dim>::Statistics(const Obstacles<dim> *obstacles)
     : TableObserver<dim>(file_name)
+    , obstacles_(obstacles)
   {}
 
 
@@ -28,13 +29,14 @@ namespace talus
   Statistics<dim>::evaluate(const State<dim> &state,
                             const bool        with_runout) const
   {
-    Quantities row = {{"time", "s", state.time},
-                      {"step", "", static_cast<double>(state.step)},
-                      {"time step", "s", state.time_step}};
-    list_motion(state, with_runout, row);
+    Quantities        row = {{"time", "s", state.time},
+                             {"step", "", static_cast<double>(state.step)},
+                             {"time step", "s", state.time_step}};
+    const Ground<dim> ground(state.grid.domain(), obstacles_);
+    list_motion(state, ground, with_runout, row);
     seabed_force_.list_quantities(state, row);
     budget_.list_quantities(state, row);
-    list_fractures(state, row);
+    list_fractures(state, ground, row);
     for (const Source &source : sources_)
       source(state, row);
     return row;

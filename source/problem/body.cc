@@ -17,7 +17,7 @@ namespace talus
   Body<dim>::Body(const std::string &name)
     : ParameterAcceptor("/Bodies/" + name)
     , name_(name)
-    , shape_("/Bodies/" + name, "box")
+    , shape_("/Bodies/" + name)
     , initial_state_("/Bodies/" + name)
   {
     add_parameter("Material",
@@ -196,9 +196,33 @@ namespace talus
 
 
 
-  /// @p others are the points of the bodies before this one. Collective.
+  namespace
+  {
+    /// Of all ranks, m^dim. Collective.
+    template <int dim>
+    double
+    volume_of(const std::vector<NewPoint<dim>> &points,
+              const MPI_Comm                    communicator)
+    {
+      double sum = 0.;
+      for (const NewPoint<dim> &point : points)
+        {
+          double volume = 1.;
+          for (unsigned int d = 0; d < dim; ++d)
+            volume *= point.length[d];
+          sum += volume;
+        }
+      return Utilities::MPI::sum(sum, communicator);
+    }
+  } // namespace
+
+
+
+  /// @p others are the points of the bodies before this one. What obstacles take
+  /// is the difference to a filling without them, so that no volume is lost
+  /// unseen, whatever the filling. Collective.
   template <int dim>
-  std::vector<NewPoint<dim>>
+  typename Body<dim>::Places
   Body<dim>::places_of_points(const Grid<dim>   &grid,
                               const Solids      &solids,
                               const Points<dim> &others) const
@@ -211,34 +235,70 @@ namespace talus
     // A shape without end must not reach into cells that were added far away.
     if (!(box.lower == bounds.lower && box.upper == bounds.upper))
       region.restrict_to(mesh);
-    if (cut_by_obstacles_)
-      for (const Shape<dim> *solid : solids)
-        region.cut_away(*solid);
+    const auto fill = [&]() {
+      return is_clipped()
+               ? clipped_filling<dim>(grid, region, bounds, points_per_axis())
+               : filling_by_centres<dim>(grid,
+                                         region,
+                                         bounds,
+                                         points_per_axis());
+    };
+    const bool is_cut = cut_by_obstacles_ && !solids.empty();
+    Places     result;
+    if (is_cut)
+      {
+        result.uncut_volume = volume_of(fill(), grid.communicator());
+        for (const Shape<dim> *solid : solids)
+          region.cut_away(*solid);
+      }
     check_apart(region, others);
-    const auto places =
-      is_clipped()
-        ? clipped_filling<dim>(grid, region, bounds, points_per_axis())
-        : filling_by_centres<dim>(grid, region, bounds, points_per_axis());
-    if (!cut_by_obstacles_)
-      check_clear_of(solids, places);
-    return places;
+    result.points = fill();
+    if (is_cut)
+      result.volume = volume_of(result.points, grid.communicator());
+    else
+      check_clear_of(solids, result.points);
+    return result;
   }
 
 
 
+  namespace
+  {
+    /// Empty if that is round-off. Volumes in m^dim.
+    template <int dim>
+    std::string
+    note_of_cut(const std::string &name, const double uncut, const double left)
+    {
+      const double lost = uncut - left;
+      if (lost <= 1e-9 * uncut)
+        return "";
+      return text("The obstacles take ",
+                  lost,
+                  dim == 2 ? " m^2" : " m^3",
+                  " of the body '",
+                  name,
+                  "', ",
+                  100. * lost / uncut,
+                  " % of it: no soil is put into them.");
+    }
+  } // namespace
+
+
+
   template <int dim>
-  void
+  std::string
   Body<dim>::create_points(const Grid<dim>   &grid,
                            const unsigned int index,
                            const double       density,
                            Points<dim>       &points,
                            const Solids      &solids) const
   {
-    const auto places = places_of_points(grid, solids, points);
-    for (const NewPoint<dim> &place : places)
+    const Places places = places_of_points(grid, solids, points);
+    for (const NewPoint<dim> &place : places.points)
       add_point(points, index, place, density);
     // A rank may well have none, but one of them must have some.
-    AssertThrow(Utilities::MPI::max(places.size(), grid.communicator()) > 0,
+    AssertThrow(Utilities::MPI::max(places.points.size(), grid.communicator()) >
+                  0,
                 ExcUser(text("The body '",
                              name_,
                              "' got no points: ",
@@ -251,6 +311,7 @@ namespace talus
                              "or raise ",
                              path("Points per cell and axis"),
                              ".")));
+    return note_of_cut<dim>(name_, places.uncut_volume, places.volume);
   }
 
 

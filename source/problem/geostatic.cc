@@ -218,6 +218,32 @@ namespace talus
 
 
 
+    /// The same in layers with the unit @p normal, from the mass per horizontal
+    /// area.
+    template <int dim>
+    Stress<dim, double>
+    stress_at_rest(const double          mass_above,
+                   const double          K0,
+                   const Tensor<1, dim> &gravity,
+                   const Tensor<1, dim> &normal)
+    {
+      // By area of the layer, which is 1/n_y of the horizontal one.
+      const double         mass   = mass_above * normal[1];
+      const double         across = mass * (gravity * normal);
+      const Tensor<1, dim> along  = mass * gravity - across * normal;
+      Stress<dim, double>  sigma{};
+      sigma[2] = K0 * across; // out of the plane, in 2-D
+      for (unsigned int i = 0; i < dim; ++i)
+        for (unsigned int j = i; j < dim; ++j)
+          sigma[stress_index<dim>(i, j)] =
+            (i == j ? K0 * across : 0.) +
+            (1. - K0) * across * normal[i] * normal[j] + along[i] * normal[j] +
+            normal[i] * along[j];
+      return sigma;
+    }
+
+
+
     /// sqrt(s:s/2) of the deviator s, Pa: what the shear strength is compared
     /// with.
     template <int dim>
@@ -266,6 +292,7 @@ namespace talus
                        const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                        const Materials<dim>                          &materials,
                        const Tensor<1, dim>                          &gravity,
+                       const Ground<dim>                             &ground,
                        const MPI_Comm communicator)
   {
     std::vector<double>      density, mass_above;
@@ -287,7 +314,13 @@ namespace talus
           if (points.data(points.body)[p] == b)
             {
               const auto sigma =
-                stress_at_rest(mass_above[p], initial.K0(), gravity);
+                ground.is_bottom_face()
+                  ? stress_at_rest(mass_above[p], initial.K0(), gravity)
+                  : stress_at_rest(mass_above[p],
+                                   initial.K0(),
+                                   gravity,
+                                   ground.layer_normal(load_place(
+                                     points, points.initial_position, p)));
               store_stress<dim, double>(points, p, sigma);
               const double strength =
                 materials.of_body(b).shear_strength(points, p);

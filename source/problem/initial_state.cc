@@ -71,8 +71,9 @@ namespace talus
       "Coefficient of earth pressure at rest [-]: start with the stress of "
       "ground at rest under the weight of all that lies above, along y, with "
       "stresses along the layer of K0 times that across it and, on a slope, "
-      "the shear stress of an infinite slope. Empty: without. Only for laws in "
-      "rate form.",
+      "the shear stress of an infinite slope. Layers follow the ground: the "
+      "bottom of the mesh, or a seabed that is an obstacle. Empty: without. "
+      "Only for laws in rate form.",
       this->prm,
       Patterns::List(Patterns::Double(0.), 0, 1));
   }

@@ -88,8 +88,10 @@ namespace talus
         const InitialState<dim>  &initial  = bodies_[b]->initial_state();
         const unsigned int        begin    = points.size();
         initial.check(material);
-        bodies_[b]->create_points(
+        const std::string note = bodies_[b]->create_points(
           state.grid, b, material.density(), points, obstacles.shapes());
+        if (!note.empty())
+          notes_.push_back(note);
         // At t = 0; set_velocity() sets it anew where it belongs to half a step
         // before.
         initial.set_velocity(points, b, 0., constants_);
@@ -101,12 +103,14 @@ namespace talus
                        constants_);
         material.initialize(points, begin, points.size());
       }
-    notes_ =
+    const auto notes_on_stress =
       set_geostatic_stress(points,
                            bodies_,
                            materials,
                            loading.share_of_gravity(0.) * loading.gravity(),
+                           Ground<dim>(state.grid.domain(), &obstacles),
                            state.communicator());
+    notes_.insert(notes_.end(), notes_on_stress.begin(), notes_on_stress.end());
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const auto &body) {
           return body->initial_state().is_displaced() || body->is_clipped();
         }))

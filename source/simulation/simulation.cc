@@ -6,7 +6,9 @@
 #include <talus/io/output_folder.h>
 #include <talus/io/run_record.h>
 #include <talus/observers/boundary_forces.h>
+#include <talus/observers/facets_output.h>
 #include <talus/observers/obstacle_forces.h>
+#include <talus/observers/obstacles_output.h>
 #include <talus/simulation/simulation.h>
 #include <talus/version.h>
 
@@ -27,7 +29,7 @@ namespace talus
     , problem_(preview)
     , mesh_(state_, problem_, transfer_, timer_)
     , scheme_(state_, problem_, transfer_, mesh_, timer_)
-    , output_(timer_, log_)
+    , output_(timer_, log_, &problem_.obstacles)
     , static_stages_(
         state_, problem_, transfer_, mesh_, scheme_.splitter(), output_, log_)
   {
@@ -46,6 +48,10 @@ namespace talus
       std::make_unique<ObstacleForces<dim>>(problem_.contact));
     output_.add_row_observer(
       std::make_unique<BoundaryForces<dim>>(problem_.boundaries.reactions()));
+    output_.add_field_observer(
+      std::make_unique<ObstaclesOutput<dim>>(problem_.obstacles));
+    output_.add_field_observer(
+      std::make_unique<FacetsOutput<dim>>(problem_.contact));
     output_.add_quantities([this](const State<dim> &state, Quantities &list) {
       scheme_.splitter().list_quantities(state, list);
     });

@@ -143,6 +143,14 @@ class BadInput(Case):
         self.refuse_set(self.polygon("0,0; 2; 2,2"),
                         "Bodies/block/Vertices", "'2'", "x,y")
 
+    def test_body_without_shape(self):
+        self.refuse_set(["Bodies/block/Shape="], "'Bodies/block/Shape'",
+                        "not given", "'polygon'", "'Bodies/Names'")
+
+    def test_obstacle_without_section(self):
+        self.refuse_set(["Obstacles/Names=pipe"], "'Obstacles/pipe/Shape'",
+                        "not given", "'half-plane'", "'Obstacles/Names'")
+
     def test_polygon_outside_the_mesh(self):
         self.refuse_set(self.polygon("0,0; 9,0; 2,2"),
                         "block", "9 m", "4 m", "Grid/Upper corner")

@@ -105,6 +105,7 @@ namespace talus::cases
     {
       const Overrides quiet = {"Output/Write points=false",
                                "Output/Write grid=false",
+                               "Output/Write obstacles=false",
                                "Output/Folder=" + folder.string()};
       Case<dim>       simulation(file, quiet + overrides);
       simulation->run();

@@ -127,7 +127,10 @@ namespace
             remainder       = std::max(remainder, std::abs(energy.remainder));
             result.n_bodies = std::max<unsigned int>(
               result.n_bodies,
-              count_fractures(state.points, state.grid).connected_bodies);
+              count_fractures(state.points,
+                              state.grid,
+                              Ground<dim>(state.grid.domain()))
+                .connected_bodies);
           }
         if (state.time >= end)
           break;

@@ -114,6 +114,76 @@ TEST(Geostatic, LayersOnCellsOfTwoSizes)
 
 
 
+// A slope on a bed that is turned through the mesh has the stress of the same
+// slope on the bottom of the mesh, turned; its depth is right to a part of a
+// box, as its surface cuts boxes.
+TEST(Geostatic, SlopeOnATurnedBed)
+{
+  const double      beta = 20 * M_PI / 180, H = 1., K0 = 0.8;
+  const std::string file = "verification/block-on-plane.prm";
+  for (const double degrees : {0., 17., 40.})
+    {
+      const double angle = degrees * M_PI / 180;
+      const double c = std::cos(angle), s = std::sin(angle);
+      const auto   place = [&](const double u, const double v) {
+        return text(u * c + v * s, ",", v * c - u * s);
+      };
+      Case<2>     slab(file,
+                   {text("Gravity/Slope angle=", 20 - degrees),
+                        text("Bodies/block/Vertices=",
+                         place(0, 0),
+                         "; ",
+                         place(8, 0),
+                         "; ",
+                         place(8, H),
+                         "; ",
+                         place(0, H)),
+                        text("Bodies/block/K0=", K0),
+                        text("Obstacles/plane/Normal=", s, ",", c)});
+      const auto &points = slab.points();
+      double      error = 0, mean = 0, n = 0;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          const double x = points.data(points.initial_position, 0)[p];
+          const double y = points.data(points.initial_position, 1)[p];
+          const double u = x * c - y * s, v = x * s + y * c;
+          if (u < 2 || u > 6) // beside the ends
+            continue;
+          const auto sigma = [&](const unsigned int i) {
+            return points.data(points.stress, i)[p];
+          };
+          const double weight = 2000 * 9.81 * (H - v);
+          // xx, yy, zz, xy to nn, tt, zz, tn
+          const double errors[4] = {
+            s * s * sigma(0) + c * c * sigma(1) + 2 * s * c * sigma(3) +
+              weight * std::cos(beta),
+            c * c * sigma(0) + s * s * sigma(1) - 2 * s * c * sigma(3) +
+              K0 * weight * std::cos(beta),
+            sigma(2) + K0 * weight * std::cos(beta),
+            s * c * (sigma(0) - sigma(1)) + (c * c - s * s) * sigma(3) -
+              weight * std::sin(beta)};
+          for (const double e : errors)
+            error = std::max(error, std::abs(e));
+          mean += errors[0];
+          ++n;
+        }
+      Verification gates(text("Slope at rest on a bed turned by ",
+                              degrees,
+                              " degrees"),
+                         "prm/" + file + " with K0 = 0.8",
+                         "s_nn = -rho g d cos, s_tn = rho g d sin, s_tt = s_zz "
+                         "= K0 s_nn");
+      gates.at_most("stress, largest error / that at the bottom",
+                    error / (2000 * 9.81 * H),
+                    degrees == 0 ? 1e-13 : 0.01);
+      gates.at_most("stress, mean error / that at the bottom",
+                    std::abs(mean) / n / (2000 * 9.81 * H),
+                    degrees == 0 ? 1e-13 : 0.001);
+    }
+}
+
+
+
 // The surface lies within a cell; the points up to it count.
 TEST(Geostatic, InfiniteSlope)
 {

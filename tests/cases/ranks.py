@@ -19,7 +19,8 @@ FOLDER = pathlib.Path(sys.argv[2]).resolve()
 MPIEXEC = sys.argv[3]
 PRM = pathlib.Path(sys.argv[4]).resolve()
 
-TERSE = ["Output/Write points=false", "Output/Write grid=false"]
+TERSE = ["Output/Write points=false", "Output/Write grid=false",
+         "Output/Write obstacles=false"]
 TRACKING = ["Mesh tracking/Enabled=true", "Mesh tracking/Margin=6",
             "Mesh tracking/Interval=100", "Grid/Coarsest level=4"]
 BALANCE = ["Load balance/Allowed imbalance=1.05"]

@@ -103,11 +103,20 @@ namespace talus
       return impulses_;
     }
 
+    /// In which the facets passed their impulses, s; 0 before the first step.
+    double
+    duration_of_impulses() const
+    {
+      return previous_time_step_;
+    }
+
     /// Find the constraints of facets().owned() for soil whose masses and
     /// volumes at the nodes are known. Collective.
     void
     find_constraints(const State<dim> &state);
 
+    /// As find_constraints() or the last step found them; none since
+    /// prepare().
     const std::vector<Constraint> &
     constraints() const
     {

@@ -19,9 +19,7 @@ namespace talus
   {
   public:
     /// @p section, as /Bodies/NAME, may have other entries, too.
-    /// @p default_shape is one of the words of the entry Shape.
-    ShapeParameters(const std::string &section,
-                    const std::string &default_shape);
+    explicit ShapeParameters(const std::string &section);
 
     /// The shape, whose prisms and cylinders end where @p domain does unless
     /// their ends are given: for endless ones it is infinite. Throws ExcUser
@@ -49,7 +47,7 @@ namespace talus
     check_radii() const;
 
     std::string            section_;
-    std::string            shape_;
+    std::string            shape_    = ""; ///< there is none by default
     std::string            vertices_ = "";
     bool                   is_open_  = false;
     std::string            extent_z_ = "";

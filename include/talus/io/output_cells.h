@@ -79,19 +79,61 @@ namespace talus
 
 
 
+  /// All cells of a file have the same shape.
+  enum class CellShape
+  {
+    vertex,
+    line,
+    triangle,
+    quad,
+    hex
+  };
+
+
+
+  /// What the formats have to know of a shape.
+  struct CellShapeFacts
+  {
+    unsigned int n_vertices;
+    unsigned int vtk_type;  ///< number of VTK's cell type
+    const char  *xdmf_type; ///< XDMF's TopologyType
+  };
+
+
+
+  inline const CellShapeFacts &
+  facts_of(const CellShape shape)
+  {
+    static constexpr std::array<CellShapeFacts, 5> facts = {
+      {{1, 1, "Polyvertex"},
+       {2, 3, "Polyline"},
+       {3, 5, "Triangle"},
+       {4, 9, "Quadrilateral"},
+       {8, 12, "Hexahedron"}}};
+    return facts[static_cast<unsigned int>(shape)];
+  }
+
+
+
+  /// That of a cell of the mesh.
+  template <int dim>
+  constexpr CellShape box_shape = (dim == 2 ? CellShape::quad : CellShape::hex);
+
+
+
   /// This rank's share of what one output time shows, whatever the format:
-  /// cells of dimension 0 (vertices), 2 (quads) or 3 (hexes) that share no
-  /// vertices, and the items (points, nodes) whose fields they carry.
+  /// cells of one shape that share no vertices, and the items (points, nodes,
+  /// facets) whose fields they carry.
   struct OutputCells
   {
     OutputCells(std::vector<Field>  fields,
                 const ItemsAt       items_at,
-                const unsigned int  cell_dim,
+                const CellShape     shape,
                 const double        time,
                 const unsigned long step)
       : fields(std::move(fields))
       , items_at(items_at)
-      , cell_dim(cell_dim)
+      , shape(shape)
       , time(time)
       , step(step)
     {}
@@ -113,7 +155,7 @@ namespace talus
     unsigned int
     n_vertices_per_cell() const
     {
-      return 1 << cell_dim;
+      return facts_of(shape).n_vertices;
     }
 
     unsigned int
@@ -124,10 +166,11 @@ namespace talus
 
     std::vector<Field> fields;
     ItemsAt            items_at;
-    unsigned int       cell_dim;
+    CellShape          shape;
     double             time; ///< s
     unsigned long      step;
-    /// x, y, z of each vertex, m; z = 0 in 2-D. Cell by cell, deal.II's order.
+    /// x, y, z of each vertex, m; z = 0 in 2-D. Cell by cell; those of quads and
+    /// hexes in deal.II's order.
     std::vector<float>        vertices;
     std::vector<unsigned int> items; ///< one per vertex or per cell
   };
@@ -143,10 +186,12 @@ namespace talus
   {
     constexpr std::array<unsigned int, 8> vtk_order = {
       {0, 1, 3, 2, 4, 5, 7, 6}};
-    const unsigned int  n = cells.n_vertices_per_cell();
+    const unsigned int  n            = cells.n_vertices_per_cell();
+    const bool          is_reordered = n >= 4; // quads and hexes
     std::vector<Number> corners(cells.n_vertices());
     for (std::size_t v = 0; v < corners.size(); ++v)
-      corners[v] = first + v - v % n + vtk_order[v % n];
+      corners[v] =
+        first + v - v % n + (is_reordered ? vtk_order[v % n] : v % n);
     return corners;
   }
 } // namespace talus

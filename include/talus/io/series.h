@@ -26,6 +26,13 @@ namespace talus
     void
     list_state(const std::string &name, StateList &list);
 
+    /// Whether there are no files so far, nor at the checkpoint.
+    bool
+    is_empty() const
+    {
+      return entries_.empty();
+    }
+
     /// Write the files of the next output time; collective. Throws ExcUser if
     /// that fails.
     void

@@ -3,6 +3,7 @@
 #define talus_observers_fracture_h
 
 #include <talus/base/quantity.h>
+#include <talus/contact/ground.h>
 #include <talus/state/state.h>
 
 namespace talus
@@ -13,10 +14,11 @@ namespace talus
   struct FractureCounts
   {
     unsigned long occupied_cells = 0;
-    /// Unoccupied cells between occupied ones of their column, which has the
-    /// same x (and z); below the lowest one, down to the bottom face of the
-    /// mesh, only if that belongs to a connected body with a cell at this face:
-    /// below soil that hangs there is none to miss.
+    /// Unoccupied cells below an occupied one of their column, which has the
+    /// same x (and z), down to the next occupied one or to the ground: to the
+    /// bottom face of the mesh or a cell whose centre lies in an obstacle. Down
+    /// to the ground only if the occupied one belongs to a connected body with
+    /// a cell that lies on it: below soil that hangs there is none to miss.
     unsigned long empty_interior_cells = 0;
     /// Columns of the mesh without an occupied cell between the first and the
     /// last with one; in 3-D slabs of cells with the same x.
@@ -34,14 +36,18 @@ namespace talus
   /// mesh.
   template <int dim>
   FractureCounts
-  count_fractures(const Points<dim> &points, const Grid<dim> &grid);
+  count_fractures(const Points<dim> &points,
+                  const Grid<dim>   &grid,
+                  const Ground<dim> &ground);
 
 
 
   /// List the counts but for that of the occupied cells. Collective.
   template <int dim>
   void
-  list_fractures(const State<dim> &state, Quantities &list);
+  list_fractures(const State<dim>  &state,
+                 const Ground<dim> &ground,
+                 Quantities        &list);
 } // namespace talus
 
 #endif

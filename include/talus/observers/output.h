@@ -30,8 +30,10 @@ namespace talus
   {
   public:
     /// @p timer gets the section "output"; see phase_times(). @p log is opened
-    /// in the folder.
-    Output(PhaseTimer &timer, Log &log);
+    /// in the folder. @p obstacles belong to the ground; null for none.
+    Output(PhaseTimer           &timer,
+           Log                  &log,
+           const Obstacles<dim> *obstacles = nullptr);
 
     /// Add columns to statistics.csv.
     void
@@ -45,6 +47,13 @@ namespace talus
     add_row_observer(std::unique_ptr<Observer<dim>> observer)
     {
       rows_.observers.push_back(std::move(observer));
+    }
+
+    /// Add one that looks whenever fields are due.
+    void
+    add_field_observer(std::unique_ptr<Observer<dim>> observer)
+    {
+      fields_.observers.push_back(std::move(observer));
     }
 
     /// Write to this folder, whatever the parameter file says; to be called

@@ -3,6 +3,7 @@
 #define talus_observers_point_motion_h
 
 #include <talus/base/quantity.h>
+#include <talus/contact/ground.h>
 #include <talus/state/state.h>
 
 namespace talus
@@ -21,7 +22,10 @@ namespace talus
   /// front and rear only @p with_runout. Collective.
   template <int dim>
   void
-  list_motion(const State<dim> &state, bool with_runout, Quantities &list);
+  list_motion(const State<dim>  &state,
+              const Ground<dim> &ground,
+              bool               with_runout,
+              Quantities        &list);
 } // namespace talus
 
 #endif

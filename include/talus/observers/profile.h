@@ -2,6 +2,7 @@
 #ifndef talus_observers_profile_h
 #define talus_observers_profile_h
 
+#include <talus/contact/ground.h>
 #include <talus/observers/table_observer.h>
 
 #include <vector>
@@ -13,6 +14,7 @@ namespace talus
   {
     double x;         ///< of the column's centre, m
     double z;         ///< of the column's centre, m; 0 in 2-D
+    double ground;    ///< height of the ground below the soil, m
     double lowest;    ///< lower edge of the lowest box, m
     double highest;   ///< upper edge of the highest box, m
     double thickness; ///< volume of the soil over the column's area, m
@@ -30,7 +32,7 @@ namespace talus
   /// columns. Collective, the result is on the first rank.
   template <int dim>
   std::vector<ProfileColumn>
-  find_profile(const State<dim> &state);
+  find_profile(const State<dim> &state, const Ground<dim> &ground);
 
 
 
@@ -40,7 +42,8 @@ namespace talus
   class Profile : public TableObserver<dim>
   {
   public:
-    Profile();
+    /// @p obstacles that belong to the ground, null for none, must outlive it.
+    explicit Profile(const Obstacles<dim> *obstacles = nullptr);
 
     bool
     is_enabled(const OutputSettings &settings) const override
@@ -52,19 +55,14 @@ namespace talus
     void
     observe(const State<dim> &state) override;
 
-    /// Names of the columns.
-    static std::vector<std::string>
-    names();
-
     static constexpr const char *file_name = "profile.csv";
 
   private:
     std::vector<std::string>
-    columns(const OutputSettings & /*settings*/,
-            const State<dim> & /*state*/) const override
-    {
-      return names();
-    }
+    columns(const OutputSettings &settings,
+            const State<dim>     &state) const override;
+
+    const Obstacles<dim> *obstacles_;
   };
 } // namespace talus
 

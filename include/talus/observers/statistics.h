@@ -3,6 +3,7 @@
 #define talus_observers_statistics_h
 
 #include <talus/base/quantity.h>
+#include <talus/contact/obstacles.h>
 #include <talus/observers/energy_budget.h>
 #include <talus/observers/seabed_force.h>
 #include <talus/observers/table_observer.h>
@@ -18,8 +19,7 @@ namespace talus
   /// and tests. Places and speeds are those of the points' centres; quantities
   /// of 2-D runs are per metre width.
   ///
-  /// - `height [m]` is that of the highest centre above the bottom face of the
-  ///   mesh.
+  /// - `height [m]` is the largest one of a centre above the ground below it.
   /// - `seabed force x [N]` is the mean force of the seabed on the soil since
   ///   the row before (0 in the first one); `seabed impulse x [N s]` is the
   ///   impulse since the start. Both are negative while friction brakes a
@@ -34,7 +34,8 @@ namespace talus
   class Statistics : public TableObserver<dim>
   {
   public:
-    Statistics();
+    /// @p obstacles that belong to the ground, null for none, must outlive it.
+    explicit Statistics(const Obstacles<dim> *obstacles = nullptr);
 
     /// Appends the quantities of somebody; collective.
     using Source = std::function<void(const State<dim> &, Quantities &)>;
@@ -75,10 +76,11 @@ namespace talus
     columns(const OutputSettings &settings,
             const State<dim>     &state) const override;
 
-    SeabedForce<dim>    seabed_force_;
-    EnergyBudget<dim>   budget_;
-    std::vector<Source> sources_;
-    bool                has_runout_ = true;
+    const Obstacles<dim> *obstacles_;
+    SeabedForce<dim>      seabed_force_;
+    EnergyBudget<dim>     budget_;
+    std::vector<Source>   sources_;
+    bool                  has_runout_ = true;
   };
 } // namespace talus
 

@@ -33,8 +33,9 @@ namespace talus
     /// depend on the material but mass, which is @p density times the volume,
     /// and the id. Points of a clipped body may lie in cells of other ranks.
     /// Throws ExcUser if the body does not lie in the mesh, gets no points, or
-    /// lies where other bodies or solids are. Collective.
-    void
+    /// lies where other bodies or solids are. Returns a note for the log on what
+    /// the solids took of the body; empty if nothing. Collective.
+    std::string
     create_points(const Grid<dim> &grid,
                   unsigned int     index,
                   double           density,
@@ -86,7 +87,15 @@ namespace talus
                    const std::vector<NewPoint<dim>> &points) const;
     std::array<unsigned int, dim>
     points_per_axis() const;
-    std::vector<NewPoint<dim>>
+    /// Those of this rank, and volumes of all, m^dim: what they fill, and what
+    /// they would fill without solids. 0 where there are none.
+    struct Places
+    {
+      std::vector<NewPoint<dim>> points;
+      double                     volume = 0., uncut_volume = 0.;
+    };
+
+    Places
     places_of_points(const Grid<dim>   &grid,
                      const Solids      &solids,
                      const Points<dim> &others) const;

@@ -2,6 +2,7 @@
 #ifndef talus_problem_geostatic_h
 #define talus_problem_geostatic_h
 
+#include <talus/contact/ground.h>
 #include <talus/materials/materials.h>
 #include <talus/problem/body.h>
 
@@ -28,20 +29,22 @@ namespace talus
              const std::vector<double> &weight_density,
              MPI_Comm                   communicator);
 
-  /// Give the points of the bodies that ask for it (`K0`) the stress of ground
-  /// at rest under its own weight, with @p gravity, m/s^2, along the axes of the
-  /// mesh and M the overburden():
-  ///   s_yy = g_y M,  s_xx = s_zz = K0 s_yy,  s_xy = g_x M,
-  /// which is in equilibrium in level ground and in an infinite slope, down to
-  /// round-off also on the grid. Returns sentences for the log: where the
-  /// stress is more than the soil bears. Throws ExcUser if a body is displaced
-  /// or there is no gravity. Collective.
+  /// Give the points of the bodies that ask for it (`K0`) the stress of soil at
+  /// rest under its own weight in layers along the @p ground, with @p gravity,
+  /// m/s^2, n the normal of the layers and M n_y the overburden() by area of
+  /// the layer:
+  ///   s_nn = g_n M n_y,  s_tt = s_zz = K0 s_nn,  s_tn = g_t M n_y,
+  /// which is in equilibrium in level ground and in an infinite slope; on the
+  /// bottom of the mesh down to round-off also on the grid. Returns sentences
+  /// for the log: where the stress is more than the soil bears. Throws ExcUser
+  /// if a body is displaced or there is no gravity. Collective.
   template <int dim>
   std::vector<std::string>
   set_geostatic_stress(Points<dim>                                   &points,
                        const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                        const Materials<dim>                          &materials,
                        const dealii::Tensor<1, dim>                  &gravity,
+                       const Ground<dim>                             &ground,
                        MPI_Comm communicator);
 } // namespace talus
 

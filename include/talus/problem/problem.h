@@ -118,7 +118,7 @@ namespace talus
     std::string                             initial_velocity_time_ = "start";
     std::vector<std::string>                listed_names_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
-    std::vector<std::string>                notes_; ///< on the initial stress
+    std::vector<std::string>                notes_; ///< on the initial state
 
   public:
     // The parts, for those who work with them.

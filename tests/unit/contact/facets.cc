@@ -96,11 +96,11 @@ TEST(Facets, OfAPlaneLieOnIt)
 {
   const double       angle = 17 * M_PI / 180;
   const Tensor<1, 2> normal({std::sin(angle), std::cos(angle)});
-  const Cut<2>       cut({"plane"},
-                   in_section("plane",
-                              "set Point = 3, 2\nset Normal = " +
-                                std::to_string(normal[0]) + ", " +
-                                std::to_string(normal[1])));
+  const Cut<2>       cut(
+    {"plane"},
+    in_section("plane",
+               "set Shape = half-plane\nset Point = 3, 2\nset Normal = " +
+                 std::to_string(normal[0]) + ", " + std::to_string(normal[1])));
   for (const ContactFacet<2> &facet : cut.facets.owned())
     {
       EXPECT_LT((facet.normal - normal).norm(), 1e-6);
@@ -118,7 +118,9 @@ TEST(Facets, OfAPlaneLieOnIt)
 // A surface on the faces of cells has its facets in the cells above, once.
 TEST(Facets, OfAPlaneOnTheMesh)
 {
-  const Cut<2> cut({"plane"}, in_section("plane", "set Point = 0, 2"));
+  const Cut<2> cut({"plane"},
+                   in_section("plane",
+                              "set Shape = half-plane\nset Point = 0, 2"));
   EXPECT_NEAR(cut.area(), 6., 1e-12);
   const double h = cut.grid.cell_size();
   for (const ContactFacet<2> &facet : cut.facets.owned())
@@ -132,10 +134,12 @@ TEST(Facets, OfAPlaneOnTheMesh)
 // What one rank sees of its nodes does not depend on what others have.
 TEST(Facets, SumsAtNodesOfAllRanks)
 {
-  const Cut<2>  cut({"ball", "plane"},
-                   in_section("ball", ball_2d) +
-                     in_section("plane",
-                                "set Point = 0, 0.7\nset Normal = 0.2, 1"));
+  const Cut<2> cut(
+    {"ball", "plane"},
+    in_section("ball", ball_2d) +
+      in_section(
+        "plane",
+        "set Shape = half-plane\nset Point = 0, 0.7\nset Normal = 0.2, 1"));
   unsigned long touches = 0;
   for (const unsigned int node : cut.facets.owned_nodes())
     touches += cut.facets.n_facets(node);
@@ -155,7 +159,8 @@ TEST(Facets, NoneInsideAnotherObstacle)
 {
   const Cut<2> cut({"ball", "plane"},
                    in_section("ball", ball_2d) +
-                     in_section("plane", "set Point = 0, 1.98"));
+                     in_section("plane",
+                                "set Shape = half-plane\nset Point = 0, 1.98"));
   for (const ContactFacet<2> &facet : cut.facets.owned())
     EXPECT_GE(cut.obstacles[1 - facet.obstacle].signed_distance(facet.centroid),
               0.);

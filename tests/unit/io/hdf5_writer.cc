@@ -318,7 +318,7 @@ namespace
                         FieldKind::scalar,
                         [](unsigned int, float *value) { *value = 7; }}},
                       ItemsAt::vertices,
-                      0,
+                      CellShape::vertex,
                       0.,
                       0);
     cells.add_vertex(dealii::Point<2>(1, 2));

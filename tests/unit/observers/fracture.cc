@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "observers_setup.h"
+#include "obstacles_setup.h"
 
 namespace
 {
@@ -15,13 +16,34 @@ namespace
 
 
 
+  /// On the bottom of the mesh.
+  template <int dim>
+  FractureCounts
+  count(const Scene<dim> &s)
+  {
+    return count_fractures(s.points, s.grid, Ground<dim>(s.grid.domain()));
+  }
+
+
+
+  template <int dim>
+  FractureCounts
+  count(const Scene<dim> &s, const Obstacles<dim> &obstacles)
+  {
+    return count_fractures(s.points,
+                           s.grid,
+                           Ground<dim>(s.grid.domain(), &obstacles));
+  }
+
+
+
   TEST_F(Fracture, SolidBlock)
   {
     Scene<2> s("0, 0", "8, 4");
     for (unsigned int i = 2; i < 5; ++i)
       for (unsigned int j = 0; j < 2; ++j)
         s.add({i + 0.25, j + 0.5}), s.add({i + 0.75, j + 0.5});
-    const FractureCounts counts = count_fractures(s.points, s.grid);
+    const FractureCounts counts = count(s);
     EXPECT_EQ(counts.occupied_cells, 6u);
     EXPECT_EQ(counts.empty_interior_cells, 0u);
     EXPECT_EQ(counts.empty_columns, 0u);
@@ -42,7 +64,7 @@ namespace
            {0.5, 0.5}, {0.5, 2.5}, {1.5, 1.5}, {3.5, 0.5}, {6.5, 0.2}})
       s.add(x);
     s.add({6.5, 0.8});
-    const FractureCounts counts = count_fractures(s.points, s.grid);
+    const FractureCounts counts = count(s);
     EXPECT_EQ(counts.occupied_cells, 5u);
     // Below the diagonal neighbour too: down to the bottom face.
     EXPECT_EQ(counts.empty_interior_cells, 2u);
@@ -67,16 +89,16 @@ namespace
     for (const auto &x : std::vector<Point<2>>{
            {5.5, 1.5}, {6.5, 1.5}, {5.5, 2.5}, {5.5, 3.5}, {6.5, 3.5}})
       s.add(x);
-    EXPECT_EQ(count_fractures(s.points, s.grid).empty_interior_cells, 1u);
+    EXPECT_EQ(count(s).empty_interior_cells, 1u);
     for (unsigned int j = 0; j < 4; ++j)
       s.add({0.5, j + 0.5});
     s.add({1.5, 3.5});
     s.add({2.5, 3.5});
-    EXPECT_EQ(count_fractures(s.points, s.grid).empty_interior_cells, 1u + 6u);
-    EXPECT_EQ(count_fractures(s.points, s.grid).connected_bodies, 2u);
+    EXPECT_EQ(count(s).empty_interior_cells, 1u + 6u);
+    EXPECT_EQ(count(s).connected_bodies, 2u);
     // Now it stands on the bottom, too.
     s.add({5.5, 0.5});
-    EXPECT_EQ(count_fractures(s.points, s.grid).empty_interior_cells, 2u + 6u);
+    EXPECT_EQ(count(s).empty_interior_cells, 2u + 6u);
   }
 
 
@@ -86,7 +108,7 @@ namespace
     Scene<2> s("0, 0", "8, 4");
     s.add({0.5, 3.5});
     s.add({1.5, 0.5});
-    EXPECT_EQ(count_fractures(s.points, s.grid).connected_bodies, 2u);
+    EXPECT_EQ(count(s).connected_bodies, 2u);
   }
 
 
@@ -96,13 +118,13 @@ namespace
     Scene<2> s("-4, -1", "4, 3");
     s.add({0.5, -1.4});
     s.add({4.3, 3.2});
-    const FractureCounts counts = count_fractures(s.points, s.grid);
+    const FractureCounts counts = count(s);
     EXPECT_EQ(counts.occupied_cells, 2u);
     EXPECT_EQ(counts.empty_interior_cells, 0u); // none below what hangs
     EXPECT_EQ(counts.empty_columns, 2u);
     // In the cell it was counted to, it joins the others.
     s.add({0.5, -0.9});
-    EXPECT_EQ(count_fractures(s.points, s.grid).occupied_cells, 2u);
+    EXPECT_EQ(count(s).occupied_cells, 2u);
   }
 
 
@@ -115,11 +137,11 @@ namespace
     for (unsigned int j = 0; j < 8; j += 2)
       for (unsigned int i = 0; i < 9; ++i)
         s.add({i + 0.5, j + 0.5});
-    EXPECT_EQ(count_fractures(s.points, s.grid).connected_bodies, 4u);
+    EXPECT_EQ(count(s).connected_bodies, 4u);
     for (unsigned int j = 0; j < 8; ++j)
       s.add({9.5, j + 0.5});
-    EXPECT_EQ(count_fractures(s.points, s.grid).connected_bodies, 1u);
-    EXPECT_EQ(count_fractures(s.points, s.grid).empty_interior_cells, 27u);
+    EXPECT_EQ(count(s).connected_bodies, 1u);
+    EXPECT_EQ(count(s).empty_interior_cells, 27u);
   }
 
 
@@ -137,11 +159,74 @@ namespace
         cell->set_refine_flag();
     triangulation.execute_coarsening_and_refinement();
     coarse.grid.prepare();
-    const FractureCounts counts = count_fractures(coarse.points, coarse.grid);
+    const FractureCounts counts = count(coarse);
     EXPECT_EQ(counts.occupied_cells, 5u);
     EXPECT_EQ(counts.connected_bodies, 3u); // across corners
     EXPECT_EQ(counts.empty_columns, 3u);    // 0, 1 | 3 | 6
     EXPECT_EQ(counts.empty_interior_cells, 2u);
+  }
+
+
+
+  // Down to the bed, whose surface is at y = 5.3 - 0.4 x: cells with their
+  // centre below it are none of the soil's.
+  TEST_F(Fracture, OnAnInclinedBed)
+  {
+    Scene<2>               s("0, 0", "8, 8");
+    const WithObstacles<2> bed{
+      {"bed", "Shape = half-plane|Point = 0, 5.3|Normal = 0.4, 1"}};
+    // Two cells thick, that with the surface at most half filled.
+    std::vector<unsigned int> lowest;
+    for (unsigned int i = 0; i < 8; ++i)
+      {
+        lowest.push_back(std::lround(5.3 - 0.4 * (i + 0.5)));
+        s.add({i + 0.5, lowest.back() + 1.5});
+        if (i != 3 && i != 5)
+          s.add({i + 0.5, lowest.back() + 0.9});
+      }
+    EXPECT_EQ(count(s, bed.obstacles).empty_interior_cells, 2u);
+    EXPECT_EQ(count(s, bed.obstacles).connected_bodies, 1u);
+    // To the bottom of the mesh nothing rests, so nothing would be missing.
+    EXPECT_EQ(count(s).empty_interior_cells, 0u);
+    s.add({3.5, lowest[3] + 0.9});
+    s.add({5.5, lowest[5] + 0.9});
+    EXPECT_EQ(count(s, bed.obstacles).empty_interior_cells, 0u);
+  }
+
+
+
+  // Soil that falls onto a bed, and has not come to it.
+  TEST_F(Fracture, AboveABedNoneIsMissing)
+  {
+    Scene<2>               s("0, 0", "8, 8");
+    const WithObstacles<2> bed{{"bed", "Shape = half-plane|Point = 0, 2"}};
+    s.add({2.5, 4.5});
+    s.add({3.5, 4.5});
+    EXPECT_EQ(count(s, bed.obstacles).empty_interior_cells, 0u);
+    s.add({3.5, 3.5});
+    EXPECT_EQ(count(s, bed.obstacles).empty_interior_cells, 0u);
+    s.add({3.5, 2.5});
+    EXPECT_EQ(count(s, bed.obstacles).empty_interior_cells, 2u);
+  }
+
+
+
+  // # # # # #     The cells of a pipe (o) are not empty, nor are those between
+  // # o o # #     it and the bed: the soil above lies on the pipe.
+  // # o o . #
+  // # . . # #
+  TEST_F(Fracture, AroundAPipe)
+  {
+    Scene<2>               s("0, 0", "8, 8");
+    const WithObstacles<2> pipe{
+      {"pipe", "Shape = box|Lower corner = 1.1, 1.1|Upper corner = 2.9, 2.9"}};
+    for (unsigned int i = 0; i < 5; ++i)
+      for (unsigned int j = 0; j < 4; ++j)
+        if (j == 3 || i == 0 || i == 4 || (i == 3 && j != 1))
+          s.add({i + 0.5, j + 0.5});
+    EXPECT_EQ(count(s, pipe.obstacles).empty_interior_cells, 1u);
+    EXPECT_EQ(count(s, pipe.obstacles).connected_bodies, 1u);
+    EXPECT_EQ(count(s).empty_interior_cells, 7u);
   }
 
 
@@ -155,7 +240,7 @@ namespace
     s.add({1.5, 0.5, 3.5}); // not the one beside it: two cells away in z
     s.add({4.5, 3.5, 0.5});
     s.add({4.6, 3.5, 0.5});
-    const FractureCounts counts = count_fractures(s.points, s.grid);
+    const FractureCounts counts = count(s);
     EXPECT_EQ(counts.occupied_cells, 5u);
     EXPECT_EQ(counts.empty_interior_cells, 1u); // none below what hangs
     EXPECT_EQ(counts.empty_columns, 2u);

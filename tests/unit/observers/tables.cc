@@ -10,10 +10,20 @@
 #include <map>
 
 #include "observers_setup.h"
+#include "obstacles_setup.h"
 
 namespace
 {
   using namespace talus;
+
+  template <int dim>
+  Ground<dim>
+  on_bottom(const Scene<dim> &s)
+  {
+    return Ground<dim>(s.grid.domain());
+  }
+
+
 
   // ------------------------------------------------------------- statistics
 
@@ -215,6 +225,22 @@ namespace
 
 
 
+  // The point that is farthest from the bed is not the highest one.
+  TEST_F(StatisticsTest, HeightAboveAnInclinedBed)
+  {
+    Scene<2>               s("0, 0", "8, 4");
+    const WithObstacles<2> bed{
+      {"bed", "Shape = half-plane|Point = 0, 2|Normal = 0.25, 1"}};
+    s.add({1., 3.});  // 1.25 m above it
+    s.add({6., 2.5}); // 2 m
+    EXPECT_NEAR(evaluate(Statistics<2>(&bed.obstacles), s)["height [m]"],
+                2.,
+                1e-12);
+    EXPECT_EQ(evaluate(Statistics<2>(), s)["height [m]"], 3.);
+  }
+
+
+
   // ---------------------------------------------------------------- profile
 
   class ProfileTest : public ObserversTest
@@ -250,13 +276,38 @@ namespace
 
     // Boxes that do not follow the deformation keep their reference length.
     s.box_shape.rule = BoxRule::fixed;
-    EXPECT_EQ(find_profile(s).at(2).highest, 0.375);
+    EXPECT_EQ(find_profile(s, on_bottom(s)).at(2).highest, 0.375);
 
     // After a quarter of a turn what was along x, 0.5 m, is along y.
     s.box_shape.rule = BoxRule::convected_domain;
     const Matrix<2, double> quarter_turn{{{{{0., -1.}}, {{1., 0.}}}}};
     store_matrix(s.points, s.points.deformation_gradient, 2, quarter_turn);
-    EXPECT_EQ(find_profile(s).at(2).highest, 0.5);
+    EXPECT_EQ(find_profile(s, on_bottom(s)).at(2).highest, 0.5);
+  }
+
+
+
+  // At the middle of the column, also where a box dips into the bed.
+  TEST_F(ProfileTest, GroundBelowTheColumns)
+  {
+    Scene<2>               s("0, 0", "8, 4");
+    const WithObstacles<2> bed{
+      {"bed", "Shape = half-plane|Point = 0, 2|Normal = 0.25, 1"},
+      {"pipe", "Shape = ball|Centre = 4.5, 1.4|Radius = 0.4"}};
+    s.add({2.5, 1.5});
+    s.add({4.5, 2.5});
+    Profile<2> profile(&bed.obstacles);
+    profile.begin({folder}, s);
+    profile.observe(s);
+    EXPECT_EQ(lines("profile.csv").at(0),
+              "time [s],x [m],lowest [m],highest [m],thickness [m],"
+              "depth-mean velocity [m/s],ground [m]");
+    const auto columns =
+      find_profile(s, Ground<2>(s.grid.domain(), &bed.obstacles));
+    ASSERT_EQ(columns.size(), 2u);
+    EXPECT_EQ(columns[0].lowest, 1.25);
+    EXPECT_NEAR(columns[0].ground, 2. - 0.25 * 2.5, 1e-12);
+    EXPECT_NEAR(columns[1].ground, 2. - 0.25 * 4.5, 1e-12);
   }
 
 
@@ -292,7 +343,7 @@ namespace
     s.add({9., 0.5, 1.5});
     for (unsigned int p = 0; p < 3; ++p)
       s.points.data(s.points.reference_volume)[p] = 0.125;
-    const auto profile = find_profile(s);
+    const auto profile = find_profile(s, on_bottom(s));
     ASSERT_EQ(profile.size(), 6u);
     const std::vector<double> mass = {1., 0.25, 0.25, 0.25, 0.25, 1.};
     for (unsigned int i = 0; i < 6; ++i)

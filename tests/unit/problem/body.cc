@@ -312,12 +312,16 @@ namespace
 
 
 
+  /// Returns what is to be said of it.
   template <int dim>
-  void
+  std::string
   fill_down_to(const Shape<dim> &solid, WithBodies<dim> &all)
   {
+    std::string notes;
     for (unsigned int b = 0; b < all.bodies.size(); ++b)
-      all.bodies[b]->create_points(all.grid, b, density, all.points, {&solid});
+      notes += all.bodies[b]->create_points(
+        all.grid, b, density, all.points, {&solid});
+    return notes;
   }
 
 
@@ -326,14 +330,23 @@ namespace
   {
     const HalfSpace<2> bed(Point<2>(0., 0.5), Point<2>(-0.25, 1.));
     WithBodies<2>      all({box("0, 0", "4, 2") + clipped});
-    fill_down_to(bed, all);
+    EXPECT_EQ(
+      fill_down_to(bed, all),
+      "The obstacles take 4 m^2 of the body '0', 50 % of it: no soil is "
+      "put into them.");
     EXPECT_NEAR(all.sum(all.points.reference_volume), 4. * (2. - 1.), 1e-12);
     for (unsigned int p = 0; p < all.points.size(); ++p)
       EXPECT_GT(bed.signed_distance(Point<2>(all.get(all.points.position, p))),
                 0.);
 
-    WithBodies<2> by_centres({box("0, 0", "4, 2")});
-    fill_down_to(bed, by_centres);
+    WithBodies<2>     by_centres({box("0, 0", "4, 2")});
+    const std::string note = fill_down_to(bed, by_centres);
+    EXPECT_NE(note.find(
+                text("take ",
+                     8. - by_centres.sum(by_centres.points.reference_volume),
+                     " m^2")),
+              std::string::npos)
+      << note;
     for (unsigned int p = 0; p < by_centres.points.size(); ++p)
       EXPECT_GE(bed.signed_distance(
                   Point<2>(by_centres.get(by_centres.points.position, p))),

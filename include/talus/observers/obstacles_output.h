@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_observers_obstacles_output_h
+#define talus_observers_obstacles_output_h
+
+#include <talus/contact/obstacles.h>
+#include <talus/observers/series_observer.h>
+
+namespace talus
+{
+  /// The series of files called obstacles: the surfaces of all obstacles in the
+  /// mesh, as lines (in 3-D triangles), whatever their shapes. Once, at the
+  /// start, or at each output time if one of them moves.
+  template <int dim>
+  class ObstaclesOutput : public SeriesObserver<dim>
+  {
+  public:
+    /// @p obstacles must outlive the observer.
+    explicit ObstaclesOutput(const Obstacles<dim> &obstacles);
+
+    /// Where there are obstacles.
+    bool
+    is_enabled(const OutputSettings &settings) const override;
+
+    void
+    observe(const State<dim> &state) override;
+
+    void
+    list_state(StateList &list) override;
+
+  private:
+    const Obstacles<dim> &obstacles_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/contact/ground.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Ground<dim>::Ground(const Box<dim> &domain, const Obstacles<dim> *obstacles)
+    : domain_(domain)
+    , obstacles_(obstacles != nullptr && !obstacles->empty() ? obstacles
+                                                             : nullptr)
+  {
+    if (is_bottom_face())
+      return;
+    for (unsigned int k = 0; k < obstacles_->size(); ++k)
+      if (belongs_to_ground((*obstacles_)[k], domain))
+        members_.push_back(k);
+  }
+
+
+
+  // A pipe that lies on the bottom of the mesh does not go below it, whatever
+  // the round-off.
+  template <int dim>
+  bool
+  Ground<dim>::belongs_to_ground(const Obstacle<dim> &obstacle,
+                                 const Box<dim>      &domain)
+  {
+    const Box<dim> box       = obstacle.bounding_box();
+    const double   tolerance = 1e-6 * domain.length(1);
+    bool           crosses   = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != 1)
+        crosses = crosses && box.lower[d] <= domain.lower[d] + tolerance &&
+                  box.upper[d] >= domain.upper[d] - tolerance;
+    return crosses || box.lower[1] < domain.lower[1] - tolerance;
+  }
+
+
+
+  template <int dim>
+  double
+  Ground<dim>::signed_distance(const Members    &members,
+                               const Point<dim> &x) const
+  {
+    double result = std::numeric_limits<double>::max();
+    for (const unsigned int k : members)
+      result = std::min(result, (*obstacles_)[k].signed_distance(x));
+    return result;
+  }
+
+
+
+  /// Between a place outside and one inside, above or below @p x. By regula
+  /// falsi: of a plane the first step is exact. Halving the value at an end
+  /// that stays (Illinois) keeps it from creeping.
+  template <int dim>
+  double
+  Ground<dim>::surface_at(const Members    &members,
+                          const Point<dim> &x,
+                          double            y_open,
+                          double            y_inside) const
+  {
+    const auto distance = [&](const double y) {
+      Point<dim> place = x;
+      place[1]         = y;
+      return signed_distance(members, place);
+    };
+    const double error  = 1e-12 * domain_.length(1);
+    double       open   = distance(y_open);
+    double       inside = distance(y_inside);
+    for (unsigned int i = 0; i < 100 && std::abs(y_open - y_inside) > error;
+         ++i)
+      {
+        const double y = (open > inside) ? (y_inside * open - y_open * inside) /
+                                             (open - inside)
+                                         : 0.5 * (y_open + y_inside);
+        const double value = distance(y);
+        if (std::abs(value) <= error)
+          return y;
+        if (value > 0)
+          {
+            y_open = y;
+            open   = value;
+            inside *= 0.5;
+          }
+        else
+          {
+            y_inside = y;
+            inside   = value;
+            open *= 0.5;
+          }
+      }
+    return y_inside;
+  }
+
+
+
+  /// Steps as long as the distance cannot pass over a surface, but become small
+  /// beside a wall: then they are a ten-thousandth of the mesh.
+  template <int dim>
+  double
+  Ground<dim>::elevation(const Members &members, const Point<dim> &x) const
+  {
+    const double bottom = domain_.lower[1];
+    const double least  = 1e-4 * domain_.length(1);
+    double       phi    = signed_distance(members, x);
+    const bool   is_up  = phi <= 0;
+    Point<dim>   place  = x;
+    for (double y = x[1];;)
+      {
+        const double step = std::max(std::abs(phi), least);
+        const double next = is_up ? y + step : std::max(y - step, bottom);
+        place[1]          = next;
+        phi               = signed_distance(members, place);
+        if (is_up != (phi <= 0))
+          return std::max(bottom,
+                          is_up ? surface_at(members, x, next, y)
+                                : surface_at(members, x, y, next));
+        if (is_up && next >= domain_.upper[1])
+          return domain_.upper[1];
+        // Also a place that is no number.
+        if (!is_up && !(next > bottom))
+          return bottom;
+        y = next;
+      }
+  }
+
+
+
+  template <int dim>
+  double
+  Ground<dim>::elevation(const Point<dim> &x) const
+  {
+    return members_.empty() ? domain_.lower[1] : elevation(members_, x);
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Ground<dim>::layer_normal(const Point<dim> &x) const
+  {
+    Members members = members_;
+    while (!members.empty())
+      {
+        Point<dim> place = x;
+        place[1]         = elevation(members, x);
+        const auto nearest =
+          std::min_element(members.begin(),
+                           members.end(),
+                           [&](const unsigned int a, const unsigned int b) {
+                             return (*obstacles_)[a].signed_distance(place) <
+                                    (*obstacles_)[b].signed_distance(place);
+                           });
+        if ((*obstacles_)[*nearest].signed_distance(place) >
+            1e-9 * domain_.length(1))
+          break; // the bottom face of the mesh
+        const Tensor<1, dim> normal = (*obstacles_)[*nearest].normal(place);
+        if (normal[1] >= std::sqrt(0.5))
+          return normal;
+        members.erase(nearest);
+      }
+    return Point<dim>::unit_vector(1);
+  }
+
+
+
+  template class Ground<2>;
+  template class Ground<3>;
+} // namespace talus

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/geometry/clip_simplex.h>
+#include <talus/observers/facets_output.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Lengths along @p axes of the part of the facet's plane that lies in its
+    /// cell, m; 0 if the plane is one of the cell's faces.
+    std::array<double, 2>
+    lengths_in_cell(const Cell<3>                     &cell,
+                    const ContactFacet<3>             &facet,
+                    const std::array<Tensor<1, 3>, 2> &axes)
+    {
+      Box<3> box{cell.lower, cell.lower};
+      for (unsigned int d = 0; d < 3; ++d)
+        box.upper[d] += cell.size;
+      std::array<double, 2> least{}, largest{};
+      for (const Simplex<3> &simplex : simplices_of(box))
+        {
+          std::array<double, 4> height;
+          for (unsigned int v = 0; v < 4; ++v)
+            height[v] = (simplex[v] - facet.centroid) * facet.normal;
+          for (const Point<3> &x : clip_simplex<3>(simplex, height).facet)
+            for (unsigned int i = 0; i < 2; ++i)
+              {
+                const double at = (x - facet.centroid) * axes[i];
+                least[i]        = std::min(least[i], at);
+                largest[i]      = std::max(largest[i], at);
+              }
+        }
+      return {{largest[0] - least[0], largest[1] - least[1]}};
+    }
+
+
+
+    /// The line that stands for a facet.
+    std::array<Tensor<1, 2>, 1>
+    edges_of(const Cell<2> & /*cell*/, const ContactFacet<2> &facet)
+    {
+      return {{facet.area * Point<2>(facet.normal[1], -facet.normal[0])}};
+    }
+
+
+
+    /// The rectangle that stands for a facet: as long and as wide as its plane
+    /// in the cell, but of the facet's area. One edge is normal to the axis of
+    /// the mesh that is most nearly so, so that facets side by side on a prism
+    /// tile it.
+    std::array<Tensor<1, 3>, 2>
+    edges_of(const Cell<3> &cell, const ContactFacet<3> &facet)
+    {
+      unsigned int along = 0;
+      for (unsigned int d = 1; d < 3; ++d)
+        if (std::abs(facet.normal[d]) < std::abs(facet.normal[along]))
+          along = d;
+      Tensor<1, 3> first;
+      first[along] = 1.;
+      first -= facet.normal[along] * facet.normal;
+      first /= first.norm();
+      const std::array<Tensor<1, 3>, 2> axes = {
+        {first, cross_product_3d(facet.normal, first)}};
+      auto length = lengths_in_cell(cell, facet, axes);
+      if (std::min(length[0], length[1]) < 1e-3 * cell.size)
+        length = {{1., 1.}};
+      const double factor = std::sqrt(facet.area / (length[0] * length[1]));
+      return {{factor * length[0] * axes[0], factor * length[1] * axes[1]}};
+    }
+
+
+
+    template <int dim>
+    void
+    add_cell(OutputCells             &cells,
+             const Cell<dim>         &cell,
+             const ContactFacet<dim> &facet)
+    {
+      const auto edges = edges_of(cell, facet);
+      for (unsigned int v = 0; v < cells.n_vertices_per_cell(); ++v)
+        {
+          Point<dim> corner = facet.centroid;
+          for (unsigned int e = 0; e < edges.size(); ++e)
+            corner += ((v >> e) & 1 ? 0.5 : -0.5) * edges[e];
+          cells.add_vertex(corner);
+        }
+    }
+
+
+
+    /// Of the soil along the surface, m/s: with the velocities at the nodes
+    /// after the step, which belong to its middle.
+    template <int dim>
+    Tensor<1, dim>
+    slip_velocity(const FacetContact<dim> &contact,
+                  const State<dim>        &state,
+                  const unsigned int       c)
+    {
+      const ContactFacet<dim> &facet = contact.facets().owned()[c];
+      Tensor<1, dim> u = -contact.obstacles()[facet.obstacle].velocity(
+        state.time - 0.5 * state.time_step);
+      for (unsigned int v = 0; v < facet.node.size(); ++v)
+        if (const double share = contact.constraints()[c].share[v]; share > 0)
+          u += share * state.nodes.velocity(facet.node[v]);
+      return u - (u * facet.normal) * facet.normal;
+    }
+
+
+
+    template <int dim, typename Function>
+    Field
+    scalar(const std::string &name, const std::string &unit, Function value)
+    {
+      return {name,
+              unit,
+              FieldKind::scalar,
+              [value](const unsigned int c, float *to) { *to = value(c); }};
+    }
+
+
+
+    template <int dim, typename Function>
+    Field
+    vector(const std::string &name, const std::string &unit, Function value)
+    {
+      return {name,
+              unit,
+              FieldKind::vector,
+              [value](const unsigned int c, float *to) {
+                const Tensor<1, dim> v = value(c);
+                std::copy_n(v.begin_raw(), dim, to);
+              }};
+    }
+
+
+
+    // Stresses are over the whole area of the facet, of which soil may cover a
+    // part, so that they have the right integrals and stay bounded where soil
+    // is thin.
+    /// Of facets by their number; they read when a file is written.
+    template <int dim>
+    std::vector<Field>
+    facet_fields(const FacetContact<dim> &contact, const State<dim> &state)
+    {
+      const auto       &facets      = contact.facets().owned();
+      const auto       &impulses    = contact.impulses();
+      const auto       &constraints = contact.constraints();
+      const double      dt          = contact.duration_of_impulses();
+      const std::string area        = (dim == 2 ? "m" : "m^2");
+      const auto        stress      = [&facets, dt](const unsigned int c,
+                                        const auto        &impulse) {
+        return impulse / (dt * facets[c].area);
+      };
+      return {
+        vector<dim>("traction",
+                    "Pa",
+                    [&, stress](const unsigned int c) {
+                      return stress(c,
+                                    -(impulses[c].normal * facets[c].normal +
+                                      impulses[c].tangential));
+                    }),
+        scalar<dim>("normal pressure",
+                    "Pa",
+                    [&, stress](const unsigned int c) {
+                      return stress(c, impulses[c].normal);
+                    }),
+        scalar<dim>("shear stress",
+                    "Pa",
+                    [&, stress](const unsigned int c) {
+                      return stress(c, impulses[c].tangential.norm());
+                    }),
+        vector<dim>("normal",
+                    "",
+                    [&](const unsigned int c) { return facets[c].normal; }),
+        vector<dim>("slip velocity",
+                    "m/s",
+                    [&](const unsigned int c) {
+                      return slip_velocity(contact, state, c);
+                    }),
+        scalar<dim>("gap",
+                    "m",
+                    [&](const unsigned int c) { return constraints[c].gap; }),
+        scalar<dim>("area",
+                    area,
+                    [&](const unsigned int c) { return facets[c].area; }),
+        scalar<dim>("contact area",
+                    area,
+                    [&](const unsigned int c) {
+                      return impulses[c].normal > 0 ? constraints[c].area : 0.;
+                    }),
+        scalar<dim>("obstacle", "", [&](const unsigned int c) {
+          return facets[c].obstacle;
+        })};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  FacetsOutput<dim>::FacetsOutput(const FacetContact<dim> &contact)
+    : SeriesObserver<dim>("facets")
+    , contact_(contact)
+  {}
+
+
+
+  template <int dim>
+  bool
+  FacetsOutput<dim>::is_enabled(const OutputSettings &settings) const
+  {
+    return settings.write_obstacles && !contact_.obstacles().empty();
+  }
+
+
+
+  /// Not before the first step (or the first equilibrium): until then no facet
+  /// knows whether there is soil.
+  template <int dim>
+  void
+  FacetsOutput<dim>::observe(const State<dim> &state)
+  {
+    if (contact_.duration_of_impulses() == 0)
+      return;
+    OutputCells cells(facet_fields(contact_, state),
+                      ItemsAt::cells,
+                      dim == 2 ? CellShape::line : CellShape::quad,
+                      state.time,
+                      state.step);
+    for (unsigned int c = 0; c < contact_.constraints().size(); ++c)
+      if (contact_.constraints()[c].is_loaded)
+        {
+          const ContactFacet<dim> &facet = contact_.facets().owned()[c];
+          add_cell(cells, state.grid.cells()[facet.cell], facet);
+          cells.items.push_back(c);
+        }
+    this->series_.write(cells);
+  }
+
+
+
+  /// Without obstacles a checkpoint need not know of it.
+  template <int dim>
+  void
+  FacetsOutput<dim>::list_state(StateList &list)
+  {
+    if (!contact_.obstacles().empty())
+      SeriesObserver<dim>::list_state(list);
+  }
+
+
+
+  template class FacetsOutput<2>;
+  template class FacetsOutput<3>;
+} // namespace talus

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/agreement.h>
+#include <talus/geometry/contour.h>
+#include <talus/observers/obstacles_output.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// An element of the surface of an obstacle.
+    template <int dim>
+    struct Element
+    {
+      unsigned int        obstacle;
+      SurfaceElement<dim> corners;
+
+      Point<dim>
+      middle() const
+      {
+        Point<dim> x;
+        for (const Point<dim> &corner : corners)
+          x += corner / dim;
+        return x;
+      }
+    };
+
+
+
+    /// Of all obstacles within @p box, from their distances alone, so that new
+    /// shapes need nothing more.
+    template <int dim>
+    std::vector<Element<dim>>
+    elements_in(const Box<dim>       &box,
+                const Obstacles<dim> &obstacles,
+                const double          size)
+    {
+      std::vector<Element<dim>> result;
+      for (unsigned int k = 0; k < obstacles.size(); ++k)
+        for (const SurfaceElement<dim> &corners : contour<dim>(
+               box,
+               [&](const Point<dim> &x) {
+                 return obstacles[k].signed_distance(x);
+               },
+               size))
+          result.push_back({k, corners});
+      return result;
+    }
+
+
+
+    /// Of elements by their number, which must outlive the fields.
+    template <int dim>
+    std::vector<Field>
+    surface_fields(const Obstacles<dim>            &obstacles,
+                   const std::vector<Element<dim>> &elements)
+    {
+      return {{"obstacle",
+               "",
+               FieldKind::scalar,
+               [&elements](const unsigned int i, float *value) {
+                 *value = elements[i].obstacle;
+               }},
+              {"normal",
+               "",
+               FieldKind::vector,
+               [&](const unsigned int i, float *value) {
+                 const Tensor<1, dim> n =
+                   obstacles[elements[i].obstacle].normal(elements[i].middle());
+                 std::copy_n(n.begin_raw(), dim, value);
+               }},
+              {"maximum shear stress",
+               "Pa",
+               FieldKind::scalar,
+               [&](const unsigned int i, float *value) {
+                 *value = obstacles[elements[i].obstacle].maximum_shear_stress(
+                   elements[i].middle());
+               }}};
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  ObstaclesOutput<dim>::ObstaclesOutput(const Obstacles<dim> &obstacles)
+    : SeriesObserver<dim>("obstacles")
+    , obstacles_(obstacles)
+  {}
+
+
+
+  template <int dim>
+  bool
+  ObstaclesOutput<dim>::is_enabled(const OutputSettings &settings) const
+  {
+    return settings.write_obstacles && !obstacles_.empty();
+  }
+
+
+
+  /// By the first rank: all know the obstacles, and surfaces in cells of others
+  /// have no more elements there than elsewhere. In the mesh as it was asked
+  /// for: its faces may have moved far away to make room for large cells.
+  template <int dim>
+  void
+  ObstaclesOutput<dim>::observe(const State<dim> &state)
+  {
+    if (!this->series_.is_empty() && !obstacles_.move())
+      return;
+    std::vector<Element<dim>> elements;
+    if (is_first_rank(state.communicator()))
+      elements = elements_in(state.grid.domain_before_growth(),
+                             obstacles_,
+                             state.grid.finest_size());
+    OutputCells cells(surface_fields(obstacles_, elements),
+                      ItemsAt::cells,
+                      dim == 2 ? CellShape::line : CellShape::triangle,
+                      state.time,
+                      state.step);
+    for (unsigned int i = 0; i < elements.size(); ++i)
+      {
+        for (const Point<dim> &corner : elements[i].corners)
+          cells.add_vertex(corner);
+        cells.items.push_back(i);
+      }
+    this->series_.write(cells);
+  }
+
+
+
+  /// Without obstacles a checkpoint need not know of it.
+  template <int dim>
+  void
+  ObstaclesOutput<dim>::list_state(StateList &list)
+  {
+    if (!obstacles_.empty())
+      SeriesObserver<dim>::list_state(list);
+  }
+
+
+
+  template class ObstaclesOutput<2>;
+  template class ObstaclesOutput<3>;
+} // namespace talus

@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What is written of obstacles for ParaView.
+
+Usage: obstacle_files.py TALUS FOLDER MPIEXEC PRM_FOLDER.
+"""
+
+import array
+import base64
+import csv
+import math
+import pathlib
+import shutil
+import struct
+import subprocess
+import sys
+import unittest
+import xml.etree.ElementTree
+import zlib
+
+TALUS = pathlib.Path(sys.argv[1]).resolve()
+FOLDER = pathlib.Path(sys.argv[2]).resolve()
+MPIEXEC = sys.argv[3]
+PRM = pathlib.Path(sys.argv[4]).resolve()
+HERE = pathlib.Path(__file__).resolve().parent
+
+# A row for each step, so that its forces are those of the step.
+EACH_STEP = ["Output/Statistics interval=1e-9", "Output/Write points=false",
+             "Output/Write grid=false", "Output/Runout=false"]
+TYPES = {"Float32": "f", "Int32": "i", "UInt8": "B"}
+
+
+def values(element):
+    head = struct.unpack("<4I", base64.b64decode(element.text.strip()[:24]))
+    assert head[0] == 1
+    data = zlib.decompress(base64.b64decode(element.text.strip()[24:]))
+    numbers = array.array(TYPES[element.get("type")], data)
+    n = int(element.get("NumberOfComponents") or 1)
+    if n == 1:
+        return list(numbers)
+    return [tuple(numbers[i:i + n]) for i in range(0, len(numbers), n)]
+
+
+def read_vtu(path):
+    """Time and cells: a list of dictionaries, with the corners of each."""
+    root = xml.etree.ElementTree.parse(path).getroot()
+    vertices = values(root.find(".//Points/DataArray"))
+    mesh = {a.get("Name"): values(a) for a in root.findall(".//Cells/DataArray")}
+    data = {a.get("Name"): values(a)
+            for a in root.findall(".//CellData/DataArray")}
+    cells, first = [], 0
+    for i, last in enumerate(mesh["offsets"]):
+        cell = {name: column[i] for name, column in data.items()}
+        cell["corners"] = [vertices[v]
+                           for v in mesh["connectivity"][first:last]]
+        cell["type"] = mesh["types"][i]
+        first = last
+        cells.append(cell)
+    return float(root.find(".//FieldData/DataArray").text), cells
+
+
+def minus(a, b):
+    return tuple(x - y for x, y in zip(a, b))
+
+
+def measure(corners):
+    """Length of a line, area of a triangle or plane quadrilateral."""
+    if len(corners) == 2:
+        return math.dist(*corners)
+    a = minus(corners[2], corners[0])
+    b = minus(corners[-1], corners[1 if len(corners) == 4 else 0])
+    cross = (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+             a[0] * b[1] - a[1] * b[0])
+    return 0.5 * math.hypot(*cross)
+
+
+class ObstacleFiles(unittest.TestCase):
+    def setUp(self):
+        self.folder = FOLDER / self.id().split(".")[-1]
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True)
+
+    def run_talus(self, name, file, settings, n_ranks=1):
+        launcher = [MPIEXEC, "-n", str(n_ranks)] if n_ranks > 1 else []
+        options = [o for s in settings for o in ("--set", s)]
+        result = subprocess.run(
+            [*launcher, TALUS, file, *options, "--output", self.folder / name],
+            capture_output=True, text=True, timeout=300)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        return self.folder / name
+
+    def rows(self, folder):
+        with open(folder / "obstacles.csv") as lines:
+            return list(csv.DictReader(lines))
+
+    def series(self, folder, name):
+        """By time, the cells of all ranks."""
+        result = {}
+        for path in sorted(folder.glob(name + "-*.vtu")):
+            time, cells = read_vtu(path)
+            result[time] = result.get(time, []) + cells
+        return result
+
+    def force(self, cells):
+        total = [0, 0, 0]
+        for cell in cells:
+            for d in range(3):
+                total[d] += cell["traction [Pa]"][d] * measure(cell["corners"])
+        return total
+
+    def assert_facets_carry_the_force(self, folder, name, axes):
+        rows = {float(row["time [s]"]): row for row in self.rows(folder)}
+        series = self.series(folder, "facets")
+        self.assertGreater(len(series), 1)
+        for time, cells in series.items():
+            force = self.force(cells)
+            size = math.hypot(*force)
+            self.assertGreater(size, 0)
+            for d, axis in enumerate(axes):
+                self.assertAlmostEqual(
+                    force[d] / size,
+                    float(rows[time][f"{name} force {axis} [N]"]) / size,
+                    delta=2e-6)
+        return series
+
+    def test_force_is_the_integral_of_the_traction(self):
+        settings = EACH_STEP + ["End time=0.1", "Output/Field interval=0.05"]
+        file = PRM / "verification" / "block-on-plane.prm"
+        one = self.assert_facets_carry_the_force(
+            self.run_talus("one", file, settings), "plane", "xy")
+        two = self.assert_facets_carry_the_force(
+            self.run_talus("two", file, settings, 2), "plane", "xy")
+        self.assertEqual(list(one), list(two))
+        for time in one:
+            def cells(series):
+                return sorted(series[time], key=lambda cell: cell["corners"])
+            self.assertEqual(len(one[time]), len(two[time]))
+            for a, b in zip(cells(one), cells(two)):
+                self.assertEqual(a["corners"], b["corners"])
+                self.assertAlmostEqual(a["normal pressure [Pa]"],
+                                       b["normal pressure [Pa]"], delta=0.01)
+
+    def test_stresses_of_a_block_that_slides(self):
+        """The cap, and no slip of a block that sticks."""
+        file = PRM / "verification" / "block-on-plane.prm"
+        for cap, slides in (("1e3", True), ("1e12", False)):
+            folder = self.run_talus(
+                "cap-" + cap, file,
+                EACH_STEP + ["End time=0.2", "Output/Field interval=0.2",
+                             "Obstacles/plane/Friction coefficient=10",
+                             "Obstacles/plane/Maximum shear stress=" + cap])
+            for cell in self.series(folder, "facets").popitem()[1]:
+                self.assertEqual(cell["type"], 3)  # a line
+                if slides and cell["gap [m]"] == 0:
+                    self.assertAlmostEqual(
+                        cell["shear stress [Pa]"] * cell["area [m]"],
+                        1e3 * cell["contact area [m]"],
+                        delta=1e-3 * cell["area [m]"])
+                    self.assertGreater(
+                        math.hypot(*cell["slip velocity [m/s]"]), 0.1)
+                elif not slides:
+                    self.assertLess(
+                        math.hypot(*cell["slip velocity [m/s]"]), 0.02)
+
+    def test_surfaces(self):
+        """Those at rest once, and those that move where they are."""
+        file = PRM / "pipeline.prm"
+        settings = ["Grid/Refinement boxes=", "End time=0.1",
+                    "Output/Field interval=0.05", "Obstacles/pipe/Radius=0.6"]
+        for name, moves in (("rest", []),
+                            ("moves", ["Obstacles/pipe/Velocity=3;0"])):
+            series = self.series(
+                self.run_talus(name, file, settings + moves), "obstacles")
+            self.assertEqual(len(series) > 1, bool(moves))
+            for time, cells in series.items():
+                x = 108.66 + (3 * time if moves else 0)
+                for cell in cells:
+                    self.assertEqual(cell["type"], 3)  # a line
+                    self.assertEqual(cell["maximum shear stress [Pa]"], 500)
+                    for corner in cell["corners"]:
+                        self.assertAlmostEqual(
+                            math.dist(corner, (x, 0.3, 0)), 0.6, delta=6e-3)
+                # Above the bottom of the mesh, y = 0.
+                self.assertAlmostEqual(
+                    sum(measure(cell["corners"]) for cell in cells),
+                    0.6 * (math.pi + 2 * math.asin(0.5)), delta=0.01)
+
+    def test_rectangles_in_space(self):
+        folder = self.run_talus(
+            "3d", HERE / "block-on-plane-3d.prm",
+            EACH_STEP + ["End time=0.02", "Output/Field interval=0.01"])
+        series = self.assert_facets_carry_the_force(folder, "plane", "xyz")
+        for cells in series.values():
+            for cell in cells:
+                self.assertEqual(cell["type"], 9)  # a quadrilateral
+                self.assertAlmostEqual(measure(cell["corners"]),
+                                       cell["area [m^2]"], delta=1e-6)
+
+
+    def test_log_tells_what_obstacles_take(self):
+        """Half of a body, whatever the filling."""
+        for filling in ("clipped", "centres"):
+            folder = self.run_talus(
+                filling, PRM / "verification" / "block-on-plane.prm",
+                ["End time=1e-5", "Bodies/block/Filling=" + filling,
+                 "Bodies/block/Vertices=0,-0.5;2,-0.5;2,0.5;0,0.5",
+                 "Obstacles/plane/Normal=0,1"])
+            self.assertIn("The obstacles take 1 m^2 of the body 'block', 50 % "
+                          "of it", (folder / "log.txt").read_text())
+            with open(folder / "statistics.csv") as lines:
+                mass = float(next(csv.DictReader(lines))["mass [kg]"])
+            self.assertAlmostEqual(mass, 2000 * (2 - 1), delta=1e-6)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], "-v"])
