@@ -148,12 +148,12 @@ namespace
               std::string::npos)
       << sentence;
 
-    // A file that is written as a whole is so or not at all: beginning leaves
-    // the earlier one alone, and so does starting on a full disk.
+    // A file that is written as a whole is so or not at all: starting on a full
+    // disk leaves one that is there alone.
     fs::remove(folder / "statistics.csv");
+    output.begin(s, 1.);
     std::ofstream(folder / "points-0000.vtu") << "earlier result\n";
     fs::create_symlink("/dev/full", folder / "points-0000.vtu.part");
-    output.begin(s, 1.);
     sentence = sentence_thrown_by([&]() { output.start(s); });
     EXPECT_NE(sentence.find("points-0000.vtu' could not be written (No space"),
               std::string::npos)
