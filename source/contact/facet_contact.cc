@@ -253,8 +253,8 @@ namespace talus
   FacetContact<dim>::hold_walls(State<dim> &state, Boundaries<dim> &boundaries)
   {
     for (const unsigned int node : facets_.nodes())
-      held_[node] = boundaries.components_constrained_by_walls(
-        state.grid.faces_of_node(node));
+      if (const unsigned char faces = state.grid.faces_of_node(node))
+        held_[node] = boundaries.components_constrained_by_walls(faces);
     for (const unsigned int node : facets_.owned_nodes())
       if (held_[node] && state.nodes.mass(node) > state.mass_cutoff)
         boundaries.impose_walls(state.nodes,

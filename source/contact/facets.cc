@@ -330,6 +330,11 @@ namespace talus
       add_open_volume(grid, obstacles, c);
     for (const unsigned int c : cells_inside_)
       find_nodes_inside(grid, obstacles, c);
+    // A node has a pair from each facet that it touches.
+    std::sort(nodes_and_obstacles_.begin(), nodes_and_obstacles_.end());
+    nodes_and_obstacles_.erase(std::unique(nodes_and_obstacles_.begin(),
+                                           nodes_and_obstacles_.end()),
+                               nodes_and_obstacles_.end());
   }
 
 

@@ -18,6 +18,7 @@ namespace talus
     exchange_.prepare(grid, surfaces_.size());
     gaps_.assign(surfaces_.size() * grid.n_nodes(), none);
     is_open_.assign(grid.n_nodes(), 0);
+    of_point_.resize(surfaces_.size());
   }
 
 
@@ -117,15 +118,24 @@ namespace talus
 
   template <int dim>
   void
-  NodalGaps<dim>::lower(const unsigned int         node,
-                        const std::vector<double> &gaps)
+  NodalGaps<dim>::find_of_point(const Point<dim> &x, const Tensor<1, dim> &half)
+  {
+    for (std::size_t k = 0; k < surfaces_.size(); ++k)
+      of_point_[k] = surfaces_[k](x, half);
+  }
+
+
+
+  template <int dim>
+  void
+  NodalGaps<dim>::lower(const unsigned int node)
   {
     const std::size_t n       = surfaces_.size();
     bool              is_open = false;
     for (std::size_t k = 0; k < n; ++k)
       {
         double &gap = gaps_[n * node + k];
-        gap         = std::min(gap, gaps[k]);
+        gap         = std::min(gap, of_point_[k]);
         is_open     = is_open || gap > closed_;
       }
     is_open_[node] = is_open;
@@ -139,26 +149,22 @@ namespace talus
   void
   NodalGaps<dim>::add_segment(const State<dim> &state, const Segment &segment)
   {
-    const Cell<dim>    &cell = state.grid.cells()[segment.cell];
-    std::vector<double> gaps(surfaces_.size());
+    const Cell<dim> &cell = state.grid.cells()[segment.cell];
     if (cell.uniform && state.box_shape.rule != BoxRule::convected_domain)
       {
-        add_to_patch(state, segment, gaps);
+        add_to_patch(state, segment);
         return;
       }
     std::vector<NodeWeight<dim>> weights;
     for (unsigned int p = segment.begin; p < segment.end; ++p)
       {
-        const Tensor<1, dim> half = half_lengths(state, cell, p);
-        for (std::size_t k = 0; k < surfaces_.size(); ++k)
-          gaps[k] =
-            surfaces_[k](load_place(state.points, state.points.position, p),
-                         cell.size * half);
+        find_of_point(load_place(state.points, state.points.position, p),
+                      cell.size * half_lengths(state, cell, p));
         weights_of_point(
           state.points, state.grid, state.box_shape, segment.cell, p, weights);
         for (const NodeWeight<dim> &weight : weights)
           if (weight.value > 0 && is_open_[weight.node])
-            lower(weight.node, gaps);
+            lower(weight.node);
       }
   }
 
@@ -168,9 +174,7 @@ namespace talus
   /// when all are: soil that rests closes its nodes with its first points.
   template <int dim>
   void
-  NodalGaps<dim>::add_to_patch(const State<dim>    &state,
-                               const Segment       &segment,
-                               std::vector<double> &gaps)
+  NodalGaps<dim>::add_to_patch(const State<dim> &state, const Segment &segment)
   {
     const Cell<dim> &cell = state.grid.cells()[segment.cell];
     std::array<unsigned int, power(4, dim)> open; // entries of the patch
@@ -185,14 +189,13 @@ namespace talus
         const Reach<dim> reaches(cell, x, half);
         if (std::none_of(open.begin(), open.begin() + n_open, reaches))
           continue;
-        for (std::size_t k = 0; k < surfaces_.size(); ++k)
-          gaps[k] = surfaces_[k](x, cell.size * half);
+        find_of_point(x, cell.size * half);
         unsigned int n_left = 0;
         for (unsigned int i = 0; i < n_open; ++i)
           {
             const unsigned int node = cell.patch[open[i]];
             if (reaches(open[i]) && is_open_[node])
-              lower(node, gaps);
+              lower(node);
             if (is_open_[node])
               open[n_left++] = open[i];
           }

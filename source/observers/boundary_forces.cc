@@ -5,7 +5,7 @@ namespace talus
 {
   template <int dim>
   BoundaryForces<dim>::BoundaryForces(BoundaryReactions<dim> &reactions)
-    : TableObserver<dim>("boundaries.csv")
+    : QuantityTable<dim>("boundaries.csv")
     , reactions_(reactions)
   {}
 
@@ -20,27 +20,13 @@ namespace talus
 
 
 
-  /// In the order of the columns.
   template <int dim>
   Quantities
-  BoundaryForces<dim>::evaluate(const double time) const
+  BoundaryForces<dim>::evaluate(const State<dim> &state) const
   {
-    Quantities row = {{"time", "s", time}};
+    Quantities row = {{"time", "s", state.time}};
     reactions_.list_quantities(row);
     return row;
-  }
-
-
-
-  template <int dim>
-  std::vector<std::string>
-  BoundaryForces<dim>::columns(const OutputSettings & /*settings*/,
-                               const State<dim> &state) const
-  {
-    std::vector<std::string> result;
-    for (const Quantity &quantity : evaluate(state.time))
-      result.push_back(quantity.heading());
-    return result;
   }
 
 
@@ -49,10 +35,7 @@ namespace talus
   void
   BoundaryForces<dim>::observe(const State<dim> &state)
   {
-    std::vector<double> values;
-    for (const Quantity &quantity : evaluate(state.time))
-      values.push_back(quantity.value);
-    this->add_rows(state, {values});
+    QuantityTable<dim>::observe(state);
     reactions_.start_interval();
   }
 

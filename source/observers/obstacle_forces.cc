@@ -11,7 +11,7 @@ namespace talus
 
   template <int dim>
   ObstacleForces<dim>::ObstacleForces(FacetContact<dim> &contact)
-    : TableObserver<dim>("obstacles.csv")
+    : QuantityTable<dim>("obstacles.csv")
     , contact_(contact)
   {}
 
@@ -96,26 +96,10 @@ namespace talus
 
 
   template <int dim>
-  std::vector<std::string>
-  ObstacleForces<dim>::columns(const OutputSettings & /*settings*/,
-                               const State<dim> &state) const
-  {
-    std::vector<std::string> result;
-    for (const Quantity &quantity : evaluate(state))
-      result.push_back(quantity.heading());
-    return result;
-  }
-
-
-
-  template <int dim>
   void
   ObstacleForces<dim>::observe(const State<dim> &state)
   {
-    std::vector<double> values;
-    for (const Quantity &quantity : evaluate(state))
-      values.push_back(quantity.value);
-    this->add_rows(state, {values});
+    QuantityTable<dim>::observe(state);
     contact_.start_interval();
   }
 

@@ -83,7 +83,7 @@ class Case(unittest.TestCase):
         root = self.folder / name
         return {str(p.relative_to(root)): p.read_bytes()
                 for p in sorted(root.rglob("*"))
-                if p.is_file() and p.name not in leave_out
+                if p.is_file() and p.name not in leave_out and p.name != "lock"
                 and (not leave_out or p.parent == root)}
 
     def assert_as_undisturbed(self, name):

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <limits>
+#include <tuple>
 #include <vector>
 
 namespace talus
@@ -14,6 +15,18 @@ namespace talus
   struct NodeAndSurface
   {
     unsigned int node, surface;
+
+    bool
+    operator<(const NodeAndSurface &other) const
+    {
+      return std::tie(node, surface) < std::tie(other.node, other.surface);
+    }
+
+    bool
+    operator==(const NodeAndSurface &other) const
+    {
+      return node == other.node && surface == other.surface;
+    }
   };
 
 
@@ -68,17 +81,19 @@ namespace talus
                  const Cell<dim>  &cell,
                  unsigned int      p) const;
     void
-    lower(unsigned int node, const std::vector<double> &gaps);
+    find_of_point(const dealii::Point<dim>     &x,
+                  const dealii::Tensor<1, dim> &half);
     void
-    add_to_patch(const State<dim>    &state,
-                 const Segment       &segment,
-                 std::vector<double> &gaps);
+    lower(unsigned int node);
     void
     add_segment(const State<dim> &state, const Segment &segment);
+    void
+    add_to_patch(const State<dim> &state, const Segment &segment);
 
     std::vector<Surface>       surfaces_;
-    std::vector<double>        gaps_;    ///< by node and surface, m
-    std::vector<unsigned char> is_open_; ///< by node, while they are found
+    std::vector<double>        gaps_;     ///< by node and surface, m
+    std::vector<unsigned char> is_open_;  ///< by node, while they are found
+    std::vector<double>        of_point_; ///< one for each surface, m
     std::vector<Segment> later_;      ///< of the cells that are not the nearest
     double               closed_ = 0; ///< gaps this small are none, m
     NodalExchange<dim>   exchange_;

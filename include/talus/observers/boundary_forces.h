@@ -3,10 +3,7 @@
 #define talus_observers_boundary_forces_h
 
 #include <talus/boundaries/boundary_reactions.h>
-#include <talus/observers/table_observer.h>
-
-#include <string>
-#include <vector>
+#include <talus/observers/quantity_table.h>
 
 namespace talus
 {
@@ -14,7 +11,7 @@ namespace talus
   /// condition, one row per interval of the statistics, as obstacles.csv does it
   /// for obstacles.
   template <int dim>
-  class BoundaryForces : public TableObserver<dim>
+  class BoundaryForces : public QuantityTable<dim>
   {
   public:
     /// @p reactions start a new interval with each row.
@@ -24,6 +21,9 @@ namespace talus
     bool
     is_enabled(const OutputSettings &settings) const override;
 
+    Quantities
+    evaluate(const State<dim> &state) const override;
+
     void
     observe(const State<dim> &state) override;
 
@@ -31,12 +31,6 @@ namespace talus
     list_state(StateList &list) override;
 
   private:
-    Quantities
-    evaluate(double time) const;
-    std::vector<std::string>
-    columns(const OutputSettings &settings,
-            const State<dim>     &state) const override;
-
     BoundaryReactions<dim> &reactions_;
   };
 } // namespace talus

@@ -2,12 +2,8 @@
 #ifndef talus_observers_obstacle_forces_h
 #define talus_observers_obstacle_forces_h
 
-#include <talus/base/quantity.h>
 #include <talus/contact/facet_contact.h>
-#include <talus/observers/table_observer.h>
-
-#include <string>
-#include <vector>
+#include <talus/observers/quantity_table.h>
 
 namespace talus
 {
@@ -17,7 +13,7 @@ namespace talus
   /// steps. Impulses and works are those since the start. doc/output.md lists
   /// the columns.
   template <int dim>
-  class ObstacleForces : public TableObserver<dim>
+  class ObstacleForces : public QuantityTable<dim>
   {
   public:
     /// @p contact starts a new interval with each row.
@@ -33,14 +29,10 @@ namespace talus
     void
     list_state(StateList &list) override;
 
-    /// What a row holds, in the order of the columns. Collective.
     Quantities
-    evaluate(const State<dim> &state) const;
+    evaluate(const State<dim> &state) const override;
 
   private:
-    std::vector<std::string>
-    columns(const OutputSettings &settings,
-            const State<dim>     &state) const override;
     void
     list_forces(unsigned int k, Quantities &row) const;
     void
