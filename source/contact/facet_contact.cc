@@ -293,8 +293,7 @@ namespace talus
                                   const Point<dim>     &x,
                                   const Tensor<1, dim> &half) const
   {
-    const Tensor<1, dim> normal = obstacle.normal(x);
-    double               gap    = obstacle.signed_distance(x);
+    auto [gap, normal] = obstacle.distance_and_normal(x);
     for (unsigned int d = 0; d < dim; ++d)
       gap -= half[d] * std::abs(normal[d]);
     return gap;

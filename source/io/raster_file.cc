@@ -43,8 +43,9 @@ namespace talus
                                "' is ",
                                format,
                                ", where an Esri ASCII grid or netCDF-4 was "
-                               "expected. Convert it: ",
-                               command)));
+                               "expected. Convert it with '",
+                               command,
+                               "'.")));
     }
 
 

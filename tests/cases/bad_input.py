@@ -13,6 +13,7 @@ import unittest
 from bad_input_case import Case, DUST, GOOD
 from bad_input_motion import BadInputMotion
 from bad_input_stages import BadInputStages
+from bad_input_terrain import BadInputTerrain
 
 
 class BadInput(Case):
@@ -383,7 +384,8 @@ class DiskFull(Case):
 
 if __name__ == "__main__":
     print()
-    tests = [BadInput, BadInputMotion, BadInputStages, CommandLine, DiskFull]
+    tests = [BadInput, BadInputMotion, BadInputStages, BadInputTerrain, CommandLine,
+             DiskFull]
     names = sys.argv[3:] or [test.__name__ for test in tests]
     suite = unittest.TestSuite(
         unittest.defaultTestLoader.loadTestsFromTestCase(globals()[name])
