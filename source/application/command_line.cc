@@ -106,7 +106,8 @@ namespace talus
   {
     // One body, and a material of each law, named after it.
     ParameterPreview preview;
-    preview.bodies = {"slide"};
+    preview.bodies   = {"slide"};
+    preview.surfaces = {"mudline"};
     for (const std::string &law : material_names<2>())
       preview.materials.push_back({law, law});
     Simulation<2> simulation(preview);

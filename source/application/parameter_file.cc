@@ -199,7 +199,8 @@ namespace talus
   {
     ParameterHandler prm;
     prm.declare_entry("Dimension", "2", Patterns::Integer(2, 3));
-    for (const std::string section : {"Bodies", "Materials", "Obstacles"})
+    for (const std::string section :
+         {"Bodies", "Materials", "Obstacles", "Surfaces"})
       {
         prm.enter_subsection(section);
         prm.declare_entry("Names", "");
@@ -215,6 +216,9 @@ namespace talus
     prm.leave_subsection();
     prm.enter_subsection("Obstacles");
     preview.obstacles = names(prm.get("Names"), "Obstacles/Names");
+    prm.leave_subsection();
+    prm.enter_subsection("Surfaces");
+    preview.surfaces = names(prm.get("Names"), "Surfaces/Names");
     prm.leave_subsection();
     prm.enter_subsection("Materials");
     const auto materials = needed_names(prm.get("Names"), "Materials/Names");

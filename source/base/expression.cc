@@ -127,9 +127,11 @@ namespace talus
   Expression<dim>::Expression(const std::string &name,
                               const std::string &expressions,
                               const unsigned int n_components,
-                              const Constants   &constants)
+                              const Constants   &constants,
+                              const std::string &variables)
     : name_(name)
     , expressions_(expressions)
+    , variables_(variables)
     , function_(n_components)
   {
     const auto parts = Utilities::split_string_list(expressions, ';');
@@ -142,10 +144,24 @@ namespace talus
                              " components, but ",
                              n_components,
                              " are needed, separated by semicolons.")));
-    function_.initialize(dim == 2 ? "x,y,t" : "x,y,z,t",
+    const auto known = constants.values();
+    const auto names = Utilities::split_string_list(variables, ',');
+    for (const std::string &variable : names)
+      AssertThrow(known.count(variable) == 0,
+                  ExcUser(text("'Constants' gives a value to '",
+                               variable,
+                               "', but in ",
+                               name,
+                               " that is a variable. Give the constant "
+                               "another name.")));
+    function_.initialize(variables,
                          expressions,
-                         constants.values(),
+                         known,
                          /*time_dependent=*/true);
+    std::string known_names;
+    for (const std::string &variable : names)
+      if (variable.rfind("unused", 0) != 0)
+        known_names += variable + ", ";
     const std::string error = parse_error(function_);
     AssertThrow(error.empty(),
                 ExcUser(text(name,
@@ -154,10 +170,26 @@ namespace talus
                              "' cannot be understood: ",
                              error,
                              " An expression in ",
-                             dim == 2 ? "x, y, t" : "x, y, z, t",
-                             ", pi and the names of 'Constants' was expected; "
+                             known_names,
+                             "pi and the names of 'Constants' was expected; "
                              "correct it.")));
   }
+
+
+
+  namespace
+  {
+    template <int dim>
+    std::string
+    place_and_time(const std::string &variables,
+                   const Point<dim>  &x,
+                   const double       t)
+    {
+      return variables.back() == 't'
+               ? text(" at (", x, ") m, t = ", t, " s")
+               : text(" with (", variables, ") = (", x, ' ', t, ')');
+    }
+  } // namespace
 
 
 
@@ -177,11 +209,8 @@ namespace talus
                               expressions_,
                               "' is ",
                               result,
-                              " at (",
-                              x,
-                              ") m, t = ",
-                              t,
-                              " s, where a finite number was expected; correct "
+                              place_and_time(variables_, x, t),
+                              ", where a finite number was expected; correct "
                               "the expression.")));
     return result;
   }

@@ -94,8 +94,7 @@ namespace talus
     for (unsigned int k = 0; k < obstacles_.size(); ++k)
       result.push_back([&obstacle = obstacles_[k]](const Point<dim>     &x,
                                                    const Tensor<1, dim> &half) {
-        const Tensor<1, dim> normal = obstacle.normal(x);
-        double               gap    = obstacle.signed_distance(x);
+        auto [gap, normal] = obstacle.distance_and_normal(x);
         for (unsigned int d = 0; d < dim; ++d)
           gap -= half[d] * std::abs(normal[d]);
         return gap;

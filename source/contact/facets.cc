@@ -37,13 +37,12 @@ namespace talus
 
 
 
-    /// A surface at this distance of the centre may be in the cell.
+    /// Of the ball around a cell, a little larger.
     template <int dim>
-    bool
-    may_cut(const double distance, const Cell<dim> &cell)
+    double
+    outer_radius(const Cell<dim> &cell)
     {
-      return std::abs(distance) <=
-             0.5 * std::sqrt(double(dim)) * cell.size * (1. + 1e-6);
+      return 0.5 * std::sqrt(double(dim)) * cell.size * (1. + 1e-6);
     }
 
 
@@ -145,7 +144,7 @@ namespace talus
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       {
         const Obstacle<dim> &obstacle = obstacles[k];
-        if (!may_cut(obstacle.signed_distance(centre), cell))
+        if (!obstacle.may_cut_ball(centre, outer_radius(cell)))
           continue;
         const CutSurface<dim> surface =
           surface_in_box<dim>(box, [&](const Point<dim> &x) {

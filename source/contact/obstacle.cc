@@ -65,8 +65,10 @@ namespace talus
   // in the file.
   template <int dim>
   void
-  Obstacle<dim>::prepare(const Constants &constants)
+  Obstacle<dim>::prepare(const Constants          &constants,
+                         const SurfaceSource<dim> *surfaces)
   {
+    shape_parameters_.use_surfaces(surfaces);
     // Prisms and cylinders without ends go on beyond the mesh.
     Box<dim> everywhere;
     for (unsigned int d = 0; d < dim; ++d)

@@ -24,10 +24,11 @@ namespace talus
 
   template <int dim>
   void
-  Obstacles<dim>::prepare(const Constants &constants)
+  Obstacles<dim>::prepare(const Constants          &constants,
+                          const SurfaceSource<dim> *surfaces)
   {
     for (const auto &obstacle : obstacles_)
-      obstacle->prepare(constants);
+      obstacle->prepare(constants, surfaces);
   }
 
 

@@ -70,8 +70,7 @@ namespace talus
 
 
   /// Drops the limits that @p box lies within, and says whether it may have a
-  /// part within all: distances are Euclidean, so one evaluation tells for a
-  /// whole ball.
+  /// part within all: one place tells for the whole ball around it.
   template <int dim>
   bool
   Region<dim>::keep_those_that_cut(const Box<dim> &box, Limits &limits)
@@ -81,11 +80,10 @@ namespace talus
     Limits           cutting;
     for (const Limit &limit : limits)
       {
-        const double distance = limit.signed_distance(centre);
-        if (distance >= radius)
-          return false;
-        if (distance > -radius)
+        if (limit.shape->may_cut_ball(centre, radius))
           cutting.push_back(limit);
+        else if (limit.signed_distance(centre) > 0.)
+          return false;
       }
     limits = cutting;
     return true;

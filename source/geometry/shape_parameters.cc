@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/geometry/analytic_shapes.h>
+#include <talus/geometry/intersection.h>
 #include <talus/geometry/polygon.h>
 #include <talus/geometry/shape_parameters.h>
+#include <talus/geometry/vertical_prism.h>
 
 #include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <limits>
 
 namespace talus
 {
@@ -21,16 +26,21 @@ namespace talus
       "Must be given: 'polygon' (see Vertices, Open; in 3-D a prism over it), "
       "'box' (see Lower corner, Upper corner), 'ball' (a disc in "
       "2-D; see Centre, Radius, Inner radius), 'cylinder' (along "
-      "z; in 2-D the same as ball) or 'half-plane' (in 3-D a half "
-      "of space; see Point, Normal).",
+      "z; in 2-D the same as ball), 'half-plane' (in 3-D a half "
+      "of space; see Point, Normal), 'terrain' (all below a "
+      "surface; see Surface) or 'layer' (between two surfaces; see "
+      "Upper surface, Lower surface).",
       this->prm,
-      Patterns::Selection("|polygon|box|ball|cylinder|half-plane"));
+      Patterns::Selection(
+        "|polygon|box|ball|cylinder|half-plane|terrain|layer"));
     add_parameter("Lower corner",
                   lower_corner_,
-                  "Corner of the box with the smallest coordinates [m].");
+                  "Corner of the box with the smallest coordinates [m]. Of a "
+                  "layer, where it ends along x (and z); y does not count.");
     add_parameter("Upper corner",
                   upper_corner_,
-                  "Corner of the box with the largest coordinates [m].");
+                  "Corner of the box with the largest coordinates [m]; of a "
+                  "layer as the lower one.");
     add_parameter("Centre",
                   centre_,
                   "Centre of the ball; of the cylinder any place on its axis "
@@ -47,6 +57,7 @@ namespace talus
                   this->prm,
                   Patterns::Double(0.));
     declare_parameters_of_polygon_and_half_plane();
+    declare_parameters_of_surfaces();
   }
 
 
@@ -57,7 +68,9 @@ namespace talus
   {
     add_parameter("Vertices",
                   vertices_,
-                  "Corners of the polygon in order, as x,y; x,y; ... [m].");
+                  "Corners of the polygon in order, as x,y; x,y; ... [m]. Of "
+                  "a layer, the outline that it is limited to: in 3-D in the "
+                  "plan, as x,z; x,z; ...");
     add_parameter("Open",
                   is_open_,
                   "Whether the vertices are those of a surface whose first and "
@@ -75,6 +88,26 @@ namespace talus
       "Normal",
       normal_,
       "Vector of any length that points out of the half-plane [-].");
+  }
+
+
+
+  template <int dim>
+  void
+  ShapeParameters<dim>::declare_parameters_of_surfaces()
+  {
+    const std::string sentence = ": a name of Surfaces/Names, or an expression "
+                                 "in these names and x (, z), "
+                                 "as mudline - 5 [m].";
+    add_parameter("Surface",
+                  surface_,
+                  "Surface of the terrain, which is all below it" + sentence);
+    add_parameter("Upper surface",
+                  upper_surface_,
+                  "Where the layer ends upwards" + sentence);
+    add_parameter("Lower surface",
+                  lower_surface_,
+                  "Where the layer ends downwards" + sentence);
   }
 
 
@@ -98,7 +131,8 @@ namespace talus
     AssertThrow(!shape_.empty(),
                 ExcUser(text(path("Shape"),
                              " is not given, but 'polygon', 'box', 'ball', "
-                             "'cylinder' or 'half-plane' is expected there. "
+                             "'cylinder', 'half-plane', 'terrain' or 'layer' "
+                             "is expected there. "
                              "Add it and the entries that it needs to the "
                              "section '",
                              section_.substr(1),
@@ -110,6 +144,10 @@ namespace talus
       return make_half_space();
     if (shape_ == "box")
       return make_box();
+    if (shape_ == "terrain")
+      return make_side("Surface", surface_, SideOfSurface<dim>::Side::below);
+    if (shape_ == "layer")
+      return make_layer(domain);
     if (shape_ == "polygon")
       {
         const std::string         name = "The vertices in " + path("Vertices");
@@ -221,6 +259,117 @@ namespace talus
       return base;
     else
       return std::make_unique<Prism>(std::move(base), z[0], z[1]);
+  }
+
+
+
+  template <int dim>
+  std::unique_ptr<Shape<dim>>
+  ShapeParameters<dim>::make_side(
+    const std::string                      &entry,
+    const std::string                      &expression,
+    const typename SideOfSurface<dim>::Side side) const
+  {
+    Assert(surfaces_ != nullptr, ExcMessage("use_surfaces() was not called."));
+    AssertThrow(!expression.empty(),
+                ExcUser(text(path(entry),
+                             " is empty, but a ",
+                             shape_,
+                             " needs it. Give a name of 'Surfaces/Names', or "
+                             "an expression in x",
+                             dim == 3 ? ", z" : "",
+                             " and these names.")));
+    return std::make_unique<SideOfSurface<dim>>(surfaces_->surface(path(entry),
+                                                                   expression),
+                                                side);
+  }
+
+
+
+  namespace
+  {
+    std::unique_ptr<Shape<2>>
+    over_outline(std::unique_ptr<Shape<2>> outline,
+                 std::integral_constant<int, 2>)
+    {
+      return outline;
+    }
+
+
+
+    std::unique_ptr<Shape<3>>
+    over_outline(std::unique_ptr<Shape<2>> outline,
+                 std::integral_constant<int, 3>)
+    {
+      return std::make_unique<VerticalPrism>(std::move(outline));
+    }
+  } // namespace
+
+
+
+  /// What limits it in plan comes first: the surfaces may not be known beyond.
+  template <int dim>
+  std::unique_ptr<Shape<dim>>
+  ShapeParameters<dim>::make_layer(const Box<dim> &domain) const
+  {
+    using Side = typename SideOfSurface<dim>::Side;
+    typename Intersection<dim>::Parts parts;
+    if (!(lower_corner_ == upper_corner_))
+      {
+        Box<dim> box{lower_corner_, upper_corner_};
+        box.upper[1] = std::numeric_limits<double>::infinity();
+        box.lower[1] = -box.upper[1];
+        for (unsigned int d = 0; d < dim; d += 2)
+          AssertThrow(box.lower[d] < box.upper[d],
+                      ExcUser(text(path("Upper corner"),
+                                   " = (",
+                                   upper_corner_,
+                                   ") must lie beyond the lower corner (",
+                                   lower_corner_,
+                                   ") along each axis but y.")));
+        parts.push_back(std::make_unique<BoxRegion<dim>>(box));
+      }
+    if (!vertices_.empty())
+      parts.push_back(
+        over_outline(std::make_unique<Polygon>(
+                       "The vertices in " + path("Vertices"), vertices()),
+                     std::integral_constant<int, dim>()));
+    parts.push_back(make_side("Upper surface", upper_surface_, Side::below));
+    parts.push_back(make_side("Lower surface", lower_surface_, Side::above));
+    auto layer = std::make_unique<Intersection<dim>>(std::move(parts));
+    check_top(*layer, domain);
+    return layer;
+  }
+
+
+
+  /// Soil that the mesh does not reach up to would be left out without a word,
+  /// other than at its bottom, where layers may go down for ever. Looked for at
+  /// some places of the top face.
+  template <int dim>
+  void
+  ShapeParameters<dim>::check_top(const Shape<dim> &layer,
+                                  const Box<dim>   &domain) const
+  {
+    constexpr unsigned int n = (dim == 2 ? 1000 : 100);
+    if (std::isinf(domain.upper[1]))
+      return;
+    for (unsigned int i = 0; i < std::pow(n, dim - 1); ++i)
+      {
+        Point<dim> x = domain.lower;
+        x[0] += (i % n + 0.5) / n * domain.length(0);
+        if (dim == 3)
+          x[dim - 1] += (i / n + 0.5) / n * domain.length(dim - 1);
+        x[1] = domain.upper[1] + 1e-9 * domain.length(1);
+        AssertThrow(!layer.contains(x),
+                    ExcUser(text(path("Upper surface"),
+                                 " = ",
+                                 upper_surface_,
+                                 " lies above the top of the mesh at (",
+                                 x,
+                                 ") m. Make the mesh higher ('Grid/Upper "
+                                 "corner') or the layer smaller.")));
+      }
   }
 
 

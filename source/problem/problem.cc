@@ -16,6 +16,8 @@ namespace talus
   template <int dim>
   Problem<dim>::Problem(const ParameterPreview &preview)
     : ParameterAcceptor("/")
+    , folder_(preview.folder)
+    , surfaces_(preview.surfaces)
     , materials(preview.materials)
     , seabed_gaps(boundaries)
     , obstacles(preview.obstacles)
@@ -40,6 +42,14 @@ namespace talus
       "Names of the bodies, separated by commas; each has a section "
       "of that name.");
     leave_subsection();
+    enter_subsection("Grid");
+    add_parameter("Origin",
+                  origin_,
+                  "Where x = y = z = 0 of the mesh lies on the map: easting, "
+                  "northing and height [m]. Rasters are read relative to it, "
+                  "so that coordinates are small numbers that lose no digits; "
+                  "in 2-D only the height counts.");
+    leave_subsection();
   }
 
 
@@ -55,6 +65,9 @@ namespace talus
                         const double end_time)
   {
     constants_.values(); // throws, also where no expression needs them
+    surfaces_.prepare(constants_, folder_, origin_);
+    for (const auto &body : bodies_)
+      body->use_surfaces(surfaces_);
     const std::vector<std::string> names = names_of_bodies();
     std::vector<std::string>       materials_of_bodies;
     for (const auto &body : bodies_)
@@ -67,7 +80,7 @@ namespace talus
     trigger.add_columns(points);
     loading.prepare(materials, bodies_.size(), constants_);
     boundaries.prepare(constants_);
-    obstacles.prepare(constants_);
+    obstacles.prepare(constants_, &surfaces_);
   }
 
 

@@ -14,6 +14,7 @@ from bad_input_case import Case, DUST, GOOD
 from bad_input_folder import BadInputFolder
 from bad_input_motion import BadInputMotion
 from bad_input_stages import BadInputStages
+from bad_input_terrain import BadInputTerrain
 
 
 class BadInput(Case):
@@ -407,7 +408,7 @@ class DiskFull(Case):
 if __name__ == "__main__":
     print()
     tests = [BadInput, BadInputFolder, BadInputMotion, BadInputStages,
-             CommandLine, DiskFull]
+             BadInputTerrain, CommandLine, DiskFull]
     names = sys.argv[3:] or [test.__name__ for test in tests]
     suite = unittest.TestSuite(
         unittest.defaultTestLoader.loadTestsFromTestCase(globals()[name])

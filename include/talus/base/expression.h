@@ -29,18 +29,22 @@ namespace talus
 
 
   /// Function of place and time given by the user, one expression for each
-  /// component, separated by semicolons. Variables: x, y (, z), t; constants:
-  /// pi and those of the user; functions: those of muParser.
+  /// component, separated by semicolons. Variables: x, y (, z), t, or others of
+  /// the same number; constants: pi and those of the user; functions: those of
+  /// muParser.
   template <int dim>
   class Expression
   {
   public:
     /// @p name of the parameter, for messages. Throws ExcUser if there is not
     /// one expression for each component, or if one cannot be parsed.
+    /// @p variables are names other than x, y (, z), t, separated by commas;
+    /// nobody is told of those that begin with 'unused'.
     Expression(const std::string &name,
                const std::string &expressions,
                unsigned int       n_components,
-               const Constants   &constants);
+               const Constants   &constants,
+               const std::string &variables = dim == 2 ? "x,y,t" : "x,y,z,t");
 
     /// Value of one component at @p x and time @p t.
     double
@@ -59,6 +63,7 @@ namespace talus
   private:
     std::string                 name_;
     std::string                 expressions_;
+    std::string                 variables_;
     dealii::FunctionParser<dim> function_;
   };
 } // namespace talus

@@ -23,10 +23,11 @@ namespace talus
   public:
     explicit Obstacle(const std::string &name);
 
-    /// To be called after parsing. Throws ExcUser if parameters cannot be
-    /// understood.
+    /// To be called after parsing; @p surfaces are those that shapes may name.
+    /// Throws ExcUser if parameters cannot be understood.
     void
-    prepare(const Constants &constants);
+    prepare(const Constants          &constants,
+            const SurfaceSource<dim> *surfaces = nullptr);
 
     const std::string &
     name() const
@@ -54,6 +55,20 @@ namespace talus
     normal(const dealii::Point<dim> &x) const
     {
       return shape_->normal(x - displacement_);
+    }
+
+    /// Both at once.
+    std::pair<double, dealii::Tensor<1, dim>>
+    distance_and_normal(const dealii::Point<dim> &x) const
+    {
+      return shape_->distance_and_normal(x - displacement_);
+    }
+
+    /// Whether the surface may be nearer to @p x than @p radius, m.
+    bool
+    may_cut_ball(const dealii::Point<dim> &x, const double radius) const
+    {
+      return shape_->may_cut_ball(x - displacement_, radius);
     }
 
     Box<dim>

@@ -21,9 +21,10 @@ namespace talus
     /// obstacle has a section of its name.
     explicit Obstacles(const std::vector<std::string> &names);
 
-    /// To be called after parsing. Throws ExcUser.
+    /// To be called after parsing, see Obstacle::prepare(). Throws ExcUser.
     void
-    prepare(const Constants &constants);
+    prepare(const Constants          &constants,
+            const SurfaceSource<dim> *surfaces = nullptr);
 
     unsigned int
     size() const

@@ -39,7 +39,8 @@ namespace talus
     void
     restrict_to(const Shape<dim> &shape)
     {
-      limits_.push_back({&shape, 1.});
+      for (const Shape<dim> *part : shape.parts())
+        limits_.push_back({part, 1.});
     }
 
     void

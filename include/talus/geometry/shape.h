@@ -6,6 +6,10 @@
 
 #include <deal.II/base/tensor.h>
 
+#include <cmath>
+#include <utility>
+#include <vector>
+
 namespace talus
 {
   /// Region of space that a body fills at the start, or that an obstacle keeps
@@ -26,6 +30,13 @@ namespace talus
     virtual dealii::Tensor<1, dim>
     normal(const dealii::Point<dim> &x) const = 0;
 
+    /// Both at once, where whoever asks needs both.
+    virtual std::pair<double, dealii::Tensor<1, dim>>
+    distance_and_normal(const dealii::Point<dim> &x) const
+    {
+      return {signed_distance(x), normal(x)};
+    }
+
     /// The surface belongs to the shape; a place that is no number does not.
     virtual bool
     contains(const dealii::Point<dim> &x) const
@@ -37,6 +48,23 @@ namespace talus
     /// end.
     virtual Box<dim>
     bounding_box() const = 0;
+
+    /// Whether the surface may be nearer to @p x than @p radius, m. If not, the
+    /// whole ball is on one side. Not all shapes know the Euclidean distance far
+    /// from their surface.
+    virtual bool
+    may_cut_ball(const dealii::Point<dim> &x, const double radius) const
+    {
+      return std::abs(signed_distance(x)) < radius;
+    }
+
+    /// Shapes whose intersection this is: itself, or those that meet in sharp
+    /// edges.
+    virtual std::vector<const Shape *>
+    parts() const
+    {
+      return {this};
+    }
   };
 } // namespace talus
 

@@ -3,6 +3,8 @@
 #define talus_geometry_shape_parameters_h
 
 #include <talus/geometry/shape.h>
+#include <talus/geometry/side_of_surface.h>
+#include <talus/geometry/surface.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -21,6 +23,14 @@ namespace talus
     /// @p section, as /Bodies/NAME, may have other entries, too.
     explicit ShapeParameters(const std::string &section);
 
+    /// The surfaces that terrains and layers may name: to be set, after parsing,
+    /// before the first shape is made. They must live as long as this.
+    void
+    use_surfaces(const SurfaceSource<dim> *surfaces)
+    {
+      surfaces_ = surfaces;
+    }
+
     /// The shape, whose prisms and cylinders end where @p domain does unless
     /// their ends are given: for endless ones it is infinite. Throws ExcUser
     /// if the entries describe none.
@@ -33,6 +43,9 @@ namespace talus
     void
     declare_parameters_of_polygon_and_half_plane();
 
+    void
+    declare_parameters_of_surfaces();
+
     std::vector<dealii::Point<2>>
     vertices() const;
     std::array<double, 2>
@@ -43,20 +56,30 @@ namespace talus
     make_box() const;
     std::unique_ptr<Shape<dim>>
     make_over(std::unique_ptr<Shape<2>> base, const Box<dim> &domain) const;
+    std::unique_ptr<Shape<dim>>
+    make_side(const std::string                &entry,
+              const std::string                &expression,
+              typename SideOfSurface<dim>::Side side) const;
+    std::unique_ptr<Shape<dim>>
+    make_layer(const Box<dim> &domain) const;
+    void
+    check_top(const Shape<dim> &layer, const Box<dim> &domain) const;
     void
     check_radii() const;
 
-    std::string            section_;
-    std::string            shape_    = ""; ///< there is none by default
-    std::string            vertices_ = "";
-    bool                   is_open_  = false;
-    std::string            extent_z_ = "";
-    dealii::Point<dim>     lower_corner_, upper_corner_;
-    dealii::Point<dim>     centre_;
-    double                 radius_       = 1.;
-    double                 inner_radius_ = 0.;
-    dealii::Point<dim>     point_;
-    dealii::Tensor<1, dim> normal_ = dealii::Point<dim>::unit_vector(1);
+    std::string               section_;
+    std::string               shape_    = ""; ///< there is none by default
+    std::string               vertices_ = "";
+    bool                      is_open_  = false;
+    std::string               extent_z_ = "";
+    dealii::Point<dim>        lower_corner_, upper_corner_;
+    dealii::Point<dim>        centre_;
+    double                    radius_       = 1.;
+    double                    inner_radius_ = 0.;
+    dealii::Point<dim>        point_;
+    dealii::Tensor<1, dim>    normal_ = dealii::Point<dim>::unit_vector(1);
+    std::string               surface_, upper_surface_, lower_surface_;
+    const SurfaceSource<dim> *surfaces_ = nullptr;
   };
 } // namespace talus
 

@@ -24,6 +24,13 @@ namespace talus
   public:
     explicit Body(const std::string &name);
 
+    /// To be called before the body is asked for its shape.
+    void
+    use_surfaces(const SurfaceSource<dim> &surfaces)
+    {
+      shape_.use_surfaces(&surfaces);
+    }
+
     /// Solids in whose inside there is no soil.
     using Solids = std::vector<const Shape<dim> *>;
 

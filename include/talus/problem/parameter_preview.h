@@ -16,6 +16,7 @@ namespace talus
     unsigned int              dimension = 2;
     std::vector<std::string>  bodies;
     std::vector<std::string>  obstacles; ///< may be none
+    std::vector<std::string>  surfaces;  ///< may be none
     std::vector<MaterialName> materials;
     std::filesystem::path     folder; ///< of the parameter file
   };

@@ -10,6 +10,7 @@
 #include <talus/problem/parameter_preview.h>
 #include <talus/problem/trigger.h>
 #include <talus/state/state.h>
+#include <talus/terrain/surfaces.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -115,8 +116,11 @@ namespace talus
 
   private:
     Constants                               constants_;
+    std::filesystem::path                   folder_; ///< of the parameters
     std::string                             initial_velocity_time_ = "start";
+    dealii::Point<3>                        origin_; ///< of the mesh on the map
     std::vector<std::string>                listed_names_;
+    Surfaces<dim>                           surfaces_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     std::vector<std::string>                notes_; ///< on the initial state
 

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_geometry_expression_surface_h
+#define talus_geometry_expression_surface_h
+
+#include <talus/base/expression.h>
+#include <talus/geometry/surface.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace talus
+{
+  /// A surface by an expression in x (and z) and the heights of other surfaces:
+  /// "mudline - 5".
+  template <int dim>
+  class ExpressionSurface : public Surface<dim>
+  {
+  public:
+    using typename Surface<dim>::Value;
+    using Named = std::pair<std::string, std::shared_ptr<const Surface<dim>>>;
+
+    /// How many others there may be in one expression.
+    static constexpr unsigned int n_others = 4 - (dim - 1);
+
+    /// @p path of the parameter, for messages. @p others are those whose names
+    /// stand in the expression, n_others at most. Throws ExcUser if the
+    /// expression cannot be understood.
+    ExpressionSurface(const std::string        &path,
+                      const std::string        &expression,
+                      const Constants          &constants,
+                      const std::vector<Named> &others);
+
+    Value
+    at(const dealii::Point<dim> &x) const override;
+
+    bool
+    is_known_at(const dealii::Point<dim> &x) const override;
+
+    /// By the heights at some places around, and half as much again.
+    double
+    largest_change(const dealii::Point<dim> &x, double distance) const override;
+
+  private:
+    /// x (and z), then the heights of the others, then zeros.
+    using Arguments = std::array<double, 4>;
+
+    double
+    evaluate(const Arguments &arguments) const;
+
+    std::vector<Named>             others_;
+    std::unique_ptr<Expression<3>> expression_;
+  };
+} // namespace talus
+
+#endif

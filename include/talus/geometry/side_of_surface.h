@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_geometry_side_of_surface_h
+#define talus_geometry_side_of_surface_h
+
+#include <talus/geometry/shape.h>
+#include <talus/geometry/surface.h>
+
+#include <memory>
+
+namespace talus
+{
+  /// Everything below a surface y = b(x, z), or everything above it. The
+  /// distance is that of the tangent plane, (y - b)/sqrt(1 + |grad b|^2): right
+  /// near the surface and for planes everywhere.
+  template <int dim>
+  class SideOfSurface : public Shape<dim>
+  {
+  public:
+    enum class Side
+    {
+      below,
+      above
+    };
+
+    SideOfSurface(std::shared_ptr<const Surface<dim>> surface, Side side)
+      : surface_(std::move(surface))
+      , sign_(side == Side::below ? 1. : -1.)
+    {}
+
+    double
+    signed_distance(const dealii::Point<dim> &x) const override;
+
+    dealii::Tensor<1, dim>
+    normal(const dealii::Point<dim> &x) const override;
+
+    std::pair<double, dealii::Tensor<1, dim>>
+    distance_and_normal(const dealii::Point<dim> &x) const override;
+
+    /// Without end.
+    Box<dim>
+    bounding_box() const override;
+
+    bool
+    may_cut_ball(const dealii::Point<dim> &x, double radius) const override;
+
+  private:
+    std::shared_ptr<const Surface<dim>> surface_;
+    double                              sign_;
+  };
+} // namespace talus
+
+#endif

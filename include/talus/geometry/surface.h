@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_geometry_surface_h
+#define talus_geometry_surface_h
+
+#include <deal.II/base/point.h>
+
+#include <memory>
+#include <string>
+
+namespace talus
+{
+  /// A surface with one height y at each place of the plan (x in 2-D, x and z
+  /// in 3-D): a seabed, a boundary between layers.
+  template <int dim>
+  class Surface
+  {
+  public:
+    struct Value
+    {
+      double                 height; ///< y, m
+      dealii::Tensor<1, dim> slope;  ///< along x (and z); 0 along y [-]
+    };
+
+    virtual ~Surface() = default;
+
+    /// At the place of @p x in the plan. Throws ExcUser if the surface is not
+    /// known there.
+    virtual Value
+    at(const dealii::Point<dim> &x) const = 0;
+
+    /// Whether it is known there.
+    virtual bool
+    is_known_at(const dealii::Point<dim> &x) const = 0;
+
+    /// How much the height changes, at most, up to @p distance from @p x in
+    /// plan, m.
+    virtual double
+    largest_change(const dealii::Point<dim> &x, double distance) const = 0;
+  };
+
+
+
+  /// Who knows the surfaces that the user has given names to.
+  template <int dim>
+  class SurfaceSource
+  {
+  public:
+    virtual ~SurfaceSource() = default;
+
+    /// The surface that @p expression describes by names, x (and z), as
+    /// "mudline - 5"; @p path is the parameter, for messages. Throws ExcUser.
+    virtual std::shared_ptr<const Surface<dim>>
+    surface(const std::string &path, const std::string &expression) const = 0;
+  };
+} // namespace talus
+
+#endif

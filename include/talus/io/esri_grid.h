@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_io_esri_grid_h
+#define talus_io_esri_grid_h
+
+#include <talus/base/raster.h>
+
+#include <filesystem>
+
+namespace talus
+{
+  /// Read an Esri ASCII grid (.asc): lines of a keyword and a number, in any
+  /// order and case (`ncols`, `nrows`; `xllcorner` or `xllcenter`, the same of
+  /// y; `cellsize`, or `dx` and `dy`; `nodata_value` or `nodata`), and then one
+  /// line for each row of values, the northernmost first. Also read are: numbers
+  /// before their keywords, commas or semicolons between numbers, commas in the
+  /// place of the decimal point, `nan` as a value or as what stands for none.
+  /// Throws ExcUser, naming file and line, if a keyword is missing, unknown or
+  /// there twice, a row is too short or too long, or an entry is no number.
+  Raster
+  read_esri_grid(const std::filesystem::path &file);
+
+  /// Write one, with as many digits as bring back every bit. Throws ExcUser if
+  /// that fails.
+  void
+  write_esri_grid(const std::filesystem::path &file, const Raster &raster);
+} // namespace talus
+
+#endif

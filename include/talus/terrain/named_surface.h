@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_terrain_named_surface_h
+#define talus_terrain_named_surface_h
+
+#include <talus/geometry/expression_surface.h>
+#include <talus/geometry/surface.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// A surface that the user has given a name to: the raster of a file or an
+  /// expression.
+  template <int dim>
+  class NamedSurface : public dealii::ParameterAcceptor
+  {
+  public:
+    explicit NamedSurface(const std::string &name);
+
+    const std::string &
+    name() const
+    {
+      return name_;
+    }
+
+    /// Whether it is an expression, which may name others.
+    bool
+    is_expression() const
+    {
+      return !expression_.empty();
+    }
+
+    bool
+    has_file() const
+    {
+      return !file_.empty();
+    }
+
+    const std::string &
+    expression() const
+    {
+      return expression_;
+    }
+
+    std::string
+    path(const std::string &entry) const
+    {
+      return "'Surfaces/" + name_ + "/" + entry + "'";
+    }
+
+    /// Read the raster, from @p folder. @p origin of the mesh on the map:
+    /// easting, northing, height, m. Throws ExcUser.
+    std::shared_ptr<const Surface<dim>>
+    read(const std::filesystem::path &folder,
+         const dealii::Point<3>      &origin) const;
+
+  private:
+    std::vector<dealii::Point<2>>
+    section() const;
+
+    std::string name_;
+    std::string file_       = "";
+    std::string units_      = "guess";
+    std::string section_    = "";
+    std::string expression_ = "";
+  };
+} // namespace talus
+
+#endif

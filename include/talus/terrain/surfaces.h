@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_terrain_surfaces_h
+#define talus_terrain_surfaces_h
+
+#include <talus/terrain/named_surface.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// The surfaces of a case, section Surfaces, which may have none: seabeds,
+  /// slip surfaces, boundaries between layers, for whatever is described by
+  /// them.
+  template <int dim>
+  class Surfaces : public dealii::ParameterAcceptor, public SurfaceSource<dim>
+  {
+  public:
+    /// @p names must be known before the parameters are declared.
+    explicit Surfaces(const std::vector<std::string> &names);
+
+    /// To be called after parsing: reads the files, from @p folder. Throws
+    /// ExcUser.
+    void
+    prepare(const Constants             &constants,
+            const std::filesystem::path &folder,
+            const dealii::Point<3>      &origin);
+
+    std::shared_ptr<const Surface<dim>>
+    surface(const std::string &path,
+            const std::string &expression) const override;
+
+  private:
+    std::vector<std::string>                            listed_names_;
+    std::vector<std::unique_ptr<NamedSurface<dim>>>     named_;
+    const Constants                                    *constants_ = nullptr;
+    std::vector<typename ExpressionSurface<dim>::Named> surfaces_;
+  };
+} // namespace talus
+
+#endif

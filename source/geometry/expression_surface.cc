@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/geometry/expression_surface.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// deal.II's functions have three variables and the time: four names.
+    template <int dim>
+    std::string
+    variables(const std::vector<typename ExpressionSurface<dim>::Named> &others)
+    {
+      std::string  names = dim == 2 ? "x" : "x,z";
+      unsigned int n     = dim - 1;
+      for (const auto &other : others)
+        {
+          names += "," + other.first;
+          ++n;
+        }
+      for (; n < 4; ++n)
+        names += text(",unused_", n);
+      return names;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  ExpressionSurface<dim>::ExpressionSurface(const std::string &path,
+                                            const std::string &expression,
+                                            const Constants   &constants,
+                                            const std::vector<Named> &others)
+    : others_(others)
+  {
+    AssertThrow(others.size() <= n_others,
+                ExcUser(text(path,
+                             " = '",
+                             expression,
+                             "' names ",
+                             others.size(),
+                             " surfaces, but at most ",
+                             n_others,
+                             " may stand in one expression. Give a part of it "
+                             "a name of its own in the section Surfaces.")));
+    expression_ = std::make_unique<Expression<3>>(
+      path, expression, 1, constants, variables<dim>(others));
+  }
+
+
+
+  template <int dim>
+  double
+  ExpressionSurface<dim>::evaluate(const Arguments &arguments) const
+  {
+    return expression_->finite_value(
+      Point<3>(arguments[0], arguments[1], arguments[2]), arguments[3], 0);
+  }
+
+
+
+  /// Only the expression itself is differentiated by differences: the others
+  /// know their slopes, also at the edge of a raster.
+  template <int dim>
+  typename ExpressionSurface<dim>::Value
+  ExpressionSurface<dim>::at(const Point<dim> &x) const
+  {
+    Arguments                                            arguments{};
+    std::vector<std::pair<unsigned int, Tensor<1, dim>>> slopes;
+    unsigned int                                         n = 0;
+    for (unsigned int d = 0; d < dim; d += 2)
+      {
+        arguments[n] = x[d];
+        Tensor<1, dim> unit;
+        unit[d] = 1.;
+        slopes.emplace_back(n++, unit);
+      }
+    for (const Named &other : others_)
+      {
+        const Value value = other.second->at(x);
+        arguments[n]      = value.height;
+        slopes.emplace_back(n++, value.slope);
+      }
+    // Exact for cubics; small features of flumes are millimetres.
+    constexpr double step = 1e-4;
+    Value            result{evaluate(arguments), {}};
+    for (const auto &[i, slope] : slopes)
+      {
+        const auto difference = [&, i = i](const double by) {
+          Arguments after = arguments, before = arguments;
+          after[i] += by;
+          before[i] -= by;
+          return (evaluate(after) - evaluate(before)) / (2. * by);
+        };
+        result.slope +=
+          (4. * difference(step) - difference(2. * step)) / 3. * slope;
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  bool
+  ExpressionSurface<dim>::is_known_at(const Point<dim> &x) const
+  {
+    return std::all_of(others_.begin(),
+                       others_.end(),
+                       [&x](const Named &other) {
+                         return other.second->is_known_at(x);
+                       });
+  }
+
+
+
+  template <int dim>
+  double
+  ExpressionSurface<dim>::largest_change(const Point<dim> &x,
+                                         const double      distance) const
+  {
+    const Value here   = at(x);
+    double      change = distance * here.slope.norm();
+    for (unsigned int d = 0; d < dim; d += 2)
+      for (const double share : {-1., -0.5, 0.5, 1.})
+        {
+          Point<dim> beside = x;
+          beside[d] += share * distance;
+          if (is_known_at(beside))
+            change =
+              std::max(change, std::abs(at(beside).height - here.height));
+        }
+    return 1.5 * change;
+  }
+
+
+
+  template class ExpressionSurface<2>;
+  template class ExpressionSurface<3>;
+} // namespace talus

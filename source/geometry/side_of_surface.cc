@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/geometry/side_of_surface.h>
+
+#include <cmath>
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  std::pair<double, Tensor<1, dim>>
+  SideOfSurface<dim>::distance_and_normal(const Point<dim> &x) const
+  {
+    const auto     b = surface_->at(x);
+    Tensor<1, dim> n = -b.slope;
+    n[1]             = 1.;
+    n *= sign_ / n.norm();
+    return {n[1] * (x[1] - b.height), n};
+  }
+
+
+
+  template <int dim>
+  double
+  SideOfSurface<dim>::signed_distance(const Point<dim> &x) const
+  {
+    return distance_and_normal(x).first;
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  SideOfSurface<dim>::normal(const Point<dim> &x) const
+  {
+    return distance_and_normal(x).second;
+  }
+
+
+
+  template <int dim>
+  Box<dim>
+  SideOfSurface<dim>::bounding_box() const
+  {
+    Box<dim> box;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        box.upper[d] = std::numeric_limits<double>::infinity();
+        box.lower[d] = -box.upper[d];
+      }
+    return box;
+  }
+
+
+
+  /// The tangent plane says nothing of a steep slope beside x.
+  template <int dim>
+  bool
+  SideOfSurface<dim>::may_cut_ball(const Point<dim> &x,
+                                   const double      radius) const
+  {
+    return std::abs(x[1] - surface_->at(x).height) <
+           radius + surface_->largest_change(x, radius);
+  }
+
+
+
+  template class SideOfSurface<2>;
+  template class SideOfSurface<3>;
+} // namespace talus

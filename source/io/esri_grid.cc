@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/io/esri_grid.h>
+#include <talus/io/files.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Where in the file an error is, for messages.
+    struct Line
+    {
+      const std::filesystem::path &file;
+      unsigned int                 number;
+      std::string                  content;
+
+      std::string
+      place() const
+      {
+        return text("The raster '", file.string(), "', line ", number, ": ");
+      }
+    };
+
+
+
+    std::string
+    lower_case(std::string_view word)
+    {
+      std::string result(word);
+      std::transform(result.begin(),
+                     result.end(),
+                     result.begin(),
+                     [](const unsigned char c) { return std::tolower(c); });
+      return result;
+    }
+
+
+
+    /// The parts of a line between blanks and the other @p separators.
+    std::vector<std::string_view>
+    split(const std::string_view line, const std::string &separators)
+    {
+      const std::string             blanks = " \t\r;" + separators;
+      std::vector<std::string_view> parts;
+      for (std::size_t end = 0;;)
+        {
+          const std::size_t begin = line.find_first_not_of(blanks, end);
+          if (begin == std::string_view::npos)
+            return parts;
+          end = std::min(line.find_first_of(blanks, begin), line.size());
+          parts.push_back(line.substr(begin, end - begin));
+        }
+    }
+
+
+
+    /// Without regard to the language of the user, in which 0.5 may be 0. What
+    /// is no number at all has no value; nan is one.
+    std::optional<double>
+    number(std::string_view word)
+    {
+      std::string with_point(word);
+      std::replace(with_point.begin(), with_point.end(), ',', '.');
+      word = with_point;
+      if (!word.empty() && word[0] == '+')
+        word.remove_prefix(1);
+      double     result = 0.;
+      const auto end    = word.data() + word.size();
+      const auto parsed = std::from_chars(word.data(), end, result);
+      if (parsed.ec != std::errc() || parsed.ptr != end || std::isinf(result))
+        return {};
+      return result;
+    }
+
+
+
+    /// What the lines before the values say, by keyword.
+    using Header = std::map<std::string, double>;
+
+    /// One name for each of what differs between dialects; empty if unknown.
+    std::string
+    keyword(const std::string_view word)
+    {
+      static const std::map<std::string, std::string> names = {
+        {"ncols", "ncols"},
+        {"nrows", "nrows"},
+        {"xllcorner", "xllcorner"},
+        {"yllcorner", "yllcorner"},
+        {"xllcenter", "xllcenter"},
+        {"yllcenter", "yllcenter"},
+        {"xllcentre", "xllcenter"},
+        {"yllcentre", "yllcenter"},
+        {"cellsize", "cellsize"},
+        {"dx", "dx"},
+        {"dy", "dy"},
+        {"nodata_value", "nodata"},
+        {"nodata", "nodata"}};
+      const auto found = names.find(lower_case(word));
+      return found == names.end() ? "" : found->second;
+    }
+
+
+
+    /// Whether the line belongs to the header, which it then extends. The
+    /// values begin with the first line of numbers alone.
+    bool
+    read_header_line(const Line &line, Header &header)
+    {
+      auto words = split(line.content, ",");
+      if (!words.empty() && std::all_of(words.begin(), words.end(), [](auto w) {
+            return number(w).has_value();
+          }))
+        return false;
+      words = split(line.content, "=:");
+      // A comma between the two is a separator, in the number a decimal point.
+      for (auto &word : words)
+        while (!word.empty() && word.back() == ',')
+          word.remove_suffix(1);
+      if (words.size() == 1)
+        words = split(line.content, ",");
+      // Some dialects have the number first.
+      if (words.size() == 2 && keyword(words[0]).empty())
+        std::swap(words[0], words[1]);
+      const std::string name = words.empty() ? "" : keyword(words[0]);
+      const auto        value =
+        words.size() == 2 ? number(words[1]) : std::optional<double>();
+      AssertThrow(!name.empty() && value.has_value(),
+                  ExcUser(text(line.place(),
+                               "'",
+                               line.content,
+                               "' was found, where a keyword and a number were "
+                               "expected (ncols, nrows, xllcorner, yllcorner, "
+                               "xllcenter, yllcenter, cellsize, dx, dy, "
+                               "nodata_value) or a row of numbers. Correct "
+                               "it.")));
+      AssertThrow(header.emplace(name, *value).second,
+                  ExcUser(text(line.place(),
+                               "the keyword '",
+                               name,
+                               "' is there twice. Remove one of the two.")));
+      return true;
+    }
+
+
+
+    /// The first of the keywords that is there.
+    double
+    required(const std::filesystem::path    &file,
+             const Header                   &header,
+             const std::vector<std::string> &names)
+    {
+      for (const std::string &name : names)
+        if (const auto found = header.find(name); found != header.end())
+          return found->second;
+      AssertThrow(false,
+                  ExcUser(text("The raster '",
+                               file.string(),
+                               "' has no line with '",
+                               names[0],
+                               "', which an Esri ASCII grid needs. Add it, or "
+                               "give a file of that format, as gdal_translate "
+                               "-of AAIGrid makes it from others.")));
+      return 0.;
+    }
+
+
+
+    unsigned int
+    count(const std::filesystem::path &file,
+          const Header                &header,
+          const std::string           &name)
+    {
+      const double n = required(file, header, {name});
+      AssertThrow(n >= 1. && n == std::floor(n) && n < 1e6,
+                  ExcUser(text("The raster '",
+                               file.string(),
+                               "' has ",
+                               name,
+                               " = ",
+                               n,
+                               ", where a whole number from 1 to a million was "
+                               "expected. Correct it.")));
+      return static_cast<unsigned int>(n);
+    }
+
+
+
+    /// The edge of the raster: where the centre of its first cell is given, that
+    /// less half a cell.
+    double
+    edge(const std::filesystem::path &file,
+         const Header                &header,
+         const std::string           &axis,
+         const double                 cell)
+    {
+      const auto centre = header.find(axis + "llcenter");
+      if (centre != header.end())
+        return centre->second - 0.5 * cell;
+      return required(file, header, {axis + "llcorner"});
+    }
+
+
+
+    double
+    cell_size(const std::filesystem::path &file,
+              const Header                &header,
+              const std::string           &name)
+    {
+      const double size = required(file, header, {name, "cellsize"});
+      AssertThrow(size > 0.,
+                  ExcUser(text("The raster '",
+                               file.string(),
+                               "' has cells of ",
+                               size,
+                               ", where a positive size was expected. Correct "
+                               "it.")));
+      return size;
+    }
+
+
+
+    /// All but the values.
+    Raster
+    georeference(const std::filesystem::path &file, const Header &header)
+    {
+      Raster raster;
+      raster.n_columns = count(file, header, "ncols");
+      raster.n_rows    = count(file, header, "nrows");
+      raster.dx        = cell_size(file, header, "dx");
+      raster.dy        = cell_size(file, header, "dy");
+      raster.west      = edge(file, header, "x", raster.dx);
+      raster.south     = edge(file, header, "y", raster.dy);
+      if (const auto found = header.find("nodata"); found != header.end())
+        raster.nodata = found->second;
+      return raster;
+    }
+
+
+
+    /// Append the values of a row. Commas are decimal points if the line has as
+    /// many entries between blanks as there are columns, else separators.
+    void
+    read_row(const Line &line, Raster &raster)
+    {
+      auto words = split(line.content, "");
+      if (words.size() != raster.n_columns ||
+          std::any_of(words.begin(), words.end(), [](const auto word) {
+            return word.back() == ',';
+          }))
+        words = split(line.content, ",");
+      const std::size_t row = raster.values.size() / raster.n_columns;
+      AssertThrow(words.size() == raster.n_columns,
+                  ExcUser(text(line.place(),
+                               "row ",
+                               row + 1,
+                               " has ",
+                               words.size(),
+                               " values, but ncols is ",
+                               raster.n_columns,
+                               ". Give one line for each row, with one value "
+                               "for each column.")));
+      AssertThrow(row < raster.n_rows,
+                  ExcUser(text(line.place(),
+                               "there is one more row of values, but nrows is ",
+                               raster.n_rows,
+                               ". Correct nrows or remove the row.")));
+      for (unsigned int c = 0; c < words.size(); ++c)
+        {
+          const auto value = number(words[c]);
+          AssertThrow(value.has_value(),
+                      ExcUser(text(line.place(),
+                                   "'",
+                                   words[c],
+                                   "' was found in column ",
+                                   c + 1,
+                                   ", where a number was expected. Correct "
+                                   "it.")));
+          raster.values.push_back(*value == raster.nodata
+                                    ? std::numeric_limits<double>::quiet_NaN()
+                                    : *value);
+        }
+    }
+  } // namespace
+
+
+
+  // Line by line, and not number by number, so that a row that lacks a value
+  // does not shift all that follow: the sum may be right by accident.
+  Raster
+  read_esri_grid(const std::filesystem::path &file)
+  {
+    std::ifstream in(file, std::ios::binary);
+    Line          line{file, 0, ""};
+    Header        header;
+    Raster        raster;
+    while (std::getline(in, line.content))
+      {
+        ++line.number;
+        if (line.number == 1 && line.content.rfind("\xef\xbb\xbf", 0) == 0)
+          line.content.erase(0, 3); // the mark that some put before UTF-8
+        if (line.content.find_first_not_of(" \t\r") == std::string::npos)
+          continue;
+        if (raster.n_columns == 0)
+          {
+            if (read_header_line(line, header))
+              continue;
+            raster = georeference(file, header);
+          }
+        read_row(line, raster);
+      }
+    const std::size_t n_rows =
+      raster.n_columns == 0 ? 0 : raster.values.size() / raster.n_columns;
+    AssertThrow(n_rows > 0 && n_rows == raster.n_rows,
+                ExcUser(text("The raster '",
+                             file.string(),
+                             "' has ",
+                             n_rows,
+                             " rows of values, where ",
+                             raster.n_columns == 0
+                               ? "an Esri ASCII grid"
+                               : text(raster.n_rows, " (nrows)"),
+                             " was expected. The file may be cut off: fetch "
+                             "or make it anew.")));
+    return raster;
+  }
+
+
+
+  namespace
+  {
+    /// The shortest text that is read as the same number.
+    std::string
+    shortest(const double value)
+    {
+      char       digits[32];
+      const auto written =
+        std::to_chars(digits, digits + sizeof(digits), value);
+      return std::string(digits, written.ptr);
+    }
+  } // namespace
+
+
+
+  void
+  write_esri_grid(const std::filesystem::path &file, const Raster &raster)
+  {
+    write_file(file, [&](std::ostream &out) {
+      out << "ncols " << raster.n_columns << "\nnrows " << raster.n_rows
+          << "\nxllcorner " << shortest(raster.west) << "\nyllcorner "
+          << shortest(raster.south) << '\n';
+      // Not all readers know the dialect with two sizes.
+      if (raster.dx == raster.dy)
+        out << "cellsize " << shortest(raster.dx) << '\n';
+      else
+        out << "dx " << shortest(raster.dx) << "\ndy " << shortest(raster.dy)
+            << '\n';
+      const std::string nodata = shortest(raster.nodata);
+      out << "nodata_value " << nodata << '\n';
+      for (unsigned int r = 0; r < raster.n_rows; ++r)
+        for (unsigned int c = 0; c < raster.n_columns; ++c)
+          {
+            const double value = raster.value(c, r);
+            out << (std::isnan(value) ? nodata : shortest(value))
+                << (c + 1 < raster.n_columns ? ' ' : '\n');
+          }
+    });
+  }
+} // namespace talus

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/terrain/surfaces.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Surfaces<dim>::Surfaces(const std::vector<std::string> &names)
+    : ParameterAcceptor("/Surfaces")
+  {
+    add_parameter("Names",
+                  listed_names_,
+                  "Names of the surfaces (mudline, slip surface, boundary of "
+                  "a layer) that terrains, layers and other surfaces are "
+                  "described by, separated by commas; each has a section of "
+                  "that name. Empty: none.");
+    for (const std::string &name : names)
+      named_.push_back(std::make_unique<NamedSurface<dim>>(name));
+  }
+
+
+
+  namespace
+  {
+    bool
+    is_part_of_name(const unsigned char c)
+    {
+      return std::isalnum(c) || c == '_';
+    }
+
+
+
+    /// The words of an expression: names of surfaces among them.
+    std::set<std::string>
+    words_of(const std::string &expression)
+    {
+      std::set<std::string> words;
+      std::string           word;
+      for (const char c : expression + ' ')
+        if (is_part_of_name(c))
+          word += c;
+        else
+          {
+            words.insert(word);
+            word.clear();
+          }
+      return words;
+    }
+
+
+
+    /// In expressions a name must be one word, and not one that means something
+    /// else.
+    void
+    check_name(const std::string &name)
+    {
+      static const std::set<std::string> taken = {"x", "y", "z", "t", "pi"};
+      AssertThrow(!name.empty() && !std::isdigit(name[0]) &&
+                    std::all_of(name.begin(), name.end(), is_part_of_name) &&
+                    taken.count(name) == 0,
+                  ExcUser(text("'Surfaces/Names' lists '",
+                               name,
+                               "', where a word of letters, digits and '_' "
+                               "was expected that expressions can name, other "
+                               "than x, y, z, t, pi. Choose another one.")));
+    }
+  } // namespace
+
+
+
+  // In the order in which they are listed, so that nothing goes in circles.
+  template <int dim>
+  void
+  Surfaces<dim>::prepare(const Constants             &constants,
+                         const std::filesystem::path &folder,
+                         const Point<3>              &origin)
+  {
+    constants_ = &constants;
+    surfaces_.clear();
+    for (const auto &named : named_)
+      {
+        check_name(named->name());
+        // Reading also says what is wrong with the entries.
+        surfaces_.emplace_back(named->name(),
+                               named->is_expression() && !named->has_file()
+                                 ? surface(named->path("Expression"),
+                                           named->expression())
+                                 : named->read(folder, origin));
+      }
+  }
+
+
+
+  template <int dim>
+  std::shared_ptr<const Surface<dim>>
+  Surfaces<dim>::surface(const std::string &path,
+                         const std::string &expression) const
+  {
+    std::vector<typename ExpressionSurface<dim>::Named> others;
+    const auto words = words_of(expression);
+    for (const auto &known : surfaces_)
+      {
+        if (expression == known.first)
+          return known.second;
+        if (words.count(known.first) > 0)
+          others.push_back(known);
+      }
+    return std::make_shared<ExpressionSurface<dim>>(path,
+                                                    expression,
+                                                    *constants_,
+                                                    others);
+  }
+
+
+
+  template class Surfaces<2>;
+  template class Surfaces<3>;
+} // namespace talus

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What talus says to rasters and surfaces that are none; run by bad_input.py."""
+
+from bad_input_case import Case
+
+
+class BadInputTerrain(Case):
+    HEAD = "ncols 3\nnrows 3\nxllcorner -5\nyllcorner -5\ncellsize 5\n"
+    ROWS = "1 1 1\n1 1 1\n1 1 1\n"
+    BED = ["Surfaces/Names=bed", "Obstacles/Names=bottom",
+           "Obstacles/bottom/Shape=terrain", "Obstacles/bottom/Surface=bed",
+           "Bodies/block/Lower corner=1,1"]
+    FILE = BED + ["Surfaces/bed/File=bed.asc", "Surfaces/bed/Section=0,0; 5,0"]
+
+    def refuse_raster(self, content, *words):
+        (self.folder / "bed.asc").write_bytes(content.encode("latin-1"))
+        self.refuse_set(self.FILE, "bed.asc", *words)
+
+    def test_good_raster_runs(self):
+        (self.folder / "bed.asc").write_text(self.HEAD + self.ROWS)
+        result = self.run_file(settings=self.FILE)
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_rasters(self):
+        for content, *words in (
+                ("", "cannot be read or is empty"),
+                ("CDF\x01...", "netCDF-3", "nccopy"),
+                ("II*\0...", "TIFF", "gdal_translate"),
+                (self.HEAD + "1 1 1\n1 1\n1 1 1\n", "line 7", "row 2 has 2"),
+                (self.HEAD + "1 1 1\n1 a 1\n1 1 1\n", "line 7", "'a'",
+                 "column 2"),
+                (self.HEAD + "1 1 1\n", "1 rows of values, where 3"),
+                ("ncols 1\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 5\n1\n",
+                 "needs two of both"),
+                # Where the mesh is there is no value, or no map.
+                (self.HEAD + "1 1 1\n1 -9999 1\n1 1 1\n", "has no value at",
+                 "easting", "mesh smaller"),
+                (self.HEAD.replace("-5", "6e5") + self.ROWS, "has no value at",
+                 "from 600000 m to 600015 m"),
+                ("ncols 3\nnrows 3\nxllcorner 4\nyllcorner 63\ncellsize "
+                 "0.004\n" + self.ROWS, "degrees", "EPSG:32631 -tr 400 400",
+                 "`Units` = m")):
+            with self.subTest(content):
+                self.refuse_raster(content, *words)
+
+    def test_surfaces(self):
+        layer = ["Bodies/block/Shape=layer", "Bodies/block/Lower surface=0"]
+        for settings, *words in (
+                (["Surfaces/Names=x"], "'Surfaces/Names' lists 'x'", "word"),
+                (["Surfaces/Names=bed"], "neither `File` nor `Expression`"),
+                (self.FILE + ["Surfaces/bed/Expression=1"],
+                 "both `File` and `Expression`"),
+                (self.BED + ["Surfaces/bed/File=bed.asc"],
+                 "'Surfaces/bed/Section'", "two corners"),
+                (self.FILE + ["Surfaces/bed/Section=0,0; 1"],
+                 "'Surfaces/bed/Section' contains '1'"),
+                (self.FILE + ["Surfaces/bed/Section=1,0; 1,0"],
+                 "twice in a row"),
+                (self.BED + ["Surfaces/bed/Expression=2*q"],
+                 "'Surfaces/bed/Expression' = '2*q' cannot be understood"),
+                (layer, "'Bodies/block/Upper surface' is empty",
+                 "'Surfaces/Names'"),
+                (layer + ["Bodies/block/Upper surface=mudline"],
+                 "'Bodies/block/Upper surface' = 'mudline'", "understood"),
+                (layer + ["Bodies/block/Upper surface=3 + x"],
+                 "above the top of the mesh", "'Grid/Upper corner'"),
+                (layer + ["Bodies/block/Upper surface=2", "Constants=x1=2",
+                          "Bodies/block/Upper corner=1,5"],
+                 "'Bodies/block/Upper corner'", "beyond the lower corner")):
+            with self.subTest(settings):
+                self.refuse_set(settings, *words)
