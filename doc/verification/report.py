@@ -56,7 +56,6 @@ SECTIONS = [
 SUMMARY = [
     ("Bar", "error of v_cm / v0, split, left stretch"),
     ("Block", "acceleration"),
-    ("ViscoplasticLayer", "velocity of the surface"),
     ("Pipe", "N of a rough pipe"),
     ("StripFootingFine", "q F/s_u at failure"),
     ("TaylorSlope", "factor of safety, cells of H/10"),
