@@ -54,7 +54,7 @@ namespace talus
     {
       file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
       if (file < 0)
-        return failed_write(path, std::strerror(errno));
+        return talus::failed_write(path, std::strerror(errno));
       if (::flock(file, LOCK_EX | LOCK_NB) != 0)
         return errno == EWOULDBLOCK
                  ? text("The output folder '",

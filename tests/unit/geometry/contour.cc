@@ -25,7 +25,7 @@ namespace
 
   template <int dim>
   Tensor<1, dim>
-  vector_area(const SurfaceElement<dim> &element)
+  area_vector(const SurfaceElement<dim> &element)
   {
     return talus::vector_area<dim>(Facet<dim>(element.begin(), element.end()));
   }
@@ -38,7 +38,7 @@ namespace
   {
     double result = 0;
     for (const SurfaceElement<dim> &element : elements)
-      result += vector_area<dim>(element).norm();
+      result += area_vector<dim>(element).norm();
     return result;
   }
 
@@ -54,7 +54,7 @@ namespace
       {
         for (const Point<dim> &corner : element)
           EXPECT_LT(std::abs(shape.signed_distance(corner)), 0.02 * size);
-        EXPECT_GT(vector_area<dim>(element) * shape.normal(element[0]), 0.);
+        EXPECT_GT(area_vector<dim>(element) * shape.normal(element[0]), 0.);
       }
   }
 } // namespace

@@ -213,7 +213,7 @@ namespace
 
 
   /// Coordinates and values of the plane, along x and y as given.
-  struct Lattice
+  struct MapFrame
   {
     std::vector<double> x, y;
 
@@ -329,7 +329,7 @@ TEST_F(RasterTest, WritesAndReadsEveryBit)
 
 TEST_F(RasterTest, NetcdfAsGmtWritesIt)
 {
-  const Lattice lattice{{10., 12., 14., 16.}, {100., 105., 110.}};
+  const MapFrame lattice{{10., 12., 14., 16.}, {100., 105., 110.}};
   {
     NetcdfWriter file(path);
     file.add("x", H5T_IEEE_F64LE, {4}, lattice.x);
@@ -356,9 +356,9 @@ TEST_F(RasterTest, NetcdfRowsBothWaysAndPacked)
 {
   for (const bool ascends : {true, false})
     {
-      const Lattice lattice{{0., 4., 8.},
-                            ascends ? std::vector<double>{1000., 1002.}
-                                    : std::vector<double>{1002., 1000.}};
+      const MapFrame lattice{{0., 4., 8.},
+                             ascends ? std::vector<double>{1000., 1002.}
+                                     : std::vector<double>{1002., 1000.}};
       {
         NetcdfWriter file(path);
         file.add("lon", H5T_IEEE_F64LE, {3}, lattice.x);
@@ -383,9 +383,9 @@ TEST_F(RasterTest, NetcdfRowsBothWaysAndPacked)
 TEST_F(RasterTest, DegreesAreRefusedWithTheCommandThatProjects)
 {
   // GEBCO: 15 arc seconds, off Norway.
-  const double  h = 15. / 3600.;
-  const Lattice lattice{{4. + 0.5 * h, 4. + 1.5 * h},
-                        {63. + 0.5 * h, 63. + 1.5 * h}};
+  const double   h = 15. / 3600.;
+  const MapFrame lattice{{4. + 0.5 * h, 4. + 1.5 * h},
+                         {63. + 0.5 * h, 63. + 1.5 * h}};
   for (const bool says_so : {true, false})
     {
       {
