@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/esri_grid.h>
-#include <talus/io/files.h>
 #include <talus/io/netcdf_raster.h>
 #include <talus/io/raster_file.h>
 
@@ -28,7 +27,6 @@ namespace talus
                           "' cannot be read or is empty. Give the path of an "
                           "existing file, from the folder of the parameter "
                           "file."));
-      protect_input(file);
       return bytes;
     }
 

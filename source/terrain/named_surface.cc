@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/geometry/terrain.h>
+#include <talus/io/files.h>
 #include <talus/io/raster_file.h>
 #include <talus/terrain/named_surface.h>
 
@@ -94,7 +95,8 @@ namespace talus
                        file_.empty() ? "neither `File` nor" : "both `File` and",
                        " `Expression`. Give one of the two.")));
     const auto corners = section();
-    Raster     raster =
+    protect_input(folder / file_);
+    Raster raster =
       read_raster(folder / file_,
                   units_ == "m" ? RasterUnits::metres : RasterUnits::guess);
     AssertThrow(raster.n_columns >= 2 && raster.n_rows >= 2,

@@ -37,7 +37,9 @@ namespace talus
     bool
     is_open(const dealii::Point<dim> &x) const
     {
-      return is_bottom_face() || obstacles_->signed_distance(x) > 0;
+      // A place on the surface is inside, whatever its last digits.
+      const double round_off = 1e-12 * domain_.lower.distance(domain_.upper);
+      return is_bottom_face() || obstacles_->signed_distance(x) > round_off;
     }
 
     /// y of the ground below @p x, m; of its surface above @p x if that lies

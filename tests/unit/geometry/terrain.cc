@@ -287,11 +287,6 @@ namespace
   class Layers : public testing::Test
   {
   protected:
-    Layers()
-    {
-      dealii::ParameterAcceptor::clear();
-    }
-
     template <int dim>
     std::shared_ptr<const Surface<dim>>
     expression(
@@ -304,6 +299,16 @@ namespace
                                                       others);
     }
 
+    // What is left of other tests goes before there is something new to lose.
+    struct Cleared
+    {
+      Cleared()
+      {
+        dealii::ParameterAcceptor::clear();
+      }
+    };
+
+    const Cleared   cleared;
     const Constants constants;
   };
 } // namespace
