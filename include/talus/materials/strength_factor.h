@@ -3,7 +3,10 @@
 #define talus_materials_strength_factor_h
 
 #include <talus/base/simd.h>
+#include <talus/materials/moduli.h>
 #include <talus/points/points.h>
+
+#include <type_traits>
 
 namespace talus
 {
@@ -16,6 +19,80 @@ namespace talus
   operator*(const Number &x, NoStrengthFactor)
   {
     return x;
+  }
+
+
+
+  /// What takes the place of the strength factor where soil has another strength
+  /// at each point: there flow rules and moduli are those of material with a
+  /// strength of 1 Pa.
+  template <typename Number>
+  struct PointStrength
+  {
+    Number factor;    ///< strength factor [-]
+    Number strength;  ///< of the point over that of the flow rule [-]
+    Number stiffness; ///< the same of the moduli [-]
+  };
+
+  template <typename T>
+  struct IsPointStrength : std::false_type
+  {};
+
+  template <typename Number>
+  struct IsPointStrength<PointStrength<Number>> : std::true_type
+  {};
+
+
+
+  /// What the flow rule's strength is multiplied with, given what
+  /// with_strength_factor() gives.
+  template <typename Factor>
+  TALUS_ALWAYS_INLINE auto
+  share_of_strength(const Factor &factor)
+  {
+    if constexpr (IsPointStrength<Factor>::value)
+      return factor.factor * factor.strength;
+    else
+      return factor;
+  }
+
+
+
+  /// What the user gave in Pa, but is a part of the strength, is multiplied
+  /// with.
+  template <typename Factor>
+  TALUS_ALWAYS_INLINE auto
+  share_of_given_strength(const Factor &factor)
+  {
+    if constexpr (IsPointStrength<Factor>::value)
+      return factor.factor;
+    else
+      return factor;
+  }
+
+
+
+  /// The modulus of a point.
+  template <typename Factor>
+  TALUS_ALWAYS_INLINE auto
+  modulus_of_point(const double modulus, [[maybe_unused]] const Factor &factor)
+  {
+    if constexpr (IsPointStrength<Factor>::value)
+      return modulus * factor.stiffness;
+    else
+      return modulus;
+  }
+
+
+
+  template <typename Factor>
+  TALUS_ALWAYS_INLINE auto
+  moduli_of_point(const Moduli &moduli, const Factor &factor)
+  {
+    using Number = decltype(modulus_of_point(moduli.mu, factor));
+    return ModuliOf<Number>{modulus_of_point(moduli.lambda, factor),
+                            modulus_of_point(moduli.mu, factor),
+                            modulus_of_point(moduli.bulk, factor)};
   }
 
 
@@ -44,6 +121,44 @@ namespace talus
       action(
         [factor = points.data(column)](const unsigned int p, auto number)
           TALUS_INLINE_LAMBDA { return load<decltype(number)>(factor + p); });
+  }
+
+
+
+  /// Columns that say what is different from point to point, and how.
+  struct StrengthColumns
+  {
+    unsigned int factor; ///< strength factor, or invalid_unsigned_int
+    /// Undrained shear strength, Pa, or invalid_unsigned_int; if not, there is
+    /// a strength factor, too.
+    unsigned int strength;
+    bool         stiffness_follows; ///< moduli are in proportion to it
+  };
+
+
+
+  /// The same with a PointStrength where the soil has another strength at each
+  /// point.
+  template <int dim, typename Action>
+  inline void
+  with_point_strength(const Points<dim>     &points,
+                      const StrengthColumns &columns,
+                      const Action          &action)
+  {
+    if (columns.strength == dealii::numbers::invalid_unsigned_int)
+      with_strength_factor(points, columns.factor, action);
+    else
+      action(
+        [factor   = points.data(columns.factor),
+         strength = points.data(columns.strength),
+         follows = columns.stiffness_follows](const unsigned int p, auto number)
+          TALUS_INLINE_LAMBDA {
+            using Number   = decltype(number);
+            const Number s = load<Number>(strength + p);
+            return PointStrength<Number>{load<Number>(factor + p),
+                                         s,
+                                         follows ? s : Number(1.)};
+          });
   }
 } // namespace talus
 
