@@ -3,7 +3,7 @@
 #define talus_materials_rate_law_kernel_h
 
 #include <talus/materials/elastic_trial_kernel.h>
-#include <talus/materials/strength_factor.h>
+#include <talus/materials/point_strength_kernel.h>
 
 #include <type_traits>
 
