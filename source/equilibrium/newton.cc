@@ -486,9 +486,11 @@ namespace talus
     {
       double result = 0;
       for (const Segment &segment : problem.state.points.segments())
-        result =
-          std::max(result,
-                   problem.materials.of_body(segment.body).shear_modulus());
+        result = std::max(result,
+                          problem.materials.of_body(segment.body)
+                            .largest_shear_modulus(problem.state.points,
+                                                   segment.begin,
+                                                   segment.end));
       return Utilities::MPI::max(result, problem.state.grid.communicator());
     }
   } // namespace

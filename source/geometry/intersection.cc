@@ -51,13 +51,30 @@ namespace talus
 
 
 
+  /// Outside of one part the others need not be asked, which may not be known
+  /// there.
   template <int dim>
   bool
   Intersection<dim>::may_cut_ball(const Point<dim> &x,
                                   const double      radius) const
   {
-    return std::any_of(parts_.begin(), parts_.end(), [&](const auto &part) {
-      return part->may_cut_ball(x, radius);
+    bool may_cut = false;
+    for (const auto &part : parts_)
+      if (part->may_cut_ball(x, radius))
+        may_cut = true;
+      else if (part->signed_distance(x) > 0.)
+        return false;
+    return may_cut;
+  }
+
+
+
+  template <int dim>
+  bool
+  Intersection<dim>::contains(const Point<dim> &x) const
+  {
+    return std::all_of(parts_.begin(), parts_.end(), [&x](const auto &part) {
+      return part->contains(x);
     });
   }
 

@@ -63,7 +63,7 @@ namespace talus
   Moduli
   ElasticLaw<dim>::moduli() const
   {
-    const double E = young_modulus_, nu = poisson_ratio_;
+    const double E = young_modulus(), nu = poisson_ratio_;
     return {E * nu / ((1. + nu) * (1. - 2. * nu)),
             E / (2. * (1. + nu)),
             E / (3. * (1. - 2. * nu))};

@@ -27,10 +27,9 @@ namespace talus
                          const Double      &range = Double(0.)) {
       this->add_parameter(name, value, sentence, ParameterAcceptor::prm, range);
     };
-    add("Undrained shear strength",
-        strength_,
-        "Undrained shear strength s_u [Pa]: the shear stress at which the "
-        "undisturbed material yields in slow simple shear.");
+    this->declare_strength(
+      "Undrained shear strength s_u [Pa]: the shear stress at which the "
+      "undisturbed material yields in slow simple shear.");
     if (flow_law_ == FlowLaw::bingham)
       add("Viscosity",
           consistency_,
@@ -74,7 +73,7 @@ namespace talus
   void
   HerschelBulkley<dim>::check() const
   {
-    ElasticLaw<dim>::check();
+    RateLaw<dim, HerschelBulkleyFlow>::check();
     AssertThrow(exponent_ > 0.,
                 ExcUser(text("Section ",
                              this->section(),
@@ -83,10 +82,10 @@ namespace talus
                              ". Give a positive number; for strength that does "
                              "not depend on the rate set `Consistency` to "
                              "0.")));
-    if (remoulded_ratio_ == 1.)
+    if (remoulded_ratio_ == 1. || this->has_strength_column())
       return;
     const double least =
-      3. * strength_ * (1. - remoulded_ratio_) / this->moduli().mu;
+      3. * this->strength() * (1. - remoulded_ratio_) / this->moduli().mu;
     AssertThrow(
       strain_to_remould_ > least,
       ExcUser(text("Section ",
@@ -113,7 +112,7 @@ namespace talus
   HerschelBulkleyFlow
   HerschelBulkley<dim>::flow_rule(const double dt) const
   {
-    return {{strength_, remoulded_ratio_, strain_to_remould_},
+    return {{this->strength(), remoulded_ratio_, strain_to_remould_},
             {this->moduli().mu,
              consistency_,
              exponent_,
@@ -129,7 +128,9 @@ namespace talus
   HerschelBulkley<dim>::shear_strength(const Points<dim> &points,
                                        const unsigned int p) const
   {
-    const Strength strength = {strength_, remoulded_ratio_, strain_to_remould_};
+    const Strength strength = {this->strength(points, p),
+                               remoulded_ratio_,
+                               strain_to_remould_};
     return strength.at(this->plastic_variable(points, p),
                        this->strength_factor(points, p));
   }
@@ -140,9 +141,15 @@ namespace talus
   // A little less, since at equality the return has no slope.
   template <int dim>
   double
-  HerschelBulkley<dim>::largest_strength_factor() const
+  HerschelBulkley<dim>::largest_strength_factor(
+    const StrengthRange &range) const
   {
-    const double lost = (1. - remoulded_ratio_) * strength_;
+    // The strongest soil, unless moduli are in proportion to the strength.
+    const double largest =
+      this->has_strength_column() && !this->has_moduli_of_points()
+        ? range.largest
+        : this->strength();
+    const double lost = (1. - remoulded_ratio_) * largest;
     if (lost == 0.)
       return std::numeric_limits<double>::infinity();
     return 0.99 * this->moduli().mu * strain_to_remould_ / (3. * lost);
@@ -155,8 +162,8 @@ namespace talus
   std::string
   HerschelBulkley<dim>::note(const double cell_size) const
   {
-    const double lost = (1. - remoulded_ratio_) * strength_;
-    if (lost == 0.)
+    const double lost = (1. - remoulded_ratio_) * this->strength();
+    if (lost == 0. || this->has_strength_column())
       return "";
     const std::string viscosity =
       flow_law_ == FlowLaw::bingham ? "`Viscosity`" : "`Consistency`";

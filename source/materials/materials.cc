@@ -2,6 +2,8 @@
 #include <talus/base/errors.h>
 #include <talus/materials/materials.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
@@ -103,7 +105,14 @@ namespace talus
   {
     for (const auto &model : models_)
       model->add_columns(points);
-    if (!with_strength_factor)
+    for (const auto &model : models_)
+      if (model->has_strength_column())
+        undrained_strength_ = points.add_column("undrained shear strength",
+                                                "Pa",
+                                                1,
+                                                Inheritance::copied);
+    if (!with_strength_factor &&
+        undrained_strength_ == numbers::invalid_unsigned_int)
       return;
     strength_factor_ =
       points.add_column("strength factor", "-", 1, Inheritance::copied);
@@ -113,14 +122,39 @@ namespace talus
 
 
 
+  template <int dim>
+  StrengthRange
+  Materials<dim>::strength_range(const Points<dim> &points,
+                                 const unsigned int body,
+                                 const MPI_Comm     communicator) const
+  {
+    if (!of_body(body).has_strength_column())
+      return {1., 1.};
+    StrengthRange range{std::numeric_limits<double>::infinity(), 0.};
+    for (unsigned int p = 0; p < points.size(); ++p)
+      if (points.data(points.body)[p] == body)
+        {
+          const double strength = points.data(undrained_strength_)[p];
+          range.least           = std::min(range.least, strength);
+          range.largest         = std::max(range.largest, strength);
+        }
+    return {Utilities::MPI::min(range.least, communicator),
+            Utilities::MPI::max(range.largest, communicator)};
+  }
+
+
+
   // Of the materials in use only: others do not limit the search.
   template <int dim>
   double
-  Materials<dim>::largest_strength_factor() const
+  Materials<dim>::largest_strength_factor(const Points<dim> &points,
+                                          const MPI_Comm     communicator) const
   {
     double result = std::numeric_limits<double>::infinity();
-    for (const unsigned int material : material_of_body_)
-      result = std::min(result, models_[material]->largest_strength_factor());
+    for (unsigned int b = 0; b < material_of_body_.size(); ++b)
+      result = std::min(result,
+                        of_body(b).largest_strength_factor(
+                          strength_range(points, b, communicator)));
     return result;
   }
 

@@ -17,13 +17,9 @@ namespace talus
   VonMises<dim>::VonMises(const std::string &section)
     : RateLaw<dim, VonMisesFlow>(section, "plastic strain")
   {
-    this->add_parameter("Undrained shear strength",
-                        strength_,
-                        "Undrained shear strength s_u [Pa]: the shear stress "
-                        "at which the undisturbed material yields in simple "
-                        "shear.",
-                        ParameterAcceptor::prm,
-                        Double(0.));
+    this->declare_strength(
+      "Undrained shear strength s_u [Pa]: the shear stress at which the "
+      "undisturbed material yields in simple shear.");
     this->add_parameter("Hardening modulus",
                         hardening_,
                         "Slope of the yield stress sqrt(3) s_u over the "
@@ -49,10 +45,10 @@ namespace talus
   void
   VonMises<dim>::check() const
   {
-    ElasticLaw<dim>::check();
+    RateLaw<dim, VonMisesFlow>::check();
     const double mu = this->moduli().mu;
     AssertThrow(
-      3. * mu + hardening_ > 0.,
+      this->has_strength_column() || 3. * mu + hardening_ > 0.,
       ExcUser(text("Section ",
                    this->section(),
                    ": `Hardening modulus` is ",
@@ -61,14 +57,15 @@ namespace talus
                    "unload elastically: give more than ",
                    -3. * mu,
                    " Pa (minus three times the shear modulus).")));
-    AssertThrow(residual_strength_ <= strength_,
+    AssertThrow(this->has_strength_column() ||
+                  residual_strength_ <= this->strength(),
                 ExcUser(text("Section ",
                              this->section(),
                              ": `Residual undrained shear strength` is ",
                              residual_strength_,
                              " Pa. It must not exceed `Undrained shear "
                              "strength`, which is ",
-                             strength_,
+                             this->strength(),
                              " Pa.")));
   }
 
@@ -83,7 +80,7 @@ namespace talus
   VonMises<dim>::flow_rule(const double /*dt*/) const
   {
     return {this->moduli().mu,
-            std::sqrt(3.) * strength_,
+            std::sqrt(3.) * this->strength(),
             hardening_,
             std::sqrt(3.) * residual_strength_};
   }
@@ -97,8 +94,9 @@ namespace talus
   VonMises<dim>::shear_strength(const Points<dim> &points,
                                 const unsigned int p) const
   {
-    const double on_line = strength_ + hardening_ / std::sqrt(3.) *
-                                         this->plastic_variable(points, p);
+    const double on_line =
+      this->strength(points, p) +
+      hardening_ / std::sqrt(3.) * this->plastic_variable(points, p);
     return this->strength_factor(points, p) *
            std::max(on_line, residual_strength_);
   }
@@ -110,11 +108,14 @@ namespace talus
   // residual strength is the initial one nothing softens.
   template <int dim>
   double
-  VonMises<dim>::largest_strength_factor() const
+  VonMises<dim>::largest_strength_factor(const StrengthRange &range) const
   {
-    if (hardening_ >= 0. || residual_strength_ == strength_)
+    if (hardening_ >= 0. || (!this->has_strength_column() &&
+                             residual_strength_ == this->strength()))
       return std::numeric_limits<double>::infinity();
-    return -0.99 * 3. * this->moduli().mu / hardening_;
+    // The softest soil, if the moduli are not all the same.
+    const double stiffness = this->has_moduli_of_points() ? range.least : 1.;
+    return -0.99 * 3. * this->moduli().mu * stiffness / hardening_;
   }
 
 
@@ -124,8 +125,8 @@ namespace talus
   std::string
   VonMises<dim>::note(const double cell_size) const
   {
-    const double lost = strength_ - residual_strength_;
-    if (hardening_ >= 0. || lost == 0.)
+    const double lost = this->strength() - residual_strength_;
+    if (hardening_ >= 0. || lost == 0. || this->has_strength_column())
       return "";
     const double strain = -3. * lost / hardening_;
     return shear_band_note(

@@ -2,6 +2,7 @@
 #include <talus/base/errors.h>
 #include <talus/problem/geostatic.h>
 #include <talus/problem/problem.h>
+#include <talus/problem/strength_field.h>
 #include <talus/transfer/send_to_owners.h>
 
 #include <algorithm>
@@ -85,8 +86,9 @@ namespace talus
 
 
 
-  /// Body by body, as columns of a body depend on its law. K0 stress comes
-  /// after the last body, since it needs the weight of all. Displaced points
+  /// Body by body, as columns of a body depend on its law. Strength and K0
+  /// stress come after the last body: they need the depth below, and the weight
+  /// of, all. Displaced points
   /// and those of clipped bodies may have left the cells of their rank, and go
   /// to their owners. The trigger chooses its points at the end, by the
   /// undeformed places. Collective.
@@ -116,6 +118,13 @@ namespace talus
                        constants_);
         material.initialize(points, begin, points.size());
       }
+    set_undrained_strength(points,
+                           bodies_,
+                           materials,
+                           constants_,
+                           folder_,
+                           state.grid.domain_before_growth(),
+                           state.communicator());
     const auto notes_on_stress =
       set_geostatic_stress(points,
                            bodies_,

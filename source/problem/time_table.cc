@@ -19,7 +19,6 @@ namespace talus
   namespace
   {
     // column_of_time stands for the time among the numbers of the known ones.
-    const std::string  time_name      = "time [s]";
     const unsigned int column_of_time = numbers::invalid_unsigned_int;
 
 
@@ -64,9 +63,12 @@ namespace talus
   /// blanks, the mark of UTF-8 and line ends of Windows are passed over; all
   /// else that is not a number is an error with the number of its line. Two
   /// rows at least, or there is nothing to interpolate between.
-  TimeTable::TimeTable(const std::filesystem::path    &file,
-                       const std::vector<std::string> &known_columns)
-    : values_(known_columns.size())
+  TimeTable::TimeTable(const std::filesystem::path               &file,
+                       const std::vector<std::string>            &known_columns,
+                       const std::pair<std::string, std::string> &abscissa)
+    : name_(abscissa.first)
+    , unit_(abscissa.second)
+    , values_(known_columns.size())
   {
     const std::string content = read_file(file);
     checksum_                 = text(talus::checksum(content));
@@ -106,7 +108,8 @@ namespace talus
                          const std::string              &place,
                          const std::vector<std::string> &known_columns)
   {
-    std::string expected = "'" + time_name + "'";
+    const std::string time_name = column_name();
+    std::string       expected  = "'" + time_name + "'";
     for (const std::string &name : known_columns)
       expected += ", '" + name + "'";
     for (const std::string &name : split_at_commas(line))
@@ -170,12 +173,18 @@ namespace talus
           }
         AssertThrow(times_.empty() || number > times_.back(),
                     ExcUser(text(place,
-                                 "the time is ",
+                                 "the ",
+                                 name_,
+                                 " is ",
                                  number,
-                                 " s, but that of the row before is ",
+                                 " ",
+                                 unit_,
+                                 ", but that of the row before is ",
                                  times_.back(),
-                                 " s. Times must ascend: sort the rows, and "
-                                 "give a jump two rows some time apart.")));
+                                 " ",
+                                 unit_,
+                                 ". They must ascend: sort the rows, and give "
+                                 "a jump two rows some way apart.")));
         times_.push_back(number);
       }
   }

@@ -196,7 +196,9 @@ namespace talus
                " The soil seems not to bear its weight. Since the stage "
                "'strength reduction' follows, one is looked for with more "
                "strength.");
-    strength_reduction_.begin(problem_.materials.largest_strength_factor());
+    strength_reduction_.begin(
+      problem_.materials.largest_strength_factor(state_.points,
+                                                 state_.communicator()));
     // The search of the reduction itself, from above: factors less than one.
     strength_reduction_.record(1., false);
     while (strength_reduction_.lower() == 0.)
@@ -233,7 +235,9 @@ namespace talus
   {
     log_.say(LogLevel::result, "Stage 'strength reduction':");
     const auto before = solver_.save();
-    strength_reduction_.begin(problem_.materials.largest_strength_factor());
+    strength_reduction_.begin(
+      problem_.materials.largest_strength_factor(state_.points,
+                                                 state_.communicator()));
     if (stages_.contain(Stage::equilibrium))
       start_reduction();
     auto state = solver_.save();

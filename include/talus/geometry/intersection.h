@@ -27,6 +27,9 @@ namespace talus
     dealii::Tensor<1, dim>
     normal(const dealii::Point<dim> &x) const override;
 
+    bool
+    contains(const dealii::Point<dim> &x) const override;
+
     Box<dim>
     bounding_box() const override;
 

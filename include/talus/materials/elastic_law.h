@@ -36,6 +36,13 @@ namespace talus
     Moduli
     moduli() const;
 
+    /// Young's modulus, Pa.
+    virtual double
+    young_modulus() const
+    {
+      return young_modulus_;
+    }
+
   private:
     double young_modulus_ = 1e6;
     double poisson_ratio_ = 0.3;

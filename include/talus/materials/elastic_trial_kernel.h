@@ -26,11 +26,11 @@ namespace talus
   /// order only where strain and stress are not coaxial; see @cite simo1998,
   /// section 8.3.
   /// The mean stress follows K ln det(I + H), so that -p = K ln J on any path.
-  template <int dim, typename Number>
+  template <int dim, typename Number, typename Modulus>
   TALUS_ALWAYS_INLINE ElasticTrial<dim, Number>
                       elastic_trial(const Stress<dim, Number>          &sigma,
                                     const StrainIncrement<dim, Number> &strain,
-                                    const Moduli                       &moduli)
+                                    const ModuliOf<Modulus>            &moduli)
   {
     ElasticTrial<dim, Number> trial;
     trial.mean_before = mean_normal(sigma);

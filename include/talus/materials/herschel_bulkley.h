@@ -40,7 +40,8 @@ namespace talus
     check() const override;
 
     double
-    largest_strength_factor() const override;
+    largest_strength_factor(const StrengthRange &range = {1.,
+                                                          1.}) const override;
 
     double
     shear_strength(const Points<dim> &points, unsigned int p) const override;
@@ -53,7 +54,6 @@ namespace talus
     flow_rule(double dt) const override;
 
     FlowLaw flow_law_;
-    double  strength_          = 2500.;
     double  consistency_       = 100.;
     double  exponent_          = 1.;
     double  remoulded_ratio_   = 1.;

@@ -22,10 +22,10 @@ namespace talus
 
     /// At a plastic shear strain, Pa.
     double
-    at(const double plastic_shear, const double factor) const
+    at(const double plastic_shear, const double share) const
     {
       const double r = remoulded_ratio;
-      return factor * undisturbed *
+      return share * undisturbed *
              (r + (1. - r) * std::exp(-3. * plastic_shear / strain_to_remould));
     }
   };
@@ -41,17 +41,19 @@ namespace talus
 
     /// In a load step: there is time for all to flow, so that viscosity takes no
     /// share. Remoulding follows from one load step to the next.
-    template <std::size_t n, typename Number>
+    template <std::size_t n, typename Number, typename Factor>
     Flow<Number>
     operator()(const std::array<Number, n> &deviator,
                const double                 plastic_shear,
-               const double                 strength_factor) const
+               const Factor                &strength_factor) const
     {
-      const double mu  = resistance.modulus;
+      const double mu  = modulus_of_point(resistance.modulus, strength_factor);
       const Number tau = sqrt(0.5 * contract(deviator, deviator) +
                               std::numeric_limits<double>::min());
       const Number d_xi =
-        max(Number((tau - strength.at(plastic_shear, strength_factor)) / mu),
+        max(Number((tau - strength.at(plastic_shear,
+                                      share_of_strength(strength_factor))) /
+                   mu),
             Number{});
       return {mu * d_xi / tau, d_xi};
     }
@@ -63,9 +65,10 @@ namespace talus
 
 
   /// A step of point(s) up to what the return needs.
-  template <int dim, typename Number>
+  template <int dim, typename Number, typename Modulus>
   struct ViscoplasticTrial
   {
+    Modulus                      modulus; ///< for shear, Pa
     Motion<dim, Number>          motion;
     StrainIncrement<dim, Number> strain;
     ElasticTrial<dim, Number>    elastic;
@@ -77,8 +80,18 @@ namespace talus
 
 
 
+  /// Of the points that have this factor.
   template <int dim, typename Number, typename Factor>
-  TALUS_ALWAYS_INLINE ViscoplasticTrial<dim, Number>
+  using ViscoplasticTrialWith =
+    ViscoplasticTrial<dim,
+                      Number,
+                      decltype(modulus_of_point(double(),
+                                                std::declval<Factor>()))>;
+
+
+
+  template <int dim, typename Number, typename Factor>
+  TALUS_ALWAYS_INLINE ViscoplasticTrialWith<dim, Number, Factor>
                       viscoplastic_trial(const PointsView<dim>    &points,
                                          const WorkspaceView<dim> &workspace,
                                          const unsigned int        p,
@@ -89,21 +102,24 @@ namespace talus
                                          const double              decay,
                                          const Factor             &strength_factor)
   {
-    ViscoplasticTrial<dim, Number> trial;
+    ViscoplasticTrialWith<dim, Number, Factor> trial;
+    const auto moduli_here = moduli_of_point(moduli, strength_factor);
+    const auto share       = share_of_strength(strength_factor);
+    trial.modulus          = moduli_here.mu;
     trial.motion = advance_deformation<dim, Number>(points, workspace, p, dt);
     trial.strain = strain_increment(trial.motion);
     trial.elastic =
       elastic_trial<dim, Number>(load_stress<dim, Number>(points, p),
                                  trial.strain,
-                                 moduli);
+                                 moduli_here);
     const auto &s = trial.elastic.deviator_after;
     trial.shear_stress =
       sqrt(0.5 * contract(s, s) + std::numeric_limits<double>::min());
     trial.old_strain = load<Number>(points.data(plastic_shear_strain) + p);
-    trial.loss       = Number(strength.loss) * strength_factor;
+    trial.loss       = Number(strength.loss) * share;
     if (decay > 0.)
       trial.loss *= exp(-decay * trial.old_strain);
-    trial.strength = Number(strength.remoulded) * strength_factor + trial.loss;
+    trial.strength = Number(strength.remoulded) * share + trial.loss;
     return trial;
   }
 
@@ -111,15 +127,15 @@ namespace talus
 
   /// The end of the step, once its plastic shear is known; false if a point was
   /// turned inside out or the plastic shear, then NaN, was not found.
-  template <int dim, typename Number>
+  template <int dim, typename Number, typename Modulus>
   TALUS_ALWAYS_INLINE bool
-  flow(const PointsView<dim>                &points,
-       const unsigned int                    p,
-       const unsigned int                    plastic_shear_strain,
-       const double                          mu,
-       const ViscoplasticTrial<dim, Number> &trial,
-       const Number                         &plastic_shear)
+  flow(const PointsView<dim>                         &points,
+       const unsigned int                             p,
+       const unsigned int                             plastic_shear_strain,
+       const ViscoplasticTrial<dim, Number, Modulus> &trial,
+       const Number                                  &plastic_shear)
   {
+    const Modulus mu = trial.modulus;
     store(points.data(plastic_shear_strain) + p,
           trial.old_strain + plastic_shear);
     return_radially<dim, Number>(points,
@@ -130,6 +146,33 @@ namespace talus
                                  mu,
                                  mu * plastic_shear / trial.shear_stress);
     return all(trial.motion.J_after > 0.) && all(plastic_shear >= 0.);
+  }
+
+
+
+  template <typename Modulus>
+  TALUS_ALWAYS_INLINE ShearResistanceOf<Modulus>
+  with_modulus(const ShearResistance &r, const Modulus &modulus)
+  {
+    return {modulus, r.consistency, r.exponent, r.decay, r.dt};
+  }
+
+
+
+  /// The shear modulus of all trials: one number, or one for each point.
+  template <unsigned int n_parts, int dim, typename Number, typename Modulus>
+  TALUS_ALWAYS_INLINE auto
+  modulus_of(const ViscoplasticTrial<dim, Number, Modulus> *trial)
+  {
+    if constexpr (std::is_same_v<Modulus, double>)
+      return trial[0].modulus;
+    else
+      {
+        WideSimd<n_parts> modulus;
+        for (unsigned int i = 0; i < n_parts; ++i)
+          modulus.part[i] = trial[i].modulus;
+        return modulus;
+      }
   }
 
 
@@ -148,9 +191,11 @@ namespace talus
                          const HerschelBulkleyFlow &flow_rule,
                          const Factor              &factor)
   {
-    constexpr unsigned int         width      = sizeof(Number) / sizeof(double);
-    const ShearResistance         &resistance = flow_rule.resistance;
-    ViscoplasticTrial<dim, Number> trial[n_parts];
+    using Trial =
+      ViscoplasticTrialWith<dim, Number, decltype(factor(p, Number()))>;
+    constexpr unsigned int width      = sizeof(Number) / sizeof(double);
+    const ShearResistance &resistance = flow_rule.resistance;
+    Trial                  trial[n_parts];
     for (unsigned int i = 0; i < n_parts; ++i)
       trial[i] =
         viscoplastic_trial<dim, Number>(points,
@@ -168,11 +213,10 @@ namespace talus
         flow(points,
              p,
              plastic_shear_strain,
-             moduli.mu,
              trial[0],
              plastic_shear<Number>(trial[0].shear_stress - trial[0].strength,
                                    trial[0].loss,
-                                   resistance));
+                                   with_modulus(resistance, trial[0].modulus)));
     else
       {
         WideSimd<n_parts> excess, loss;
@@ -181,13 +225,12 @@ namespace talus
             excess.part[i] = trial[i].shear_stress - trial[i].strength;
             loss.part[i]   = trial[i].loss;
           }
-        const auto shear =
-          plastic_shear<WideSimd<n_parts>>(excess, loss, resistance);
+        const auto shear = plastic_shear<WideSimd<n_parts>>(
+          excess, loss, with_modulus(resistance, modulus_of<n_parts>(trial)));
         for (unsigned int i = 0; i < n_parts; ++i)
           is_sound &= flow(points,
                            p + i * width,
                            plastic_shear_strain,
-                           moduli.mu,
                            trial[i],
                            shear.part[i]);
       }

@@ -2,6 +2,7 @@
 #ifndef talus_materials_material_model_h
 #define talus_materials_material_model_h
 
+#include <talus/materials/undrained_strength.h>
 #include <talus/points/points.h>
 #include <talus/points/step_workspace.h>
 
@@ -82,11 +83,28 @@ namespace talus
     virtual double
     shear_strength(const Points<dim> &points, unsigned int p) const;
 
+    /// The strength of undisturbed soil as the user gave it, if the law has one.
+    virtual const UndrainedStrength *
+    undrained_strength() const
+    {
+      return nullptr;
+    }
+
+    /// True if the strength is another one at each point: then the law has the
+    /// column `undrained shear strength`, which whoever makes points must set.
+    bool
+    has_strength_column() const
+    {
+      const UndrainedStrength *strength = undrained_strength();
+      return strength != nullptr && !strength->is_number();
+    }
+
     /// What the strength may be multiplied by at most [-]: with more of it soil
     /// that softens would do so faster than it can unload elastically. Infinite
-    /// for laws that do not soften.
+    /// for laws that do not soften. @p range of the strengths counts if
+    /// has_strength_column().
     virtual double
-    largest_strength_factor() const
+    largest_strength_factor(const StrengthRange & /*range*/ = {1., 1.}) const
     {
       return std::numeric_limits<double>::infinity();
     }
@@ -143,6 +161,15 @@ namespace talus
     /// Shear modulus of the undeformed material, Pa.
     virtual double
     shear_modulus() const = 0;
+
+    /// The largest of that at the points [begin, end), Pa.
+    virtual double
+    largest_shear_modulus(const Points<dim> & /*points*/,
+                          unsigned int /*begin*/,
+                          unsigned int /*end*/) const
+    {
+      return shear_modulus();
+    }
 
     /// Modulus M = rho c^2 of the fastest wave at each point of the batch, c its
     /// speed and rho the present density, Pa; written to modulus[p - begin].

@@ -59,10 +59,27 @@ namespace talus
       return strength_factor_;
     }
 
+    /// Column `undrained shear strength`, Pa, of soil that has another one at
+    /// each point; invalid_unsigned_int if no material does. Whoever makes
+    /// points sets it.
+    unsigned int
+    undrained_strength() const
+    {
+      return undrained_strength_;
+    }
+
+    /// Least and largest value of that column in the soil of @p body; {1, 1} if
+    /// its material has none. Collective.
+    StrengthRange
+    strength_range(const Points<dim> &points,
+                   unsigned int       body,
+                   MPI_Comm           communicator) const;
+
     /// Least MaterialModel::largest_strength_factor() of those that bodies are
-    /// made of.
+    /// made of. Collective.
     double
-    largest_strength_factor() const;
+    largest_strength_factor(const Points<dim> &points,
+                            MPI_Comm           communicator) const;
 
     /// Advance deformation and stress of the points, whose workspace it is.
     void
@@ -96,7 +113,8 @@ namespace talus
     std::vector<std::string>                         listed_names_;
     std::vector<std::unique_ptr<MaterialModel<dim>>> models_;
     std::vector<unsigned int>                        material_of_body_;
-    unsigned int strength_factor_ = dealii::numbers::invalid_unsigned_int;
+    unsigned int strength_factor_    = dealii::numbers::invalid_unsigned_int;
+    unsigned int undrained_strength_ = dealii::numbers::invalid_unsigned_int;
   };
 } // namespace talus
 

@@ -4,20 +4,24 @@
 
 namespace talus
 {
-  /// Elastic constants of an isotropic material, Pa.
-  struct Moduli
+  /// Elastic constants of an isotropic material, Pa; of several points at once
+  /// where they differ from place to place.
+  template <typename Number>
+  struct ModuliOf
   {
-    double lambda; ///< Lamé's first constant
-    double mu;     ///< shear modulus
-    double bulk;   ///< bulk modulus
+    Number lambda; ///< Lamé's first constant
+    Number mu;     ///< shear modulus
+    Number bulk;   ///< bulk modulus
 
     /// Of a longitudinal wave.
-    double
+    Number
     longitudinal() const
     {
       return lambda + 2. * mu;
     }
   };
+
+  using Moduli = ModuliOf<double>;
 } // namespace talus
 
 #endif

@@ -9,6 +9,7 @@
 namespace talus
 {
   struct NoFlow;
+  struct StrengthColumns;
 
   /// A law in rate form: Hooke's law between the Jaumann rate of the Cauchy
   /// stress and the rate of deformation, see elastic_trial(), and then plastic
@@ -36,6 +37,10 @@ namespace talus
     /// [-]; elastic laws have none.
     RateLaw(const std::string &section,
             const std::string &plastic_variable = "");
+
+    /// Throws ExcUser if a number of the strength is negative, too.
+    void
+    check() const override;
 
     void
     add_columns(Points<dim> &points) override;
@@ -68,6 +73,17 @@ namespace talus
                  unsigned int       end,
                  double            *modulus) const override;
 
+    double
+    largest_shear_modulus(const Points<dim> &points,
+                          unsigned int       begin,
+                          unsigned int       end) const override;
+
+    const UndrainedStrength *
+    undrained_strength() const override
+    {
+      return is_plastic ? &strength_ : nullptr;
+    }
+
     bool
     is_hyperelastic() const override
     {
@@ -88,6 +104,42 @@ namespace talus
     }
 
   protected:
+    /// The entries that say how strong undisturbed soil is, @p sentence that of
+    /// the strength.
+    void
+    declare_strength(const std::string &sentence);
+
+    /// The strength of undisturbed soil, Pa; 1 Pa if it stands in a column.
+    double
+    strength() const
+    {
+      return strength_.of_flow_rule();
+    }
+
+    /// That of point @p p, Pa.
+    double
+    strength(const Points<dim> &points, const unsigned int p) const
+    {
+      return this->has_strength_column() ? points.data(strength_column_)[p]
+                                         : strength();
+    }
+
+    /// True if moduli are in proportion to the strength of each point; those of
+    /// moduli() then belong to a strength of 1 Pa.
+    bool
+    has_moduli_of_points() const
+    {
+      return this->has_strength_column() && !stiffness_ratio_.empty();
+    }
+
+    /// From the ratio E/s_u if that is given.
+    double
+    young_modulus() const override
+    {
+      return stiffness_ratio_.empty() ? ElasticLaw<dim>::young_modulus()
+                                      : stiffness_ratio_.front() * strength();
+    }
+
     /// The plastic variable of point @p p; 0 if there is none.
     double
     plastic_variable(const Points<dim> &points, const unsigned int p) const
@@ -101,11 +153,19 @@ namespace talus
     virtual FlowRule
     flow_rule(double dt) const = 0;
 
+    StrengthColumns
+    strength_columns() const;
+    auto
+    moduli_in_load_step(const Points<dim> &points) const;
     auto
     flow_in_load_step(const Points<dim> &points) const;
 
-    std::string  name_of_plastic_variable_;
-    unsigned int plastic_variable_ = dealii::numbers::invalid_unsigned_int;
+    std::string       name_of_plastic_variable_;
+    unsigned int      plastic_variable_ = dealii::numbers::invalid_unsigned_int;
+    unsigned int      strength_column_  = dealii::numbers::invalid_unsigned_int;
+    UndrainedStrength strength_{"2500"};
+    // One number, or none where the user gave nothing.
+    std::vector<double> stiffness_ratio_;
   };
 } // namespace talus
 

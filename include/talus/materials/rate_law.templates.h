@@ -2,6 +2,7 @@
 #ifndef talus_materials_rate_law_templates_h
 #define talus_materials_rate_law_templates_h
 
+#include <talus/base/errors.h>
 #include <talus/materials/inverted_point.h>
 #include <talus/materials/load_step.h>
 #include <talus/materials/rate_law.h>
@@ -13,17 +14,17 @@
 
 namespace talus
 {
-  /// MaterialModel::linearize() for laws in rate form: @p flow maps a point and
-  /// its trial deviator to a Flow. Returns false if a point is turned inside
+  /// MaterialModel::linearize() for laws in rate form: @p moduli_at maps a
+  /// point to its moduli, @p flow a point and its trial deviator to a Flow. Returns false if a point is turned inside
   /// out.
-  template <int dim, typename FlowRule>
+  template <int dim, typename ModuliAt, typename FlowRule>
   inline bool
   linearize_rate_law(const Points<dim>        &points,
                      const StepWorkspace<dim> &workspace,
                      const unsigned int        begin,
                      const unsigned int        end,
                      const StrainMeasure       measure,
-                     const Moduli             &moduli,
+                     const ModuliAt           &moduli_at,
                      StressTangent<dim>       *linearization,
                      const FlowRule           &flow)
   {
@@ -40,7 +41,7 @@ namespace talus
         Stress<dim, Number> sigma;
         std::copy(before.begin(), before.end(), sigma.begin());
 
-        const auto   trial    = elastic_trial<dim>(sigma, strain, moduli);
+        const auto   trial    = elastic_trial<dim>(sigma, strain, moduli_at(p));
         const Number removed  = flow(p, trial.deviator_after).removed;
         auto         deviator = trial.deviator_after;
         for (Number &component : deviator)
@@ -59,14 +60,14 @@ namespace talus
 
   /// MaterialModel::commit_load_step() for laws in rate form. @p plastic is the
   /// column of the plastic variable, or invalid_unsigned_int.
-  template <int dim, typename FlowRule>
+  template <int dim, typename ModuliAt, typename FlowRule>
   inline void
   commit_rate_law(Points<dim>              &points,
                   const StepWorkspace<dim> &workspace,
                   const unsigned int        begin,
                   const unsigned int        end,
                   const StrainMeasure       measure,
-                  const Moduli             &moduli,
+                  const ModuliAt           &moduli_at,
                   const unsigned int        plastic,
                   const FlowRule           &flow)
   {
@@ -83,8 +84,9 @@ namespace talus
             motion.J_before = motion.J_after = determinant(
               load_matrix<dim, double>(points, points.deformation_gradient, p));
           }
-        const auto strain = strain_of_load_step(motion.increment, measure);
-        const auto trial =
+        const auto   strain = strain_of_load_step(motion.increment, measure);
+        const Moduli moduli = moduli_at(p);
+        const auto   trial =
           elastic_trial<dim, double>(load_stress<dim, double>(points, p),
                                      strain,
                                      moduli);
@@ -116,6 +118,68 @@ namespace talus
                                             "-",
                                             1,
                                             Inheritance::copied);
+    if (this->has_strength_column())
+      strength_column_ = points.add_column("undrained shear strength",
+                                           "Pa",
+                                           1,
+                                           Inheritance::copied);
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  void
+  RateLaw<dim, FlowRule>::check() const
+  {
+    ElasticLaw<dim>::check();
+    const bool needs_strength = !stiffness_ratio_.empty();
+    AssertThrow(strength() > 0. || (strength() == 0. && !needs_strength),
+                ExcUser(text("Section ",
+                             this->section(),
+                             ": `Undrained shear strength` is ",
+                             strength(),
+                             " Pa. Give a positive number",
+                             needs_strength ? ", which the stiffness follows."
+                                            : ", or 0.")));
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  void
+  RateLaw<dim, FlowRule>::declare_strength(const std::string &sentence)
+  {
+    using dealii::ParameterAcceptor;
+    namespace Patterns = dealii::Patterns;
+    this->add_parameter(
+      "Undrained shear strength",
+      strength_.words(),
+      sentence +
+        " A number, an expression in x, y (, z) and the depth below the "
+        "mudline, as 2000 + 1500*depth, or 'table FILE': a CSV file with the "
+        "columns 'depth [m]' and 'undrained shear strength [Pa]'. Place and "
+        "depth [m] are those at the start, without initial displacement; the "
+        "strength moves with the soil.");
+    this->add_parameter(
+      "Stiffness ratio",
+      stiffness_ratio_,
+      "Young's modulus over the undrained shear strength of undisturbed soil, "
+      "E/s_u [-], at each point; in the place of `Young's modulus`. Empty: "
+      "that.",
+      ParameterAcceptor::prm,
+      Patterns::List(Patterns::Double(1e-12), 0, 1));
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  StrengthColumns
+  RateLaw<dim, FlowRule>::strength_columns() const
+  {
+    return {this->strength_factor(),
+            this->has_strength_column() ? strength_column_
+                                        : dealii::numbers::invalid_unsigned_int,
+            has_moduli_of_points()};
   }
 
 
@@ -153,7 +217,7 @@ namespace talus
                     });
     };
     if constexpr (is_plastic)
-      with_strength_factor(points, this->strength_factor(), update);
+      with_point_strength(points, strength_columns(), update);
     else
       update(no_strength_factor);
     if (is_sound)
@@ -165,19 +229,45 @@ namespace talus
 
 
 
+  /// Maps a point to its moduli.
+  template <int dim, typename FlowRule>
+  auto
+  RateLaw<dim, FlowRule>::moduli_in_load_step(const Points<dim> &points) const
+  {
+    return [this, &points, moduli = this->moduli()](const unsigned int p) {
+      return has_moduli_of_points()
+               ? moduli_of_point(moduli,
+                                 PointStrength<double>{
+                                   1., 1., points.data(strength_column_)[p]})
+               : moduli;
+    };
+  }
+
+
+
   /// Maps a point and its trial deviator to what flows in a load step.
   template <int dim, typename FlowRule>
   auto
   RateLaw<dim, FlowRule>::flow_in_load_step(const Points<dim> &points) const
   {
     const double infinitely_slow = std::numeric_limits<double>::infinity();
-    return
-      [this, &points, rule = flow_rule(infinitely_slow)](const unsigned int p,
-                                                         const auto &deviator) {
-        return rule(deviator,
-                    this->plastic_variable(points, p),
-                    this->strength_factor(points, p));
-      };
+    return [this, &points, rule = flow_rule(infinitely_slow)](
+             const unsigned int p, const auto &deviator) {
+      const double plastic = this->plastic_variable(points, p);
+      const double factor  = this->strength_factor(points, p);
+      if constexpr (is_plastic)
+        if (this->has_strength_column())
+          {
+            const double strength = points.data(strength_column_)[p];
+            return rule(deviator,
+                        plastic,
+                        PointStrength<double>{factor,
+                                              strength,
+                                              has_moduli_of_points() ? strength
+                                                                     : 1.});
+          }
+      return rule(deviator, plastic, factor);
+    };
   }
 
 
@@ -196,7 +286,7 @@ namespace talus
                               begin,
                               end,
                               measure,
-                              this->moduli(),
+                              moduli_in_load_step(points),
                               linearization,
                               flow_in_load_step(points));
   }
@@ -216,7 +306,7 @@ namespace talus
                     begin,
                     end,
                     measure,
-                    this->moduli(),
+                    moduli_in_load_step(points),
                     plastic_variable_,
                     flow_in_load_step(points));
   }
@@ -225,12 +315,36 @@ namespace talus
 
   template <int dim, typename FlowRule>
   void
-  RateLaw<dim, FlowRule>::wave_modulus(const Points<dim> & /*points*/,
+  RateLaw<dim, FlowRule>::wave_modulus(const Points<dim> &points,
                                        const unsigned int begin,
                                        const unsigned int end,
                                        double            *modulus) const
   {
-    std::fill_n(modulus, end - begin, this->moduli().longitudinal());
+    const double longitudinal = this->moduli().longitudinal();
+    if (!has_moduli_of_points())
+      std::fill_n(modulus, end - begin, longitudinal);
+    else
+      std::transform(points.data(strength_column_) + begin,
+                     points.data(strength_column_) + end,
+                     modulus,
+                     [longitudinal](const double strength) {
+                       return strength * longitudinal;
+                     });
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  double
+  RateLaw<dim, FlowRule>::largest_shear_modulus(const Points<dim> &points,
+                                                const unsigned int begin,
+                                                const unsigned int end) const
+  {
+    const double mu = this->moduli().mu;
+    if (!has_moduli_of_points() || begin == end)
+      return mu;
+    const double *strength = points.data(strength_column_);
+    return mu * *std::max_element(strength + begin, strength + end);
   }
 } // namespace talus
 

@@ -3,6 +3,7 @@
 #define talus_materials_rate_law_kernel_h
 
 #include <talus/materials/elastic_trial_kernel.h>
+#include <talus/materials/point_strength_kernel.h>
 
 #include <type_traits>
 
@@ -60,14 +61,14 @@ namespace talus
   /// @p removed of the trial deviator goes, which is 2 mu times the plastic
   /// strain. Stores the stress and books the work of the step as plastic and
   /// elastic.
-  template <int dim, typename Number>
+  template <int dim, typename Number, typename Modulus>
   TALUS_ALWAYS_INLINE void
   return_radially(const PointsView<dim>              &points,
                   const unsigned int                  p,
                   const Motion<dim, Number>          &motion,
                   const StrainIncrement<dim, Number> &strain,
                   const ElasticTrial<dim, Number>    &trial,
-                  const double                        mu,
+                  const Modulus                      &mu,
                   const Number                       &removed)
   {
     auto deviator = trial.deviator_after;
@@ -120,11 +121,13 @@ namespace talus
     static_assert(n == 1);
     const auto motion =
       advance_deformation<dim, Number>(points, workspace, p, dt);
-    const auto strain = strain_increment(motion);
+    const auto strain      = strain_increment(motion);
+    const auto factor_here = factor(p, Number());
+    const auto moduli_here = moduli_of_point(moduli, factor_here);
     const auto trial =
       elastic_trial<dim, Number>(load_stress<dim, Number>(points, p),
                                  strain,
-                                 moduli);
+                                 moduli_here);
     if constexpr (std::is_same_v<FlowRule, NoFlow>)
       keep_elastic<dim, Number>(points, p, motion, strain, trial);
     else
@@ -132,10 +135,10 @@ namespace talus
         double *const      variable = points.data(plastic) + p;
         const Number       before   = load<Number>(variable);
         const Flow<Number> flow =
-          flow_rule(trial.deviator_after, before, factor(p, Number()));
+          flow_rule(trial.deviator_after, before, factor_here);
         store(variable, before + flow.increment);
         return_radially<dim, Number>(
-          points, p, motion, strain, trial, moduli.mu, flow.removed);
+          points, p, motion, strain, trial, moduli_here.mu, flow.removed);
       }
     return all(motion.J_after > 0.);
   }

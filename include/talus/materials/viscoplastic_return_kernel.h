@@ -29,15 +29,18 @@ namespace talus
 
 
   /// What resists plastic shear in one step of @p dt seconds.
-  struct ShearResistance
+  template <typename Modulus>
+  struct ShearResistanceOf
   {
-    double modulus;     ///< elastic shear modulus G, Pa
-    double consistency; ///< K >= 0, Pa s^n
-    double exponent;    ///< n > 0
-    double decay;       ///< of the strength that remoulding takes away, per
-                        ///< plastic shear strain; 0: no remoulding
-    double dt;          ///< s
+    Modulus modulus;     ///< elastic shear modulus G, Pa
+    double  consistency; ///< K >= 0, Pa s^n
+    double  exponent;    ///< n > 0
+    double  decay;       ///< of the strength that remoulding takes away, per
+                         ///< plastic shear strain; 0: no remoulding
+    double dt;           ///< s
   };
+
+  using ShearResistance = ShearResistanceOf<double>;
 
 
 
@@ -68,11 +71,11 @@ namespace talus
 
   /// Shear stress that a plastic shear of @p x takes, less what viscosity takes
   /// of it, Pa, and its slope: @p linear x - loss (1 - exp(-decay x)).
-  template <typename Number>
+  template <typename Number, typename Linear>
   TALUS_ALWAYS_INLINE std::pair<Number, Number>
                       stress_taken(const Number x,
                                    const Number loss,
-                                   const double linear,
+                                   const Linear linear,
                                    const double decay)
   {
     if (decay == 0.)
@@ -85,11 +88,11 @@ namespace talus
 
   /// The shear, not below it, with which stress_taken() is @p excess: the
   /// function is above its tangent at zero and above its asymptote.
-  template <typename Number>
+  template <typename Number, typename Linear>
   TALUS_ALWAYS_INLINE Number
   most_shear(const Number excess,
              const Number loss,
-             const double linear,
+             const Linear linear,
              const double decay)
   {
     return min(excess / (linear - decay * loss),
@@ -99,13 +102,13 @@ namespace talus
 
 
   /// n > 1, or @p linear resistance only; see plastic_shear().
-  template <typename Number, typename Mask>
+  template <typename Number, typename Mask, typename Modulus>
   TALUS_ALWAYS_INLINE Number
-  solve_for_shear(const Number           excess,
-                  const Number           loss,
-                  const Mask             yields,
-                  const double           linear,
-                  const ShearResistance &r)
+  solve_for_shear(const Number                      excess,
+                  const Number                      loss,
+                  const Mask                        yields,
+                  const Modulus                     linear,
+                  const ShearResistanceOf<Modulus> &r)
   {
     const bool is_power = (r.exponent > 1. && r.consistency > 0.);
     Number     start    = most_shear(excess, loss, linear, r.decay);
@@ -128,12 +131,12 @@ namespace talus
 
 
   /// n < 1: the overstress y is the unknown; see plastic_shear().
-  template <typename Number, typename Mask>
+  template <typename Number, typename Mask, typename Modulus>
   TALUS_ALWAYS_INLINE Number
-  solve_for_overstress(const Number           excess,
-                       const Number           loss,
-                       const Mask             yields,
-                       const ShearResistance &r)
+  solve_for_overstress(const Number                      excess,
+                       const Number                      loss,
+                       const Mask                        yields,
+                       const ShearResistanceOf<Modulus> &r)
   {
     const auto shear = [&](const Number y) {
       return r.dt * power_of(y * (1. / r.consistency), 1. / r.exponent);
@@ -165,19 +168,19 @@ namespace talus
   /// n < 1. The start of the iteration is the least of what each resistance
   /// alone would allow, so above the root, and without remoulding less than
   /// twice as large.
-  template <typename Number>
+  template <typename Number, typename Modulus = double>
   TALUS_ALWAYS_INLINE Number
-  plastic_shear(const Number           excess,
-                const Number           loss,
-                const ShearResistance &r)
+  plastic_shear(const Number                      excess,
+                const Number                      loss,
+                const ShearResistanceOf<Modulus> &r)
   {
     const auto yields     = (excess > Number(0.));
     const bool is_viscous = (r.consistency > 0.);
     if (!any(yields) || (is_viscous && r.dt == 0.))
       return Number(0.);
 
-    const bool   is_linear = (!is_viscous || r.exponent == 1.);
-    const double linear =
+    const bool    is_linear = (!is_viscous || r.exponent == 1.);
+    const Modulus linear =
       r.modulus + (is_linear && is_viscous ? r.consistency / r.dt : 0.);
     if (is_linear && r.decay == 0.)
       return max(excess, Number(0.)) * Number(1. / linear);

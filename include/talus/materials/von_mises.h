@@ -24,7 +24,8 @@ namespace talus
     check() const override;
 
     double
-    largest_strength_factor() const override;
+    largest_strength_factor(const StrengthRange &range = {1.,
+                                                          1.}) const override;
 
     double
     shear_strength(const Points<dim> &points, unsigned int p) const override;
@@ -36,7 +37,6 @@ namespace talus
     VonMisesFlow
     flow_rule(double dt) const override;
 
-    double strength_          = 2500.;
     double hardening_         = 0.;
     double residual_strength_ = 0.;
   };

@@ -14,7 +14,7 @@ namespace talus
   struct VonMisesFlow
   {
     double mu;        ///< shear modulus, Pa
-    double initial;   ///< yield stress, Pa
+    double initial;   ///< yield stress, Pa; with PointStrength of 1 Pa strength
     double hardening; ///< its slope, Pa
     double residual;  ///< yield stress, Pa
 
@@ -31,7 +31,7 @@ namespace talus
                             std::numeric_limits<double>::min());
       const Number d_ep =
         plastic_increment(q, Number(plastic_strain), strength_factor);
-      return {3. * mu * d_ep / q, d_ep};
+      return {3. * modulus_of_point(mu, strength_factor) * d_ep / q, d_ep};
     }
 
     /// Equivalent plastic strain that brings the trial stress @p q back to the
@@ -45,10 +45,13 @@ namespace talus
                       const Number  plastic_strain,
                       const Factor &factor) const
     {
-      const auto   slope   = hardening * factor;
-      const Number on_line = (q - initial * factor - slope * plastic_strain) *
-                             (1. / (3. * mu + slope));
-      const Number on_residual = (q - residual * factor) * (1. / (3. * mu));
+      const auto   modulus = modulus_of_point(mu, factor);
+      const auto   given   = share_of_given_strength(factor);
+      const auto   slope   = hardening * given;
+      const Number on_line =
+        (q - initial * share_of_strength(factor) - slope * plastic_strain) *
+        (1. / (3. * modulus + slope));
+      const Number on_residual = (q - residual * given) * (1. / (3. * modulus));
       return max(min(on_line, on_residual), Number{});
     }
   };

@@ -59,6 +59,13 @@ namespace talus
     Box<dim>
     bounding_box(const Box<dim> &domain) const;
 
+    /// Its shape in a mesh that fills @p domain.
+    std::unique_ptr<Shape<dim>>
+    shape(const Box<dim> &domain) const
+    {
+      return shape_.make(domain);
+    }
+
     /// How it is displaced, moves and is stressed at the start.
     const InitialState<dim> &
     initial_state() const

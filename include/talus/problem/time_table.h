@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace talus
@@ -11,7 +12,8 @@ namespace talus
   /// Quantities as functions of time, given by the rows of a CSV file. Its first
   /// line names the columns, each with its unit: `time [s]` and some of those
   /// that the reader knows, in any order. Empty lines and those that begin with
-  /// # do not count. Between the rows the values are linear in time.
+  /// # do not count. Between the rows the values are linear in time. In the place
+  /// of the time there may be another quantity, as the depth.
   class TimeTable
   {
   public:
@@ -19,8 +21,11 @@ namespace talus
     /// read, if a column is missing, unknown or there twice, if an entry is not
     /// a finite number, if times do not ascend, or if there are less than two
     /// rows.
-    TimeTable(const std::filesystem::path    &file,
-              const std::vector<std::string> &known_columns);
+    /// @p abscissa is what values are functions of: its name, and its unit.
+    TimeTable(const std::filesystem::path               &file,
+              const std::vector<std::string>            &known_columns,
+              const std::pair<std::string, std::string> &abscissa = {"time",
+                                                                     "s"});
 
     /// True if the file has column @p column of those that are known.
     bool
@@ -53,6 +58,11 @@ namespace talus
     }
 
   private:
+    std::string
+    column_name() const
+    {
+      return name_ + " [" + unit_ + "]";
+    }
     void
     read_header(const std::string              &line,
                 const std::string              &place,
@@ -60,6 +70,7 @@ namespace talus
     void
     read_row(const std::string &line, const std::string &place);
 
+    std::string                      name_, unit_;   ///< of the abscissa
     std::vector<double>              times_;         ///< s
     std::vector<std::vector<double>> values_;        ///< by known column
     std::vector<unsigned int>        known_of_read_; ///< invalid: the time

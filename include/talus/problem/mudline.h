@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_problem_mudline_h
+#define talus_problem_mudline_h
+
+#include <talus/geometry/shape.h>
+
+#include <memory>
+#include <vector>
+
+namespace talus
+{
+  /// The upper surface of the soil at the start: where, coming down from the top
+  /// of the mesh along y, one first meets a body.
+  template <int dim>
+  class Mudline
+  {
+  public:
+    using Bodies = std::vector<std::unique_ptr<Shape<dim>>>;
+
+    /// @p bodies in a mesh that fills @p domain.
+    Mudline(Bodies bodies, const Box<dim> &domain)
+      : bodies_(std::move(bodies))
+      , domain_(domain)
+    {}
+
+    /// Depth below it of @p x in a body, m, right to 1e-12 of the mesh; 0 if
+    /// there is no soil from @p x upwards.
+    double
+    depth(const dealii::Point<dim> &x) const;
+
+  private:
+    bool
+    is_soil(const dealii::Point<dim> &x) const;
+    double
+    clear_height(const dealii::Point<dim> &x) const;
+
+    Bodies   bodies_;
+    Box<dim> domain_;
+  };
+} // namespace talus
+
+#endif

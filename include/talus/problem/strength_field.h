@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_problem_strength_field_h
+#define talus_problem_strength_field_h
+
+#include <talus/materials/materials.h>
+#include <talus/problem/body.h>
+
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+namespace talus
+{
+  /// Set the column `undrained shear strength` of all points, if there is one:
+  /// by the number, the expression of place and depth, or the table of the
+  /// material of each body. Bodies lie in a mesh that fills @p domain; tables
+  /// are in @p folder. Throws ExcUser if the strength of a point is not
+  /// positive, or softening is too quick for its stiffness. Collective.
+  template <int dim>
+  void
+  set_undrained_strength(Points<dim>                                   &points,
+                         const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                         const Materials<dim>        &materials,
+                         const Constants             &constants,
+                         const std::filesystem::path &folder,
+                         const Box<dim>              &domain,
+                         MPI_Comm                     communicator);
+} // namespace talus
+
+#endif

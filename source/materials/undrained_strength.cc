@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/materials/undrained_strength.h>
+
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
+
+namespace talus
+{
+  // Laws ask in each step: the words are read once.
+  const std::optional<double> &
+  UndrainedStrength::number() const
+  {
+    if (understood_ != words_)
+      {
+        number_.reset();
+        if (dealii::Patterns::Double().match(words_))
+          number_ = dealii::Utilities::string_to_double(words_);
+        understood_ = words_;
+      }
+    return number_;
+  }
+} // namespace talus

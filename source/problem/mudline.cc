@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/problem/mudline.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  bool
+  Mudline<dim>::is_soil(const Point<dim> &x) const
+  {
+    return std::any_of(bodies_.begin(), bodies_.end(), [&x](const auto &body) {
+      return body->contains(x);
+    });
+  }
+
+
+
+  /// A height by which one may go down from @p x without passing into soil: the
+  /// largest ball around x, by halving, that no surface cuts.
+  template <int dim>
+  double
+  Mudline<dim>::clear_height(const Point<dim> &x) const
+  {
+    double radius = domain_.length(1);
+    for (const auto &body : bodies_)
+      while (radius > 1e-4 * domain_.length(1) && body->may_cut_ball(x, radius))
+        radius *= 0.5;
+    return radius;
+  }
+
+
+
+  /// Down in steps that cannot pass the surface, or are a ten-thousandth of the
+  /// mesh, then by bisection.
+  template <int dim>
+  double
+  Mudline<dim>::depth(const Point<dim> &x) const
+  {
+    Point<dim> above = x, below = x;
+    above[1] = std::max(domain_.upper[1], x[1]);
+    if (is_soil(above))
+      return above[1] - x[1];
+    for (below = above; !is_soil(below) && below[1] > x[1];)
+      {
+        above    = below;
+        below[1] = std::max(x[1], below[1] - clear_height(below));
+      }
+    // At x itself round-off may say that it is outside.
+    if (!is_soil(below))
+      return 0.;
+    while (above[1] - below[1] > 1e-12 * domain_.length(1))
+      {
+        Point<dim> middle                 = above;
+        middle[1]                         = 0.5 * (above[1] + below[1]);
+        (is_soil(middle) ? below : above) = middle;
+      }
+    return below[1] - x[1];
+  }
+
+
+
+  template class Mudline<2>;
+  template class Mudline<3>;
+} // namespace talus

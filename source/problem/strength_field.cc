@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
+#include <talus/problem/mudline.h>
+#include <talus/problem/strength_field.h>
+#include <talus/problem/time_table.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <cmath>
+#include <optional>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The strength of one material as a function of place and depth.
+    template <int dim>
+    class StrengthField
+    {
+    public:
+      StrengthField(const std::string           &path,
+                    const UndrainedStrength     &strength,
+                    const Constants             &constants,
+                    const std::filesystem::path &folder);
+
+      /// At @p x, @p depth below the mudline, m; Pa.
+      double
+      at(const Point<dim> &x, double depth);
+
+    private:
+      std::optional<double>            number_;
+      std::optional<TimeTable>         table_;
+      std::unique_ptr<Expression<dim>> expression_;
+    };
+
+
+
+    template <int dim>
+    StrengthField<dim>::StrengthField(const std::string           &path,
+                                      const UndrainedStrength     &strength,
+                                      const Constants             &constants,
+                                      const std::filesystem::path &folder)
+      : number_(strength.number())
+    {
+      const std::string &words = strength.words();
+      if (words.rfind("table ", 0) == 0)
+        table_.emplace(folder / Utilities::trim(words.substr(6)),
+                       std::vector<std::string>{
+                         "undrained shear strength [Pa]"},
+                       std::make_pair(std::string("depth"), std::string("m")));
+      else if (!number_)
+        expression_ = std::make_unique<Expression<dim>>(
+          path, words, 1, constants, dim == 2 ? "x,y,depth" : "x,y,z,depth");
+    }
+
+
+
+    template <int dim>
+    double
+    StrengthField<dim>::at(const Point<dim> &x, const double depth)
+    {
+      return number_  ? *number_
+             : table_ ? table_->value(0, depth)
+                      : expression_->finite_value(x, depth, 0);
+    }
+
+
+
+    template <int dim>
+    void
+    check_point(const std::string &path,
+                const double       strength,
+                const Point<dim>  &x,
+                const double       depth)
+    {
+      AssertThrow(strength > 0.,
+                  ExcUser(text(path,
+                               " is ",
+                               strength,
+                               " Pa at (",
+                               x,
+                               ") m, ",
+                               depth,
+                               " m below the mudline. Soil needs a positive "
+                               "strength: change it.")));
+    }
+
+
+
+    /// What a law of one strength says in its check().
+    template <int dim>
+    void
+    check_softening(const std::string        &path,
+                    const MaterialModel<dim> &material,
+                    const StrengthRange      &range)
+    {
+      const double largest = material.largest_strength_factor(range);
+      AssertThrow(largest >= 1.,
+                  ExcUser(text(path,
+                               " is from ",
+                               range.least,
+                               " Pa to ",
+                               range.largest,
+                               " Pa, but somewhere the soil would soften "
+                               "faster than it can unload elastically: it "
+                               "would have to do so ",
+                               1. / largest,
+                               " times more slowly. Let it soften over more "
+                               "strain, or make it stiffer.")));
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  set_undrained_strength(Points<dim>                                   &points,
+                         const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                         const Materials<dim>        &materials,
+                         const Constants             &constants,
+                         const std::filesystem::path &folder,
+                         const Box<dim>              &domain,
+                         const MPI_Comm               communicator)
+  {
+    const unsigned int column = materials.undrained_strength();
+    if (column == numbers::invalid_unsigned_int)
+      return;
+    typename Mudline<dim>::Bodies shapes;
+    for (const auto &body : bodies)
+      shapes.push_back(body->shape(domain));
+    const Mudline<dim> mudline(std::move(shapes), domain);
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      {
+        const MaterialModel<dim> &material = materials.of_body(b);
+        // Elastic soil has none, and the column stays 0.
+        if (material.undrained_strength() == nullptr)
+          continue;
+        const std::string path =
+          "'" + material.section().substr(1) + "/Undrained shear strength'";
+        StrengthField<dim> field(path,
+                                 *material.undrained_strength(),
+                                 constants,
+                                 folder);
+        for (unsigned int p = 0; p < points.size(); ++p)
+          if (points.data(points.body)[p] == b)
+            {
+              const auto   x = load_place(points, points.initial_position, p);
+              const double depth     = mudline.depth(x);
+              points.data(column)[p] = field.at(x, depth);
+              if (material.has_strength_column())
+                check_point(path, points.data(column)[p], x, depth);
+            }
+        check_softening(path,
+                        material,
+                        materials.strength_range(points, b, communicator));
+      }
+  }
+
+
+
+  template decltype(set_undrained_strength<2>) set_undrained_strength<2>;
+  template decltype(set_undrained_strength<3>) set_undrained_strength<3>;
+} // namespace talus
