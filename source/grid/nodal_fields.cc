@@ -250,6 +250,17 @@ namespace talus
 
   template <int dim>
   void
+  NodalFields<dim>::scale_inertia(const unsigned int node, const double factor)
+  {
+    sum(node)[Sum::mass] *= factor;
+    for (unsigned int d = 0; d < dim; ++d)
+      sum(node)[Sum::momentum + d] *= factor;
+  }
+
+
+
+  template <int dim>
+  void
   NodalFields<dim>::set_motion(const unsigned int    node,
                                const Tensor<1, dim> &velocity,
                                const Tensor<1, dim> &increment)

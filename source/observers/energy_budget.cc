@@ -32,6 +32,23 @@ namespace talus
 
 
 
+    /// Of the water that moves with this rank's points, J.
+    template <int dim>
+    double
+    kinetic_energy_of_added_mass(const State<dim> &state)
+    {
+      const Points<dim> &points = state.points;
+      double             energy = 0;
+      if (!state.added_mass.empty())
+        for (unsigned int p = 0; p < points.size(); ++p)
+          energy += 0.5 * points.data(points.mass)[p] *
+                    state.added_mass[points.data(points.body)[p]] *
+                    load_place(points, points.velocity, p).norm_square();
+      return energy;
+    }
+
+
+
     /// Sum of a column over this rank's points.
     template <int dim>
     double
@@ -50,10 +67,11 @@ namespace talus
     {
       const char *name;
       double EnergyTerms::*value;
+      bool of_water = false; ///< a column only where there is water
     };
 
     /// The terms but for what they leave, in the order of their columns.
-    constexpr std::array<Term, 8> terms = {
+    constexpr std::array<Term, 10> terms = {
       {{"kinetic energy", &EnergyTerms::kinetic},
        {"grid kinetic energy", &EnergyTerms::grid_kinetic},
        {"elastic energy", &EnergyTerms::elastic},
@@ -61,7 +79,9 @@ namespace talus
        {"friction work", &EnergyTerms::friction},
        {"contact work", &EnergyTerms::contact},
        {"damping work", &EnergyTerms::damping},
-       {"gravity work", &EnergyTerms::gravity}}};
+       {"gravity work", &EnergyTerms::gravity},
+       {"drag work", &EnergyTerms::drag, /*of_water=*/true},
+       {"added mass kinetic energy", &EnergyTerms::added, /*of_water=*/true}}};
 
 
 
@@ -82,6 +102,8 @@ namespace talus
       result.contact      = state.works.contact;
       result.damping      = state.works.damping;
       result.gravity      = state.works.gravity;
+      result.drag         = state.works.drag;
+      result.added        = kinetic_energy_of_added_mass(state);
       for (const Term &term : terms)
         result.*term.value =
           Utilities::MPI::sum(result.*term.value, state.communicator());
@@ -115,7 +137,8 @@ namespace talus
       (now.gravity - start_.gravity) - (now.kinetic - start_.kinetic) -
       (now.elastic - start_.elastic) - (now.plastic - start_.plastic) -
       (now.friction - start_.friction) - (now.contact - start_.contact) -
-      (now.damping - start_.damping);
+      (now.damping - start_.damping) - (now.drag - start_.drag) -
+      (now.added - start_.added);
     return now;
   }
 
@@ -128,7 +151,8 @@ namespace talus
   {
     const EnergyTerms now = evaluate(state);
     for (const Term &term : terms)
-      list.push_back({term.name, "J", now.*term.value});
+      if (!term.of_water || !state.added_mass.empty())
+        list.push_back({term.name, "J", now.*term.value});
     list.push_back({"energy remainder", "J", now.remainder});
   }
 

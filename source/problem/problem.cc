@@ -239,8 +239,10 @@ namespace talus
   {
     std::vector<std::string> result = materials.notes(cell_size);
     result.insert(result.end(), notes_.begin(), notes_.end());
-    if (!trigger.note().empty())
-      result.push_back(trigger.note());
+    for (const std::string &note :
+         {water.note(materials, bodies_.size()), trigger.note()})
+      if (!note.empty())
+        result.push_back(note);
     return result;
   }
 

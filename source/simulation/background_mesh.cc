@@ -150,6 +150,7 @@ namespace talus
     relocation_.rebuild(state_.points, state_.grid);
     activate_nodes();
     // Of the smallest cell, so that the same nodes carry motion at any level.
+    state_.added_mass  = problem_.added_mass();
     state_.mass_cutoff = transfer_.mass_cutoff(problem_.least_density(),
                                                state_.grid.finest_size());
   }

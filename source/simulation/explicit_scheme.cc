@@ -159,6 +159,7 @@ namespace talus
     Boundaries<dim> &boundaries = problem_.boundaries;
     {
       PhaseTimer::Scope scope(timer_, "nodal update");
+      problem_.water.apply(state_, problem_.contact);
       boundaries.add_tractions(state_.nodes,
                                state_.grid,
                                time,
@@ -180,6 +181,7 @@ namespace talus
       problem_.seabed_gaps.find(state_);
       state_.works += boundaries.apply(
         state_.nodes, state_.grid, time, dt, state_.mass_cutoff);
+      problem_.water.book(state_);
     }
     {
       PhaseTimer::Scope scope(timer_, "messages");

@@ -54,6 +54,9 @@ namespace talus
       std::make_unique<FacetsOutput<dim>>(problem_.contact));
     output_.add_quantities([this](const State<dim> &state, Quantities &list) {
       scheme_.splitter().list_quantities(state, list);
+      problem_.water.list_quantities(state,
+                                     -problem_.loading.gravity()[1],
+                                     list);
     });
   }
 

@@ -22,10 +22,14 @@ namespace talus
     double contact = 0;
     /// Energy that local damping took from the soil, J.
     double damping = 0;
+    /// Energy that the drag of water took from the soil, J.
+    double drag = 0;
     /// Impulse that the seabed gave to the soil, N s.
     dealii::Tensor<1, dim> seabed_impulse;
     /// Impulse that walls and tractions gave to the soil, N s.
     dealii::Tensor<1, dim> wall_impulse;
+    /// Impulse that the drag of water gave to the soil, N s.
+    dealii::Tensor<1, dim> drag_impulse;
 
     Works &
     operator+=(const Works &other)
@@ -34,8 +38,10 @@ namespace talus
       friction += other.friction;
       contact += other.contact;
       damping += other.damping;
+      drag += other.drag;
       seabed_impulse += other.seabed_impulse;
       wall_impulse += other.wall_impulse;
+      drag_impulse += other.drag_impulse;
       return *this;
     }
 
@@ -46,10 +52,13 @@ namespace talus
       list.add("friction work", "J", friction, Reduction::sum);
       list.add("contact work", "J", contact, Reduction::sum);
       list.add("damping work", "J", damping, Reduction::sum);
+      list.add("drag work", "J", drag, Reduction::sum);
       list.add_components(
         "seabed impulse", "N s", seabed_impulse, dim, Reduction::sum);
       list.add_components(
         "wall impulse", "N s", wall_impulse, dim, Reduction::sum);
+      list.add_components(
+        "drag impulse", "N s", drag_impulse, dim, Reduction::sum);
     }
   };
 } // namespace talus

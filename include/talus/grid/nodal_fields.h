@@ -104,6 +104,10 @@ namespace talus
              const dealii::Tensor<1, dim> &momentum,
              const dealii::Tensor<1, dim> &force);
 
+    /// Multiply mass and momentum of a node, but not its velocity.
+    void
+    scale_inertia(unsigned int node, double factor);
+
     dealii::Tensor<1, dim>
     velocity(const unsigned int node) const;
 

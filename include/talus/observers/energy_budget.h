@@ -20,6 +20,8 @@ namespace talus
     /// these drive the soil.
     double contact = 0;
     double damping = 0; ///< taken by local damping so far
+    double drag    = 0; ///< taken by the drag of water so far
+    double added   = 0; ///< kinetic energy of the added mass of water
     double gravity = 0; ///< work of weight and body forces so far
     /// What the other terms leave of the gravity work since the start;
     /// positive if energy was lost, negative if some was created.
@@ -30,9 +32,10 @@ namespace talus
 
   /// The energy budget
   ///   remainder = gravity work - change of kinetic energy - change of elastic
-  ///   energy - plastic work - friction work - contact work - damping work,
+  ///   energy - plastic work - friction work - contact work - damping work - drag
+  ///   work,
   /// every term counted from the start. It is the points' kinetic energy that
-  /// enters, so the remainder holds what the transfer dissipates.
+  /// enters, with that of the water that moves with them, so the remainder holds what the transfer dissipates.
   template <int dim>
   class EnergyBudget
   {

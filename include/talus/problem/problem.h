@@ -11,6 +11,7 @@
 #include <talus/problem/trigger.h>
 #include <talus/state/state.h>
 #include <talus/terrain/surfaces.h>
+#include <talus/water/water.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -66,6 +67,14 @@ namespace talus
     std::vector<Box<dim>>
     bounding_boxes(const Box<dim> &domain) const;
 
+    /// By body, mass of water that moves with the soil, as a share of its mass
+    /// [-]; empty if water does nothing.
+    std::vector<double>
+    added_mass() const
+    {
+      return water.added_mass_of_bodies(materials, bodies_.size());
+    }
+
     /// For which bodies the dilatation is averaged over the cells.
     std::vector<bool>
     bodies_with_bbar() const;
@@ -103,6 +112,7 @@ namespace talus
       boundaries.locate_nodes(grid);
       seabed_gaps.prepare(grid);
       contact.prepare(grid);
+      water.prepare(grid);
     }
 
     void
@@ -131,6 +141,7 @@ namespace talus
     SeabedGaps<dim>   seabed_gaps;
     Obstacles<dim>    obstacles;
     FacetContact<dim> contact; ///< with the obstacles
+    Water<dim>        water;
     Loading<dim>      loading;
     Trigger<dim>      trigger;
   };

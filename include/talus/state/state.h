@@ -47,7 +47,10 @@ namespace talus
     double             time      = 0; ///< s
     double             time_step = 0; ///< of the last step, s
     unsigned long      step      = 0; ///< number of steps so far
-    double mass_cutoff = 0; ///< nodes with less mass carry nothing, kg
+    /// By body, mass of water that moves with the soil, as a share of that of
+    /// the soil [-]; empty if water does nothing.
+    std::vector<double> added_mass;
+    double              mass_cutoff = 0; ///< nodes with less mass carry nothing, kg
   };
 } // namespace talus
 

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/water/water.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Water<dim>::Water()
+    : ParameterAcceptor("/Water")
+  {
+    const auto add = [this](const std::string &name,
+                            double            &value,
+                            const std::string &sentence,
+                            const double       least) {
+      add_parameter(name, value, sentence, this->prm, Patterns::Double(least));
+    };
+    add("Density",
+        density_,
+        "Density of the water around the soil [kg/m^3].",
+        1e-300);
+    add("Added mass coefficient",
+        added_mass_,
+        "Mass of water that is accelerated with the soil, divided by the mass "
+        "of the water that the soil displaces [-]; 0: none.",
+        0.);
+    add("Skin friction coefficient",
+        skin_friction_,
+        "Shear stress of the water on the free surface of the soil, divided by "
+        "half the density of the water and the square of the velocity along "
+        "the surface [-]; 0: none.",
+        0.);
+    add("Pressure drag coefficient",
+        pressure_drag_,
+        "Pressure of the water where the free surface moves outwards, divided "
+        "by half the density of the water and the square of the velocity "
+        "normal to the surface [-]; 0: none.",
+        0.);
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  Water<dim>::added_mass_of_bodies(const Materials<dim> &materials,
+                                   const unsigned int    n_bodies) const
+  {
+    std::vector<double> result;
+    for (unsigned int b = 0; acts() && b < n_bodies; ++b)
+      result.push_back(added_mass_ * density_ / materials.of_body(b).density());
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::string
+  Water<dim>::note(const Materials<dim> &materials,
+                   const unsigned int    n_bodies) const
+  {
+    for (unsigned int b = 0; acts() && b < n_bodies; ++b)
+      {
+        const double whole     = materials.of_body(b).density();
+        const double submerged = materials.of_body(b).submerged_density();
+        if (std::abs(whole - submerged - density_) > 0.01 * density_)
+          return text("Water of ",
+                      density_,
+                      " kg/m^3 acts on soil whose density and submerged "
+                      "density, ",
+                      whole,
+                      " and ",
+                      submerged,
+                      " kg/m^3, differ by ",
+                      whole - submerged,
+                      " kg/m^3: saturated soil loses the weight of the water "
+                      "that it displaces.");
+      }
+    return "";
+  }
+
+
+
+  template <int dim>
+  void
+  Water<dim>::prepare(const Grid<dim> &grid)
+  {
+    if (!acts())
+      return;
+    surface_.prepare(grid);
+    exchange_of_forces_.prepare(grid, dim);
+    forces_.assign(std::size_t(dim) * grid.n_nodes(), 0.);
+  }
+
+
+
+  template <int dim>
+  void
+  Water<dim>::apply(State<dim> &state, const FacetContact<dim> &contact)
+  {
+    if (!acts())
+      return;
+    surface_.find(state, contact);
+    add_inertia(state.nodes);
+    add_drag(state.nodes, state.grid);
+  }
+
+
+
+  /// At the nodes only: points carry the momentum of the soil. With the volume
+  /// of the soil at a node, so that impulses change the momentum of soil and
+  /// water together by what they are, whatever the bodies' densities.
+  template <int dim>
+  void
+  Water<dim>::add_inertia(NodalFields<dim> &nodes) const
+  {
+    if (added_mass_ > 0)
+      for (const unsigned int node : nodes.active_nodes())
+        if (nodes.mass(node) > 0)
+          nodes.scale_inertia(node,
+                              1. + added_mass_ * density_ * nodes.volume(node) /
+                                     nodes.mass(node));
+  }
+
+
+
+  /// On a facet, N: friction along it, and pressure where it moves into the
+  /// water.
+  template <int dim>
+  Tensor<1, dim>
+  Water<dim>::drag(const SurfaceFacet<dim> &facet) const
+  {
+    const double         area       = facet.vector_area.norm();
+    const Tensor<1, dim> normal     = facet.vector_area / area;
+    const double         outwards   = facet.velocity * normal;
+    const Tensor<1, dim> tangential = facet.velocity - outwards * normal;
+    const double         pressure =
+      pressure_drag_ * std::pow(std::max(0., outwards), 2);
+    return -0.5 * density_ * area *
+           (skin_friction_ * tangential.norm() * tangential +
+            pressure * normal);
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  Water<dim>::force_at(const unsigned int node) const
+  {
+    Tensor<1, dim> force;
+    for (unsigned int d = 0; d < dim; ++d)
+      force[d] = forces_[std::size_t(dim) * node + d];
+    return force;
+  }
+
+
+
+  /// Collective.
+  template <int dim>
+  void
+  Water<dim>::add_drag(NodalFields<dim> &nodes, const Grid<dim> &grid)
+  {
+    const auto add = [this](const unsigned int    node,
+                            const Tensor<1, dim> &force) {
+      for (unsigned int d = 0; d < dim; ++d)
+        forces_[std::size_t(dim) * node + d] += force[d];
+    };
+    for (const SurfaceFacet<dim> &facet : surface_.facets())
+      {
+        const Tensor<1, dim> force = drag(facet);
+        for (unsigned int v = 0; v < facet.node.size(); ++v)
+          add(facet.node[v], facet.share[v] * force);
+      }
+    for (const auto &hanging : grid.hanging_nodes())
+      {
+        const Tensor<1, dim> force = force_at(hanging.node);
+        for (const auto &[master, weight] : hanging.masters)
+          add(master, weight * force);
+        add(hanging.node, -force);
+      }
+    exchange_of_forces_.add_to_owners(forces_.data());
+    for (const unsigned int node : nodes.active_nodes())
+      nodes.add_force(node, force_at(node));
+  }
+
+
+
+  template <int dim>
+  void
+  Water<dim>::book(State<dim> &state)
+  {
+    if (!acts())
+      return;
+    const double dt = state.time_step;
+    for (const unsigned int node : state.nodes.active_nodes())
+      {
+        const Tensor<1, dim> impulse = dt * force_at(node);
+        state.works.drag -= impulse * state.nodes.mean_velocity(node);
+        state.works.drag_impulse += impulse;
+        std::fill_n(forces_.begin() + std::size_t(dim) * node, dim, 0.);
+      }
+  }
+
+
+
+  // The Froude number is that of the slide as a whole: its mean velocity, and
+  // its volume over the area that the free surface covers, seen along gravity.
+  template <int dim>
+  void
+  Water<dim>::list_quantities(const State<dim> &state,
+                              const double      gravity,
+                              Quantities       &list) const
+  {
+    if (!acts())
+      return;
+    const Points<dim> &points = state.points;
+    double             mass = 0, volume = 0, covered = 0;
+    Tensor<1, dim>     momentum, added_momentum;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const double         m = points.data(points.mass)[p];
+        const Tensor<1, dim> v = load_place(points, points.velocity, p);
+        const double added = m * state.added_mass[points.data(points.body)[p]];
+        mass += m;
+        volume += points.data(points.reference_volume)[p];
+        momentum += m * v;
+        added_momentum += added * v;
+      }
+    for (const SurfaceFacet<dim> &facet : surface_.facets())
+      covered += std::max(0., facet.vector_area[1]);
+
+    const MPI_Comm comm = state.communicator();
+    const auto     sum  = [comm](const auto &value) {
+      return Utilities::MPI::sum(value, comm);
+    };
+    mass = sum(mass), volume = sum(volume), covered = sum(covered);
+    momentum = sum(momentum), added_momentum = sum(added_momentum);
+    const Tensor<1, dim> impulse = sum(state.works.drag_impulse);
+    append_vector<dim>(list, "drag impulse", "N s", impulse);
+    append_vector<dim>(list, "added mass momentum", "kg m/s", added_momentum);
+    const double lightness = (mass / volume / density_ - 1.) * gravity;
+    list.push_back(
+      {"densimetric Froude number",
+       "",
+       covered > 0 && lightness > 0
+         ? momentum.norm() / mass / std::sqrt(lightness * volume / covered)
+         : 0.});
+  }
+
+
+
+  template class Water<2>;
+  template class Water<3>;
+} // namespace talus
