@@ -164,7 +164,6 @@ namespace talus
   {
     if (obstacles_.empty())
       return;
-    move_obstacles(state);
     hold_walls(state, boundaries);
     find_constraints(state);
     warm_start(state);
@@ -234,6 +233,8 @@ namespace talus
   void
   FacetContact<dim>::move_obstacles(const State<dim> &state)
   {
+    if (obstacles_.empty())
+      return;
     take_restored(state);
     if (!obstacles_.move())
       return;

@@ -159,6 +159,7 @@ namespace talus
     Boundaries<dim> &boundaries = problem_.boundaries;
     {
       PhaseTimer::Scope scope(timer_, "nodal update");
+      problem_.contact.move_obstacles(state_);
       problem_.water.apply(state_, problem_.contact);
       boundaries.add_tractions(state_.nodes,
                                state_.grid,

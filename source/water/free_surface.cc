@@ -19,7 +19,7 @@ namespace talus
     constexpr double half_filled = 0.5;
 
     template <int dim>
-    std::array<unsigned int, n_corners<dim>>
+    auto
     corners_of(const Cell<dim> &cell)
     {
       std::array<unsigned int, n_corners<dim>> nodes;
@@ -117,7 +117,9 @@ namespace talus
 
 
 
-  /// Velocities are those that the points bring along. Collective.
+  /// Velocities are those that the points bring along. Round-off must not decide
+  /// which cells are looked at where nodes are just half filled, as those at a
+  /// level surface in a row of nodes are. Collective.
   template <int dim>
   void
   FreeSurface<dim>::fill_records(const State<dim>        &state,
@@ -132,7 +134,9 @@ namespace talus
         {
           double *const to = record(node);
           to[filling] = std::min(1., nodes.volume(node) / room(contact, node));
-          to[mass]    = nodes.mass(node);
+          if (std::abs(to[filling] - half_filled) < 1e-12)
+            to[filling] = half_filled;
+          to[mass]               = nodes.mass(node);
           const Tensor<1, dim> p = nodes.momentum(node);
           for (unsigned int d = 0; d < dim; ++d)
             to[velocity + d] = p[d] / to[mass];
@@ -203,6 +207,30 @@ namespace talus
 
 
 
+  /// Half filled less the degree of filling at the corners of a simplex in a
+  /// cell. What is as good as zero is made zero, so that round-off does not show
+  /// the cells at a face different signs.
+  template <int dim>
+  std::array<double, dim + 1>
+  FreeSurface<dim>::emptiness_at(const Simplex<dim> &simplex,
+                                 const Box<dim>     &box,
+                                 const NodesOfCell  &nodes) const
+  {
+    std::array<double, dim + 1> result;
+    for (unsigned int v = 0; v <= dim; ++v)
+      {
+        const auto N = shape_values_at<dim>(box, simplex[v]);
+        result[v]    = half_filled;
+        for (unsigned int k = 0; k < N.size(); ++k)
+          result[v] -= N[k] * fill(nodes[k]);
+        if (std::abs(result[v]) < 1e-12)
+          result[v] = 0;
+      }
+    return result;
+  }
+
+
+
   // By simplices, linear in each: the ends of facets at a face are the same
   // seen from both cells, so that nothing is open, and there is none of the
   // ambiguous cases of squares and cubes. In a cell that an obstacle cuts the
@@ -233,15 +261,8 @@ namespace talus
       return; // soil is only beside it
 
     const auto add_facet = [&](const Simplex<dim> &simplex) {
-      std::array<double, dim + 1> emptiness;
-      for (unsigned int v = 0; v <= dim; ++v)
-        {
-          const auto N = shape_values_at<dim>(box, simplex[v]);
-          emptiness[v] = half_filled;
-          for (unsigned int k = 0; k < N.size(); ++k)
-            emptiness[v] -= N[k] * fill(nodes[k]);
-        }
-      const Facet<dim> facet = clip_simplex<dim>(simplex, emptiness).facet;
+      const Facet<dim> facet =
+        clip_simplex<dim>(simplex, emptiness_at(simplex, box, nodes)).facet;
       if (facet.empty())
         return;
       SurfaceFacet<dim> result;

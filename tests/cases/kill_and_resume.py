@@ -211,14 +211,17 @@ class Triggered(KillAndResume):
 
 
 class SlideOverObstacles(KillAndResume):
-    """A seabed through a mesh that changes, and a pipe that moves."""
+    """A seabed through a mesh that changes and a pipe that moves, under water."""
 
     N_KILLS = 5
     file = "landslide-inclined.prm"
     settings = SETTINGS + ["Mesh tracking/Enabled=true",
                            "Mesh tracking/Margin=6",
                            "Mesh tracking/Interval=50",
-                           "Obstacles/bed/Velocity=0.02*t; 0"]
+                           "Obstacles/bed/Velocity=0.02*t; 0",
+                           "Water/Added mass coefficient=0.1",
+                           "Water/Skin friction coefficient=0.01",
+                           "Water/Pressure drag coefficient=1"]
 
 
 class DrivenAndDamped(KillAndResume):

@@ -61,9 +61,13 @@ namespace talus
     void
     prepare(const Grid<dim> &grid);
 
+    /// Let obstacles move on by the time step, before anybody asks where they
+    /// are in it.
+    void
+    move_obstacles(const State<dim> &state);
+
     /// Change the velocities of the nodes after the momentum update, and before
-    /// @p boundaries act, as obstacles ask; these move on by the time step.
-    /// Collective.
+    /// @p boundaries act, as obstacles ask. Collective.
     void
     apply(State<dim> &state, Boundaries<dim> &boundaries);
 
@@ -168,8 +172,6 @@ namespace talus
     take_impulses(const std::vector<double> &rows);
     void
     take_restored(const State<dim> &state);
-    void
-    move_obstacles(const State<dim> &state);
     void
     hold_walls(State<dim> &state, Boundaries<dim> &boundaries);
     std::vector<typename NodalGaps<dim>::Surface>

@@ -3,6 +3,7 @@
 #define talus_water_free_surface_h
 
 #include <talus/contact/facet_contact.h>
+#include <talus/geometry/clip_simplex.h>
 #include <talus/state/state.h>
 
 #include <array>
@@ -59,6 +60,7 @@ namespace talus
 
   private:
     using ShapeValues = std::array<double, (1u << dim)>;
+    using NodesOfCell = std::array<unsigned int, power(2, dim)>;
 
     // By node: degree of filling [-], mass [kg] and velocity [m/s].
     enum Record
@@ -91,6 +93,10 @@ namespace talus
     cut_cell(const Grid<dim>         &grid,
              const FacetContact<dim> &contact,
              unsigned int             c);
+    std::array<double, dim + 1>
+    emptiness_at(const Simplex<dim> &simplex,
+                 const Box<dim>     &box,
+                 const NodesOfCell  &nodes) const;
     void
     set_soil(SurfaceFacet<dim> &facet, const ShapeValues &shape_values) const;
 

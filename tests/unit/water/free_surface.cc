@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include "obstacles_setup.h"
+#include "ranks_setup.h"
+#include "suites.h"
+
+#include <talus/water/free_surface.h>
+#include <talus/water/water.h>
+
+#include <functional>
+
+namespace Utilities = dealii::Utilities;
+
+namespace
+{
+  TALUS_ALSO_ON_RANKS(FreeSurfaceOfSoil, 2, 3);
+
+  /// Soil wherever @p is_soil is, by points in distances of half a cell.
+  template <int dim>
+  struct Soil : Core<dim>
+  {
+    using Region = std::function<bool(const Point<dim> &)>;
+
+    Soil(const std::string &parameters,
+         const Region      &is_soil,
+         const std::initializer_list<std::pair<std::string, std::string>>
+           &sections = {})
+      : Core<dim>(parameters)
+      , with(sections)
+      , contact(with.obstacles)
+      , is_soil_(is_soil)
+    {
+      contact.prepare(this->grid);
+      surface.prepare(this->grid);
+    }
+
+    /// Find the surface of the soil, with the points shifted by @p shift, m.
+    void
+    find(const Tensor<1, dim> &shift = Tensor<1, dim>())
+    {
+      this->points.clear();
+      const double         size   = 0.5 * this->grid.finest_size();
+      const Box<dim>      &domain = this->grid.domain();
+      Tensor<1, dim>       length;
+      std::array<int, dim> n;
+      int                  n_places = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          length[d] = size;
+          n[d]      = std::lround(domain.length(d) / size);
+          n_places *= n[d];
+        }
+      for (int i = 0; i < n_places; ++i)
+        {
+          Point<dim> x = domain.lower;
+          for (int d = 0, rest = i; d < dim; rest /= n[d], ++d)
+            x[d] += (rest % n[d] + 0.5) * size;
+          const Point<dim> now = x + shift;
+          if (!is_soil_(x) || !domain.contains(now) ||
+              !(this->grid.find_cell(now) < this->grid.n_owned_cells()))
+            continue;
+          const unsigned int p                    = this->add(now, length);
+          this->points.data(this->points.mass)[p] = 1600. * std::pow(size, dim);
+          this->points.data(this->points.reference_volume)[p] =
+            std::pow(size, dim);
+          this->set(this->points.velocity, p, velocity);
+        }
+      this->sort();
+      this->scatter();
+      surface.find(*this, contact);
+    }
+
+    double
+    area() const
+    {
+      double result = 0;
+      for (const SurfaceFacet<dim> &facet : surface.facets())
+        result += facet.vector_area.norm();
+      return Utilities::MPI::sum(result, this->grid.communicator());
+    }
+
+    Tensor<1, dim>
+    vector_area() const
+    {
+      Tensor<1, dim> result;
+      for (const SurfaceFacet<dim> &facet : surface.facets())
+        result += facet.vector_area;
+      return Utilities::MPI::sum(result, this->grid.communicator());
+    }
+
+    WithObstacles<dim> with;
+    FacetContact<dim>  contact;
+    FreeSurface<dim>   surface;
+    Tensor<1, dim>     velocity; ///< of the points, m/s
+
+  private:
+    Region is_soil_;
+  };
+
+
+
+  const std::string paper_mesh =
+    "subsection Grid\nset Lower corner = -4, 0\nset Upper corner = 56, 8\n"
+    "set Cell size = 0.2\nend\n";
+
+  bool
+  is_in_trapezoid(const Point<2> &x)
+  {
+    const double along = x[1] * 8.66 / 5.;
+    return x[1] < 5. && x[0] > along && x[0] < 48.66 - along;
+  }
+} // namespace
+
+
+
+// The front and the rear of the paper's trapezoid are sqrt(8.66^2 + 5^2) m long,
+// its crest is 31.34 m; and its outline is closed: what the contour lacks is
+// the base, where the lowest row of nodes is half filled or more.
+TEST(FreeSurfaceOfSoil, PapersTrapezoid)
+{
+  Soil<2> soil(paper_mesh, is_in_trapezoid);
+  soil.find();
+  const double exact = 31.34 + 2. * std::hypot(8.66, 5.);
+  EXPECT_NEAR(soil.area(), exact, 0.02 * exact);
+
+  double base = 0;
+  for (unsigned int c = 0; c < soil.grid.n_owned_cells(); ++c)
+    if (const Cell<2> &cell = soil.grid.cells()[c]; cell.lower[1] == 0.)
+      {
+        const double a = soil.surface.fill(cell.patch[5]) - 0.5;
+        const double b = soil.surface.fill(cell.patch[6]) - 0.5;
+        const double inside =
+          a * b >= 0 ? (a + b > 0)
+                     : std::max(a, b) / (std::max(a, b) - std::min(a, b));
+        base += cell.size * inside;
+      }
+  base = Utilities::MPI::sum(base, soil.grid.communicator());
+  EXPECT_NEAR(soil.vector_area()[0], 0., 1e-12 * exact);
+  EXPECT_NEAR(soil.vector_area()[1], base, 1e-12 * exact);
+  EXPECT_NEAR(base, 48.66, 0.3);
+}
+
+
+
+// Level soil from wall to wall: the contour is the surface to 0.07 cells,
+// wherever in a cell that is, and its vector area is the ground's.
+template <int dim>
+void
+expect_level()
+{
+  for (const double height : {0., 0.13, 0.25, 0.4, 0.5})
+    {
+      Soil<dim>      soil(slab<dim>(),
+                     [](const Point<dim> &x) { return x[1] < 2.5; });
+      Tensor<1, dim> shift;
+      shift[1] = -height;
+      soil.find(shift);
+      EXPECT_NEAR(soil.vector_area()[1], dim == 2 ? 6. : 12., 1e-12);
+      EXPECT_NEAR(soil.area(), dim == 2 ? 6. : 12., 1e-12);
+      for (const auto &facet : soil.surface.facets())
+        EXPECT_NEAR(facet.centroid[1], 2.5 - height, 0.07);
+    }
+}
+
+
+
+TEST(FreeSurfaceOfSoil, LevelSoil)
+{
+  expect_level<2>();
+  expect_level<3>();
+}
+
+
+
+// A ball of soil in the water has a closed surface.
+TEST(FreeSurfaceOfSoil, BallIsClosed)
+{
+  Soil<2> disc(slab<2>() + "subsection Grid\nset Cell size = 0.125\nend\n",
+               [](const Point<2> &x) {
+                 return x.distance(Point<2>(3., 2.)) < 1.5;
+               });
+  disc.find();
+  EXPECT_LT(disc.vector_area().norm(), 1e-12);
+  EXPECT_NEAR(disc.area(), 2. * M_PI * 1.5, 0.02 * 2. * M_PI * 1.5);
+  Soil<3> ball(slab<3>() + "subsection Grid\nset Cell size = 0.125\nend\n",
+               [](const Point<3> &x) {
+                 return x.distance(Point<3>(3., 2., 1.)) < 0.8;
+               });
+  ball.find();
+  EXPECT_LT(ball.vector_area().norm(), 1e-12);
+  const double sphere = 4. * M_PI * 0.8 * 0.8;
+  EXPECT_NEAR(ball.area(), sphere, 0.04 * sphere);
+}
+
+
+
+// Nor do hanging nodes tear it.
+TEST(FreeSurfaceOfSoil, DiscOnHangingNodes)
+{
+  Soil<2> disc(slab<2>(), [](const Point<2> &x) {
+    return x.distance(Point<2>(3., 2.)) < 1.5;
+  });
+  for (unsigned int i = 0; i < 2; ++i)
+    disc.refine([](const Point<2> &x) { return x[0] < 3.; });
+  disc.contact.prepare(disc.grid);
+  disc.surface.prepare(disc.grid);
+  disc.find();
+  EXPECT_LT(disc.vector_area().norm(), 1e-12);
+  EXPECT_NEAR(disc.area(), 2. * M_PI * 1.5, 0.05 * 2. * M_PI * 1.5);
+}
+
+
+
+// Points that cross cells make no noise: while the trapezoid moves through the
+// water by a cell, its outline changes by what the step can do and not more.
+TEST(FreeSurfaceOfSoil, IsContinuous)
+{
+  Soil<2>          soil(paper_mesh, [](const Point<2> &x) {
+    return is_in_trapezoid(Point<2>(x[0], x[1] - 2.)) && x[1] > 2.;
+  });
+  constexpr double n_steps = 80;
+  double           before  = 0;
+  for (unsigned int i = 0; i <= n_steps; ++i)
+    {
+      Tensor<1, 2> shift;
+      shift[0] = 0.2 * i / n_steps;
+      shift[1] = -0.1 * i / n_steps;
+      soil.find(shift);
+      if (i > 0)
+        {
+          EXPECT_NEAR(soil.area(), before, 0.03) << i;
+        }
+      before = soil.area();
+    }
+}
+
+
+
+// Soil on a plane through the cells: the contour ends at the walls, not at the
+// plane, and goes along it.
+TEST(FreeSurfaceOfSoil, SoilOnAnObstacle)
+{
+  const auto bed = [](const double x) { return 0.43 + 0.2 * x; };
+  Soil<2>    soil(slab<2>() + "subsection Grid\nset Cell size = 0.25\nend\n",
+               [&](const Point<2> &x) {
+                 return x[1] > bed(x[0]) && x[1] < bed(x[0]) + 1;
+               },
+               {{"bed",
+                    "Shape = half-plane|Point = 0, 0.43|Normal = -0.2, 1|"
+                       "Friction coefficient = 0"}});
+  soil.find();
+  EXPECT_NEAR(soil.vector_area()[1], 6., 1e-12);
+  EXPECT_NEAR(soil.area(), 6. * std::hypot(1., 0.2), 0.05 * 6.);
+  for (const auto &facet : soil.surface.facets())
+    EXPECT_NEAR(facet.centroid[1], bed(facet.centroid[0]) + 1., 0.15);
+}
+
+
+
+// Soil that moves into the water by 2 m/s and along its surface by 3 m/s: skin
+// friction 1/2 rho C_F A u_t^2, pressure 1/2 rho C_P A u_n^2, and the momentum
+// of the water that moves with it.
+template <int dim>
+void
+expect_drag()
+{
+  const double area = (dim == 2 ? 6. : 12.);
+  Soil<dim>    soil(slab<dim>(), [](const Point<dim> &x) { return x[1] < 2.; });
+  Water<dim>   water;
+  auto        &prm = dealii::ParameterAcceptor::prm;
+  dealii::ParameterAcceptor::declare_all_parameters();
+  prm.parse_input_from_string(
+    "subsection Water\nset Added mass coefficient = 0.2\n"
+    "set Skin friction coefficient = 0.01\n"
+    "set Pressure drag coefficient = 0.5\nend\n");
+  dealii::ParameterAcceptor::parse_all_parameters();
+  water.prepare(soil.grid);
+  soil.velocity[0] = 3.;
+  soil.velocity[1] = 2.;
+  soil.time_step   = 0.1;
+  soil.find();
+  Tensor<1, dim> before, after, impulse;
+  for (const unsigned int node : soil.nodes.active_nodes())
+    before += soil.nodes.momentum(node);
+  water.apply(soil, soil.contact);
+  soil.nodes.update_momentum(soil.time_step, 0.);
+  water.book(soil);
+  double mass = 0;
+  for (const unsigned int node : soil.nodes.active_nodes())
+    {
+      impulse += soil.nodes.mass(node) * soil.nodes.increment(node);
+      mass += soil.nodes.mass(node);
+    }
+  const MPI_Comm comm = soil.grid.communicator();
+  impulse             = Utilities::MPI::sum(impulse, comm);
+  EXPECT_NEAR(Utilities::MPI::sum(mass, comm),
+              (1600. + 200.) * 2. * area,
+              1e-8);
+  Tensor<1, dim> exact;
+  exact[0] = -0.5 * 1000. * 0.01 * area * 9. * soil.time_step;
+  exact[1] = -0.5 * 1000. * 0.5 * area * 4. * soil.time_step;
+  EXPECT_LT((impulse - exact).norm(), 1e-9 * exact.norm());
+  const Tensor<1, dim> booked =
+    Utilities::MPI::sum(soil.works.drag_impulse, comm);
+  EXPECT_LT((booked - exact).norm(), 1e-9 * exact.norm());
+  // Less than the power at the start times the step, by what it slows down.
+  const double power = -(exact * soil.velocity);
+  const double work  = Utilities::MPI::sum(soil.works.drag, comm);
+  EXPECT_LT(work, power);
+  EXPECT_GT(work, 0.8 * power);
+}
+
+
+
+TEST(FreeSurfaceOfSoil, DragAndAddedMass)
+{
+  expect_drag<2>();
+  expect_drag<3>();
+}
