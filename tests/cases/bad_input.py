@@ -6,11 +6,13 @@ Usage: bad_input.py TALUS FOLDER [TestClass]. Exits with 77 if every test was
 skipped, which ctest shows.
 """
 
+import re
+import shlex
 import subprocess
 import sys
 import unittest
 
-from bad_input_case import Case, DUST, GOOD
+from bad_input_case import Case, DUST, GOOD, TALUS
 from bad_input_folder import BadInputFolder
 from bad_input_motion import BadInputMotion
 from bad_input_stages import BadInputStages
@@ -315,6 +317,34 @@ class CommandLine(Case):
         self.assert_succeeds(self.run_talus("--help"), "Usage", "--set",
                              "--output", "--validate", "--document",
                              "--version")
+
+    def options(self):
+        return set(re.findall(r"^  (--[a-z]+)", self.run_talus("--help").stdout,
+                              re.MULTILINE))
+
+    def test_manual_has_all_options(self):
+        manual = self.run_talus("--manual").stdout.replace("\\-", "-")
+        self.assertIn("--resume", self.options())
+        for option in self.options():
+            self.assertIn("fB" + option + "\\fR", manual)
+
+    def complete(self, *words):
+        """What bash offers for the last word."""
+        line = " ".join(map(shlex.quote, words))
+        return set(subprocess.run(
+            ["bash", "-c", f"source <('{TALUS}' --completion);"
+             f"COMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; _talus;"
+             'printf "%s\\n" "${COMPREPLY[@]}"'],
+            cwd=self.folder, capture_output=True, text=True,
+            check=True).stdout.split())
+
+    def test_completion(self):
+        (self.folder / "slope.prm").write_text(GOOD)
+        (self.folder / "notes.txt").write_text("")
+        self.assertEqual(self.complete("talus", "--"), self.options())
+        self.assertEqual(self.complete("talus", "--res"), {"--resume"})
+        self.assertEqual(self.complete("talus", ""), {"slope.prm", "results"})
+        self.assertEqual(self.complete("talus", "--output", "r"), {"results"})
 
     def test_version(self):
         self.assert_succeeds(self.run_talus("--version"), "talus 0.", "deal.II")
