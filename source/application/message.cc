@@ -82,9 +82,10 @@ namespace talus
         "No entry with name <(.*)> was declared.*");
       static const std::regex unknown_section(
         "There is no such subsection to be entered: (.*)");
-      static const std::regex bad_value("The entry value (.*) for the entry "
-                                        "named (.*) does not match the given "
-                                        "pattern: (.*)");
+      static const std::regex bad_value(
+        "The entry value (?:(.*) )?for the entry "
+        "named (.*) does not match the given "
+        "pattern: (.*)");
       static const std::regex bad_line("The line <(.*)> could not be parsed.*");
 
       std::smatch part;

@@ -124,6 +124,30 @@ class BadInput(Case):
         self.refuse_set(["Grid/Cell size=one"], "--set Grid/Cell size=one",
                         "'one'", "number")
 
+    def test_empty_value(self):
+        for name, expected in (("Grid/Cell size", "a number of at least"),
+                               ("Grid/Lower corner", "list of 2 values"),
+                               ("Materials/clay/Law", "linear elastic"),
+                               ("Splitting/Enabled", "true or false")):
+            self.refuse_set([name + "="], "'" + name.split("/")[-1] + "' is ''",
+                            expected, "was expected")
+
+    def test_numbers_that_contradict_each_other(self):
+        self.refuse_set(["Materials/clay/Submerged density=2000"],
+                        "/Materials/clay", "2000", "1000", "at most")
+        self.refuse(
+            "linear elastic", "von Mises\nend\nend\n"
+            "set Stages = equilibrium, strength reduction\n"
+            "subsection Strength reduction\n set Smallest factor = 5\n"
+            " set Largest factor = 2\nend\n"
+            "subsection Materials\n subsection clay",
+            "'Strength reduction/Smallest factor' is 5", "2", "Exchange")
+
+    def test_run_without_end(self):
+        for setting in ("Materials/clay/Young's modulus=1e300",
+                        "Time step/Maximum=1e-100", "End time=1e30"):
+            self.refuse_set([setting], "time steps", "cannot end", "units")
+
     # Bodies and mesh
 
     def polygon(self, vertices):
@@ -162,6 +186,10 @@ class BadInput(Case):
         self.refuse_set(["Grid/Upper corner=2,4"],
                         "block", "3 m", "2 m", "Grid/Upper corner")
 
+    def test_body_a_little_too_large(self):
+        self.refuse_set(["Bodies/block/Upper corner=3,4.000001"],
+                        "to 4.000001 m", "to 4 m")
+
     def test_box_upside_down(self):
         self.refuse_set(["Bodies/block/Upper corner=0.5,2"],
                         "Bodies/block/Upper corner", "0.5 2", "lower corner")
@@ -196,6 +224,8 @@ class BadInput(Case):
                 ("a", "'a'", "name = value"),
                 ("a=2*", "'a=2*'", "cannot be understood"),
                 ("a=b", "'a=b'", "cannot be understood"),
+                ("a=", "'a='", "one value"),
+                ("a=b=1", "'a=b=1'", "one value"),
                 ("a=1/0", "'a=1/0'", "inf", "finite")):
             self.refuse_set(["Constants=" + constants], "'Constants'", *words)
 
@@ -217,6 +247,14 @@ class BadInput(Case):
     def test_initial_velocity_components(self):
         self.refuse_set(["Bodies/block/Initial velocity=1"],
                         "Bodies/block/Initial velocity", "2 are needed")
+
+    def test_assignment_is_no_expression(self):
+        for expression in ("x=5; 0", "0; if(y>=1, t=1, 0)"):
+            self.refuse_set(["Body force/Expression=" + expression],
+                            "Body force/Expression", "by =", "==")
+        self.assertEqual(self.run_file(settings=[
+            "Body force/Expression=if(x==2 || y>=1 || t!=0, 1, 0); x<=1"])
+            .returncode, 0)
 
     def test_body_force_is_no_expression(self):
         self.refuse_set(["Body force/Expression=q; 0"],
