@@ -114,6 +114,7 @@ namespace talus
     transfer_.check();
     output_.check(scheme_.damping().coefficient());
     check_can_be_made(output_.folder());
+    check_can_be_made(output_.folder() + "/checkpoints");
     problem_.prepare(state_.points,
                      static_stages_.stages().contain(Stage::strength_reduction),
                      end_time_);
