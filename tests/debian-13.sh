@@ -18,9 +18,11 @@ mkdir -p "$folder/talus"
 tar -C "$root" --exclude=./build --exclude=./output --exclude=./.git -cf - . |
   tar -C "$folder/talus" -xf -
 
-# Without /proc deal.II 9.6 loops for ever when it asks for its memory.
-trap 'umount -l "$folder/proc" "$folder/dev"' EXIT
+# Without /proc deal.II 9.6 loops for ever when it asks for its memory; without /sys
+# MPI complains.
+trap 'umount -l "$folder/proc" "$folder/dev" "$folder/sys"' EXIT
 mount -t proc proc "$folder/proc"
+mount -t sysfs sysfs "$folder/sys"
 mount --rbind /dev "$folder/dev"
 mount --make-rslave "$folder/dev"
 chroot "$folder" env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 sh -c "

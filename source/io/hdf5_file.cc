@@ -635,15 +635,15 @@ namespace talus
                  const std::uint64_t n_rows)
   {
     const auto [n_there, n_columns] = shape(name);
-    check_on_all_ranks(first <= n_there && n_rows <= n_there - first,
-                       text("the array '",
-                            name,
-                            "' has ",
-                            n_there,
-                            " rows, where ",
-                            first + n_rows,
-                            " were expected"));
-    if (!error_.empty())
+    if (!error_.empty() ||
+        !check_on_all_ranks(first <= n_there && n_rows <= n_there - first,
+                            text("the array '",
+                                 name,
+                                 "' has ",
+                                 n_there,
+                                 " rows, where ",
+                                 first + n_rows,
+                                 " were expected")))
       return {};
     std::vector<double> rows(n_rows * n_columns);
     const Handle        array   = open_array(file_, name);
