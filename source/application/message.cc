@@ -81,10 +81,13 @@ namespace talus
       static const std::regex unknown_entry(
         "No entry with name <(.*)> was declared.*");
       static const std::regex unknown_section(
-        "There is no such subsection to be entered: (.*)");
-      static const std::regex bad_value("The entry value (.*) for the entry "
-                                        "named (.*) does not match the given "
-                                        "pattern: (.*)");
+        // As deal.II 9.4 and 9.6 say it.
+        "(?:There is no such subsection to be entered: |You are trying to "
+        "enter a subsection ')(.*?)(?:', but the ParameterHandler .*)?");
+      static const std::regex bad_value(
+        "The entry value (?:(.*) )?for the entry "
+        "named (.*) does not match the given "
+        "pattern: (.*)");
       static const std::regex bad_line("The line <(.*)> could not be parsed.*");
 
       std::smatch part;

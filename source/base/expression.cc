@@ -45,6 +45,25 @@ namespace talus
 
 
 
+    /// Whether there is a single =, which muParser takes as an assignment.
+    bool
+    has_assignment(const std::string &expression)
+    {
+      for (std::size_t i = 0; i < expression.size(); ++i)
+        if (expression[i] == '=')
+          {
+            const char before = (i > 0 ? expression[i - 1] : ' ');
+            if (before == '<' || before == '>' || before == '!')
+              continue;
+            if (i + 1 == expression.size() || expression[i + 1] != '=')
+              return true;
+            ++i;
+          }
+      return false;
+    }
+
+
+
     /// Whether a constant may be called so: a word that muParser reads as one
     /// name, and that is neither a variable nor a constant defined before.
     bool
@@ -99,8 +118,15 @@ namespace talus
                                  "new name of letters, digits and '_' other "
                                  "than pi, x, y, z, t; separate constants by "
                                  "semicolons.")));
+        const std::string expression =
+          Utilities::trim(definition.substr(equals + 1));
+        AssertThrow(!expression.empty() && !has_assignment(expression),
+                    ExcUser(text("'Constants' contains '",
+                                 definition,
+                                 "', where one value was expected behind "
+                                 "the first =.")));
         FunctionParser<1> value(1);
-        value.initialize("x", definition.substr(equals + 1), values);
+        value.initialize("x", expression, values);
         // An expression without variables has one value; where it is asked for
         // does not matter.
         std::string  error  = parse_error(value);
@@ -144,6 +170,13 @@ namespace talus
                              " components, but ",
                              n_components,
                              " are needed, separated by semicolons.")));
+    AssertThrow(!has_assignment(expressions),
+                ExcUser(text(name,
+                             " = '",
+                             expressions,
+                             "' gives a variable a value by =, where a formula "
+                             "was expected; compare by == and define names in "
+                             "'Constants'.")));
     const auto known = constants.values();
     const auto names = Utilities::split_string_list(variables, ',');
     for (const std::string &variable : names)

@@ -184,6 +184,11 @@ namespace talus
     const std::vector<double> points_of_cell =
       file.read("cells/points", file.first_and_total(n_cells).first, n_cells);
     check_read(file);
+    AssertThrow(file.shape("cells/points").first ==
+                  file.first_and_total(n_cells).second,
+                ExcUser("The checkpoint file '" + file.path().string() +
+                        "' has another number of cells than its mesh. Remove "
+                        "this checkpoint so that the one before it is used."));
     const double n_points =
       std::accumulate(points_of_cell.begin(), points_of_cell.end(), 0.);
     points.append(static_cast<unsigned int>(n_points));
@@ -300,35 +305,6 @@ namespace talus
       result +=
         text(path.filename().string(), ' ', checksum_of_file(path), '\n');
     return result;
-  }
-
-
-
-  /// Every value that would be loaded is read and compared before anything of
-  /// it is used: a damaged checkpoint is then left for the one before it. Costs
-  /// one reading of the file. The mesh files are looked at by the first rank
-  /// only.
-  std::string
-  find_damage(Hdf5File &file)
-  {
-    std::vector<std::string> groups = {"cells", "points", "state", "text"};
-    // Runs without obstacles have none.
-    const std::vector<std::string> all = file.names("/");
-    if (std::count(all.begin(), all.end(), "tables") > 0)
-      groups.push_back("tables");
-    for (const std::string &group : groups)
-      for (const std::string &name : file.names(group))
-        file.verify(group + "/" + name);
-    file.verify("parameters");
-    file.verify("mesh");
-    const std::string saved = file.read_text("mesh");
-    if (!file.error().empty())
-      return file.error();
-    std::string error;
-    if (is_first_rank(file.communicator()) &&
-        mesh_checksums(file.path().parent_path()) != saved)
-      error = "the checksums of its mesh files do not match their content";
-    return first_sentence(error, file.communicator());
   }
 
 

@@ -2,6 +2,7 @@
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/checkpoint/checkpoint_folder.h>
+#include <talus/checkpoint/damage.h>
 #include <talus/io/files.h>
 
 #include <deal.II/base/utilities.h>
@@ -218,7 +219,7 @@ namespace talus
         found.head = load_head(file);
         if (file.error().empty())
           check_kind(path, found.head, dimension);
-        const std::string damage = find_damage(file);
+        const std::string damage = find_damage(file, found.head);
         if (damage.empty())
           {
             found.path = path;

@@ -67,6 +67,20 @@ namespace talus
 
 
   void
+  StrengthReduction::check() const
+  {
+    AssertThrow(smallest_ <= largest_,
+                ExcUser(
+                  text("'Strength reduction/Smallest factor' is ",
+                       smallest_,
+                       ", but 'Strength reduction/Largest factor' is ",
+                       largest_,
+                       ", which must be the larger one. Exchange the two.")));
+  }
+
+
+
+  void
   StrengthReduction::begin(const double largest_strength)
   {
     // growth_ is the share by which a factor without upper end grows. A larger

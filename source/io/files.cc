@@ -201,6 +201,7 @@ namespace talus
         flush();
         return;
       }
+    n_bytes_ = 0;
     file_.open(path);
     file_ << boost::algorithm::join(names, ",") << '\n';
     flush();
@@ -276,11 +277,33 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Whether a file is not there or too short; a device has no length.
+    bool
+    has_lost(const std::filesystem::path &path, const unsigned long n_bytes)
+    {
+      std::error_code error;
+      const auto      status = std::filesystem::status(path, error);
+      return !std::filesystem::exists(status) ||
+             (std::filesystem::is_regular_file(status) &&
+              std::filesystem::file_size(path, error) < n_bytes);
+    }
+  } // namespace
+
+
+
   /// n_bytes_ is what a checkpoint would save: bytes that the operating system
-  /// has.
+  /// has. Looked at before: rows behind a cut would hide it.
   void
   CsvFile::flush()
   {
+    AssertThrow(n_bytes_ == 0 || !has_lost(path_, n_bytes_),
+                ExcUser("The file '" + path_.string() +
+                        "', into which the run writes, was removed or cut "
+                        "short by someone else, so that its results are not "
+                        "complete. Put back what is missing and go on with "
+                        "--resume, or start anew with --overwrite."));
     errno = 0;
     file_.flush();
     AssertThrow(file_, ExcUser(failed_write(path_)));

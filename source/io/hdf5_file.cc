@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
+#include <talus/base/errors.h>
 #include <talus/io/checksum.h>
 #include <talus/io/disk_space.h>
 #include <talus/io/files.h>
+#include <talus/io/hdf5_checks.h>
 #include <talus/io/hdf5_file.h>
 
 #include <algorithm>
@@ -65,6 +67,8 @@ namespace talus
 
     /// What it adds to something short.
     constexpr std::uint64_t small_overhead = 1 << 12;
+
+    constexpr unsigned int largest_n_columns = 1 << 16;
 
 
 
@@ -326,10 +330,13 @@ namespace talus
     std::vector<std::string> result;
     if (!error_.empty())
       return result;
-    const auto add =
-      [](hid_t, const char *name, const H5L_info_t *, void *data) -> herr_t {
+    const auto add = [](hid_t,
+                        const char       *name,
+                        const H5L_info_t *info,
+                        void             *data) -> herr_t {
       static_cast<std::vector<std::string> *>(data)->push_back(name);
-      return 0;
+      // A link may lead out of the file, or to where it came from.
+      return info->type == H5L_TYPE_HARD ? 0 : -1;
     };
     const Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
     const bool   success =
@@ -382,19 +389,22 @@ namespace talus
 
 
 
-  /// Numbers are converted from the file's type to that of memory.
+  /// Numbers are converted from the file's type to that of memory, as far as the
+  /// two have the same values.
   template <typename Number>
   Number
   Hdf5File::read_attribute(const std::string &object,
                            const std::string &name,
-                           const hid_t        type)
+                           const hid_t        memory_type,
+                           const hid_t        file_type)
   {
     Number value = 0;
     if (!error_.empty())
       return value;
     const Handle attribute = open_attribute(file_, object, name);
     check_on_all_ranks(attribute.is_valid() &&
-                         H5Aread(attribute, type, &value) >= 0,
+                         is_number(attribute, file_type) &&
+                         H5Aread(attribute, memory_type, &value) >= 0,
                        is_missing(object, name));
     return value;
   }
@@ -409,8 +419,11 @@ namespace talus
       return "";
     const Handle attribute = open_attribute(file_, object, name);
     const Handle type(H5Aget_type(attribute), H5Tclose);
-    std::string  value(H5Tget_size(type), '\0');
-    check_on_all_ranks(H5Tget_class(type) == H5T_STRING &&
+    const Handle space(H5Aget_space(attribute), H5Sclose);
+    const auto   length = length_of_text(type, space);
+    // What the library takes of it, it has taken already.
+    std::string value(length.value_or(0), '\0');
+    check_on_all_ranks(length.has_value() &&
                          H5Aread(attribute, type, value.data()) >= 0,
                        is_missing(object, name));
     return value.substr(0, value.find('\0'));
@@ -602,10 +615,13 @@ namespace talus
     hsize_t      extent[2] = {0, 1};
     const Handle array     = open_array(file_, name);
     const Handle space(H5Dget_space(array), H5Sclose);
+    const Handle type(H5Dget_type(array), H5Tclose);
     const int    rank = H5Sget_simple_extent_ndims(space);
     const bool   success =
-      (rank == 1 || rank == 2) &&
-      H5Sget_simple_extent_dims(space, extent, nullptr) == rank;
+      (rank == 1 || rank == 2) && H5Tequal(type, H5T_IEEE_F64LE) > 0 &&
+      H5Sget_simple_extent_dims(space, extent, nullptr) == rank &&
+      extent[1] > 0 && extent[1] <= largest_n_columns &&
+      is_stored(file_, array);
     if (!check_on_all_ranks(success, "it has no array '" + name + "'"))
       return {0, 0};
     return {extent[0], static_cast<unsigned int>(extent[1])};
@@ -618,8 +634,16 @@ namespace talus
                  const std::uint64_t first,
                  const std::uint64_t n_rows)
   {
-    const unsigned int n_columns = shape(name).second;
-    if (!error_.empty())
+    const auto [n_there, n_columns] = shape(name);
+    if (!error_.empty() ||
+        !check_on_all_ranks(first <= n_there && n_rows <= n_there - first,
+                            text("the array '",
+                                 name,
+                                 "' has ",
+                                 n_there,
+                                 " rows, where ",
+                                 first + n_rows,
+                                 " were expected")))
       return {};
     std::vector<double> rows(n_rows * n_columns);
     const Handle        array   = open_array(file_, name);
@@ -643,9 +667,12 @@ namespace talus
       return "";
     const Handle array = open_array(file_, name);
     const Handle type(H5Dget_type(array), H5Tclose);
-    std::string  text(H5Tget_size(type), '\0');
+    const Handle space(H5Dget_space(array), H5Sclose);
+    const auto   length   = length_of_text(type, space);
+    const bool   is_there = length.has_value() && is_stored(file_, array);
+    std::string  text(is_there ? *length : 0, '\0');
     const bool   success =
-      H5Tget_class(type) == H5T_STRING &&
+      is_there &&
       H5Dread(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.data()) >= 0;
     check_on_all_ranks(success, "it has no text '" + name + "'");
     return text.substr(0, text.find('\0'));
@@ -698,9 +725,15 @@ namespace talus
 
 
   template double
-  Hdf5File::read_attribute(const std::string &, const std::string &, hid_t);
+  Hdf5File::read_attribute(const std::string &,
+                           const std::string &,
+                           hid_t,
+                           hid_t);
   template std::uint64_t
-  Hdf5File::read_attribute(const std::string &, const std::string &, hid_t);
+  Hdf5File::read_attribute(const std::string &,
+                           const std::string &,
+                           hid_t,
+                           hid_t);
   template void
   Hdf5File::write(const std::string &,
                   const std::vector<double> &,

@@ -1,62 +1,61 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/materials/factory.h>
 #include <talus/materials/hencky.h>
 #include <talus/materials/herschel_bulkley.h>
 #include <talus/materials/linear_elastic.h>
 #include <talus/materials/neo_hookean.h>
 #include <talus/materials/von_mises.h>
 
-#include <functional>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
 
 namespace talus
 {
   namespace
   {
-    template <int dim>
-    // What must be known of a law before a material of it is made: a parameter
-    // file is read before, and its messages and documentation name the laws.
-    struct Law
-    {
-      std::string name;
-      bool        has_strength;
-      std::function<std::unique_ptr<MaterialModel<dim>>(const std::string &)>
-        make;
-    };
-
-
-
-    /// The line of the list for a law: @p Model is its class. Not by
-    /// std::make_unique(), which would want to know how the law is destroyed,
-    /// and so all of its functions.
-    template <int dim, template <int> class Model, auto... arguments>
-    Law<dim>
-    law(const std::string &name)
-    {
-      return {name, Model<dim>::is_plastic, [](const std::string &section) {
-                return std::unique_ptr<MaterialModel<dim>>(
-                  new Model<dim>(section, arguments...));
-              }};
-    }
-
-
-
-    /// All laws, one line each.
+    /// All laws, one line each; add_law() appends to them.
     /// A list that is written out, and not one at which laws register
     /// themselves: objects that nobody refers to may be left out by the linker,
     /// and their order would be that of the linking.
     template <int dim>
-    std::vector<Law<dim>>
+    std::vector<Law<dim>> &
     laws()
     {
-      return {law<dim, LinearElastic>("linear elastic"),
-              law<dim, VonMises>("von Mises"),
-              law<dim, Hencky>("Hencky"),
-              law<dim, NeoHookean>("neo-Hookean"),
-              law<dim, HerschelBulkley, FlowLaw::herschel_bulkley>(
-                "Herschel-Bulkley"),
-              law<dim, HerschelBulkley, FlowLaw::bingham>("Bingham")};
+      static std::vector<Law<dim>> list = {
+        law<dim, LinearElastic>("linear elastic"),
+        law<dim, VonMises>("von Mises"),
+        law<dim, Hencky>("Hencky"),
+        law<dim, NeoHookean>("neo-Hookean"),
+        law<dim, HerschelBulkley, FlowLaw::herschel_bulkley>(
+          "Herschel-Bulkley"),
+        law<dim, HerschelBulkley, FlowLaw::bingham>("Bingham")};
+      return list;
     }
   } // namespace
+
+
+
+  // deal.II separates the values that a parameter may have by |.
+  template <int dim>
+  void
+  add_law(const Law<dim> &law)
+  {
+    const auto names = material_names<dim>();
+    AssertThrow(std::find(names.begin(), names.end(), law.name) == names.end(),
+                ExcUser("A law '" + law.name +
+                        "' was added, but there is one of that name. Give "
+                        "add_law() another name."));
+    AssertThrow(!law.name.empty() &&
+                  law.name.find_first_of("|,#\n") == std::string::npos &&
+                  law.name == dealii::Utilities::trim(law.name),
+                ExcUser("A law '" + law.name +
+                        "' was added, which no parameter file could ask for. "
+                        "Give add_law() a name without |, commas, # and "
+                        "spaces around it."));
+    laws<dim>().push_back(law);
+  }
 
 
 
@@ -115,6 +114,10 @@ namespace talus
 
 
 
+  template void
+  add_law(const Law<2> &);
+  template void
+                                       add_law(const Law<3> &);
   template decltype(material_names<2>) material_names<2>;
   template decltype(material_names<3>) material_names<3>;
   template decltype(names_of_laws_with_strength<2>)

@@ -54,6 +54,15 @@ namespace talus
                              ": `Density` is ",
                              density_,
                              " kg/m^3. Give a positive number.")));
+    AssertThrow(submerged_density() <= density_,
+                ExcUser(text("Section ",
+                             section_,
+                             ": `Submerged density` is ",
+                             submerged_density(),
+                             " kg/m^3 and `Density` ",
+                             density_,
+                             " kg/m^3, but water takes from the weight. Give "
+                             "at most the density.")));
   }
 
 

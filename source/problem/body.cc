@@ -6,6 +6,7 @@
 #include <deal.II/base/mpi.h>
 
 #include <cmath>
+#include <iomanip>
 
 namespace talus
 {
@@ -78,7 +79,9 @@ namespace talus
         const double tolerance = 1e-9 * domain.length(d);
         AssertThrow(box.lower[d] >= domain.lower[d] - tolerance &&
                       box.upper[d] <= domain.upper[d] + tolerance,
-                    ExcUser(text("The body '",
+                    // More digits than the tolerance has.
+                    ExcUser(text(std::setprecision(12),
+                                 "The body '",
                                  name_,
                                  "' reaches from ",
                                  box.lower[d],

@@ -75,6 +75,31 @@ namespace talus
     // What would stop the first step stops here, where nothing is written yet.
     problem_.loading.update(state_.points, state_.time);
     problem_.boundaries.check_values(state_.nodes, state_.grid, state_.time);
+    check_number_of_steps();
+  }
+
+
+
+  /// A run that cannot end in months is a mistake in some unit, and would write
+  /// one row in all that time. Collective.
+  template <int dim>
+  void
+  Simulation<dim>::check_number_of_steps()
+  {
+    if (!static_stages_.stages().contain(Stage::dynamics))
+      return;
+    const double dt      = scheme_.stable_time_step();
+    const double n_steps = (end_time_ - state_.time) / dt;
+    AssertThrow(n_steps <= 1e12,
+                ExcUser(text("The run would take ",
+                             n_steps,
+                             " time steps of ",
+                             dt,
+                             " s to 'End time' = ",
+                             end_time_,
+                             " s, which cannot end. Check the units of "
+                             "stiffness, density, cell size, velocities and "
+                             "'End time', and 'Time step/Maximum'.")));
   }
 
 
@@ -92,6 +117,7 @@ namespace talus
     transfer_.check();
     output_.check(scheme_.damping().coefficient());
     check_can_be_made(output_.folder());
+    check_can_be_made(output_.folder() + "/checkpoints");
     problem_.prepare(state_.points,
                      static_stages_.stages().contain(Stage::strength_reduction),
                      end_time_);

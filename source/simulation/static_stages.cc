@@ -79,6 +79,7 @@ namespace talus
                         "the steps of the stage."));
     if (!stages_.contain(Stage::strength_reduction))
       return;
+    strength_reduction_.check();
     bool has_strength =
       problem_.has_seabed() && strength_reduction_.includes_seabed();
     for (unsigned int b = 0; b < names_of_bodies.size(); ++b)

@@ -6,11 +6,13 @@ Usage: bad_input.py TALUS FOLDER [TestClass]. Exits with 77 if every test was
 skipped, which ctest shows.
 """
 
+import re
+import shlex
 import subprocess
 import sys
 import unittest
 
-from bad_input_case import Case, DUST, GOOD
+from bad_input_case import Case, DUST, GOOD, TALUS
 from bad_input_folder import BadInputFolder
 from bad_input_motion import BadInputMotion
 from bad_input_stages import BadInputStages
@@ -122,6 +124,30 @@ class BadInput(Case):
         self.refuse_set(["Grid/Cell size=one"], "--set Grid/Cell size=one",
                         "'one'", "number")
 
+    def test_empty_value(self):
+        for name, expected in (("Grid/Cell size", "a number of at least"),
+                               ("Grid/Lower corner", "list of 2 values"),
+                               ("Materials/clay/Law", "linear elastic"),
+                               ("Splitting/Enabled", "true or false")):
+            self.refuse_set([name + "="], "'" + name.split("/")[-1] + "' is ''",
+                            expected, "was expected")
+
+    def test_numbers_that_contradict_each_other(self):
+        self.refuse_set(["Materials/clay/Submerged density=2000"],
+                        "/Materials/clay", "2000", "1000", "at most")
+        self.refuse(
+            "linear elastic", "von Mises\nend\nend\n"
+            "set Stages = equilibrium, strength reduction\n"
+            "subsection Strength reduction\n set Smallest factor = 5\n"
+            " set Largest factor = 2\nend\n"
+            "subsection Materials\n subsection clay",
+            "'Strength reduction/Smallest factor' is 5", "2", "Exchange")
+
+    def test_run_without_end(self):
+        for setting in ("Materials/clay/Young's modulus=1e300",
+                        "Time step/Maximum=1e-100", "End time=1e30"):
+            self.refuse_set([setting], "time steps", "cannot end", "units")
+
     # Bodies and mesh
 
     def polygon(self, vertices):
@@ -160,6 +186,10 @@ class BadInput(Case):
         self.refuse_set(["Grid/Upper corner=2,4"],
                         "block", "3 m", "2 m", "Grid/Upper corner")
 
+    def test_body_a_little_too_large(self):
+        self.refuse_set(["Bodies/block/Upper corner=3,4.000001"],
+                        "to 4.000001 m", "to 4 m")
+
     def test_box_upside_down(self):
         self.refuse_set(["Bodies/block/Upper corner=0.5,2"],
                         "Bodies/block/Upper corner", "0.5 2", "lower corner")
@@ -194,6 +224,8 @@ class BadInput(Case):
                 ("a", "'a'", "name = value"),
                 ("a=2*", "'a=2*'", "cannot be understood"),
                 ("a=b", "'a=b'", "cannot be understood"),
+                ("a=", "'a='", "one value"),
+                ("a=b=1", "'a=b=1'", "one value"),
                 ("a=1/0", "'a=1/0'", "inf", "finite")):
             self.refuse_set(["Constants=" + constants], "'Constants'", *words)
 
@@ -215,6 +247,14 @@ class BadInput(Case):
     def test_initial_velocity_components(self):
         self.refuse_set(["Bodies/block/Initial velocity=1"],
                         "Bodies/block/Initial velocity", "2 are needed")
+
+    def test_assignment_is_no_expression(self):
+        for expression in ("x=5; 0", "0; if(y>=1, t=1, 0)"):
+            self.refuse_set(["Body force/Expression=" + expression],
+                            "Body force/Expression", "by =", "==")
+        self.assertEqual(self.run_file(settings=[
+            "Body force/Expression=if(x==2 || y>=1 || t!=0, 1, 0); x<=1"])
+            .returncode, 0)
 
     def test_body_force_is_no_expression(self):
         self.refuse_set(["Body force/Expression=q; 0"],
@@ -315,6 +355,34 @@ class CommandLine(Case):
         self.assert_succeeds(self.run_talus("--help"), "Usage", "--set",
                              "--output", "--validate", "--document",
                              "--version")
+
+    def options(self):
+        return set(re.findall(r"^  (--[a-z]+)", self.run_talus("--help").stdout,
+                              re.MULTILINE))
+
+    def test_manual_has_all_options(self):
+        manual = self.run_talus("--manual").stdout.replace("\\-", "-")
+        self.assertIn("--resume", self.options())
+        for option in self.options():
+            self.assertIn("fB" + option + "\\fR", manual)
+
+    def complete(self, *words):
+        """What bash offers for the last word."""
+        line = " ".join(map(shlex.quote, words))
+        return set(subprocess.run(
+            ["bash", "-c", f"source <('{TALUS}' --completion);"
+             f"COMP_WORDS=({line}); COMP_CWORD={len(words) - 1}; _talus;"
+             'printf "%s\\n" "${COMPREPLY[@]}"'],
+            cwd=self.folder, capture_output=True, text=True,
+            check=True).stdout.split())
+
+    def test_completion(self):
+        (self.folder / "slope.prm").write_text(GOOD)
+        (self.folder / "notes.txt").write_text("")
+        self.assertEqual(self.complete("talus", "--"), self.options())
+        self.assertEqual(self.complete("talus", "--res"), {"--resume"})
+        self.assertEqual(self.complete("talus", ""), {"slope.prm", "results"})
+        self.assertEqual(self.complete("talus", "--output", "r"), {"results"})
 
     def test_version(self):
         self.assert_succeeds(self.run_talus("--version"), "talus 0.", "deal.II")

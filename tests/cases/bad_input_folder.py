@@ -2,6 +2,7 @@
 """What talus does with the files that it finds: those of an earlier run, those of
 another run that is going on, and those of the user."""
 
+import pathlib
 import signal
 import subprocess
 import time
@@ -15,7 +16,9 @@ class BadInputFolder(Case):
     def start_long_run(self):
         (self.folder / "long.prm").write_text(LONG)
         run = subprocess.Popen([TALUS, "--output", "results", "long.prm"],
-                               cwd=self.folder, stdout=subprocess.DEVNULL)
+                               cwd=self.folder, stdout=subprocess.DEVNULL,
+                               stderr=subprocess.PIPE, text=True)
+        self.addCleanup(run.stderr.close)
         self.addCleanup(run.wait)
         self.addCleanup(run.kill)
         for _ in range(600):
@@ -70,6 +73,27 @@ class BadInputFolder(Case):
                 file.unlink()
             for folder in (self.results / "checkpoints").iterdir():
                 folder.rmdir()
+
+    # Results that go
+
+    def test_results_removed_in_mid_run(self):
+        for remove in (pathlib.Path.unlink,
+                       lambda path: path.write_text("cut\n")):
+            run = self.start_long_run()
+            remove(self.results / "statistics.csv")
+            self.assertEqual(run.wait(60), 1)
+            sentence = run.stderr.read()
+            for word in ("results/statistics.csv", "removed or cut",
+                         "--overwrite"):
+                self.assertIn(word, sentence)
+            (self.results / "log.txt").unlink()
+
+    def test_checkpoints_is_a_file(self):
+        (self.results / "checkpoints").write_text("mine")
+        self.earlier["checkpoints"] = "mine"
+        self.assert_refused(self.run_file(), "results/checkpoints",
+                            "not a folder", "--output")
+        self.assert_untouched()
 
     # Files of the user
 

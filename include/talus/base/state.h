@@ -2,8 +2,13 @@
 #ifndef talus_base_state_h
 #define talus_base_state_h
 
+#include <talus/base/errors.h>
+
+#include <algorithm>
 #include <functional>
+#include <limits>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace talus
@@ -62,12 +67,14 @@ namespace talus
         Value             &value,
         const Reduction    reduction)
     {
-      numbers_.push_back(
-        {name,
-         unit,
-         reduction,
-         [&value]() { return static_cast<double>(value); },
-         [&value](const double saved) { value = static_cast<Value>(saved); }});
+      numbers_.push_back({name,
+                          unit,
+                          reduction,
+                          [&value]() { return static_cast<double>(value); },
+                          [&value, name](const double saved) {
+                            check_that_it_fits<Value>(name, saved);
+                            value = static_cast<Value>(saved);
+                          }});
     }
 
     /// Add an array or a vector, component by component.
@@ -114,6 +121,25 @@ namespace talus
     }
 
   private:
+    /// What does not fit into an integer would become any number.
+    template <typename Value>
+    static void
+    check_that_it_fits(const std::string &name, const double saved)
+    {
+      if constexpr (std::is_integral_v<Value>)
+        AssertThrow(saved >= double(std::numeric_limits<Value>::lowest()) &&
+                      saved <=
+                        std::min(9007199254740992.,
+                                 double(std::numeric_limits<Value>::max())),
+                    ExcUser(text("The state '",
+                                 name,
+                                 "' of a checkpoint is ",
+                                 saved,
+                                 ", where a whole number was expected. Remove "
+                                 "this checkpoint, so that the one before it "
+                                 "is used.")));
+    }
+
     std::vector<Number> numbers_;
     std::vector<Text>   texts_;
     std::vector<Table>  tables_;

@@ -81,13 +81,6 @@ namespace talus
   std::string
   mesh_checksums(const std::filesystem::path &checkpoint);
 
-  /// What is wrong with the checkpoint of which this is the state, compared with
-  /// its checksums; empty if nothing is. Collective.
-  std::string
-  find_damage(Hdf5File &file);
-
-
-
   /// Throw ExcUser if the file could not be read.
   void
   check_read(const Hdf5File &file);

@@ -21,6 +21,10 @@ namespace talus
   public:
     StrengthReduction();
 
+    /// Throw ExcUser if the limits of the factor contradict each other.
+    void
+    check() const;
+
     /// Nothing is known yet. No strength may be multiplied by more than
     /// @p largest_strength.
     void

@@ -42,6 +42,9 @@ namespace talus
   /// space for each array is reserved before it is written, as if it could not
   /// be compressed.
   ///
+  /// What a file claims to hold is compared with what is expected before
+  /// anything of it is read: it may be damaged, or made by others.
+  ///
   /// There are no dates in the file: the same data on the same number of ranks
   /// give the same bytes. Its own metadata have checksums (HDF5 1.8 or later
   /// reads it).
@@ -129,13 +132,19 @@ namespace talus
     double
     number_attribute(const std::string &object, const std::string &name)
     {
-      return read_attribute<double>(object, name, H5T_NATIVE_DOUBLE);
+      return read_attribute<double>(object,
+                                    name,
+                                    H5T_NATIVE_DOUBLE,
+                                    H5T_IEEE_F64LE);
     }
 
     std::uint64_t
     integer_attribute(const std::string &object, const std::string &name)
     {
-      return read_attribute<std::uint64_t>(object, name, H5T_NATIVE_UINT64);
+      return read_attribute<std::uint64_t>(object,
+                                           name,
+                                           H5T_NATIVE_UINT64,
+                                           H5T_STD_U64LE);
     }
 
     /// Where the rows of this rank, @p n_rows, begin among those of all, and
@@ -161,7 +170,8 @@ namespace talus
     void
     write_text(const std::string &name, const std::string &text);
 
-    /// Number of rows and columns of an array; zero after an error.
+    /// Number of rows and columns of an array of doubles that is all in the file
+    /// and not compressed; zero after an error.
     std::pair<std::uint64_t, unsigned int>
     shape(const std::string &name);
 
@@ -230,7 +240,8 @@ namespace talus
     Number
     read_attribute(const std::string &object,
                    const std::string &name,
-                   hid_t              type);
+                   hid_t              memory_type,
+                   hid_t              file_type);
     bool
     is_text(const std::string &name);
 

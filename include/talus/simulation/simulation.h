@@ -101,6 +101,8 @@ namespace talus
     void
     create_points();
     void
+    check_number_of_steps();
+    void
     begin_run();
     void
     begin_files();

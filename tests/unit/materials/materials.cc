@@ -2,6 +2,7 @@
 // What all laws share: batches, factory, parameters.
 
 #include <talus/base/errors.h>
+#include <talus/materials/factory.h>
 
 #include "specimen.h"
 
@@ -102,6 +103,20 @@ TEST(Materials, FactoryKnowsItsLaws)
   for (const std::string part :
        {"jelly", "/Materials/clay", "linear elastic, von Mises, Hencky"})
     EXPECT_NE(message.find(part), std::string::npos) << message;
+}
+
+
+
+// That a good one runs is shown by tests/cases/own_law.py.
+TEST(Materials, AddedLawMustHaveANameOfItsOwn)
+{
+  for (const std::string name : {"von Mises", "", "a|b", "a, b", " a", "a#b"})
+    {
+      const std::string message = sentence_of_failed([&] {
+        add_law<2>({name, false, {}});
+      });
+      EXPECT_NE(message.find("'" + name + "'"), std::string::npos) << message;
+    }
 }
 
 

@@ -1,0 +1,16 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# deal.II of Debian 13 asks for the linker mold, but does not bring it; any does.
+find_program(TALUS_MOLD mold)
+mark_as_advanced(TALUS_MOLD)
+if(NOT TALUS_MOLD)
+  string(REPLACE "-fuse-ld=mold" "" DEAL_II_LINKER_FLAGS "${DEAL_II_LINKER_FLAGS}")
+  foreach(target dealii::dealii dealii::dealii_debug dealii::dealii_release)
+    if(TARGET ${target})
+      get_target_property(options ${target} INTERFACE_LINK_OPTIONS)
+      if(options)
+        list(REMOVE_ITEM options "-fuse-ld=mold")
+        set_target_properties(${target} PROPERTIES INTERFACE_LINK_OPTIONS "${options}")
+      endif()
+    endif()
+  endforeach()
+endif()

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# What `cmake --install` puts where. Two components: `program`, to run, and
+# `development`, to build programs with laws of their own (find_package(talus)).
+include(CMakePackageConfigHelpers)
+
+install(TARGETS talus COMPONENT program)
+# To be linked to is the first one; the loader finds the others by their names.
+foreach(library ${talus_libraries})
+  get_target_property(folder ${library} TALUS_INSTALL_FOLDER)
+  install(TARGETS ${library} LIBRARY
+    DESTINATION ${folder} COMPONENT program NAMELINK_SKIP)
+endforeach()
+install(TARGETS talus_library LIBRARY
+  DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development NAMELINK_ONLY)
+install(DIRECTORY prm DESTINATION share/talus COMPONENT program)
+install(FILES doc/parameters.prm DESTINATION share/doc/talus COMPONENT program)
+
+# Made by the program itself from its list of options.
+find_program(TALUS_GZIP gzip REQUIRED)
+mark_as_advanced(TALUS_GZIP)
+set(manual ${CMAKE_BINARY_DIR}/talus.1.gz)
+set(completion ${CMAKE_BINARY_DIR}/talus.bash)
+add_custom_command(OUTPUT ${manual}
+  COMMAND talus --manual | ${TALUS_GZIP} -9n > ${manual} DEPENDS talus VERBATIM)
+add_custom_command(OUTPUT ${completion}
+  COMMAND talus --completion > ${completion} DEPENDS talus VERBATIM)
+add_custom_target(manual ALL DEPENDS ${manual} ${completion})
+install(FILES ${manual} DESTINATION share/man/man1 COMPONENT program)
+install(FILES ${completion} RENAME talus
+  DESTINATION share/bash-completion/completions COMPONENT program)
+
+# deal.II's headers are others where they assert.
+set(talus_deal_ii_variant RELEASE)
+set(talus_deal_ii_definitions "")
+if(CMAKE_BUILD_TYPE STREQUAL "Debug")
+  set(talus_deal_ii_variant DEBUG)
+  set(talus_deal_ii_definitions DEBUG)
+endif()
+set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/talus)
+configure_package_config_file(cmake/talusConfig.cmake.in
+  ${CMAKE_BINARY_DIR}/talusConfig.cmake
+  INSTALL_DESTINATION ${config_folder}
+  PATH_VARS CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_INCLUDEDIR)
+write_basic_package_version_file(${CMAKE_BINARY_DIR}/talusConfigVersion.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+    ${CMAKE_BINARY_DIR}/talusConfig.cmake
+    ${CMAKE_BINARY_DIR}/talusConfigVersion.cmake
+    cmake/any_linker.cmake
+  DESTINATION ${config_folder} COMPONENT development)
+install(DIRECTORY include/talus ${CMAKE_BINARY_DIR}/include/talus
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+install(DIRECTORY doc/examples DESTINATION share/talus COMPONENT development)

@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# Run by CPack on what it packs: paths to the libraries of this machine go.
+file(GLOB_RECURSE files
+  ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/talus
+  ${CPACK_TEMPORARY_INSTALL_DIRECTORY}/libtalus.so.?.?.?)
+list(FILTER files INCLUDE REGEX "/bin/talus$|/libtalus")
+foreach(file ${files})
+  file(RPATH_REMOVE FILE ${file})
+endforeach()
