@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Parameter files of deal.II: sections, entries, comments, and defaults."""
+
+import re
+
+from talus_tools.errors import UserError
+
+ENTRY = re.compile(r"set\s+(.*?)\s*=\s*(.*)$")
+
+
+def lines_of(path):
+    """Lines with their numbers, without comments; a trailing backslash joins two."""
+    try:
+        with open(path, encoding="utf-8") as stream:
+            text = stream.read()
+    except OSError as error:
+        raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
+    except UnicodeDecodeError as error:
+        raise UserError(f"'{path}' is no text file: {error}.") from error
+    number, start, pending = 0, 1, ""
+    for number, line in enumerate(text.splitlines(), 1):
+        line = pending + line.split("#", 1)[0].strip()
+        if not pending:
+            start = number
+        if line.endswith("\\"):
+            pending = line[:-1].rstrip() + " "
+            continue
+        pending = ""
+        if line:
+            yield start, line
+
+
+def read_parameters(path):
+    """All entries in order, {"Section/Sub-section/Entry": value}."""
+    entries, sections = {}, []
+    for number, line in lines_of(path):
+        found = ENTRY.match(line)
+        if found:
+            entries["/".join(sections + [found[1]])] = found[2]
+        elif line.startswith("subsection "):
+            sections.append(line[len("subsection "):].strip())
+        elif line == "end" and sections:
+            sections.pop()
+        else:
+            raise UserError(f"'{path}', line {number}: '{line}' is none of 'set NAME = VALUE', "
+                            "'subsection NAME' and 'end' of a section.")
+    if sections:
+        raise UserError(f"'{path}' ends within the section '{'/'.join(sections)}': an 'end' is "
+                        "missing.")
+    return entries
+
+
+class Defaults:
+    """Defaults by the reference of all parameters. Sections with names of the user's stand
+    there once, as an example: a body, and a material for each law."""
+
+    def __init__(self, path):
+        self.entries = read_parameters(path)
+
+    def of(self, name, entries):
+        """Default of an entry among `entries`; None where the reference has none."""
+        parts = name.split("/")
+        if len(parts) == 3 and parts[0] == "Materials":
+            parts[1] = entries.get(f"Materials/{parts[1]}/Law", "")
+        elif len(parts) == 3 and parts[0] in ("Bodies", "Obstacles", "Surfaces"):
+            # Obstacles have the shapes of bodies.
+            section = "Surfaces" if parts[0] == "Surfaces" else "Bodies"
+            examples = {key.split("/")[1] for key in self.entries
+                        if key.startswith(section + "/") and key.count("/") == 2}
+            parts[:2] = [section, min(examples, default="")]
+        return self.entries.get("/".join(parts))
+
+
+def numbers(text):
+    """The numbers of a list; None if it is none."""
+    try:
+        return [float(part) for part in re.split(r"[,;\s]+", text.strip())]
+    except ValueError:
+        return None
+
+
+def is_same_value(one, other):
+    """Whether two texts mean the same: 1e3 and 1000, or the same words."""
+    if one.split() == other.split():
+        return True
+    return numbers(one) is not None and numbers(one) == numbers(other)
+
+
+def changed_entries(entries, defaults):
+    """(name, value, default or None) of those that are not at their default. Of an entry
+    whose default is not known an empty value counts as the default."""
+    result = []
+    for name, value in entries.items():
+        default = defaults.of(name, entries)
+        if not is_same_value(value, default or ""):
+            result.append((name, value, default))
+    return result
