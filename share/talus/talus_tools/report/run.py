@@ -8,10 +8,11 @@ import os
 import re
 
 from talus_tools.errors import UserError
+from talus_tools.hdf5 import Hdf5Series
 from talus_tools.parameters import Defaults, changed_entries, read_parameters
 from talus_tools.report.log import Log
 from talus_tools.tables import read_table
-from talus_tools.vtu import Series
+from talus_tools.vtu import VtuSeries
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 # The reference of all parameters: installed beside the tools, or in the source tree.
@@ -81,10 +82,12 @@ class Run:
         return read_table(path) if has_rows else None
 
     def series(self, name):
-        """Fields by time, or None where there are none as VTU."""
-        path = self.path(name + ".pvd")
-        series = Series(path) if os.path.isfile(path) else None
-        return series if series and len(series.times) else None
+        """Fields by time, of VTU or HDF5 files; None where there are none."""
+        for ending, kind in ((".pvd", VtuSeries), (".xdmf", Hdf5Series)):
+            if os.path.isfile(self.path(name + ending)):
+                series = kind(self.path(name + ending))
+                return series if len(series.times) else None
+        return None
 
     @property
     def time(self):

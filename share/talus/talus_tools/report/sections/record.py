@@ -17,7 +17,7 @@ def parameters(run):
     else:
         parts.append(Rows(["entry that is not at its default", "value", "default"],
                           [[name.replace("/", " / "), value,
-                            "none" if default is None or default == "" else default]
+                            "not known" if default is None else default or "none"]
                            for name, value, default in run.changed]))
     parts.append(Lines([run.parameter_text], "All parameters, as talus understood them"))
     return Section(

@@ -4,15 +4,20 @@
 import numpy
 
 from talus_tools.report.page import Lines, Section, embed, subplots
+from talus_tools.report.sections.cut import cut_points, middle
 from talus_tools.report.sections.soil import boxes, frame
 
 
 def mechanism(run, name, caption):
     """How the soil moves when it fails, the largest component being 1."""
     series = run.series(name)
-    if series is None or run.dimension != 2:
+    if series is None:
         return []
     corners, values = series.read(series.times[-1])
+    if run.dimension == 3:
+        z = middle(corners, numpy.linalg.norm(values["mechanism [-]"], axis=1))
+        corners, values = cut_points(corners, values, z)
+        caption += f" Section at z = {z:.4g} m, through the middle of what moves."
     motion = values["mechanism [-]"]
     speed = numpy.linalg.norm(motion, axis=1)
     places = corners.mean(axis=1)

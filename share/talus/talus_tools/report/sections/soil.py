@@ -1,22 +1,15 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pictures of the soil in 2-D."""
+"""Pictures of the soil; in 3-D of a section along x through its middle."""
 
 import numpy
 from matplotlib.collections import LineCollection, PolyCollection
 
 from talus_tools.report.page import WIDTH, Section, embed, subplots
+from talus_tools.report.sections.cut import cut_points, cut_surface, middle, rectangles
+from talus_tools.vtu import VtuSeries
 
-SPEED, LENGTH = "speed [m/s]", "box length [m]"
+SPEED = "speed [m/s]"
 N_FRAMES = 5
-
-
-def rectangles(corners, values):
-    """Outlines of the points: their cells, or, where these are dots, their boxes."""
-    if corners.shape[1] > 2:
-        return corners[:, :, :2]
-    half = (values[LENGTH][:, :2] if LENGTH in values else numpy.full((len(corners), 2), 0.1)) / 2
-    signs = numpy.array([[-1, -1], [1, -1], [1, 1], [-1, 1]])
-    return corners[:, :1, :2] + signs * half[:, None, :]
 
 
 def boxes(corners, values, colors, limits):
@@ -39,27 +32,36 @@ def frame(all_corners, n):
         max(true, 1.0), 3.6)
 
 
-def outlines(run, time):
+def outlines(run, time, z):
     """Surfaces of obstacles nearest to this time."""
     series = run.series("obstacles")
     if series is None:
         return []
     corners, _ = series.read(series.nearest(time))
-    return [LineCollection(corners[:, :, :2], colors="black", linewidths=1)]
+    return [LineCollection(cut_surface(corners, z), colors="black", linewidths=1)]
 
 
-def frames(run, series):
+def plane(run, series):
+    """In 3-D the z through the soil at the last time, in 2-D None."""
+    if run.dimension == 2:
+        return None
+    corners, values = series.read(series.times[-1])
+    return middle(corners, values.get("mass [kg]", numpy.ones(len(corners))))
+
+
+def frames(run, series, z):
     """The speed at up to five times, the first and the last among them."""
     chosen = numpy.unique(numpy.rint(numpy.linspace(
         0, len(series.times) - 1, min(N_FRAMES, len(series.times)))).astype(int))
     times = series.times[chosen]
-    states = [series.read(time) for time in times]
-    fastest = max(numpy.percentile(values[SPEED], 99.5) for _, values in states)
+    states = [cut_points(*series.read(time), z) for time in times]
+    fastest = max(numpy.percentile(values[SPEED], 99.5) for _, values in states
+                  if len(values[SPEED]))
     window, height = frame([corners for corners, _ in states], len(times))
     figure, rows = subplots(len(times), height=height + 0.5, sharex=True, squeeze=False)
     for axes, time, (corners, values) in zip(rows[:, 0], times, states):
         drawn = axes.add_collection(boxes(corners, values, values[SPEED], (0, fastest or 1)))
-        for lines in outlines(run, time):
+        for lines in outlines(run, time, z):
             axes.add_collection(lines)
         axes.set(xlim=window[:2], ylim=window[2:], ylabel="y [m]")
         axes.set_title(f"t = {time:.4g} s")
@@ -80,9 +82,9 @@ def exaggeration(window, height):
     return f"Heights are drawn about {ratio:.2g} times as large as lengths."
 
 
-def sheared(run, series):
+def sheared(run, series, z):
     """Where the soil was sheared, at the end."""
-    corners, values = series.read(series.times[-1])
+    corners, values = cut_points(*series.read(series.times[-1]), z)
     names = [n for n in values if n.startswith(("plastic strain", "plastic shear strain"))]
     if not names or not values[names[0]].max() > 0:
         return []
@@ -91,7 +93,7 @@ def sheared(run, series):
     limit = numpy.percentile(values[names[0]], 98) or values[names[0]].max()
     drawn = axes.add_collection(boxes(corners, values, values[names[0]], (0, limit)))
     drawn.set_cmap("magma")
-    for lines in outlines(run, series.times[-1]):
+    for lines in outlines(run, series.times[-1], z):
         axes.add_collection(lines)
     axes.set(xlim=window[:2], ylim=window[2:], xlabel="x [m]", ylabel="y [m]")
     axes.grid(False)
@@ -103,10 +105,13 @@ def sheared(run, series):
 
 
 def soil(run):
-    """In 2-D, where the points were written as VTU."""
+    """Where the points were written."""
     series = run.series("points")
-    if run.dimension != 2 or series is None:
+    if series is None:
         return None
+    z = plane(run, series)
+    where = "" if z is None else f"Section at z = {z:.4g} m, through the soil's centre of mass. "
+    file = "points.pvd" if isinstance(series, VtuSeries) else "points.xdmf"
     return Section("soil", "The soil at some times",
-                   "For all times and fields open points.pvd in ParaView.",
-                   [frames(run, series)] + sheared(run, series))
+                   f"{where}For all times and fields open {file} in ParaView.",
+                   [frames(run, series, z)] + sheared(run, series, z))
