@@ -68,6 +68,9 @@ class Defaults:
             examples = {key.split("/")[1] for key in self.entries
                         if key.startswith(section + "/") and key.count("/") == 2}
             parts[:2] = [section, min(examples, default="")]
+        elif parts[0] == "Boundaries":
+            # The faces across z are as those across x, which the reference of 2-D has.
+            parts[1] = re.sub(r"^(Back|Front)\b", "Left", parts[1])
         return self.entries.get("/".join(parts))
 
 
@@ -83,7 +86,11 @@ def is_same_value(one, other):
     """Whether two texts mean the same: 1e3 and 1000, or the same words."""
     if one.split() == other.split():
         return True
-    return numbers(one) is not None and numbers(one) == numbers(other)
+    left, right = numbers(one), numbers(other)
+    if left is None or right is None:
+        return False
+    # The reference is that of 2-D: (0, 1) there is (0, 1, 0) in 3-D.
+    return left == right or (len(left), len(right)) == (3, 2) and left == right + [0]
 
 
 def changed_entries(entries, defaults):

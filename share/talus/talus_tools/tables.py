@@ -14,7 +14,7 @@ class Table:
     def __init__(self, path, names, rows, left_out):
         self.path = path
         self.names = names
-        self.values = numpy.array([[float(cell) for cell in row] for row in rows])
+        self.values = numpy.array([[number(cell) for cell in row] for row in rows])
         self.last_row = dict(zip(names, rows[-1]))
         self.left_out = left_out
 
@@ -30,10 +30,15 @@ class Table:
         return len(self.values)
 
 
+def number(cell):
+    """A cell as a number; an empty one is none."""
+    return float(cell) if cell.strip() else numpy.nan
+
+
 def is_row_of_numbers(row, n_columns):
     """Whether all cells are there and are numbers."""
     try:
-        return len([float(cell) for cell in row]) == n_columns
+        return len([number(cell) for cell in row]) == n_columns
     except ValueError:
         return False
 
@@ -43,16 +48,18 @@ def read_table(path):
     left out, which the table tells in `left_out`; any other is an error."""
     try:
         with open(path, newline="", encoding="utf-8") as stream:
-            names, *rows = list(csv.reader(stream)) or [[]]
+            text = stream.read()
+            names, *rows = list(csv.reader(text.splitlines())) or [[]]
     except OSError as error:
         raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
     except (UnicodeDecodeError, csv.Error) as error:
         raise UserError(f"'{path}' is no table of talus: {error}.") from error
     bad = [i for i, row in enumerate(rows) if not is_row_of_numbers(row, len(names))]
-    left_out = bool(bad) and bad[0] == len(rows) - 1
+    # A line is whole when it has its end; before, its last number may lack digits.
+    left_out = bool(rows) and (not text.endswith("\n") or bad == [len(rows) - 1])
     if left_out:
         rows.pop()
-    elif bad:
+    if [i for i in bad if i < len(rows)]:
         raise UserError(f"'{path}', line {bad[0] + 2}, is not {len(names)} numbers separated by "
                         "commas, as the header says. The file was changed or damaged: run talus "
                         "again, or remove that line.")

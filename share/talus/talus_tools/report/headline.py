@@ -56,8 +56,9 @@ def headline(run):
                            "start."))
     velocity = table["centre velocity x [m/s]"]
     at = int(numpy.argmax(numpy.abs(velocity)))
-    result.append(tile("largest velocity", velocity[at], "m/s",
-                       f"Of the centre of mass, at t = {plain(table['time [s]'][at])} s."))
+    if velocity.any():
+        result.append(tile("largest velocity", velocity[at], "m/s",
+                           f"Of the centre of mass, at t = {plain(table['time [s]'][at])} s."))
     if run.tables["profile"]:
         profile = run.tables["profile"]
         last = profile["time [s]"] == profile["time [s]"][-1]

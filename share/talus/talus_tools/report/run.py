@@ -40,7 +40,8 @@ class Run:
         self.folder = folder
         self.check_folder()
         self.tables = {name: self.read(name + ".csv") for name in
-                       ("statistics", "profile", "obstacles", "boundaries", "newton")}
+                       ("statistics", "profile", "obstacles", "boundaries", "newton", "maps",
+                        "stations")}
         self.statistics = self.tables["statistics"]
         self.entries = read_parameters(self.path("parameters.prm"))
         self.title = self.entries.get("Title", "")

@@ -5,12 +5,13 @@ Section, or None where the run has no files for it."""
 from talus_tools.report.sections.budgets import energy, mass, momentum
 from talus_tools.report.sections.forces import faces, obstacles
 from talus_tools.report.sections.fracture import fracture
+from talus_tools.report.sections.maps import maps
 from talus_tools.report.sections.record import parameters, remarks
 from talus_tools.report.sections.runout import runout
 from talus_tools.report.sections.safety import safety
 from talus_tools.report.sections.soil import soil
+from talus_tools.report.sections.stations import stations
 from talus_tools.report.sections.thalweg import thalweg
 
-# Maps over the bathymetry belong behind `thalweg`, stations behind `faces`.
-SECTIONS = [parameters, safety, runout, thalweg, soil, obstacles, faces, mass, momentum, energy,
-            fracture, remarks]
+SECTIONS = [parameters, safety, runout, maps, thalweg, soil, stations, obstacles, faces, mass,
+            momentum, energy, fracture, remarks]

@@ -8,6 +8,13 @@ from talus_tools.report.sections.cut import cut_points, middle
 from talus_tools.report.sections.soil import boxes, frame
 
 
+def downhill(run, motion):
+    """The mechanism in the direction in which gravity does work on it: its sign is free."""
+    angle = numpy.radians(float(run.entries.get("Gravity/Slope angle", "0")))
+    work = motion[:, 0].sum() * numpy.sin(angle) - motion[:, 1].sum() * numpy.cos(angle)
+    return motion if work >= 0 else -motion
+
+
 def mechanism(run, name, caption):
     """How the soil moves when it fails, the largest component being 1."""
     series = run.series(name)
@@ -18,7 +25,7 @@ def mechanism(run, name, caption):
         z = middle(corners, numpy.linalg.norm(values["mechanism [-]"], axis=1))
         corners, values = cut_points(corners, values, z)
         caption += f" Section at z = {z:.4g} m, through the middle of what moves."
-    motion = values["mechanism [-]"]
+    motion = downhill(run, values["mechanism [-]"])
     speed = numpy.linalg.norm(motion, axis=1)
     places = corners.mean(axis=1)
     window, height = frame([corners], 1)
