@@ -6,19 +6,13 @@ import re
 from talus_tools.errors import UserError
 
 ENTRY = re.compile(r"set\s+(.*?)\s*=\s*(.*)$")
+INCLUDE = re.compile(r"\s*(?:include|INCLUDE)\s+([^#]*[^#\s])")
 
 
 def lines_of(path):
     """Lines with their numbers, without comments; a trailing backslash joins two."""
-    try:
-        with open(path, encoding="utf-8") as stream:
-            text = stream.read()
-    except OSError as error:
-        raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
-    except UnicodeDecodeError as error:
-        raise UserError(f"'{path}' is no text file: {error}.") from error
     number, start, pending = 0, 1, ""
-    for number, line in enumerate(text.splitlines(), 1):
+    for number, line in enumerate(read_file(path).splitlines(), 1):
         line = pending + line.split("#", 1)[0].strip()
         if not pending:
             start = number
@@ -28,6 +22,41 @@ def lines_of(path):
         pending = ""
         if line:
             yield start, line
+
+
+def read_file(path):
+    """Text of a file."""
+    try:
+        with open(path, encoding="utf-8") as stream:
+            return stream.read()
+    except OSError as error:
+        raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
+    except UnicodeDecodeError as error:
+        raise UserError(f"'{path}' is no text file: {error}.") from error
+
+
+def expand(path, depth=0):
+    """Text of a file of talus with the lines of the files that it includes, which it names
+    from the present folder."""
+    if depth > 20:
+        raise UserError(f"'{path}' is included through more than 20 files; one of them may "
+                        "include itself.")
+    lines = []
+    for line in read_file(path).splitlines():
+        found = INCLUDE.match(line)
+        lines.append(expand(found[1], depth + 1) if found else line)
+    return "\n".join(lines)
+
+
+def as_text(entries):
+    """{"Section/Entry": value} in the language of parameter files."""
+    lines = []
+    for name, value in entries.items():
+        *sections, entry = name.split("/")
+        lines += [f"{'  ' * i}subsection {section}" for i, section in enumerate(sections)]
+        lines.append(f"{'  ' * len(sections)}set {entry} = {value}")
+        lines += [f"{'  ' * i}end" for i in reversed(range(len(sections)))]
+    return "\n".join(lines) + "\n"
 
 
 def read_parameters(path):

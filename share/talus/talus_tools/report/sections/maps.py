@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Maps: the bathymetry in shaded relief with a quantity over it, in 2-D lines over x."""
 
+import dataclasses
 import os
 
 import numpy
@@ -79,9 +80,9 @@ def window(grids):
     return tuple(result)
 
 
-def relief(axes, ground, part, extent):
+def relief(axes, ground, cells, extent):
     """Shaded relief with contours of the height."""
-    heights = ground.values[part]
+    heights = ground.values[cells]
     filled = numpy.where(numpy.isfinite(heights), heights, numpy.nanmean(heights))
     # A slope of a degree must be seen as well as one of thirty.
     steep = numpy.hypot(*numpy.gradient(filled, ground.dy, ground.dx)).max() or 1
@@ -94,30 +95,47 @@ def relief(axes, ground, part, extent):
         axes.clabel(lines, fontsize=6.5, fmt="%g")
 
 
-def picture(name, grids, rows_and_columns):
-    """One map."""
-    grid, (top, bottom, left, right) = grids[name], rows_and_columns
-    part = (slice(top, bottom), slice(left, right))
+def limits(values, unit):
+    """Ends of the scale of colours: both signs alike, times from the first, all else from
+    zero to where 99.5 % of the cells are below."""
+    if not values.count():
+        return {}
+    low, high = values.min(), numpy.percentile(values.compressed(), 99.5)
+    size = max(abs(low), abs(high))
+    if low < 0 < high:
+        return {"vmin": -size, "vmax": size}
+    return {"vmin": low if unit == "s" else min(low, 0), "vmax": max(high, low)}
+
+
+def draw(axes, grid, ground, part, colors, **options):
+    """A grid, and below it the ground if it is known; part: see window()."""
+    top, bottom, left, right = part
+    cells = (slice(top, bottom), slice(left, right))
     west, north = grid.west + left * grid.dx, grid.extent()[3] - top * grid.dy
     extent = (west, west + (right - left) * grid.dx, north - (bottom - top) * grid.dy, north)
-    unit, colors, sentence = meaning(name)
-    factor, unit = scaled(numpy.nanmax(numpy.abs(grid.values), initial=0), unit)
-    values = visible(grid.values[part] / factor)
-    shape = (extent[3] - extent[2]) / (extent[1] - extent[0])
-    figure, axes = subplots(height=min(max(0.8 * WIDTH * shape + 0.6, 2.2), 6.5))
-    if GROUND in grids:
-        relief(axes, grids[GROUND], part, extent)
-    limits = {}
-    if values.count():
-        low, high = values.min(), numpy.percentile(values.compressed(), 99.5)
-        size = max(abs(low), abs(high))
-        limits = ({"vmin": -size, "vmax": size} if low < 0 < high else
-                  {"vmin": low if unit == "s" else min(low, 0), "vmax": max(high, low)})
-    image = axes.imshow(values, cmap=colors, extent=extent, alpha=0.82, interpolation="nearest",
-                        **limits)
+    if ground:
+        relief(axes, ground, cells, extent)
     axes.set(xlabel="easting [m]", ylabel="northing [m]")
     axes.ticklabel_format(useOffset=False, style="plain")
     axes.grid(False)
+    return axes.imshow(visible(grid.values[cells]), cmap=colors, extent=extent, alpha=0.82,
+                       interpolation="nearest", **options)
+
+
+def height_of(grid, part):
+    """Height of a map over the width of the page [inch]."""
+    shape = (part[1] - part[0]) * grid.dy / ((part[3] - part[2]) * grid.dx)
+    return min(max(0.8 * WIDTH * shape + 0.6, 2.2), 6.5)
+
+
+def picture(name, grids, part):
+    """One map."""
+    grid, (unit, colors, sentence) = grids[name], meaning(name)
+    factor, unit = scaled(numpy.nanmax(numpy.abs(grid.values), initial=0), unit)
+    shown = dataclasses.replace(grid, values=grid.values / factor)
+    figure, axes = subplots(height=height_of(grid, part))
+    image = draw(axes, shown, grids.get(GROUND), part, colors,
+                 **limits(visible(shown.values), unit))
     figure.colorbar(image, ax=axes, label=f"{title(name)} [{unit}]".replace(" []", ""), pad=0.01)
     over = " over the shaded bathymetry; contours: its height [m]" if GROUND in grids else ""
     return embed(figure, f"{title(name).capitalize()}{over}. {sentence}", "png")
