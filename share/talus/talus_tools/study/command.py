@@ -55,7 +55,11 @@ def write_record(settings, version):
     lines += [f"# {name} = {value}" for name, value in known.items()]
     with open(settings.path, encoding="utf-8") as stream:
         content = stream.read()
-    with open(os.path.join(settings.folder, "study.prm"), "w", encoding="utf-8") as stream:
+    path = os.path.join(settings.folder, "study.prm")
+    if os.path.realpath(path) == os.path.realpath(settings.path):
+        raise UserError(f"'{settings.path}' would be written over by the record of the study. "
+                        "Give the file another name, or choose another 'Output folder'.")
+    with open(path, "w", encoding="utf-8") as stream:
         stream.write("\n".join(lines) + "\n\n" + content)
 
 
