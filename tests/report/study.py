@@ -15,13 +15,15 @@ import numpy
 
 from tools_case import ROOT, SHARE, TALUS, Case, main, read_csv
 
+from talus_tools.errors import UserError
 from talus_tools.study.design import design, quantile
+from talus_tools.study.ensemble import make_members, program_version
 from talus_tools.study.settings import Settings
 
 # The first slope on cells of 2 m: half a second.
-COARSE = {"Grid/Cell size": "2", "Grid/Upper corner": "200, 6", "End time": "20",
+COARSE = {"Grid/Cell size": "2", "Grid/Upper corner": "200, 6", "End time": "6",
           "Output/Write points": "false", "Output/Write grid": "false",
-          "Checkpoint/Step interval": "100"}
+          "Checkpoint/Step interval": "50"}
 STRENGTH = """
   subsection strength
     set Parameter          = Materials/mud/Undrained shear strength
@@ -295,7 +297,16 @@ class Design(StudyCase):
 
 class Refused(StudyCase):
     def refuse(self, path, *parts):
-        self.assert_sentence(self.tool("talus-study", path, "--list"), *parts)
+        with self.assertRaises(UserError) as caught:
+            settings = Settings(path)
+            make_members(settings, program_version(settings))
+        self.assertTrue(str(caught.exception).endswith("."))
+        for part in parts:
+            self.assertIn(part, str(caught.exception))
+
+    def test_sentence_of_the_program(self):
+        path = self.write("sentence", "set Titel = x")
+        self.assert_sentence(self.tool("talus-study", path), "Titel", "no entry of a study")
 
     def test_study_files(self):
         self.refuse(self.folder / "none.prm", "none.prm", "cannot be read")

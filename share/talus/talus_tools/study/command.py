@@ -9,7 +9,6 @@ import numpy
 import scipy
 
 from talus_tools.errors import UserError
-from talus_tools.study import pictures
 from talus_tools.study.ensemble import lock, make_members, program_version, run_members
 from talus_tools.study.member import FAILED, FINISHED
 from talus_tools.study.results import Results, plan_maps, section_maps, write_tables
@@ -65,6 +64,8 @@ def write_record(settings, version):
 
 def write_results(settings, members):
     """Tables, maps and pictures, the failed members, and the exit status."""
+    # Loaded here, since loading Matplotlib takes longer than all else.
+    from talus_tools.study import pictures
     results = Results(settings, members)
     write_tables(results)
     pictures.overview(results)

@@ -73,7 +73,7 @@ def run_members(members, at_once):
             told = True
         for member in [m for m in running if m.process.poll() is not None]:
             running.remove(member)
-            status = member.finish()
+            status = member.finish(stop.asked)
             n_done += status == FINISHED
             why = f": {member.state()[1]}" if status == FAILED else ""
             print(f"{member.name} {status}{why} ({n_done} of {len(members)} finished)", flush=True)

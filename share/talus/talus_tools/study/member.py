@@ -116,9 +116,12 @@ class Member:
             return said[-1].removeprefix("talus: ")
         return f"killed by signal {-code}" if code < 0 else f"exit status {code} without a message"
 
-    def finish(self):
+    def finish(self, was_asked_to_stop):
         """Record how the process ended, and return the status."""
         code = self.process.returncode
         status = {0: FINISHED, CHECKPOINT_STATUS: STOPPED}.get(code, FAILED)
+        # In its first moments a run does not yet listen to signals, which then end it.
+        if was_asked_to_stop and code < 0:
+            status = STOPPED
         self.write_state(status, self.reason(code) if status == FAILED else "")
         return status

@@ -113,7 +113,7 @@ def draw(axes, grid, ground, part, colors, **options):
     cells = (slice(top, bottom), slice(left, right))
     west, north = grid.west + left * grid.dx, grid.extent()[3] - top * grid.dy
     extent = (west, west + (right - left) * grid.dx, north - (bottom - top) * grid.dy, north)
-    if ground:
+    if ground and min(bottom - top, right - left) > 1:
         relief(axes, ground, cells, extent)
     axes.set(xlabel="easting [m]", ylabel="northing [m]")
     axes.ticklabel_format(useOffset=False, style="plain")
