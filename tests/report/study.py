@@ -21,9 +21,9 @@ from talus_tools.study.ensemble import make_members, program_version
 from talus_tools.study.settings import Settings
 
 # The first slope on cells of 2 m: half a second.
-COARSE = {"Grid/Cell size": "2", "Grid/Upper corner": "200, 6", "End time": "6",
+COARSE = {"Grid/Cell size": "2", "Grid/Upper corner": "200, 6", "End time": "12",
           "Output/Write points": "false", "Output/Write grid": "false",
-          "Checkpoint/Step interval": "50"}
+          "Checkpoint/Step interval": "100"}
 STRENGTH = """
   subsection strength
     set Parameter          = Materials/mud/Undrained shear strength
@@ -108,9 +108,11 @@ class StudyCase(Case):
         self.assertTrue(what())
 
     def running_with_checkpoint(self, folder):
-        """Members that have begun, not ended, and can go on."""
+        """Members that have begun, are not near their end, and can go on."""
+        def steps(member):
+            return [int(p.name) for p in (member / "checkpoints").glob("*[0-9]")]
         return [p.parent for p in folder.glob("*/member.json")
-                if '"started"' in p.read_text() and any((p.parent / "checkpoints").glob("*[0-9]"))]
+                if '"started"' in p.read_text() and 0 < max(steps(p.parent), default=0) <= 500]
 
 
 class Interrupted(StudyCase):
@@ -234,6 +236,25 @@ class Members(StudyCase):
         record = (self.output(study) / "member-0001" / "parameters.prm").read_text()
         self.assertRegex(record, rf"set Undrained shear strength +=.* {row['strength']}\n")
         self.assertRegex(record, r"set Cell size +=.* 2\n")
+
+
+    def test_files_beside_the_case(self):
+        """Are found from the folder of each member, and count when they change."""
+        (self.folder / "strength.csv").write_text(
+            "depth [m],undrained shear strength [Pa]\n0,1000\n10,2000\n")
+        case = self.folder / "case.prm"
+        case.write_text(f"include {ROOT / 'prm' / 'first-slope.prm'}\nsubsection Materials\n"
+                        "subsection mud\nset Undrained shear strength = table strength.csv\n"
+                        "end\nend\n")
+        study = self.write("files", "subsection Design\nset Members = 1\nend",
+                           f"set Case = {case}", parameters={**COARSE, "End time": "0.1"},
+                           varied="subsection strength\nset Parameter = Materials/mud/Density\n"
+                           "set Lower = 1500\nset Upper = 1700\nend")
+        self.study(study)
+        self.assertIn("finished", self.study(study, "--list"))
+        (self.folder / "strength.csv").write_text(
+            "depth [m],undrained shear strength [Pa]\n0,1000\n10,2001\n")
+        self.assertIn("waiting", self.study(study, "--list"))
 
 
 class Exceedance(StudyCase):

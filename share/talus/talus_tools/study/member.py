@@ -16,6 +16,7 @@ from talus_tools.parameters import as_text, expand
 FINISHED, FAILED, STARTED, STOPPED, WAITING = ("finished", "failed", "started", "stopped",
                                                "waiting")
 CHECKPOINT_STATUS = 75  # of talus, when it stopped with a checkpoint
+VALUE = re.compile(r"^(\s*set\s[^=\n]*=\s*(?:table\s+)?)([^#\n]*[^#\s])", re.MULTILINE)
 PATIENCE = 60  # with a run that is about to end [s]
 SET_PARENT_DEATH_SIGNAL = 1  # PR_SET_PDEATHSIG of prctl(2)
 
@@ -25,15 +26,28 @@ def stop_with_parent():
     ctypes.CDLL(None).prctl(SET_PARENT_DEATH_SIGNAL, signal.SIGTERM)
 
 
-def digest_of_inputs(text):
-    """Content of the files that a parameter file names, such as rasters and tables."""
-    digest = hashlib.sha256()
-    for word in sorted(set(re.findall(r"^\s*set\s[^=\n]*=\s*(?:table\s+)?([^#\n]*[^#\s])", text,
-                                      re.MULTILINE))):
-        if os.path.isfile(word):
-            with open(word, "rb") as stream:
-                digest.update(word.encode() + stream.read())
-    return digest.digest()
+def with_absolute_paths(text, folder):
+    """A parameter file with the files that it names, such as rasters and tables, which talus
+    looks for in the file's own folder, by their whole paths; and these paths."""
+    paths = []
+
+    def replace(found):
+        path = os.path.abspath(os.path.join(folder, found[2]))
+        if not os.path.isfile(path):
+            return found[0]
+        paths.append(path)
+        return found[1] + path
+
+    return VALUE.sub(replace, text), paths
+
+
+def digest(version, text, paths):
+    """SHA-256 of all that a result depends on: program, parameters, content of other files."""
+    result = hashlib.sha256(version.encode() + text.encode())
+    for path in paths:
+        with open(path, "rb") as stream:
+            result.update(hashlib.sha256(stream.read()).digest())
+    return result.hexdigest()
 
 
 class Member:
@@ -46,11 +60,11 @@ class Member:
         self.folder = os.path.join(settings.folder, self.name)
         varied = {one.parameter: one.template.replace("{}", repr(value))
                   for one, value in zip(settings.varied, self.values)}
-        self.text = (f"# {self.name} of a study: the case with its includes, then what differs "
-                     f"from it.\n{expand(settings.case)}\n\n# For all members:\n"
-                     f"{as_text(settings.fixed)}\n# Varied:\n{as_text(varied)}")
-        self.hash = hashlib.sha256(version.encode() + self.text.encode()
-                                   + digest_of_inputs(self.text)).hexdigest()
+        text = (f"# {self.name} of a study: the case with its includes, then what differs "
+                f"from it.\n{expand(settings.case)}\n\n# For all members:\n"
+                f"{as_text(settings.fixed)}\n# Varied:\n{as_text(varied)}")
+        self.text, paths = with_absolute_paths(text, os.path.dirname(settings.case))
+        self.hash = digest(version, text, paths)
         self.process = None
 
     def path(self, name):

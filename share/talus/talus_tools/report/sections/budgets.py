@@ -16,6 +16,9 @@ ENERGIES = {
     "elastic energy [J]": ("elastic energy", "Stored in the soil; it comes back."),
     "plastic work [J]": ("plastic work", "Used up by shearing and remoulding the soil."),
     "friction work [J]": ("work of friction", "Used up along the seabed and obstacles."),
+    "drag work [J]": ("work of drag", "Taken by the water around the slide."),
+    "added mass kinetic energy [J]": ("energy of the added mass", "Of the water that moves with "
+                                      "the soil."),
     "contact work [J]": ("work of contact", "Taken by walls, normal contact and prescribed "
                          "motion; negative where they drive the soil."),
     "damping work [J]": ("work of damping", "Used up by numerical damping; none unless asked "
@@ -50,6 +53,12 @@ def impulses(run):
                        "m g sin(slope) t: the downslope part of the weight, over time."))
     result.append(("seabed", table["seabed impulse x [N s]"],
                    "Friction on the seabed: negative where it brakes."))
+    if "drag impulse x [N s]" in table:
+        result.append(("drag", table["drag impulse x [N s]"],
+                       "What the water took by drag: negative where it brakes."))
+        added = table["added mass momentum x [kg m/s]"]
+        result.append(("added mass", added[0] - added,
+                       "What the soil gave to the water that moves with it."))
     obstacles = run.tables["obstacles"]
     columns = [n for n in obstacles.names if n.endswith("impulse x [N s]")] if obstacles else []
     if columns:
@@ -93,11 +102,12 @@ def momentum(run):
 def energy_picture(run):
     """Where the work of gravity went."""
     table, time = run.statistics, run.statistics["time [s]"]
-    factor, unit = scaled(max(numpy.abs(table[name]).max() for name in ENERGIES),
+    known = [name for name in ENERGIES if name in table]
+    factor, unit = scaled(max(numpy.abs(table[name]).max() for name in known),
                           unit_of("[J]", run.dimension))
     figure, axes = subplots(height=3)
     axes.plot(time, table["gravity work [J]"] / factor, color="black", lw=2, label="work of gravity")
-    names = [name for name in ENERGIES if name not in ("gravity work [J]", "energy remainder [J]")
+    names = [name for name in known if name not in ("gravity work [J]", "energy remainder [J]")
              and numpy.abs(table[name]).max() > 0]
     for name, color in zip(names, COLORS):
         start = 0 if name.startswith("kinetic") else table[name][0]
