@@ -23,7 +23,7 @@ from talus_tools.study.settings import Settings
 # The first slope on cells of 2 m: half a second.
 COARSE = {"Grid/Cell size": "2", "Grid/Upper corner": "200, 6", "End time": "12",
           "Output/Write points": "false", "Output/Write grid": "false",
-          "Checkpoint/Step interval": "100"}
+          "Checkpoint/Step interval": "400", "Checkpoint/At the end": "false"}
 STRENGTH = """
   subsection strength
     set Parameter          = Materials/mud/Undrained shear strength
@@ -112,7 +112,7 @@ class StudyCase(Case):
         def steps(member):
             return [int(p.name) for p in (member / "checkpoints").glob("*[0-9]")]
         return [p.parent for p in folder.glob("*/member.json")
-                if '"started"' in p.read_text() and 0 < max(steps(p.parent), default=0) <= 500]
+                if '"started"' in p.read_text() and 0 < max(steps(p.parent), default=0) <= 800]
 
 
 class Interrupted(StudyCase):

@@ -61,6 +61,10 @@ class Run:
         """Path of a file of the run."""
         return os.path.join(self.folder, name)
 
+    def has(self, name):
+        """Whether the run has this file."""
+        return os.path.isfile(self.path(name))
+
     def check_folder(self):
         """Errors that a user makes: no folder, the wrong one, a run that has not begun."""
         if not os.path.isdir(self.folder):

@@ -5,6 +5,7 @@ Section, or None where the run has no files for it."""
 from talus_tools.report.sections.budgets import energy, mass, momentum
 from talus_tools.report.sections.forces import faces, obstacles
 from talus_tools.report.sections.fracture import fracture
+from talus_tools.report.sections.lines import lines
 from talus_tools.report.sections.maps import maps
 from talus_tools.report.sections.record import parameters, remarks
 from talus_tools.report.sections.runout import runout
@@ -13,5 +14,5 @@ from talus_tools.report.sections.soil import soil
 from talus_tools.report.sections.stations import stations
 from talus_tools.report.sections.thalweg import thalweg
 
-SECTIONS = [parameters, safety, runout, maps, thalweg, soil, stations, obstacles, faces, mass,
+SECTIONS = [parameters, safety, runout, maps, thalweg, soil, stations, lines, obstacles, faces, mass,
             momentum, energy, fracture, remarks]
