@@ -44,11 +44,11 @@ def diagram(run):
     for axes, column, colors, label in ((both[0], THICKNESS, "viridis", "thickness [m]"),
                                         (both[1], VELOCITY, "magma", "velocity along x [m/s]")):
         times, x, step, values = over_time(table, column, numpy.fmax)
+        axes.grid(False)
         # A few columns at the front, with single points in them, must not take the scale.
         image = axes.pcolormesh(edges(x, step), edges(times), values, cmap=colors,
                                 vmin=min(0, numpy.nanpercentile(values, 0.5)),
                                 vmax=numpy.nanpercentile(values, 99.5), rasterized=True)
-        axes.grid(False)
         axes.set_xlabel("x [m]")
         axes.set_ylim(times[0], edges(times)[-1])
         figure.colorbar(image, ax=axes, label=label, pad=0.02, extend="max")
@@ -101,9 +101,9 @@ def plan(run):
     values = numpy.full((len(z), len(x)), numpy.nan)
     values[k, i] = table[THICKNESS][now]
     figure, axes = subplots(height=2.4)
+    axes.grid(False)
     image = axes.pcolormesh(edges(x, step), edges(z, step), values, rasterized=True)
     axes.set(xlabel="x [m]", ylabel="z [m]")
-    axes.grid(False)
     figure.colorbar(image, ax=axes, label="thickness [m]", pad=0.01)
     return embed(figure, "Thickness of the soil at the end, seen from above.", "png")
 
