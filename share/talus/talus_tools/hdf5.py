@@ -5,6 +5,11 @@ import os
 
 import numpy
 
+try:
+    import h5py
+except ImportError:
+    h5py = None
+
 from talus_tools.errors import UserError
 from talus_tools.vtu import FileSeries, parse
 
@@ -12,11 +17,6 @@ from talus_tools.vtu import FileSeries, parse
 def read_hdf5(path):
     """As read_vtu(): vertices of the cells, shape (cells, vertices, 3), and their values by
     name with unit."""
-    try:
-        import h5py
-    except ImportError as error:
-        raise UserError("Python's h5py was not found, which reads the outputs of this run. "
-                        "Debian's package python3-h5py has it.") from error
     try:
         with h5py.File(path) as file:
             cells = file["mesh/cells"][:]

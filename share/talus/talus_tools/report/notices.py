@@ -5,6 +5,7 @@ import os
 
 import numpy
 
+from talus_tools.hdf5 import h5py
 from talus_tools.units import plain, show, unit_of
 
 # Shares above which a budget is not closed well enough to be left unsaid.
@@ -115,6 +116,13 @@ def cut_off(run):
             for name, table in run.tables.items() if table and table.left_out]
 
 
+def without_h5py(run):
+    """Pictures that this Python cannot make."""
+    return [] if h5py or not run.has("points.xdmf") else [
+        "Python's h5py was not found, which reads HDF5, so that pictures of the soil are missing "
+        "here. Debian's package python3-h5py has it."]
+
+
 def remarks(run):
     """The log in one sentence; the lines themselves have a section."""
     n = len(run.log.remarks)
@@ -126,4 +134,4 @@ def remarks(run):
 def notices(run):
     """All of them, the gravest first."""
     return [sentence for check in (unfinished, mass, energy, fracture, ledger, below_surface,
-                                   moving, cut_off, remarks) for sentence in check(run)]
+                                   moving, cut_off, without_h5py, remarks) for sentence in check(run)]

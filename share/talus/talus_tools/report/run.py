@@ -8,7 +8,7 @@ import os
 import re
 
 from talus_tools.errors import UserError
-from talus_tools.hdf5 import Hdf5Series
+from talus_tools.hdf5 import Hdf5Series, h5py
 from talus_tools.parameters import Defaults, changed_entries, read_parameters
 from talus_tools.report.log import Log
 from talus_tools.tables import read_table
@@ -87,9 +87,10 @@ class Run:
         return read_table(path) if has_rows else None
 
     def series(self, name):
-        """Fields by time, of VTU or HDF5 files; None where there are none."""
-        for ending, kind in ((".pvd", VtuSeries), (".xdmf", Hdf5Series)):
-            if os.path.isfile(self.path(name + ending)):
+        """Fields by time, of VTU or HDF5 files; None where there are none that can be read."""
+        kinds = {".pvd": VtuSeries} | ({".xdmf": Hdf5Series} if h5py else {})
+        for ending, kind in kinds.items():
+            if self.has(name + ending):
                 series = kind(self.path(name + ending))
                 return series if len(series.times) else None
         return None
