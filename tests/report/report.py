@@ -217,7 +217,8 @@ class Maps(Case):
             "time [s],A thickness [m],A speed [m/s],A 2 thickness [m],A 2 speed [m/s]\n"
             "0,0,0,0,0\n1,0.5,1.5,0,0\n2,0.25,3.5,0,0\n")
         (folder / "lines.csv").write_text(
-            "line,distance [m],maximum thickness [m]\ncable,0,0.5\ncable,10,0.75\npipe,0,nan\n")
+            "line,distance [m],maximum thickness [m]\n"
+            "cable,0,0.5\ncable,10,0.75\npipe,0,nan\n")
         page = self.report(folder)
         self.assertIn("cable maximum thickness 0.75 m 10 m", page.said("lines"))
         self.assertIn("maximum thickness 2.5 m x = 1 m", page.said("maps"))

@@ -66,8 +66,8 @@ def read_grid(path):
                         "xllcorner, yllcorner and cellsize, each with a number, and numbers behind "
                         f"it ({error}).") from error
     if len(values) != rows * columns:
-        raise UserError(f"'{path}' has {len(values)} values; {rows} rows of {columns} are expected. "
-                        "It may still be being written, or have been cut off.")
+        raise UserError(f"'{path}' has {len(values)} values; {rows} rows of {columns} are "
+                        "expected. It may still be being written, or have been cut off.")
     values[values == header.get("nodata_value", -9999)] = numpy.nan
     return Grid(values.reshape(rows, columns), west, south, dx, dy)
 

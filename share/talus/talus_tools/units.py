@@ -30,7 +30,9 @@ def plain(value, digits=4):
     exponent = int(numpy.floor(numpy.log10(abs(float(f"{value:.{digits - 1}e}")))))
     if not -4 <= exponent < 7:
         mantissa = value / 10.0**exponent
-        return f"{'−' if value < 0 else ''}{abs(mantissa):.{digits - 2}f} · 10{str(exponent).translate(SUPERSCRIPTS)}"
+        sign = "−" if value < 0 else ""
+        power = str(exponent).translate(SUPERSCRIPTS)
+        return f"{sign}{abs(mantissa):.{digits - 2}f} · 10{power}"
     text = f"{value:.{max(0, digits - 1 - exponent)}f}".replace("-", "−")
     return text.rstrip("0").rstrip(".") if "." in text else text
 

@@ -34,7 +34,8 @@ def unfinished(run):
     elif not why:
         why = "It was killed, or failed."
     return [f"The run has not finished: it reached t = {plain(run.time)} s of "
-            f"{plain(run.end_time)} s. {why} All that follows is the state of then, not the result."]
+            f"{plain(run.end_time)} s. {why} All that follows is the state of then, not the "
+            "result."]
 
 
 def moving(run):
@@ -133,5 +134,6 @@ def remarks(run):
 
 def notices(run):
     """All of them, the gravest first."""
-    return [sentence for check in (unfinished, mass, energy, fracture, ledger, below_surface,
-                                   moving, cut_off, without_h5py, remarks) for sentence in check(run)]
+    checks = (unfinished, mass, energy, fracture, ledger, below_surface, moving, cut_off,
+              without_h5py, remarks)
+    return [sentence for check in checks for sentence in check(run)]

@@ -32,6 +32,7 @@ def with_absolute_paths(text, folder):
     paths = []
 
     def replace(found):
+        """The line with the whole path."""
         path = os.path.abspath(os.path.join(folder, found[2]))
         if not os.path.isfile(path):
             return found[0]

@@ -14,5 +14,5 @@ from talus_tools.report.sections.soil import soil
 from talus_tools.report.sections.stations import stations
 from talus_tools.report.sections.thalweg import thalweg
 
-SECTIONS = [parameters, safety, runout, maps, thalweg, soil, stations, lines, obstacles, faces, mass,
-            momentum, energy, fracture, remarks]
+SECTIONS = [parameters, safety, runout, maps, thalweg, soil, stations, lines, obstacles, faces,
+            mass, momentum, energy, fracture, remarks]

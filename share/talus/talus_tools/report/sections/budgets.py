@@ -106,12 +106,14 @@ def energy_picture(run):
     factor, unit = scaled(max(numpy.abs(table[name]).max() for name in known),
                           unit_of("[J]", run.dimension))
     figure, axes = subplots(height=3)
-    axes.plot(time, table["gravity work [J]"] / factor, color="black", lw=2, label="work of gravity")
+    axes.plot(time, table["gravity work [J]"] / factor, color="black", lw=2,
+              label="work of gravity")
     names = [name for name in known if name not in ("gravity work [J]", "energy remainder [J]")
              and numpy.abs(table[name]).max() > 0]
     for name, color in zip(names, COLORS):
         start = 0 if name.startswith("kinetic") else table[name][0]
-        axes.plot(time, (table[name] - start) / factor, label=ENERGIES[name][0], color=color, lw=1.2)
+        axes.plot(time, (table[name] - start) / factor, label=ENERGIES[name][0], color=color,
+                  lw=1.2)
     axes.plot(time, table["energy remainder [J]"] / factor, color=GREY, ls=":", label="remainder")
     axes.set(xlabel="time [s]", ylabel=f"[{unit}]", xlim=(0, time[-1]))
     axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
