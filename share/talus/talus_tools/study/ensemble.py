@@ -20,10 +20,12 @@ def program_version(settings):
                         "'Program' in the study file, or with --program.")
     result = subprocess.run([settings.program, "--version"], capture_output=True, text=True,
                             check=False)
-    if result.returncode != 0 or not result.stdout.startswith("talus "):
+    # MPI and its libraries may have something to say, too.
+    lines = [line for line in result.stdout.splitlines() if line.startswith("talus ")]
+    if result.returncode != 0 or not lines:
         raise UserError(f"'{settings.program} --version' did not tell the version of talus: "
                         f"{(result.stderr or result.stdout).strip()[:200]}.")
-    return result.stdout.strip()
+    return lines[0]
 
 
 def make_members(settings, version):
