@@ -70,6 +70,14 @@ class Report(Case):
         self.assertIn("git revision", page.said("what-was-run"))
         self.assertIn("did not change by a single bit", page.said("mass"))
 
+        # Submerged weight, seabed and nothing else: the budget of momentum closes.
+        rows = {row[0].text: row[1].text for row in page.sections["momentum"].iter("tr")
+                if len(row) == 3}
+        rest = float(rows["the rest"].split()[0].replace("−", "-"))
+        gravity, unit = rows["impulse of gravity"].split()[:2]
+        self.assertEqual(unit, "t")
+        factor = 1000 if rows["the rest"].split()[1] == "t" else 1
+        self.assertLess(abs(rest * factor), 0.02 * float(gravity) * 1000)
         self.needs_nothing_else(page)
         # By the command, again the same; and the same pictures from HDF5, where positions
         # have the same single precision.

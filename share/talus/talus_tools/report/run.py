@@ -122,16 +122,29 @@ class Run:
             pass
         return False
 
+    def share_of_weight(self):
+        """Weight under water over that of all the mass; None where materials differ in it."""
+        shares = set()
+        for name, material in self.entries.items():
+            if name.startswith("Bodies/") and name.endswith("/Material"):
+                start = f"Materials/{material}/"
+                density = float(self.entries.get(start + "Density", "1000"))
+                submerged = self.entries.get(start + "Submerged density", "").strip()
+                shares.add(float(submerged) / density if submerged else 1.0)
+        return shares.pop() if len(shares) == 1 else None
+
     def gravity(self):
-        """Component of a constant gravity along x [m/s^2], or None where it is not constant
-        or something else drives the soil, so that no closed form is at hand."""
+        """Force along x by a constant gravity over the mass [m/s^2], less buoyancy; None where
+        it is not constant or something else drives the soil, so that no closed form is at
+        hand."""
         magnitude, angle, ramp = (self.entries.get("Gravity/" + name, "0") for name in
                                   ("Magnitude", "Slope angle", "Ramp time"))
         driven = any(text.strip() for name, text in self.entries.items() if
                      name.startswith("Ground motion/File") or name == "Body force/Expression")
         try:
-            if driven or float(ramp) != 0:
+            share = self.share_of_weight()
+            if driven or float(ramp) != 0 or share is None:
                 return None
-            return float(magnitude) * math.sin(math.radians(float(angle)))
+            return share * float(magnitude) * math.sin(math.radians(float(angle)))
         except ValueError:
             return None

@@ -7,7 +7,7 @@ import numpy
 import scipy.stats
 
 from talus_tools.report.page import BLUE, COLORS, plt, subplots
-from talus_tools.report.sections.maps import GROUND, draw, height_of, window
+from talus_tools.report.sections.maps import GROUND, draw, height_of, meaning, window
 
 
 def save(figure, settings, name):
@@ -49,6 +49,12 @@ def overview(results):
     save(figure, settings, "study.png")
 
 
+def label(settings, threshold):
+    """What is exceeded, with the unit if it is known."""
+    unit = meaning(settings.map)[0]
+    return f"{settings.map.replace('-', ' ')} above {threshold:g} {unit}".strip()
+
+
 def exceedance_maps(settings, grids, ground):
     """Rasters, one below the other, in 3-D."""
     shown = {str(t): grid for t, grid in grids.items()}
@@ -57,7 +63,7 @@ def exceedance_maps(settings, grids, ground):
     figure, rows = subplots(len(grids), height=len(grids) * height_of(first, part), squeeze=False)
     for axes, (threshold, grid) in zip(rows[:, 0], grids.items()):
         image = draw(axes, grid, ground, part, "YlOrRd", vmin=0, vmax=1)
-        axes.set_title(f"{settings.map.replace('-', ' ')} above {threshold:g}")
+        axes.set_title(label(settings, threshold))
         figure.colorbar(image, ax=axes, label="share of members [-]", pad=0.01)
     save(figure, settings, "exceedance-maps.png")
 
@@ -67,7 +73,7 @@ def exceedance_lines(settings, places, shares):
     figure, axes = subplots(height=2.6)
     for (threshold, share), color in zip(shares.items(), COLORS * 3):
         axes.step(places, share, where="mid", color=color,
-                  label=f"{settings.map.replace('-', ' ')} above {threshold:g}")
+                  label=label(settings, threshold))
     axes.set(xlabel="x [m]", ylabel="share of members [-]", ylim=(0, 1.05))
     axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
     save(figure, settings, "exceedance-maps.png")

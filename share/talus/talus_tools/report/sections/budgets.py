@@ -50,7 +50,7 @@ def impulses(run):
         # Momentum is that of half a step before the time of its row.
         lag = 0.5 * table["time step [s]"]
         result.append(("gravity", table["mass [kg]"][0] * gravity * (time - lag),
-                       "m g sin(slope) t: the downslope part of the weight, over time."))
+                       "m' g sin(slope) t: the downslope part of the submerged weight, over time."))
     result.append(("seabed", table["seabed impulse x [N s]"],
                    "Friction on the seabed: negative where it brakes."))
     if "drag impulse x [N s]" in table:

@@ -88,10 +88,10 @@ def relief(axes, ground, cells, extent):
     steep = numpy.hypot(*numpy.gradient(filled, ground.dy, ground.dx)).max() or 1
     shade = LightSource(azdeg=315, altdeg=45).hillshade(
         filled, vert_exag=0.7 / steep, dx=ground.dx, dy=ground.dy)
-    axes.imshow(shade, cmap="gray", vmin=-0.2, vmax=1.05, extent=extent, interpolation="bilinear")
+    axes.imshow(shade, cmap="gray", vmin=-0.6, vmax=1.05, extent=extent, interpolation="bilinear")
     if numpy.ptp(filled) > 0:
-        lines = axes.contour(filled, levels=8, colors="#4a565f", linewidths=0.5, extent=extent,
-                             origin="upper")
+        lines = axes.contour(filled, levels=8, colors="#4a565f", linewidths=0.5, linestyles="solid",
+                             extent=extent, origin="upper")
         axes.clabel(lines, fontsize=6.5, fmt="%g")
 
 
