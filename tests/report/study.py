@@ -18,7 +18,7 @@ from tools_case import ROOT, SHARE, TALUS, Case, main, read_csv
 from talus_tools.errors import UserError
 from talus_tools.study.design import design, quantile
 from talus_tools.study.ensemble import make_members, program_version
-from talus_tools.study.settings import Settings
+from talus_tools.study.settings import ENTRIES, Settings
 
 # The first slope on cells of 2 m: half a second.
 COARSE = {"Grid/Cell size": "2", "Grid/Upper corner": "200, 6", "End time": "8",
@@ -305,6 +305,14 @@ class Design(StudyCase):
             "set Distribution = lognormal\nset Mean = 5\nset Standard deviation = 2")
         self.assertAlmostEqual(quantile(settings.varied[0], numpy.array([0.5]))[0],
                                5 / math.sqrt(1 + 0.16))
+
+    def test_example_and_page(self):
+        settings = Settings(SHARE / "study-example.prm")
+        self.assertEqual(design(settings).shape, (16, 2))
+        self.assertTrue((ROOT / settings.case).exists())
+        page = (ROOT / "doc" / "study.md").read_text()
+        for entry in ENTRIES:
+            self.assertIn(f"`{entry.split('NAME/')[-1]}`", page)
 
     def test_seed(self):
         text = "set Lower = 0\nset Upper = 1"

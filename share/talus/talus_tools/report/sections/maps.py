@@ -22,7 +22,7 @@ MEANINGS = {
     "arrival-time": ("s", "YlGnBu_r", "When the soil first is as thick as the name says."),
     "time-of-maximum": ("s", "YlGnBu_r", "When the largest value was reached."),
     "final-thickness": ("m", "viridis", "The deposit at the last time."),
-    "erosion": ("m", "RdBu_r", "Thickness at the end less that at the start."),
+    "erosion": ("m", "RdBu_r", "Soil that a place lost or gained."),
 }
 GROUND = "ground"
 TABLE_HEAD = ["quantity", "largest", "where", "covered", "what it means"]
