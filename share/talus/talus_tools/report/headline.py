@@ -1,0 +1,67 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""The few numbers that a reader looks for first."""
+
+import dataclasses
+
+import numpy
+
+from talus_tools.report.sections.forces import names_of
+from talus_tools.units import plain, show, unit_of
+
+
+@dataclasses.dataclass
+class Tile:
+    """A number with its name and what it means."""
+    name: str
+    text: str
+    value: str
+    sentence: str
+
+
+def tile(name, value, unit, sentence):
+    """The number as text and with all its digits."""
+    return Tile(name, show(value, unit), repr(float(value)), sentence)
+
+
+def safety(run):
+    """The factor of safety."""
+    found = run.log.factor_of_safety()
+    if not found:
+        return []
+    factor, bound = found
+    return [Tile("factor of safety", f"{bound} {plain(factor)}".strip(), repr(factor),
+                 "1 is the verge of failure.")]
+
+
+def forces(run):
+    """The largest force on each of the first obstacles."""
+    table, result = run.tables["obstacles"], []
+    for name in names_of(table)[:2] if table else []:
+        force = numpy.sqrt(sum(table[f"{name} force {axis} [N]"]**2
+                               for axis in "xyz"[:run.dimension]))
+        result.append(tile(f"largest force on {name}", force.max(), unit_of("[N]", run.dimension),
+                           f"Mean over a row, at t = {plain(table['time [s]'][force.argmax()])} "
+                           "s."))
+    return result
+
+
+def headline(run):
+    """At most eight tiles."""
+    table = run.statistics
+    result = safety(run)
+    if "front x [m]" in table:
+        front = table["front x [m]"]
+        result.append(tile("front at the end", front[-1], "m",
+                           f"Largest x of a point; {show(front[-1] - front[0], 'm')} beyond the "
+                           "start."))
+    velocity = table["centre velocity x [m/s]"]
+    at = int(numpy.argmax(numpy.abs(velocity)))
+    if velocity.any():
+        result.append(tile("largest velocity", velocity[at], "m/s",
+                           f"Of the centre of mass, at t = {plain(table['time [s]'][at])} s."))
+    if run.tables["profile"]:
+        profile = run.tables["profile"]
+        last = profile["time [s]"] == profile["time [s]"][-1]
+        result.append(tile("thickness at the end", profile["thickness [m]"][last].max(), "m",
+                           "Largest one of the deposit."))
+    return result + forces(run)

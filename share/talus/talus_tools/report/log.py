@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What log.txt says, sorted: routine, results, and what whoever uses the results must know."""
+
+import re
+
+# Lines that every run has, and those of the searches in static stages. What is not among
+# them is worth reading: the log has no mark for warnings, so that none may be overlooked.
+ROUTINE = [re.compile(pattern) for pattern in (
+    r"The mesh fills .* points\.$", r"t = .*the time step is ", r"t = .*largest share of points",
+    r"t = .*(mesh changed|shared out)", r"Wall time by phase", r"Peak memory of a rank", r"\s",
+    r"Stage '.*':$", r"\d+ steps to t = ", r"$")]
+SAFETY = re.compile(r"The factor of safety is ")
+RESULTS = [SAFETY, re.compile(r"Equilibrium was found ")]
+
+
+class Log:
+    """Lines of log.txt; nothing where there is no such file."""
+
+    def __init__(self, text, title=""):
+        self.text = text
+        lines = text.splitlines()
+        self.results = [line for line in lines if any(p.match(line) for p in RESULTS)]
+        self.remarks = [line for line in lines
+                        if line.strip() not in ("", title.strip()) and line not in self.results
+                        and not any(pattern.match(line) for pattern in ROUTINE)]
+        safety = [line for line in lines if SAFETY.match(line)]
+        self.safety = safety[-1] if safety else ""
+
+    def factor_of_safety(self):
+        """(number, "", "more than" or "less than"), or None."""
+        found = re.match(r"The factor of safety is (more than |less than |)([-+.\de]*\d)",
+                         self.safety)
+        return (float(found[2]), found[1].strip()) if found else None
+
+    def stopped(self):
+        """The last line that says that the run was stopped, unless it was resumed later."""
+        last = [line for line in self.text.splitlines()
+                if line.startswith(("Stopped at t = ", "Resumed at t = "))][-1:]
+        return last[0] if last and last[0].startswith("Stopped") else ""

@@ -1,0 +1,139 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What whoever uses the results must see first."""
+
+import os
+
+import numpy
+
+from talus_tools.hdf5 import h5py
+from talus_tools.units import plain, show, unit_of
+
+# Shares above which a budget is not closed well enough to be left unsaid.
+ENERGY, MASS, LEDGER, BELOW_SURFACE = 0.01, 1e-9, 1e-9, 0.01
+
+
+def energy_scale(statistics):
+    """What the energy remainder is compared with: the work of gravity, or, where there is
+    none, the energy that the soil began with or that the boundaries gave."""
+    gravity = numpy.abs(statistics["gravity work [J]"]).max()
+    start = statistics["kinetic energy [J]"][0] + abs(statistics["elastic energy [J]"][0])
+    driven = numpy.abs(statistics["contact work [J]"]).max()
+    return (gravity, "the work of gravity") if gravity > 0 else (
+        max(start, driven), "the energy at the start or from the boundaries")
+
+
+def unfinished(run):
+    """Why the end of the table is not the end of the run."""
+    if run.is_finished():
+        return []
+    why = run.log.stopped()
+    if run.is_writing():
+        why = "It is still running."
+    elif os.path.isfile(run.path("last-state.vtu")):
+        why = "An error ended it; last-state.vtu has the points at that time."
+    elif not why:
+        why = "It was killed, or failed."
+    return [f"The run has not finished: it reached t = {plain(run.time)} s of "
+            f"{plain(run.end_time)} s. {why} All that follows is the state of then, not the "
+            "result."]
+
+
+def moving(run):
+    """Runout is no result while the soil still flows."""
+    # Without gravity there is no slide: a bar may vibrate for ever.
+    without = not run.statistics["gravity work [J]"].any()
+    if run.is_at_rest() in (None, True) or without or not run.is_finished():
+        return []
+    energy = run.statistics["grid kinetic energy [J]"]
+    return [f"The soil still moves at the end: its kinetic energy is "
+            f"{plain(100 * energy[-1] / energy.max(), 3)} % of its largest value (at rest: below "
+            "0.1 %). The front is not the final runout; a later End time would tell it."]
+
+
+def energy(run):
+    """A remainder above one per cent."""
+    remainder = numpy.abs(run.statistics["energy remainder [J]"]).max()
+    scale, name = energy_scale(run.statistics)
+    if scale == 0 or remainder <= ENERGY * scale:
+        return []
+    unit = unit_of("[J]", run.dimension)
+    return [f"The energy budget does not close: up to {show(remainder, unit)} are unaccounted "
+            f"for, {plain(100 * remainder / scale, 3)} % of {name} (expected: below 1 %). "
+            "Try smaller cells or a smaller CFL number and see whether the runout changes."]
+
+
+def mass(run):
+    """Points that were lost or made."""
+    values = run.statistics["mass [kg]"]
+    change = numpy.abs(values - values[0]).max()
+    if change <= MASS * values[0]:
+        return []
+    return [f"The mass changed by up to {show(change, unit_of('[kg]', run.dimension))}, "
+            f"{plain(100 * change / values[0], 3)} % of that at the start: soil was lost or made."]
+
+
+def fracture(run):
+    """Voids and pieces."""
+    statistics, result = run.statistics, []
+    time = statistics["time [s]"]
+    for name, what in (("empty interior cells", "holes within the soil"),
+                       ("empty columns", "gaps across the whole depth of the soil")):
+        bad = numpy.flatnonzero(statistics[name] > 0)
+        if len(bad):
+            result.append(
+                f"There are {what}: up to {statistics[name].max():.0f} {name}, first at t = "
+                f"{plain(time[bad[0]])} s. Where nothing broke in nature this is numerical "
+                "fracture.")
+    bodies = statistics["connected bodies"]
+    if bodies.max() > bodies[0]:
+        first = numpy.flatnonzero(bodies > bodies[0])[0]
+        result.append(f"The soil came apart: {bodies.max():.0f} connected bodies, "
+                      f"{bodies[0]:.0f} at the start; first at t = {plain(time[first])} s.")
+    return result
+
+
+def ledger(run):
+    """Splits that did not conserve."""
+    worst = numpy.abs(run.statistics["split ledger [-]"]).max()
+    return [] if worst <= LEDGER else [
+        f"Splitting points changed mass, momentum or energy by {plain(worst)} of their sums "
+        "(expected: round-off)."]
+
+
+def below_surface(run):
+    """Soil that went through an obstacle."""
+    table, result = run.tables["obstacles"], []
+    end = " share of mass below surface [-]"
+    for name in table.names if table else []:
+        if name.endswith(end) and table[name].max() > BELOW_SURFACE:
+            result.append(f"Up to {plain(100 * table[name].max(), 3)} % of the soil is below the "
+                          f"surface of the obstacle '{name[:-len(end)]}'.")
+    return result
+
+
+def cut_off(run):
+    """Tables whose last line was not complete."""
+    return [f"The last line of {name}.csv is not complete and was left out."
+            for name, table in run.tables.items() if table and table.left_out]
+
+
+def without_h5py(run):
+    """Pictures that this Python cannot make."""
+    return [] if h5py or not run.has("points.xdmf") else [
+        "Python's h5py was not found, which reads HDF5, so that pictures of the soil are missing "
+        "here. Debian's package python3-h5py has it."]
+
+
+def remarks(run):
+    """The log in one sentence; the lines themselves have a section."""
+    n = len(run.log.remarks)
+    return [] if n == 0 else [
+        f"The log has {n} {'remark' if n == 1 else 'remarks'} beyond the routine; see "
+        "“Remarks of the log” below."]
+
+
+def notices(run):
+    """All of them, the gravest first."""
+    checks = (unfinished, mass, energy, fracture, ledger, below_surface, moving, cut_off,
+              without_h5py, remarks)
+    return [sentence for check in checks for sentence in check(run)]

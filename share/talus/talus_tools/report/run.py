@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""All that a folder holds of a run."""
+
+import fcntl
+import hashlib
+import math
+import os
+import re
+
+from talus_tools.errors import UserError
+from talus_tools.hdf5 import Hdf5Series, h5py
+from talus_tools.parameters import Defaults, changed_entries, read_parameters
+from talus_tools.report.log import Log
+from talus_tools.tables import read_table
+from talus_tools.vtu import VtuSeries
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+# The reference of all parameters: installed beside the tools, or in the source tree.
+REFERENCES = [os.path.join(HERE, "../../parameters.prm"),
+              os.path.join(HERE, "../../../../doc/parameters.prm")]
+# A run is at rest when its grid has less than this share of its largest kinetic energy.
+REST = 1e-3
+
+
+def read_text(path):
+    """Content of a text file; nothing if there is none."""
+    try:
+        with open(path, encoding="utf-8", errors="replace") as stream:
+            return stream.read()
+    except FileNotFoundError:
+        return ""
+    except OSError as error:
+        raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
+
+
+class Run:
+    """Tables, parameters and log of a run; a table that is not there is None."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        self.check_folder()
+        self.tables = {name: self.read(name + ".csv") for name in
+                       ("statistics", "profile", "obstacles", "boundaries", "newton", "maps",
+                        "stations")}
+        self.statistics = self.tables["statistics"]
+        self.entries = read_parameters(self.path("parameters.prm"))
+        self.title = self.entries.get("Title", "")
+        self.dimension = int(self.entries.get("Dimension", "2"))
+        self.stages = self.entries.get("Stages", "dynamics")
+        self.end_time = float(self.entries.get("End time", "0"))
+        self.log = Log(read_text(self.path("log.txt")), self.title)
+        reference = [path for path in REFERENCES if os.path.isfile(path)]
+        self.changed = changed_entries(self.entries, Defaults(reference[0])) if reference else None
+        with open(self.path("parameters.prm"), "rb") as stream:
+            content = stream.read()
+        self.hash = hashlib.sha256(content).hexdigest()
+        self.parameter_text = content.decode("utf-8", errors="replace")
+        self.versions = re.findall(r"^#   (.*)$", self.parameter_text, re.MULTILINE)
+
+    def path(self, name):
+        """Path of a file of the run."""
+        return os.path.join(self.folder, name)
+
+    def has(self, name):
+        """Whether the run has this file."""
+        return os.path.isfile(self.path(name))
+
+    def check_folder(self):
+        """Errors that a user makes: no folder, the wrong one, a run that has not begun."""
+        if not os.path.isdir(self.folder):
+            raise UserError(f"'{self.folder}' is no folder. Name the output folder of a run, "
+                            "Output/Folder in its parameters.")
+        if not os.path.isfile(self.path("parameters.prm")):
+            raise UserError(f"'{self.folder}' has no parameters.prm, so it is no output folder of "
+                            "talus.")
+        if not os.path.isfile(self.path("statistics.csv")):
+            raise UserError(f"'{self.folder}' has no statistics.csv: the run has not begun to "
+                            "move, or failed before. Its log.txt may tell.")
+
+    def read(self, name):
+        """A table, or None where the run wrote none, or none yet."""
+        path = self.path(name)
+        if not os.path.isfile(path):
+            return None
+        with open(path, "rb") as stream:
+            has_rows = name == "statistics.csv" or len(stream.read(1 << 16).split(b"\n")) > 2
+        return read_table(path) if has_rows else None
+
+    def series(self, name):
+        """Fields by time, of VTU or HDF5 files; None where there are none that can be read."""
+        kinds = {".pvd": VtuSeries} | ({".xdmf": Hdf5Series} if h5py else {})
+        for ending, kind in kinds.items():
+            if self.has(name + ending):
+                series = kind(self.path(name + ending))
+                return series if len(series.times) else None
+        return None
+
+    @property
+    def time(self):
+        """The time of the last row."""
+        return self.statistics["time [s]"][-1]
+
+    def is_finished(self):
+        """Whether the end time was reached; without dynamics, whether the stages are over."""
+        if "dynamics" not in self.stages:
+            return True
+        return self.time >= self.end_time * (1 - 1e-9)
+
+    def is_at_rest(self):
+        """Whether the grid hardly moves any more; None where nothing ever moved."""
+        energy = self.statistics["grid kinetic energy [J]"]
+        return bool(energy[-1] <= REST * energy.max()) if energy.max() > 0 else None
+
+    def is_writing(self):
+        """Whether a run holds the lock of the folder now."""
+        try:
+            with open(self.path("lock"), "rb") as stream:
+                fcntl.flock(stream, fcntl.LOCK_SH | fcntl.LOCK_NB)
+        except BlockingIOError:
+            return True
+        except OSError:
+            pass
+        return False
+
+    def share_of_weight(self):
+        """Weight under water over that of all the mass; None where materials differ in it."""
+        shares = set()
+        for name, material in self.entries.items():
+            if name.startswith("Bodies/") and name.endswith("/Material"):
+                start = f"Materials/{material}/"
+                density = float(self.entries.get(start + "Density", "1000"))
+                submerged = self.entries.get(start + "Submerged density", "").strip()
+                shares.add(float(submerged) / density if submerged else 1.0)
+        return shares.pop() if len(shares) == 1 else None
+
+    def gravity(self):
+        """Force along x by a constant gravity over the mass [m/s^2], less buoyancy; None where
+        it is not constant or something else drives the soil, so that no closed form is at
+        hand."""
+        magnitude, angle, ramp = (self.entries.get("Gravity/" + name, "0") for name in
+                                  ("Magnitude", "Slope angle", "Ramp time"))
+        driven = any(text.strip() for name, text in self.entries.items() if
+                     name.startswith("Ground motion/File") or name == "Body force/Expression")
+        try:
+            share = self.share_of_weight()
+            if driven or float(ramp) != 0 or share is None:
+                return None
+            return share * float(magnitude) * math.sin(math.radians(float(angle)))
+        except ValueError:
+            return None

@@ -1,0 +1,104 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Forces on obstacles and on the faces of the mesh."""
+
+import numpy
+
+from talus_tools.report.page import BLUE, COLORS, RED, Cell, Rows, Section, embed, subplots
+from talus_tools.units import largest, scaled, show, unit_of
+
+HEAD = ["quantity", "largest mean over a row", "at t =", "largest in any step", "mean over the run",
+        "what it means"]
+AXES = {"x": "Along the slope: drag; positive where the soil pushes along x.",
+        "y": "Across the slope: negative presses down, positive lifts.",
+        "z": "Sideways."}
+
+
+def names_of(table):
+    """Names of obstacles or faces, by their columns."""
+    end = " force x [N]"
+    kinds = (" friction", " least", " largest")
+    return [n[:-len(end)] for n in table.names
+            if n.endswith(end) and not n[:-len(end)].endswith(kinds)]
+
+
+def peak(table, name, axis):
+    """The component of the largest magnitude in any step."""
+    both = [table[f"{name} {which} force {axis} [N]"] for which in ("least", "largest")]
+    return min(both[0].min(), 0), max(both[1].max(), 0)
+
+
+def history(table, name, dimension):
+    """Components over time, with the range of the single steps."""
+    time = table["time [s]"]
+    axes_of_space = "xyz"[:dimension]
+    unit = unit_of("[N]", dimension)
+    figure, axes = subplots(1, dimension, height=2.3)
+    for one, axis, color in zip(axes, axes_of_space, (BLUE, RED, COLORS[2])):
+        force = table[f"{name} force {axis} [N]"]
+        scale, shown_unit = scaled(max(map(abs, peak(table, name, axis))), unit)
+        one.fill_between(time, table[f"{name} least force {axis} [N]"] / scale,
+                         table[f"{name} largest force {axis} [N]"] / scale, step="pre",
+                         color=color, alpha=0.2, lw=0)
+        one.plot(time, force / scale, color=color)
+        one.set_title(f"force {axis} [{shown_unit}]")
+        one.set(xlabel="time [s]", xlim=(0, time[-1]))
+    return embed(figure, f"{name}: the force over time. Line: mean over each row of the table; "
+                 "band: least and largest value of any step in it.")
+
+
+def rows_of(table, name, dimension):
+    """Extremes and means of each component, and the moment, area and works."""
+    time, unit, rows = table["time [s]"], unit_of("[N]", dimension), []
+    for axis in "xyz"[:dimension]:
+        column = f"{name} force {axis} [N]"
+        at = largest(table[column])
+        step = max(peak(table, name, axis), key=abs)
+        mean = table[f"{name} impulse {axis} [N s]"][-1] / time[-1] if time[-1] > 0 else 0
+        rows.append([f"force {axis}", Cell(show(table[column][at], unit),
+                                           repr(float(table[column][at])), column),
+                     show(time[at], "s"), show(step, unit), show(mean, unit), AXES[axis]])
+    for column, what, sentence in (
+            (f"{name} moment z [N m]", "moment z", "About its reference point: what overturns."),
+            (f"{name} contact area [m]" if dimension == 2 else f"{name} contact area [m^2]",
+             "contact area", "As far as soil fills the cells at its surface.")):
+        if column in table:
+            at = largest(table[column])
+            rows.append([what, Cell(show(table[column][at], unit_of(column, dimension)),
+                                    repr(float(table[column][at])), column),
+                         show(time[at], "s"), "–", "–", sentence])
+    return rows
+
+
+def contact(table, name):
+    """When the soil arrives."""
+    column = [n for n in table.names if n.startswith(name + " contact area")]
+    touched = numpy.flatnonzero(table[column[0]] > 0) if column else []
+    if not len(touched):
+        return f"{name}: the soil never touches it."
+    return f"{name}: the soil touches it from t = {table['time [s]'][touched[0]]:.4g} s on."
+
+
+def section(run, table_name, anchor, title, lead):
+    """One section for a table of forces."""
+    table = run.tables[table_name]
+    if table is None:
+        return None
+    parts = []
+    for name in names_of(table):
+        if len(table) > 1:
+            parts.append(history(table, name, run.dimension))
+        parts.append(Rows([contact(table, name)] + HEAD[1:], rows_of(table, name, run.dimension)))
+    return Section(anchor, title, lead, parts)
+
+
+def obstacles(run):
+    """Forces on obstacles."""
+    return section(run, "obstacles", "obstacles", "Forces on obstacles",
+                   "What the soil does to each obstacle. The largest mean over a row is what a "
+                   "structure feels; single steps have peaks that are partly numerical.")
+
+
+def faces(run):
+    """Forces on the faces of the mesh."""
+    return section(run, "boundaries", "faces", "Forces on the faces of the mesh",
+                   "What the soil does to the seabed and the walls at the edge of the mesh.")

@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Envelopes along lines on the ground: lines.csv."""
+
+import csv
+
+import numpy
+
+from talus_tools.errors import UserError
+from talus_tools.report.page import COLORS, Cell, Rows, Section, embed, subplots
+from talus_tools.tables import number
+from talus_tools.units import plain, show
+
+LINE, DISTANCE = "line", "distance"
+
+
+def read_lines(path):
+    """{line: {column: values}} of a table whose column `line` says which line a row belongs
+    to; without one all rows are of one line. Incomplete rows are left out."""
+    with open(path, newline="", encoding="utf-8") as stream:
+        names, *rows = list(csv.reader(stream)) or [[]]
+    groups = {}
+    for row in rows:
+        if len(row) == len(names):
+            entry = dict(zip(names, row))
+            groups.setdefault(entry.pop(LINE, "").strip(), []).append(entry)
+    try:
+        return {line: {name: numpy.array([number(entry[name]) for entry in entries])
+                       for name in entries[0]} for line, entries in groups.items()}
+    except ValueError as error:
+        raise UserError(f"'{path}' is no table of talus: in every column but '{LINE}' numbers "
+                        f"are expected ({error}).") from error
+
+
+def picture(groups, distance, quantities):
+    """One diagram per quantity, with all lines in it."""
+    figure, rows = subplots(len(quantities), height=0.5 + 1.8 * len(quantities), sharex=True,
+                            squeeze=False)
+    for axes, quantity in zip(rows[:, 0], quantities):
+        for (line, columns), color in zip(groups.items(), COLORS * 3):
+            axes.plot(columns[distance], columns[quantity], color=color, label=line or None)
+        axes.set_title(quantity)
+    if any(groups):
+        rows[0, 0].legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    rows[-1, 0].set_xlabel(distance)
+    return embed(figure, "Along each line: the largest values of the whole run.")
+
+
+def rows_of(groups, distance, quantities):
+    """Largest value of each quantity on each line, and where."""
+    rows = []
+    for line, columns in groups.items():
+        for quantity in quantities:
+            values = columns[quantity]
+            if not numpy.isfinite(values).any():
+                continue
+            at = int(numpy.nanargmax(values))
+            text, _, unit = quantity.partition(" [")
+            rows.append([line or "–", text, Cell(show(values[at], unit.rstrip("]")),
+                                                 repr(float(values[at])), quantity),
+                         f"{plain(columns[distance][at])} m"])
+    return rows
+
+
+def lines(run):
+    """Where lines.csv has rows."""
+    groups = read_lines(run.path("lines.csv")) if run.has("lines.csv") else {}
+    if not groups:
+        return None
+    names = list(next(iter(groups.values())))
+    distances = [name for name in names if name.startswith(DISTANCE)]
+    if not distances:
+        raise UserError(f"'{run.path('lines.csv')}' has no column '{DISTANCE} [m]', over which its "
+                        "quantities are to be drawn.")
+    places = ("x [m]", "y [m]", "z [m]", "easting [m]", "northing [m]")
+    quantities = [name for name in names if name not in places and name not in distances]
+    return Section("lines", "Along lines", "Cables, pipelines and other lines on the ground, from "
+                   "their first corner on.",
+                   [picture(groups, distances[0], quantities),
+                    Rows(["line", "quantity", "largest", "at distance"],
+                         rows_of(groups, distances[0], quantities))])

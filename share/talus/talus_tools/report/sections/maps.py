@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Maps: the bathymetry in shaded relief with a quantity over it, in 2-D lines over x."""
+
+import dataclasses
+import os
+
+import numpy
+from matplotlib.colors import LightSource
+
+from talus_tools.errors import UserError
+from talus_tools.esri import read_grid
+from talus_tools.report.page import COLORS, WIDTH, Cell, Rows, Section, embed, subplots
+from talus_tools.units import plain, scaled, show
+
+# Name of the file: (unit, colours, what it means), in the order of the page.
+MEANINGS = {
+    "maximum-thickness": ("m", "viridis", "How deep a place is buried at most."),
+    "maximum-speed": ("m/s", "magma", "The largest mean speed over the depth."),
+    "maximum-momentum-flux": ("N/m", "plasma", "Density, thickness and speed squared: what "
+                              "loads whatever stands there."),
+    "maximum-bed-shear": ("Pa", "cividis", "Shear stress on the bed: what erodes it."),
+    "arrival-time": ("s", "YlGnBu_r", "When the soil first is as thick as the name says."),
+    "time-of-maximum": ("s", "YlGnBu_r", "When the largest value was reached."),
+    "final-thickness": ("m", "viridis", "The deposit at the last time."),
+    "erosion": ("m", "RdBu_r", "Soil that a place lost or gained."),
+}
+GROUND = "ground"
+TABLE_HEAD = ["quantity", "largest", "where", "covered", "what it means"]
+
+
+def meaning(name):
+    """Unit, colours and sentence by the longest name that the file's begins with."""
+    known = [key for key in MEANINGS if name.startswith(key)]
+    return MEANINGS[max(known, key=len)] if known else ("", "viridis", "")
+
+
+def order(name):
+    """Place of a map on the page: as in MEANINGS, others behind."""
+    known = [i for i, key in enumerate(MEANINGS) if name.startswith(key)]
+    return (known[-1] if known else len(MEANINGS), name)
+
+
+def title(name):
+    """As people say it."""
+    return name.replace("-", " ")
+
+
+def read_maps(folder):
+    """{name: Grid} of all rasters of a folder; the ground must have the same cells."""
+    grids = {entry[:-4]: read_grid(os.path.join(folder, entry))
+             for entry in sorted(os.listdir(folder)) if entry.endswith(".asc")}
+    ground = grids.get(GROUND)
+    for name, grid in grids.items():
+        if ground and not grid.is_aligned_with(ground):
+            raise UserError(f"'{os.path.join(folder, name)}.asc' has other cells than "
+                            f"'{GROUND}.asc' beside it; both are expected to be of the same run.")
+    return grids
+
+
+def visible(values):
+    """What is drawn over the ground: neither nothing nor zero."""
+    return numpy.ma.masked_where(~numpy.isfinite(values) | (values == 0), values)
+
+
+def window(grids):
+    """(first row, last row, first column, last column) of the cells where anything happens,
+    with a margin, so that a small slide is seen in a large bathymetry."""
+    some = next(iter(grids.values())).values
+    hit = numpy.zeros(some.shape, dtype=bool)
+    for name, grid in grids.items():
+        if name != GROUND and grid.values.shape == some.shape:
+            hit |= ~numpy.ma.getmaskarray(visible(grid.values))
+    if not hit.any():
+        return 0, some.shape[0], 0, some.shape[1]
+    result = []
+    for axis in (1, 0):
+        places = numpy.flatnonzero(hit.any(axis=axis))
+        margin = 3 + (places[-1] - places[0]) // 6
+        result += [max(0, places[0] - margin), min(hit.shape[1 - axis], places[-1] + 1 + margin)]
+    return tuple(result)
+
+
+def relief(axes, ground, cells, extent):
+    """Shaded relief with contours of the height."""
+    heights = ground.values[cells]
+    filled = numpy.where(numpy.isfinite(heights), heights, numpy.nanmean(heights))
+    # A slope of a degree must be seen as well as one of thirty.
+    steep = numpy.hypot(*numpy.gradient(filled, ground.dy, ground.dx)).max() or 1
+    shade = LightSource(azdeg=315, altdeg=45).hillshade(
+        filled, vert_exag=0.7 / steep, dx=ground.dx, dy=ground.dy)
+    axes.imshow(shade, cmap="gray", vmin=-0.6, vmax=1.05, extent=extent, interpolation="bilinear")
+    if numpy.ptp(filled) > 0:
+        lines = axes.contour(filled, levels=8, colors="#4a565f", linewidths=0.5, linestyles="solid",
+                             extent=extent, origin="upper")
+        axes.clabel(lines, fontsize=6.5, fmt="%g")
+
+
+def limits(values, unit):
+    """Ends of the scale of colours: both signs alike, times from the first, all else from
+    zero to where 99.5 % of the cells are below."""
+    if not values.count():
+        return {}
+    low, high = values.min(), numpy.percentile(values.compressed(), 99.5)
+    size = max(abs(low), abs(high))
+    if low < 0 < high:
+        return {"vmin": -size, "vmax": size}
+    return {"vmin": low if unit == "s" else min(low, 0), "vmax": max(high, low)}
+
+
+def draw(axes, grid, ground, part, colors, **options):
+    """A grid, and below it the ground if it is known; part: see window()."""
+    top, bottom, left, right = part
+    cells = (slice(top, bottom), slice(left, right))
+    west, north = grid.west + left * grid.dx, grid.extent()[3] - top * grid.dy
+    extent = (west, west + (right - left) * grid.dx, north - (bottom - top) * grid.dy, north)
+    if ground and min(bottom - top, right - left) > 1:
+        relief(axes, ground, cells, extent)
+    axes.set(xlabel="easting [m]", ylabel="northing [m]")
+    axes.ticklabel_format(useOffset=False, style="plain")
+    axes.grid(False)
+    return axes.imshow(visible(grid.values[cells]), cmap=colors, extent=extent, alpha=0.82,
+                       interpolation="nearest", **options)
+
+
+def height_of(grid, part):
+    """Height of a map over the width of the page [inch]."""
+    shape = (part[1] - part[0]) * grid.dy / ((part[3] - part[2]) * grid.dx)
+    return min(max(0.8 * WIDTH * shape + 0.6, 2.2), 6.5)
+
+
+def picture(name, grids, part):
+    """One map."""
+    grid, (unit, colors, sentence) = grids[name], meaning(name)
+    factor, unit = scaled(numpy.nanmax(numpy.abs(grid.values), initial=0), unit)
+    shown = dataclasses.replace(grid, values=grid.values / factor)
+    figure, axes = subplots(height=height_of(grid, part))
+    image = draw(axes, shown, grids.get(GROUND), part, colors,
+                 **limits(visible(shown.values), unit))
+    figure.colorbar(image, ax=axes, label=f"{title(name)} [{unit}]".replace(" []", ""), pad=0.01)
+    over = " over the shaded bathymetry; contours: its height [m]" if GROUND in grids else ""
+    return embed(figure, f"{title(name).capitalize()}{over}. {sentence}", "png")
+
+
+def row(name, grid):
+    """Largest value, its place, and the area with a value."""
+    unit, _, sentence = meaning(name)
+    values = visible(grid.values)
+    if not values.count():
+        return [title(name), "nowhere", "–", "–", sentence]
+    at = numpy.unravel_index(numpy.ma.argmax(values), values.shape)
+    east, north = grid.place(*at)
+    area = values.count() * grid.dx * grid.dy
+    return [title(name), Cell(show(values[at], unit), repr(float(values[at])), name),
+            f"E {east:.0f}, N {north:.0f}",
+            f"{plain(area / 1e6)} km²" if area >= 1e5 else f"{plain(area)} m²", sentence]
+
+
+def plan_maps(run):
+    """In 3-D, the rasters in the folder maps."""
+    grids = read_maps(run.path("maps"))
+    names = sorted((name for name in grids if name != GROUND), key=order)
+    if not names:
+        return None
+    part = window(grids)
+    return Section("maps", "Maps",
+                   "What happened at each place over the whole run, on the raster of the "
+                   "bathymetry. The same rasters are in the folder maps, for any geographic "
+                   "information system.",
+                   [Rows(TABLE_HEAD, [row(name, grids[name]) for name in names])]
+                   + [picture(name, grids, part) for name in names])
+
+
+def section_rows(table, names):
+    """Largest value of each column, and where."""
+    rows = []
+    for name in names:
+        if not numpy.isfinite(table[name]).any():
+            continue
+        at = int(numpy.nanargmax(table[name]))
+        text, _, unit = name.partition(" [")
+        rows.append([text, Cell(show(table[name][at], unit.rstrip("]")),
+                                repr(float(table[name][at])), name),
+                     f"x = {plain(table['x [m]'][at])} m",
+                     meaning(text.replace(" ", "-"))[2]])
+    return rows
+
+
+def section_maps(run):
+    """In 2-D, the columns of maps.csv over x, those of one unit together."""
+    table = run.tables["maps"]
+    names = [name for name in table.names if name not in ("x [m]", "ground [m]")]
+    units = list(dict.fromkeys(name.partition(" [")[2].rstrip("]") for name in names))
+    figure, rows = subplots(len(units), height=0.5 + 1.9 * len(units), sharex=True, squeeze=False)
+    for axes, unit in zip(rows[:, 0], units):
+        mine = [name for name in names if name.partition(" [")[2].rstrip("]") == unit]
+        for name, color in zip(mine, COLORS * 3):
+            axes.plot(table["x [m]"], table[name], color=color, label=name.partition(" [")[0])
+        axes.set_ylabel(f"[{unit}]")
+        axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    rows[-1, 0].set_xlabel("x [m]")
+    return Section("maps", "Largest values and arrival along the slope",
+                   "What happened at each place over the whole run, as in maps.csv.",
+                   [embed(figure, "Over x: largest and final values, and times of arrival; a gap "
+                          "is where the soil never was."),
+                    Rows(["quantity", "largest", "where", "what it means"],
+                         section_rows(table, names))])
+
+
+def maps(run):
+    """Where the run has written maps."""
+    if run.tables["maps"]:
+        return section_maps(run)
+    return plan_maps(run) if os.path.isdir(run.path("maps")) else None

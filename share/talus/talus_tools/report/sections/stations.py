@@ -1,0 +1,77 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Histories at stations, and envelopes along lines."""
+
+import numpy
+
+from talus_tools.report.page import COLORS, Cell, Rows, Section, embed, subplots
+from talus_tools.units import show, unit_of
+
+TIME, THICKNESS = "time [s]", " thickness [m]"
+MOST = 6  # stations in one picture
+
+
+def columns_of(table):
+    """{station: {quantity with unit: column}}. Every station has a thickness, by which its
+    name is known; of two that fit a column the longer one is meant."""
+    names = [n[:-len(THICKNESS)] for n in table.names
+             if n.endswith(THICKNESS) and not n.endswith(" maximum" + THICKNESS)]
+    result = {name: {} for name in names}
+    for column in table.names:
+        fitting = [name for name in names if column.startswith(name + " ")]
+        if fitting:
+            name = max(fitting, key=len)
+            result[name][column[len(name) + 1:]] = column
+    return result
+
+
+def histories(table, columns):
+    """One picture per quantity, with at most MOST stations in each."""
+    quantities = list(dict.fromkeys(q for own in columns.values() for q in own))
+    names = list(columns)[:MOST]
+    figure, rows = subplots(len(quantities), height=0.5 + 1.7 * len(quantities), sharex=True,
+                            squeeze=False)
+    for axes, quantity in zip(rows[:, 0], quantities):
+        for name, color in zip(names, COLORS):
+            if quantity in columns[name]:
+                axes.plot(table[TIME], table[columns[name][quantity]], color=color, label=name,
+                          lw=1.2)
+        axes.set_title(quantity)
+    rows[0, 0].legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    rows[-1, 0].set_xlabel("time [s]")
+    rest = len(columns) - len(names)
+    more = f" {rest} more are in stations.csv and in the table." if rest > 0 else ""
+    return embed(figure, "Histories at the stations." + more)
+
+
+def arrival(table, column):
+    """The time of the first row with soil, as text."""
+    there = numpy.flatnonzero(table[column] > 0)
+    return show(table[TIME][there[0]], "s") if len(there) else "never"
+
+
+def rows_of(table, columns, dimension):
+    """Largest magnitude of each quantity, with its time."""
+    rows = []
+    for name, own in columns.items():
+        for quantity, column in own.items():
+            values = numpy.nan_to_num(table[column])
+            at = int(numpy.argmax(numpy.abs(values)))
+            rows.append([name, quantity.partition(" [")[0],
+                         Cell(show(values[at], unit_of(column, dimension)),
+                              repr(float(values[at])), column),
+                         show(table[TIME][at], "s"),
+                         arrival(table, own[THICKNESS[1:]])])
+    return rows
+
+
+def stations(run):
+    """Where stations.csv is."""
+    table = run.tables["stations"]
+    columns = columns_of(table) if table else {}
+    if not columns:
+        return None
+    figures = [histories(table, columns)] if len(table) > 1 else []
+    return Section("stations", "Histories at stations",
+                   "What passes over each station; soil is there from its arrival on.",
+                   figures + [Rows(["station", "quantity", "largest", "at t =", "soil from"],
+                                   rows_of(table, columns, run.dimension))])

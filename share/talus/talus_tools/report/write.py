@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""From a run to report.html."""
+
+import os
+
+from talus_tools.errors import UserError
+from talus_tools.report.headline import headline
+from talus_tools.report.notices import notices
+from talus_tools.report.run import HERE, Run, read_text
+from talus_tools.report.sections import SECTIONS
+from talus_tools.units import plain
+
+try:
+    import jinja2
+except ImportError as error:
+    raise UserError("Python's jinja2 was not found, which fills in the page. Debian's package "
+                    "python3-jinja2 has it.") from error
+
+
+def subtitle(run):
+    """One line on what and how long."""
+    space = "plane strain, all forces and energies per metre width" if run.dimension == 2 else "3-D"
+    steps = run.statistics["step"][-1]
+    return (f"{space}; {plain(run.time)} s in {steps:.0f} steps, "
+            f"{run.statistics['points'][-1]:.0f} material points at the end")
+
+
+def render(run):
+    """The page as text. It is XML as well as HTML, so that tests can read it."""
+    environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True,
+                                     trim_blocks=True, lstrip_blocks=True,
+                                     undefined=jinja2.StrictUndefined)
+    sections = [section for section in (make(run) for make in SECTIONS) if section]
+    return environment.get_template("report.html").render(
+        style=read_text(os.path.join(HERE, "report.css")),
+        name=os.path.basename(os.path.abspath(run.folder)),
+        title=run.title or os.path.basename(os.path.abspath(run.folder)), subtitle=subtitle(run),
+        finished=run.is_finished(), notices=notices(run), tiles=headline(run), sections=sections,
+        version=run.versions[0] if run.versions else "", hash=run.hash[:12])
+
+
+def write_report(folder):
+    """Write report.html into the folder of a run, and return its path and the notices. It gets
+    its name when it is complete."""
+    run = Run(folder)
+    page = render(run)
+    path = run.path("report.html")
+    try:
+        with open(path + ".part", "w", encoding="utf-8") as stream:
+            stream.write(page)
+        os.replace(path + ".part", path)
+    except OSError as error:
+        raise UserError(f"'{path}' cannot be written: {error.strerror}.") from error
+    return path, notices(run)

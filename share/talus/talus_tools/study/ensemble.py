@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""All members: which are to run, some at once, until all have ended."""
+
+import fcntl
+import os
+import shutil
+import signal
+import subprocess
+import time
+
+from talus_tools.errors import UserError
+from talus_tools.study.design import design
+from talus_tools.study.member import FAILED, FINISHED, Member
+
+
+def program_version(settings):
+    """What the program says of itself; results of another one are not taken for its own."""
+    if shutil.which(settings.program) is None:
+        raise UserError(f"The program '{settings.program}' was not found. Give its path as "
+                        "'Program' in the study file, or with --program.")
+    result = subprocess.run([settings.program, "--version"], capture_output=True, text=True,
+                            check=False)
+    # MPI and its libraries may have something to say, too.
+    lines = [line for line in result.stdout.splitlines() if line.startswith("talus ")]
+    if result.returncode != 0 or not lines:
+        raise UserError(f"'{settings.program} --version' did not tell the version of talus: "
+                        f"{(result.stderr or result.stdout).strip()[:200]}.")
+    return lines[0]
+
+
+def make_members(settings, version):
+    """All members of the design."""
+    return [Member(settings, i + 1, values, version)
+            for i, values in enumerate(design(settings))]
+
+
+def lock(folder):
+    """A file locked as long as it is open, so that one study runs in a folder."""
+    os.makedirs(folder, exist_ok=True)
+    stream = open(os.path.join(folder, "lock"), "w", encoding="utf-8")
+    try:
+        fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        raise UserError(f"Another talus-study is running in '{folder}'. Wait for it, or stop it "
+                        "with SIGTERM.") from None
+    return stream
+
+
+class Stop:
+    """SIGTERM, SIGINT and SIGUSR1 let the runs write checkpoints and end."""
+
+    def __init__(self):
+        self.asked = False
+        for number in (signal.SIGTERM, signal.SIGINT, signal.SIGUSR1):
+            signal.signal(number, self.ask)
+
+    def ask(self, *_):
+        """Remember; the loop does the rest."""
+        self.asked = True
+
+
+def run_members(members, at_once):
+    """Run those that have not finished. A run that is stopped can be resumed."""
+    waiting = [m for m in members if m.state()[0] != FINISHED]
+    n_done, running, stop, told = len(members) - len(waiting), [], Stop(), False
+    if n_done:
+        print(f"{n_done} of {len(members)} members have finished before.", flush=True)
+    while running or (waiting and not stop.asked):
+        while waiting and len(running) < at_once and not stop.asked:
+            running.append(waiting.pop(0))
+            running[-1].start()
+        if stop.asked and not told:
+            for member in running:
+                member.process.terminate()
+            told = True
+        for member in [m for m in running if m.process.poll() is not None]:
+            running.remove(member)
+            status = member.finish(stop.asked)
+            n_done += status == FINISHED
+            why = f": {member.state()[1]}" if status == FAILED else ""
+            print(f"{member.name} {status}{why} ({n_done} of {len(members)} finished)", flush=True)
+        time.sleep(0.02)

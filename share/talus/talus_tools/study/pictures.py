@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pictures of a study."""
+
+import os
+
+import numpy
+import scipy.stats
+
+from talus_tools.report.page import BLUE, COLORS, plt, subplots
+from talus_tools.report.sections.maps import GROUND, draw, height_of, meaning, window
+
+
+def save(figure, settings, name):
+    """As PNG in the folder of the study, without a date."""
+    figure.savefig(os.path.join(settings.folder, name), dpi=130, metadata={"Software": None})
+    plt.close(figure)
+
+
+def rank_correlation(one, other):
+    """Spearman's, as a text; nothing for fewer than five members or a constant."""
+    if len(one) < 5 or one.min() == one.max() or other.min() == other.max():
+        return ""
+    return f"rank correlation {scipy.stats.spearmanr(one, other).statistic:.2f}"
+
+
+def overview(results):
+    """Per quantity its exceedance curve, and its values over each varied parameter."""
+    settings = results.settings
+    done = [i for i in range(len(results.members)) if results.states[i][0] == "finished"]
+    if not done:
+        return
+    n_rows, n_columns = len(settings.quantities), 1 + len(settings.varied)
+    figure, rows = subplots(n_rows, n_columns, height=0.3 + 2.6 * n_rows, squeeze=False)
+    numbers = [results.members[i].values for i in done]
+    for q, (quantity, axes) in enumerate(zip(settings.quantities, rows)):
+        values, share = results.exceedance(q)
+        axes[0].step(values, share, where="pre", color=BLUE)
+        axes[0].plot(values, share, ".", color=BLUE)
+        axes[0].set(xlabel=quantity.label(), ylabel="share of members at or above",
+                    ylim=(0, 1.05))
+        for v, varied in enumerate(settings.varied):
+            x = numpy.array([row[v] for row in numbers])
+            axes[1 + v].plot(x, results.values[done, q], ".", color=COLORS[1])
+            axes[1 + v].set(xlabel=varied.name, ylabel=quantity.label(),
+                            title=rank_correlation(x, results.values[done, q]))
+    left = len(results.members) - len(done)
+    figure.suptitle(f"{settings.title or settings.case}: {len(done)} members"
+                    + (f"; {left} have not finished and are missing" if left else ""), fontsize=10)
+    save(figure, settings, "study.png")
+
+
+def label(settings, threshold):
+    """What is exceeded, with the unit if it is known."""
+    unit = meaning(settings.map)[0]
+    return f"{settings.map.replace('-', ' ')} above {threshold:g} {unit}".strip()
+
+
+def exceedance_maps(settings, grids, ground):
+    """Rasters, one below the other, in 3-D."""
+    shown = {str(t): grid for t, grid in grids.items()}
+    first = next(iter(grids.values()))
+    part = window(shown | ({GROUND: ground} if ground else {}))
+    figure, rows = subplots(len(grids), height=len(grids) * height_of(first, part), squeeze=False)
+    for axes, (threshold, grid) in zip(rows[:, 0], grids.items()):
+        image = draw(axes, grid, ground, part, "YlOrRd", vmin=0, vmax=1)
+        axes.set_title(label(settings, threshold))
+        figure.colorbar(image, ax=axes, label="share of members [-]", pad=0.01)
+    save(figure, settings, "exceedance-maps.png")
+
+
+def exceedance_lines(settings, places, shares):
+    """The same over x, in 2-D."""
+    figure, axes = subplots(height=2.6)
+    for (threshold, share), color in zip(shares.items(), COLORS * 3):
+        axes.step(places, share, where="mid", color=color,
+                  label=label(settings, threshold))
+    axes.set(xlabel="x [m]", ylabel="share of members [-]", ylim=(0, 1.05))
+    axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
+    save(figure, settings, "exceedance-maps.png")

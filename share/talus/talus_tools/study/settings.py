@@ -1,0 +1,180 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""What a study file says, checked."""
+
+import dataclasses
+import os
+import re
+import shlex
+
+from talus_tools.errors import UserError
+from talus_tools.parameters import read_parameters
+
+# Entries and their defaults; NAME stands for the names that `Names` lists.
+ENTRIES = {
+    "Title": "", "Case": "", "Output folder": "", "Program": "talus", "Launcher": "",
+    "Number at once": "1",
+    "Design/Kind": "Latin hypercube", "Design/Members": "16", "Design/Seed": "1",
+    "Varied/Names": "", "Varied/NAME/Parameter": "", "Varied/NAME/Template": "{}",
+    "Varied/NAME/Values": "", "Varied/NAME/Distribution": "uniform", "Varied/NAME/Lower": "",
+    "Varied/NAME/Upper": "", "Varied/NAME/Mode": "", "Varied/NAME/Mean": "",
+    "Varied/NAME/Standard deviation": "",
+    "Quantities/Names": "", "Quantities/NAME/File": "statistics.csv",
+    "Quantities/NAME/Column": "front x [m]", "Quantities/NAME/Take": "final",
+    "Exceedance/Map": "maximum-thickness", "Exceedance/Thresholds": "0.1, 1",
+}
+TAKES = ("final", "maximum", "minimum")
+KINDS = ("Latin hypercube", "grid")
+# Numbers that each distribution needs, all in the unit of the parameter.
+DISTRIBUTIONS = {"uniform": ("Lower", "Upper"), "normal": ("Mean", "Standard deviation"),
+                 "lognormal": ("Mean", "Standard deviation"),
+                 "triangular": ("Lower", "Mode", "Upper")}
+
+
+@dataclasses.dataclass
+class Varied:
+    """A parameter that differs from member to member."""
+    name: str
+    parameter: str
+    template: str
+    distribution: str
+    numbers: dict
+    values: list
+
+
+@dataclasses.dataclass
+class Quantity:
+    """A result of each member: one number of a column of one of its tables."""
+    name: str
+    file: str
+    column: str
+    take: str
+
+    def label(self):
+        """Its name with the unit of the column."""
+        unit = re.search(r" \[.*\]$", self.column)
+        return self.name + (unit[0] if unit else "")
+
+
+class Settings:
+    """All of a study file; `fixed` are entries over those of the case, for all members."""
+
+    def __init__(self, path):
+        self.path = path
+        entries = read_parameters(path)
+        self.fixed = {name.partition("/")[2]: value for name, value in entries.items()
+                      if name.startswith("Parameters/")}
+        self.entries = {n: v for n, v in entries.items() if not n.startswith("Parameters/")}
+        self.check_names()
+        self.title = self.get("Title")
+        self.case = self.needed("Case")
+        stem = os.path.splitext(os.path.basename(path))[0]
+        self.folder = self.get("Output folder") or stem + "-output"
+        self.program, self.launcher = self.get("Program"), shlex.split(self.get("Launcher"))
+        self.at_once = self.whole("Number at once", 1)
+        self.kind = self.one_of("Design/Kind", KINDS)
+        self.members = self.whole("Design/Members", 1)
+        self.seed = self.whole("Design/Seed", 0)
+        self.varied = [self.read_varied(name) for name in self.names("Varied")]
+        self.quantities = [self.read_quantity(name) for name in self.names("Quantities")] or [
+            Quantity("front", "statistics.csv", "front x [m]", "final")]
+        self.map = self.get("Exceedance/Map")
+        self.thresholds = self.numbers("Exceedance/Thresholds")
+        self.check_varied()
+
+    def error(self, name, expected):
+        """The sentence for a value that does not do."""
+        return UserError(f"'{self.path}': '{name} = {self.get(name)}' was found, where {expected} "
+                         "was expected.")
+
+    def get(self, name):
+        """Value of an entry or its default."""
+        pattern = re.sub(r"^(Varied|Quantities)/[^/]+/", r"\1/NAME/", name)
+        return self.entries.get(name, ENTRIES[pattern]).strip()
+
+    def needed(self, name):
+        """The same; it must be set."""
+        if not self.get(name):
+            raise UserError(f"'{self.path}' does not set '{name}', which is needed.")
+        return self.get(name)
+
+    def names(self, section):
+        """Names that a section lists."""
+        return [n.strip() for n in self.get(section + "/Names").split(",") if n.strip()]
+
+    def check_names(self):
+        """No entry is overlooked because it is misspelt."""
+        known = set(ENTRIES)
+        for section in ("Varied", "Quantities"):
+            for name in self.names(section):
+                known |= {e.replace("NAME", name) for e in ENTRIES
+                          if e.startswith(section + "/NAME/")}
+        for name in self.entries:
+            if name not in known:
+                raise UserError(f"'{self.path}' sets '{name}', which is no entry of a study; "
+                                "doc/study.md lists them. Entries of the case belong into the "
+                                "section 'Parameters'; sections in 'Varied' and 'Quantities' need "
+                                "to be listed in 'Names' there.")
+
+    def one_of(self, name, words):
+        """One of several words."""
+        if self.get(name) not in words:
+            raise self.error(name, " or ".join(f"'{word}'" for word in words))
+        return self.get(name)
+
+    def whole(self, name, least):
+        """A whole number."""
+        text = self.get(name)
+        if not text.isdigit() or int(text) < least:
+            raise self.error(name, f"a whole number of at least {least}")
+        return int(text)
+
+    def numbers(self, name):
+        """A list of numbers, separated by commas."""
+        try:
+            return [float(part) for part in self.get(name).split(",") if part.strip()]
+        except ValueError:
+            raise self.error(name, "numbers separated by commas") from None
+
+    def read_varied(self, name):
+        """One section of Varied."""
+        start = f"Varied/{name}/"
+        distribution = self.one_of(start + "Distribution", tuple(DISTRIBUTIONS))
+        numbers, values = {}, self.numbers(start + "Values")
+        if self.kind != "grid":
+            for key in DISTRIBUTIONS[distribution]:
+                self.needed(start + key)
+                found = self.numbers(start + key)
+                if len(found) != 1:
+                    raise self.error(start + key, "one number")
+                numbers[key] = found[0]
+        elif not values:
+            raise self.error(start + "Values", "the numbers of the grid, separated by commas,")
+        if self.get(start + "Template").count("{}") != 1:
+            raise self.error(start + "Template", "a text with {} once, which stands for the "
+                             "varied number,")
+        return Varied(name, self.needed(start + "Parameter"), self.get(start + "Template"),
+                      distribution, numbers, values)
+
+    def read_quantity(self, name):
+        """One section of Quantities."""
+        start = f"Quantities/{name}/"
+        return Quantity(name, self.get(start + "File"), self.get(start + "Column"),
+                        self.one_of(start + "Take", TAKES))
+
+    def check_varied(self):
+        """Something must vary, each parameter once, within limits that make sense."""
+        if not self.varied:
+            raise UserError(f"'{self.path}' varies nothing: list names in 'Varied/Names', each "
+                            "with a section of that name.")
+        parameters = [one.parameter for one in self.varied]
+        for one in self.varied:
+            if parameters.count(one.parameter) > 1:
+                raise UserError(f"'{self.path}' varies '{one.parameter}' twice.")
+            n, start = one.numbers, f"Varied/{one.name}/"
+            order = [n[key] for key in ("Lower", "Mode", "Upper") if key in n]
+            if order != sorted(order) or (order and order[0] == order[-1]):
+                raise self.error(start + "Upper", "a number above 'Lower', with 'Mode' between")
+            if n.get("Standard deviation", 1) <= 0:
+                raise self.error(start + "Standard deviation", "a positive number")
+            if one.distribution == "lognormal" and n and n["Mean"] <= 0:
+                raise self.error(start + "Mean", "a positive number")

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""CSV files of talus: one header line, commas, numbers."""
+
+import csv
+
+import numpy
+
+from talus_tools.errors import UserError
+
+
+class Table:
+    """Columns by name, as numbers; the text of the last row as it was written."""
+
+    def __init__(self, path, names, rows, left_out):
+        self.path = path
+        self.names = names
+        self.values = numpy.array([[number(cell) for cell in row] for row in rows])
+        self.last_row = dict(zip(names, rows[-1]))
+        self.left_out = left_out
+
+    def __contains__(self, name):
+        return name in self.names
+
+    def __getitem__(self, name):
+        if name not in self.names:
+            raise UserError(f"'{self.path}' has no column '{name}'.")
+        return self.values[:, self.names.index(name)]
+
+    def __len__(self):
+        return len(self.values)
+
+
+def number(cell):
+    """A cell as a number; an empty one is none."""
+    return float(cell) if cell.strip() else numpy.nan
+
+
+def is_row_of_numbers(row, n_columns):
+    """Whether all cells are there and are numbers."""
+    try:
+        return len([number(cell) for cell in row]) == n_columns
+    except ValueError:
+        return False
+
+
+def read_table(path):
+    """Read a table. A last line that is cut off, as one that is being written, is
+    left out, which the table tells in `left_out`; any other is an error."""
+    try:
+        with open(path, newline="", encoding="utf-8") as stream:
+            text = stream.read()
+            names, *rows = list(csv.reader(text.splitlines())) or [[]]
+    except OSError as error:
+        raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
+    except (UnicodeDecodeError, csv.Error) as error:
+        raise UserError(f"'{path}' is no table of talus: {error}.") from error
+    bad = [i for i, row in enumerate(rows) if not is_row_of_numbers(row, len(names))]
+    # A line is whole when it has its end; before, its last number may lack digits.
+    left_out = bool(rows) and (not text.endswith("\n") or bad == [len(rows) - 1])
+    if left_out:
+        rows.pop()
+    if [i for i in bad if i < len(rows)]:
+        raise UserError(f"'{path}', line {bad[0] + 2}, is not {len(names)} numbers separated by "
+                        "commas, as the header says. The file was changed or damaged: run talus "
+                        "again, or remove that line.")
+    if not rows:
+        raise UserError(f"'{path}' has no complete row yet. A run writes the first one when it "
+                        "starts to move; wait for it, or look for its error in log.txt.")
+    return Table(path, names, rows, left_out)

@@ -1,0 +1,367 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Studies that run through, are killed, stopped, changed, and asked for nonsense.
+
+Usage: study.py TALUS ROOT FOLDER [SUITE]
+"""
+
+import math
+import os
+import signal
+import subprocess
+import sys
+import time
+
+import numpy
+
+from tools_case import ROOT, SHARE, TALUS, Case, main, read_csv
+
+from talus_tools.errors import UserError
+from talus_tools.study.design import design, quantile
+from talus_tools.study.ensemble import make_members, program_version
+from talus_tools.study.settings import ENTRIES, Settings
+
+# The first slope on cells of 2 m: half a second.
+COARSE = {"Grid/Cell size": "2", "Grid/Upper corner": "200, 6", "End time": "8",
+          "Output/Write points": "false", "Output/Write grid": "false",
+          "Checkpoint/Step interval": "400", "Checkpoint/At the end": "false"}
+STRENGTH = """
+  subsection strength
+    set Parameter          = Materials/mud/Undrained shear strength
+    set Distribution       = lognormal
+    set Mean               = 2000
+    set Standard deviation = 500
+  end
+"""
+# In place of talus where only what is around the runs is tested: it writes the tables and
+# maps that a run with this strength might have. Strength 3 is an error.
+PRETENDER = """#!/bin/sh
+if [ "$1" = --version ]; then echo "talus pretended VERSION"; exit 0; fi
+s=$(sed -n 's/^ *set Undrained shear strength = \\([0-9]*\\).*/\\1/p' "$1" | tail -1)
+if [ "$s" = 3 ]; then echo "talus: Point 7, that of body 0, left the mesh." >&2; exit 1; fi
+echo run >> "$3/runs"
+printf 'time [s],front x [m]\\n0,9\\n1,%s\\n2,0\\n' "$s" > "$3/statistics.csv"
+MAPS
+"""
+RASTERS = """mkdir -p "$3/maps"
+h='ncols 2\\nnrows 1\\nxllcorner 100\\nyllcorner 200\\ncellsize 10\\nNODATA_value -9999\\n'
+printf "$h-50 -51\\n" > "$3/maps/ground.asc"
+printf "$h$s -9999\\n" > "$3/maps/maximum-thickness.asc"
+"""
+LINES = """printf 'x [m],maximum thickness [m]\\n0,%s\\n1,nan\\n' "$s" > "$3/maps.csv"
+"""
+
+
+def as_sections(entries):
+    """As --set has them, in the section Parameters."""
+    lines = []
+    for name, value in entries.items():
+        *sections, entry = name.split("/")
+        lines += [f"subsection {s}" for s in ["Parameters", *sections]]
+        lines += [f"set {entry} = {value}"] + ["end"] * (1 + len(sections))
+    return "\n".join(lines)
+
+
+class StudyCase(Case):
+    def write(self, name, *lines, varied=STRENGTH, parameters=COARSE):
+        """A study file; its folder is NAME-output."""
+        path = self.folder / f"{name}.prm"
+        path.write_text("\n".join([
+            f"set Case = {ROOT / 'prm' / 'first-slope.prm'}", f"set Program = {TALUS}",
+            f"set Output folder = {self.folder / (name + '-output')}", *lines,
+            f"subsection Varied\nset Names = strength\n{varied}\nend", as_sections(parameters)]))
+        return path
+
+    def grid(self, name, values, *lines, program=None):
+        """A study with these strengths, by the pretender."""
+        return self.write(name, "subsection Design\nset Kind = grid\nend",
+                          f"set Program = {program or self.pretender()}", *lines,
+                          varied="subsection strength\n"
+                          "set Parameter = Materials/mud/Undrained shear strength\n"
+                          f"set Template = {{}} + 0*depth\nset Values = {values}\nend",
+                          parameters={})
+
+    def pretender(self, name="pretender", version="1", maps=""):
+        path = self.folder / name
+        path.write_text(PRETENDER.replace("VERSION", version).replace("MAPS", maps))
+        path.chmod(0o755)
+        return path
+
+    def output(self, study):
+        return study.with_name(study.stem + "-output")
+
+    def study(self, *arguments, status=0):
+        result = self.tool("talus-study", *arguments, cwd=ROOT)
+        self.assertEqual(result.returncode, status, result)
+        self.assertEqual(result.stderr, "")
+        return result.stdout
+
+    def start(self, study):
+        """In a process group of its own."""
+        # pylint: disable-next=consider-using-with
+        return subprocess.Popen([sys.executable, SHARE / "talus-study", study, "--at-once", "2"],
+                                cwd=ROOT, stdout=subprocess.DEVNULL, start_new_session=True)
+
+    def wait_for(self, what):
+        end = time.time() + 100
+        while not what() and time.time() < end:
+            time.sleep(0.005)
+        self.assertTrue(what())
+
+    def running_with_checkpoint(self, folder):
+        """Members that have begun, are not near their end, and can go on."""
+        def steps(member):
+            return [int(p.name) for p in (member / "checkpoints").glob("*[0-9]")]
+        return [p.parent for p in folder.glob("*/member.json")
+                if '"started"' in p.read_text() and 0 < max(steps(p.parent), default=0) <= 800]
+
+
+class Interrupted(StudyCase):
+    """The gate: killed in the middle and resumed, bit for bit the same."""
+
+    def test_killed_and_resumed(self):
+        reference, killed = self.write("reference"), self.write("killed")
+        self.study(reference, "--at-once", 2)
+        process, folder = self.start(killed), self.output(killed)
+        self.wait_for(lambda: len([p for p in folder.glob("*/member.json")
+                                   if '"finished"' in p.read_text()]) >= 5
+                      and self.running_with_checkpoint(folder))
+        os.killpg(process.pid, signal.SIGKILL)
+        process.wait()
+        self.assertFalse((folder / "study.csv").exists())
+        before = {p: p.stat().st_mtime_ns for p in folder.glob("*/member.json")
+                  if '"finished"' in p.read_text()}
+        self.assertLess(len(before), 16)
+        self.study(killed, "--at-once", 2)
+        for path, written in before.items():
+            self.assertEqual(path.stat().st_mtime_ns, written)
+        resumed = [p for p in folder.glob("*/log.txt") if "Resumed at t =" in p.read_text()]
+        self.assertGreaterEqual(len(resumed), 1)
+        for name in ("study.csv", "exceedance.csv"):
+            self.assertEqual((folder / name).read_bytes(),
+                             (self.output(reference) / name).read_bytes())
+        rows = read_csv(folder / "study.csv")
+        self.assertEqual([row["status"] for row in rows], ["finished"] * 16)
+        self.assertGreater(len({row["front [m]"] for row in rows}), 10)
+
+    def test_stopped_by_sigterm(self):
+        study = self.write("stopped", "subsection Design\nset Members = 4\nend")
+        process, folder = self.start(study), self.output(study)
+        self.wait_for(lambda: self.running_with_checkpoint(folder))
+        process.terminate()
+        self.assertEqual(process.wait(timeout=60), 75)
+        status = [row["status"] for row in read_csv(folder / "study.csv")]
+        self.assertIn("stopped", status)
+        self.study(study)
+        self.assertEqual({row["status"] for row in read_csv(folder / "study.csv")}, {"finished"})
+
+    def test_study_alone_is_killed(self):
+        """Its runs stop by themselves, with a checkpoint."""
+        study = self.write("orphans", "subsection Design\nset Members = 2\nend")
+        process, folder = self.start(study), self.output(study)
+        self.wait_for(lambda: self.running_with_checkpoint(folder))
+        process.kill()
+        process.wait()
+        self.study(study)
+        self.assertEqual({row["status"] for row in read_csv(folder / "study.csv")}, {"finished"})
+
+
+class Members(StudyCase):
+    def test_failed_are_listed_with_the_reason(self):
+        study = self.grid("failed", "2, 3, 4")
+        said = self.study(study, status=1)
+        self.assertIn("member-0002 failed: Point 7, that of body 0, left the mesh.", said)
+        rows = read_csv(self.output(study) / "study.csv")
+        self.assertEqual([row["status"] for row in rows], ["finished", "failed", "finished"])
+        self.assertEqual(rows[1]["reason"], "Point 7, that of body 0, left the mesh.")
+        self.assertEqual(rows[1]["front [m]"], "")
+        self.assertEqual([row["value"] for row in
+                          read_csv(self.output(study) / "exceedance.csv")], ["0.0", "0.0"])
+
+    def test_real_error_of_talus(self):
+        study = self.write("real", "subsection Design\nset Members = 1\nend",
+                           parameters={**COARSE, "Grid/Upper corner": "52, 6"})
+        self.assertIn("left the mesh through the face 'Right'", self.study(study, status=1))
+
+    def test_quantities(self):
+        study = self.grid("quantities", "5, 20, 7", """subsection Quantities
+          set Names = most, least
+          subsection most
+            set Take = maximum
+          end
+          subsection least
+            set Take = minimum
+          end
+        end""")
+        self.study(study)
+        rows = read_csv(self.output(study) / "study.csv")
+        self.assertEqual([row["most [m]"] for row in rows], ["9.0", "20.0", "9.0"])
+        self.assertEqual([row["least [m]"] for row in rows], ["0.0"] * 3)
+        shares = [(row["value"], row["share of members at or above [-]"])
+                  for row in read_csv(self.output(study) / "exceedance.csv")
+                  if row["quantity"] == "most [m]"]
+        self.assertEqual(shares, [("9.0", "1.0"), ("9.0", "1.0"), ("20.0", repr(1 - 2 / 3))])
+        self.assertTrue((self.output(study) / "study.png").exists())
+
+    def test_list_member_collect(self):
+        study = self.grid("array", "5, 20")
+        self.assertEqual(self.study(study, "--list"),
+                         "member,strength,status\n1,5,waiting\n2,20,waiting\n")
+        self.study(study, "--member", 2)
+        self.assertIn("2,20,finished", self.study(study, "--list"))
+        self.assertFalse((self.output(study) / "study.csv").exists())
+        self.study(study, "--collect", status=75)
+        self.assertEqual([row["status"] for row in read_csv(self.output(study) / "study.csv")],
+                         ["waiting", "finished"])
+        self.assert_sentence(self.tool("talus-study", study, "--member", 3), "from 1 to 2")
+
+    def runs(self, study):
+        return [len((self.output(study) / f"member-000{i}" / "runs").read_text().split())
+                for i in (1, 2)]
+
+    def test_only_what_changed_runs_again(self):
+        study = self.grid("changed", "5, 20")
+        self.study(study)
+        self.study(self.grid("changed", "5, 21"))
+        self.assertEqual(self.runs(study), [1, 2])
+        self.study(self.grid("changed", "5, 21", program=self.pretender("other", version="2")))
+        self.assertEqual(self.runs(study), [2, 3])
+
+    def test_parameters_of_a_member(self):
+        study = self.write("written", "subsection Design\nset Members = 1\nend",
+                           parameters={**COARSE, "End time": "0.1"})
+        self.study(study)
+        row = read_csv(self.output(study) / "study.csv")[0]
+        record = (self.output(study) / "member-0001" / "parameters.prm").read_text()
+        self.assertRegex(record, rf"set Undrained shear strength +=.* {row['strength']}\n")
+        self.assertRegex(record, r"set Cell size +=.* 2\n")
+
+
+    def test_files_beside_the_case(self):
+        """Are found from the folder of each member, and count when they change."""
+        (self.folder / "strength.csv").write_text(
+            "depth [m],undrained shear strength [Pa]\n0,1000\n10,2000\n")
+        case = self.folder / "case.prm"
+        case.write_text(f"include {ROOT / 'prm' / 'first-slope.prm'}\nsubsection Materials\n"
+                        "subsection mud\nset Undrained shear strength = table strength.csv\n"
+                        "end\nend\n")
+        study = self.write("files", "subsection Design\nset Members = 1\nend",
+                           f"set Case = {case}", parameters={**COARSE, "End time": "0.1"},
+                           varied="subsection strength\nset Parameter = Materials/mud/Density\n"
+                           "set Lower = 1500\nset Upper = 1700\nend")
+        self.study(study)
+        self.assertIn("finished", self.study(study, "--list"))
+        (self.folder / "strength.csv").write_text(
+            "depth [m],undrained shear strength [Pa]\n0,1000\n10,2001\n")
+        self.assertIn("waiting", self.study(study, "--list"))
+
+
+class Exceedance(StudyCase):
+    def test_rasters(self):
+        study = self.grid("rasters", "5, 20, 7, 1", "subsection Exceedance\n"
+                          "set Thresholds = 4, 6\nend",
+                          program=self.pretender("rasters", maps=RASTERS))
+        self.study(study)
+        folder = self.output(study) / "maps"
+        for threshold, share in ((4, "0.75"), (6, "0.5")):
+            text = (folder / f"exceedance-maximum-thickness-{threshold}.asc").read_text()
+            self.assertIn("xllcorner 100.0\nyllcorner 200.0\ncellsize 10.0\n", text)
+            self.assertTrue(text.endswith(f"\n{share} 0\n"), text)
+        self.assertTrue((self.output(study) / "exceedance-maps.png").exists())
+
+    def test_lines(self):
+        study = self.grid("lines", "5, 20, 7, 1", "subsection Exceedance\n"
+                          "set Thresholds = 6\nend",
+                          program=self.pretender("lines", maps=LINES))
+        self.study(study)
+        self.assertEqual((self.output(study) / "exceedance-maps.csv").read_text(),
+                         "x [m],share of members with maximum thickness above 6 [-]\n"
+                         "0.0,0.5\n1.0,0.0\n")
+
+
+class Design(StudyCase):
+    def drawn(self, varied, members=2000):
+        study = self.write("design", f"subsection Design\nset Members = {members}\nend",
+                           varied=f"subsection strength\nset Parameter = a/b\n{varied}\nend")
+        settings = Settings(study)
+        return settings, design(settings)[:, 0]
+
+    def test_one_member_in_each_stratum(self):
+        _, values = self.drawn("set Lower = 10\nset Upper = 26", 16)
+        self.assertEqual(sorted(int(v) for v in values), list(range(10, 26)))
+
+    def test_distributions(self):
+        for varied, mean, deviation in (
+                ("set Distribution = normal\nset Mean = 5\nset Standard deviation = 2", 5, 2),
+                ("set Distribution = lognormal\nset Mean = 5\nset Standard deviation = 2", 5, 2),
+                ("set Lower = 1\nset Upper = 4", 2.5, 3 / math.sqrt(12)),
+                ("set Distribution = triangular\nset Lower = 1\nset Mode = 2\nset Upper = 4",
+                 7 / 3, math.sqrt(7 / 18))):
+            _, values = self.drawn(varied)
+            self.assertAlmostEqual(values.mean() / mean, 1, delta=1e-3)
+            self.assertAlmostEqual(values.std() / deviation, 1, delta=1e-2)
+
+    def test_median_of_lognormal(self):
+        settings, _ = self.drawn(
+            "set Distribution = lognormal\nset Mean = 5\nset Standard deviation = 2")
+        self.assertAlmostEqual(quantile(settings.varied[0], numpy.array([0.5]))[0],
+                               5 / math.sqrt(1 + 0.16))
+
+    def test_example_and_page(self):
+        settings = Settings(SHARE / "study-example.prm")
+        self.assertEqual(design(settings).shape, (16, 2))
+        self.assertTrue((ROOT / settings.case).exists())
+        page = (ROOT / "doc" / "study.md").read_text()
+        for entry in ENTRIES:
+            self.assertIn(f"`{entry.split('NAME/')[-1]}`", page)
+
+    def test_seed(self):
+        text = "set Lower = 0\nset Upper = 1"
+        numpy.testing.assert_array_equal(self.drawn(text)[1], self.drawn(text)[1])
+        settings, values = self.drawn(text)
+        settings.seed = 2
+        self.assertFalse((design(settings)[:, 0] == values).any())
+
+
+class Refused(StudyCase):
+    def refuse(self, path, *parts):
+        with self.assertRaises(UserError) as caught:
+            settings = Settings(path)
+            make_members(settings, program_version(settings))
+        self.assertTrue(str(caught.exception).endswith("."))
+        for part in parts:
+            self.assertIn(part, str(caught.exception))
+
+    def test_sentence_of_the_program(self):
+        path = self.write("sentence", "set Titel = x")
+        self.assert_sentence(self.tool("talus-study", path), "Titel", "no entry of a study")
+
+    def test_study_files(self):
+        self.refuse(self.folder / "none.prm", "none.prm", "cannot be read")
+        for line, parts in (
+                ("set Titel = x", ("Titel", "no entry of a study")),
+                ("set Number at once = 0", ("Number at once", "at least 1")),
+                ("set Program = no-such-program", ("no-such-program", "not found")),
+                ("set Program = /bin/true", ("/bin/true", "version")),
+                ("set Case = no.prm", ("no.prm", "cannot be read")),
+                ("subsection Design\nset Kind = dice\nend", ("Design/Kind", "dice", "grid")),
+                ("subsection Design\nset Kind = grid\nend", ("Varied/strength/Values",)),
+                ("subsection Design", ("end",))):
+            self.refuse(self.write("bad", line), *parts)
+        for varied, parts in (
+                ("", ("Varied/strength/Lower", "needed")),
+                ("subsection strength\nset Lower = 1\nset Upper = 2\nend", ("Parameter", "needed")),
+                (STRENGTH.replace("500", "-5"), ("Standard deviation", "positive")),
+                (STRENGTH.replace("500", "a"), ("Standard deviation", "numbers")),
+                (STRENGTH.replace("lognormal", "uniform\nset Lower = 2\nset Upper = 1"),
+                 ("Upper", "above 'Lower'")),
+                (STRENGTH.replace("set Mean ", "set Template = x\nset Mean "), ("Template", "{}"))):
+            self.refuse(self.write("bad", varied=varied), *parts)
+
+    def test_column_that_is_not_there(self):
+        study = self.grid("column", "5", "subsection Quantities\nset Names = a\nsubsection a\n"
+                          "set Column = speed\nend\nend")
+        self.assert_sentence(self.tool("talus-study", study), "statistics.csv", "'speed'")
+
+
+if __name__ == "__main__":
+    main()
