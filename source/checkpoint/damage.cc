@@ -95,24 +95,21 @@ namespace talus
       if (std::isnan(n_points) || file.shape("cells/weight").first != n_cells)
         return "the numbers of points per cell, or the weights of the cells, "
                "cannot be such";
-      for (const std::string &name : file.names("points"))
-        if (const auto n = file.shape("points/" + name).first; n != n_points)
-          return text("'points/",
-                      name,
-                      "' has ",
-                      n,
-                      " rows, where ",
-                      n_points,
-                      " were expected");
-      for (const std::string &name : file.names("state"))
-        if (const auto n = file.shape("state/" + name).first; n != n_ranks)
-          return text("'state/",
-                      name,
-                      "' has ",
-                      n,
-                      " values, where one for each of ",
-                      n_ranks,
-                      " ranks was expected");
+      for (const auto &[group, expected] :
+           {std::pair<std::string, double>("points", n_points),
+            std::pair<std::string, double>("state", n_ranks)})
+        for (const std::string &name : file.names(group))
+          if (const auto n = file.shape(group + "/" + name).first;
+              n != expected)
+            return text("'",
+                        group,
+                        "/",
+                        name,
+                        "' has ",
+                        n,
+                        " rows, where ",
+                        expected,
+                        " were expected");
       return file.error();
     }
   } // namespace

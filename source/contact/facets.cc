@@ -14,18 +14,6 @@ namespace talus
   namespace
   {
     template <int dim>
-    Box<dim>
-    box_of(const Cell<dim> &cell)
-    {
-      Box<dim> box{cell.lower, cell.lower};
-      for (unsigned int d = 0; d < dim; ++d)
-        box.upper[d] += cell.size;
-      return box;
-    }
-
-
-
-    template <int dim>
     Point<dim>
     centre_of(const Cell<dim> &cell)
     {
@@ -43,37 +31,6 @@ namespace talus
     outer_radius(const Cell<dim> &cell)
     {
       return 0.5 * std::sqrt(double(dim)) * cell.size * (1. + 1e-6);
-    }
-
-
-
-    /// The own nodes of a cell, x fastest.
-    template <int dim>
-    std::array<unsigned int, ContactFacet<dim>::n_nodes>
-    nodes_of(const Cell<dim> &cell)
-    {
-      std::array<unsigned int, ContactFacet<dim>::n_nodes> nodes;
-      for (unsigned int v = 0; v < nodes.size(); ++v)
-        {
-          unsigned int at = 0;
-          for (unsigned int d = 0; d < dim; ++d)
-            at += (1 + ((v >> d) & 1)) * power(4, d);
-          nodes[v] = cell.patch[at];
-        }
-      return nodes;
-    }
-
-
-
-    /// Place of own node @p v.
-    template <int dim>
-    Point<dim>
-    place_of_node(const Cell<dim> &cell, const unsigned int v)
-    {
-      Point<dim> x = cell.lower;
-      for (unsigned int d = 0; d < dim; ++d)
-        x[d] += ((v >> d) & 1) * cell.size;
-      return x;
     }
 
 
@@ -139,7 +96,7 @@ namespace talus
   {
     const Cell<dim>               &cell   = grid.cells()[c];
     const Point<dim>               centre = centre_of(cell);
-    const Box<dim>                 box    = box_of(cell);
+    const Box<dim>                 box    = cell.box();
     std::vector<ContactFacet<dim>> result;
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       {
@@ -160,7 +117,7 @@ namespace talus
         result.push_back({c,
                           grid.key_of_cell(c),
                           k,
-                          nodes_of(cell),
+                          cell.nodes(),
                           shape_values_at(box, surface.centroid),
                           surface.centroid,
                           surface.vector_area / surface.vector_area.norm(),
@@ -195,7 +152,7 @@ namespace talus
     CutCell &result = cut_cells_[c];
     result.facets   = std::move(facets);
     result.open_volume =
-      open_shape_integrals<dim>(box_of(cell), [&](const Point<dim> &x) {
+      open_shape_integrals<dim>(cell.box(), [&](const Point<dim> &x) {
         return obstacles.signed_distance(x);
       });
     result.touching = cells_around(grid, cell, 1);
@@ -346,7 +303,7 @@ namespace talus
                                const unsigned int    c)
   {
     const Cell<dim> &cell     = grid.cells()[c];
-    const auto       nodes    = nodes_of(cell);
+    const auto       nodes    = cell.nodes();
     const auto       cut_cell = cut_cells_.find(c);
     const bool       is_cut   = cut_cell != cut_cells_.end();
     const double     uncut =
@@ -371,9 +328,9 @@ namespace talus
                                  const unsigned int    c)
   {
     const Cell<dim> &cell  = grid.cells()[c];
-    const auto       nodes = nodes_of(cell);
+    const auto       nodes = cell.nodes();
     for (unsigned int v = 0; v < nodes.size(); ++v)
-      if (const Point<dim> x = place_of_node(cell, v);
+      if (const Point<dim> x = cell.vertex(v);
           !is_contact_node_[nodes[v]] && obstacles.signed_distance(x) <= 0)
         {
           is_contact_node_[nodes[v]]  = 1;

@@ -115,9 +115,9 @@ namespace talus
 
 
   template void
-  add_law(const Law<2> &);
+  add_law<2>(const Law<2> &);
   template void
-                                       add_law(const Law<3> &);
+                                       add_law<3>(const Law<3> &);
   template decltype(material_names<2>) material_names<2>;
   template decltype(material_names<3>) material_names<3>;
   template decltype(names_of_laws_with_strength<2>)

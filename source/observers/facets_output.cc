@@ -18,11 +18,8 @@ namespace talus
                     const ContactFacet<3>             &facet,
                     const std::array<Tensor<1, 3>, 2> &axes)
     {
-      Box<3> box{cell.lower, cell.lower};
-      for (unsigned int d = 0; d < 3; ++d)
-        box.upper[d] += cell.size;
       std::array<double, 2> least{}, largest{};
-      for (const Simplex<3> &simplex : simplices_of(box))
+      for (const Simplex<3> &simplex : simplices_of(cell.box()))
         {
           std::array<double, 4> height;
           for (unsigned int v = 0; v < 4; ++v)

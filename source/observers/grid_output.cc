@@ -87,11 +87,8 @@ namespace talus
     {
       for (unsigned int v = 0; v < cells.n_vertices_per_cell(); ++v)
         {
-          Point<dim> corner = cell.lower;
-          for (unsigned int d = 0; d < dim; ++d)
-            corner[d] += ((v >> d) & 1) * cell.size;
-          cells.add_vertex(corner);
-          cells.items.push_back(cell.patch[patch_of_vertex<dim>(v)]);
+          cells.add_vertex(cell.vertex(v));
+          cells.items.push_back(cell.nodes()[v]);
         }
     }
   } // namespace

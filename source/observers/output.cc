@@ -67,8 +67,17 @@ namespace talus
                   "Write what tells the runout: the columns of front and rear "
                   "in statistics.csv, and profile.csv. Not with damping, which "
                   "falsifies the runout.");
-    // The list of observers: a new one is one line here, among those that look
-    // when a row is due (rows_) or when fields are (fields_).
+    list_observers(obstacles);
+  }
+
+
+
+  /// A new one is one line here, among those that look when a row is due (rows_)
+  /// or when fields are (fields_).
+  template <int dim>
+  void
+  Output<dim>::list_observers(const Obstacles<dim> *obstacles)
+  {
     auto statistics = std::make_unique<Statistics<dim>>(obstacles);
     statistics_     = statistics.get();
     rows_.observers.push_back(std::move(statistics));

@@ -18,30 +18,6 @@ namespace talus
     /// Where the contour is.
     constexpr double half_filled = 0.5;
 
-    template <int dim>
-    auto
-    corners_of(const Cell<dim> &cell)
-    {
-      std::array<unsigned int, n_corners<dim>> nodes;
-      for (unsigned int v = 0; v < nodes.size(); ++v)
-        nodes[v] = cell.patch[patch_of_vertex<dim>(v)];
-      return nodes;
-    }
-
-
-
-    template <int dim>
-    Box<dim>
-    box_around(const Cell<dim> &cell)
-    {
-      Box<dim> box{cell.lower, cell.lower};
-      for (unsigned int d = 0; d < dim; ++d)
-        box.upper[d] += cell.size;
-      return box;
-    }
-
-
-
     /// What an obstacle leaves of a simplex. What is as good as on its surface
     /// counts as on it, as in surface_in_box().
     template <int dim>
@@ -73,7 +49,7 @@ namespace talus
     volume_.assign(grid.n_nodes(), 0.);
     std::vector<std::vector<unsigned int>> cells(grid.n_nodes());
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
-      for (const unsigned int node : corners_of(grid.cells()[c]))
+      for (const unsigned int node : grid.cells()[c].nodes())
         {
           volume_[node] += std::pow(grid.cells()[c].size, dim) / n_corners<dim>;
           cells[node].push_back(c);
@@ -242,7 +218,7 @@ namespace talus
                              const unsigned int       c)
   {
     const Cell<dim> &cell       = grid.cells()[c];
-    const auto       nodes      = corners_of(cell);
+    const auto       nodes      = cell.nodes();
     bool             is_surface = false, is_near_obstacle = false;
     for (const unsigned int node : nodes)
       {
@@ -252,7 +228,7 @@ namespace talus
       }
     if (!is_surface)
       return;
-    const Box<dim> box = box_around(cell);
+    const Box<dim> box = cell.box();
     const bool     is_cut =
       is_near_obstacle && contact.facets().nearness_of_cells()[c] == 2;
     if (is_near_obstacle && !is_cut &&

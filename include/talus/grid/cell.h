@@ -2,6 +2,7 @@
 #ifndef talus_grid_cell_h
 #define talus_grid_cell_h
 
+#include <talus/base/box.h>
 #include <talus/base/large_pages.h>
 
 #include <deal.II/base/point.h>
@@ -15,6 +16,19 @@ namespace talus
   {
     return exponent == 0 ? 1 : base * power(base, exponent - 1);
   }
+
+  /// Entry of a patch that is the cell's own node at vertex @p v.
+  template <int dim>
+  constexpr unsigned int
+  patch_of_vertex(const unsigned int v)
+  {
+    unsigned int k = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      k += (1 + ((v >> d) & 1)) * power(4, d);
+    return k;
+  }
+
+
 
   /// What the transfer needs to know about a cell of the background grid. In 2-D
   /// two lines of the cache: what finding a point's cell takes, and the patch.
@@ -44,20 +58,33 @@ namespace talus
     /// are the cell's own nodes; invalid_unsigned_int where there is no
     /// neighbour of the same size.
     std::array<unsigned int, power(4, dim)> patch;
+
+    /// The cell's own nodes in deal.II's order, x fastest.
+    std::array<unsigned int, power(2, dim)>
+    nodes() const
+    {
+      std::array<unsigned int, power(2, dim)> result;
+      for (unsigned int v = 0; v < result.size(); ++v)
+        result[v] = patch[patch_of_vertex<dim>(v)];
+      return result;
+    }
+
+    /// Place of vertex @p v in this order, m.
+    dealii::Point<dim>
+    vertex(const unsigned int v) const
+    {
+      dealii::Point<dim> x = lower;
+      for (unsigned int d = 0; d < dim; ++d)
+        x[d] += ((v >> d) & 1) * size;
+      return x;
+    }
+
+    Box<dim>
+    box() const
+    {
+      return {lower, vertex(power(2, dim) - 1)};
+    }
   };
-
-
-
-  /// Entry of a patch that is the cell's own node at vertex @p v.
-  template <int dim>
-  constexpr unsigned int
-  patch_of_vertex(const unsigned int v)
-  {
-    unsigned int k = 0;
-    for (unsigned int d = 0; d < dim; ++d)
-      k += (1 + ((v >> d) & 1)) * power(4, d);
-    return k;
-  }
 
 
 

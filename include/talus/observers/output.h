@@ -139,6 +139,8 @@ namespace talus
     };
 
     void
+    list_observers(const Obstacles<dim> *obstacles);
+    void
     write(Schedule &schedule, const State<dim> &state);
 
     // Parameters
