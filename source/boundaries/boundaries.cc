@@ -91,7 +91,7 @@ namespace talus
   Boundaries<dim>::locate_nodes(const Grid<dim> &grid)
   {
     places_.clear();
-    if (reactions_.is_enabled() ||
+    if (reactions_.is_enabled() || remembers_friction_ ||
         std::any_of(conditions_.begin(),
                     conditions_.end(),
                     [](const auto &condition) {
@@ -297,6 +297,10 @@ namespace talus
           of_condition[c] = condition.apply_contact(nodes, grid, node, dt, gap);
           contact += of_condition[c].first;
           friction += of_condition[c].second;
+          if (constexpr unsigned int bottom = 2;
+              remembers_friction_ && condition.face() == bottom)
+            bed_friction_.emplace_back(place_of(node),
+                                       of_condition[c].second / dt);
         }
     // Nor does friction brake what a wall drives: the wall takes it up.
     wall += constraints.impose(nodes, node);
@@ -331,6 +335,7 @@ namespace talus
                          const double      mass_cutoff)
   {
     Works<dim> work;
+    bed_friction_.clear();
     for (const unsigned int node : nodes.active_boundary_nodes())
       if (nodes.mass(node) > mass_cutoff)
         apply_to_node(nodes, grid, node, t, dt, work);

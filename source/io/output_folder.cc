@@ -20,8 +20,11 @@ namespace talus
   is_output_name(const std::string &file_name)
   {
     static const std::regex names(
-      "(statistics|profile|obstacles|boundaries|newton)\\.csv|log\\.txt|"
-      "parameters\\.prm|"
+      "(statistics|profile|obstacles|boundaries|newton|maps|stations|lines)"
+      "\\.csv|log\\.txt|parameters\\.prm|maps\\.vtu|"
+      "maps/(ground|erosion|thickness-at-start|final-(thickness|mass)|"
+      "(time-of-)?maximum-(thickness|speed|momentum-flux|bed-shear)|"
+      "arrival-time-[-+.0-9e]*-m)\\.asc|"
       "(points|grid|facets|obstacles|mechanism|last-state)([-.][-.0-9]*)?"
       "\\.(vtu|pvtu|pvd|h5|xdmf)");
     return std::regex_match(file_name, names);
@@ -36,13 +39,16 @@ namespace talus
     outputs_in(const fs::path &folder)
     {
       std::vector<fs::path> result;
-      std::error_code       error;
-      for (fs::directory_iterator entry(folder, error), end;
-           !error && entry != end;
-           entry.increment(error))
-        if (entry->is_regular_file() &&
-            is_output_name(entry->path().filename().string()))
-          result.push_back(entry->path());
+      for (const std::string within : {"", "maps/"})
+        {
+          std::error_code error;
+          for (fs::directory_iterator entry(folder / within, error), end;
+               !error && entry != end;
+               entry.increment(error))
+            if (entry->is_regular_file() &&
+                is_output_name(within + entry->path().filename().string()))
+              result.push_back(entry->path());
+        }
       return result;
     }
   } // namespace

@@ -119,6 +119,18 @@ namespace talus
 
 
 
+  template <int dim>
+  void
+  Output<dim>::check_observers(const State<dim> &state) const
+  {
+    for (const Schedule *schedule : {&rows_, &fields_})
+      for (const auto &observer : schedule->observers)
+        if (observer->is_enabled(settings_))
+          observer->check(state);
+  }
+
+
+
   /// The first rank makes the folder before anyone opens a file in it, hence
   /// the barrier. parameters.prm comes first: write_file() replaces it only on
   /// success, so a folder that cannot be written stops the run before the
@@ -176,7 +188,8 @@ namespace talus
     for (Schedule *schedule : {&rows_, &fields_})
       {
         for (const auto &observer : schedule->observers)
-          observer->start(state);
+          if (observer->is_enabled(settings_))
+            observer->start(state);
         write(*schedule, state);
       }
   }
@@ -191,6 +204,7 @@ namespace talus
   Output<dim>::observe(const State<dim> &state, const bool last)
   {
     progress_.count_step(state.points.size());
+    follow(state);
     const bool rows_are_due   = rows_.is_due(state, last);
     const bool fields_are_due = fields_.is_due(state, last);
     if (rows_are_due)
@@ -210,6 +224,20 @@ namespace talus
         progress_.finish(state.time, state.points.size());
       }
     return fields_are_due;
+  }
+
+
+
+  /// The time goes to the phase "output".
+  template <int dim>
+  void
+  Output<dim>::follow(const State<dim> &state)
+  {
+    const PhaseTimer::Scope scope(timer_, "output");
+    for (const Schedule *schedule : {&rows_, &fields_})
+      for (const auto &observer : schedule->observers)
+        if (observer->is_enabled(settings_))
+          observer->follow(state);
   }
 
 

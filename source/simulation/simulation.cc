@@ -5,6 +5,7 @@
 #include <talus/checkpoint/parameter_changes.h>
 #include <talus/io/output_folder.h>
 #include <talus/io/run_record.h>
+#include <talus/maps/map_observers.h>
 #include <talus/observers/boundary_forces.h>
 #include <talus/observers/facets_output.h>
 #include <talus/observers/obstacle_forces.h>
@@ -52,6 +53,7 @@ namespace talus
       std::make_unique<ObstaclesOutput<dim>>(problem_.obstacles));
     output_.add_field_observer(
       std::make_unique<FacetsOutput<dim>>(problem_.contact));
+    add_map_observers(problem_, output_);
     output_.add_quantities([this](const State<dim> &state, Quantities &list) {
       scheme_.splitter().list_quantities(state, list);
       problem_.water.list_quantities(state,
@@ -76,6 +78,7 @@ namespace talus
     problem_.loading.update(state_.points, state_.time);
     problem_.boundaries.check_values(state_.nodes, state_.grid, state_.time);
     check_number_of_steps();
+    output_.check_observers(state_);
   }
 
 
@@ -200,6 +203,7 @@ namespace talus
                              "' is at t = ",
                              state_.time,
                              " s. Give a later 'End time'.")));
+    output_.check_observers(state_);
     output_.check_resumable(state_);
   }
 

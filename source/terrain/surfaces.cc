@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/geometry/terrain.h>
 #include <talus/terrain/surfaces.h>
 
 #include <algorithm>
@@ -115,6 +116,20 @@ namespace talus
                                                     expression,
                                                     *constants_,
                                                     others);
+  }
+
+
+
+  template <int dim>
+  const Raster *
+  Surfaces<dim>::raster(const std::string &name) const
+  {
+    for (const auto &[known, surface] : surfaces_)
+      if (name.empty() || name == known)
+        if (const auto *terrain =
+              dynamic_cast<const Terrain<dim> *>(surface.get()))
+          return &terrain->raster();
+    return nullptr;
   }
 
 

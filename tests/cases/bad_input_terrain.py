@@ -69,3 +69,22 @@ class BadInputTerrain(Case):
                  "'Bodies/block/Upper corner'", "beyond the lower corner")):
             with self.subTest(settings):
                 self.refuse_set(settings, *words)
+
+    def test_maps_and_stations(self):
+        for settings, *words in (
+                (["Maps/Write=true", "Maps/Raster=bed"],
+                 "'Maps/Raster' is 'bed'", "no surface with a raster"),
+                (["Maps/Write=true", "Maps/Cell size=1e-9"],
+                 "'Maps/Cell size' larger"),
+                (["Stations/Points=3"], "'Stations/Points' contains '3'",
+                 "'name: place'"),
+                (["Stations/Points=a: 1, 2"], "contains '1, 2'",
+                 "one number, x"),
+                (["Stations/Points=a: 1e9"], "'a' has a place '1e9' outside"),
+                (["Stations/Points=a: 1 | a: 2"], "two of the name 'a'"),
+                (["Stations/Points=a: 1; 2"], "2 places", "one was expected"),
+                (["Stations/Points=a: 1", "Stations/Coordinates=map"],
+                 "'Stations/Coordinates' is 'map'", "section"),
+                (["Stations/Lines=a: 1; 1"], "'a' has no length")):
+            with self.subTest(settings):
+                self.refuse_set(settings, *words)

@@ -221,7 +221,9 @@ class SlideOverObstacles(KillAndResume):
                            "Obstacles/bed/Velocity=0.02*t; 0",
                            "Water/Added mass coefficient=0.1",
                            "Water/Skin friction coefficient=0.01",
-                           "Water/Pressure drag coefficient=1"]
+                           "Water/Pressure drag coefficient=1",
+                           "Maps/Write=true", "Stations/Points=toe: 35",
+                           "Stations/Lines=route: 20; 60"]
 
 
 class DrivenAndDamped(KillAndResume):
@@ -243,7 +245,8 @@ class ThreeDimensions(KillAndResume):
     file = "landslide-3d.prm"
     settings = ["Grid/Cell size=0.8", "End time=0.5",
                 "Transfer/Scheme=filtered FLIP", "Transfer/Filter interval=7",
-                "Output/Field interval=0.05", "Output/Statistics interval=0.02"]
+                "Output/Field interval=0.05", "Output/Statistics interval=0.02",
+                "Maps/Write=true"]
 
 
 class StagesAndResume(KillAndResume):

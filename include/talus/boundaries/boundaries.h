@@ -152,6 +152,21 @@ namespace talus
           double            dt,
           double            mass_cutoff);
 
+    /// From now on keep the friction of each step for bed_friction().
+    void
+    remember_bed_friction()
+    {
+      remembers_friction_ = true;
+    }
+
+    /// Where a seabed at the bottom of the mesh acted in the last step, m, on
+    /// this rank's nodes, and the force of its friction on the soil, N.
+    const std::vector<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>> &
+    bed_friction() const
+    {
+      return bed_friction_;
+    }
+
     /// Forces on each face that has a condition, if they are asked for.
     BoundaryReactions<dim> &
     reactions()
@@ -202,6 +217,9 @@ namespace talus
     std::vector<std::unique_ptr<BoundaryCondition<dim>>> conditions_;
     BoundaryReactions<dim> reactions_; ///< of these
     Gap                    gap_;
+    bool                   remembers_friction_ = false;
+    std::vector<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>>
+      bed_friction_;
 
     /// Of the owned nodes, by node, if somebody asks for them; m.
     std::vector<dealii::Point<dim>> places_;

@@ -4,6 +4,7 @@
 
 #include <talus/contact/obstacles.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace talus
@@ -30,6 +31,13 @@ namespace talus
     is_bottom_face() const
     {
       return obstacles_ == nullptr;
+    }
+
+    /// Whether obstacle @p k belongs to it.
+    bool
+    contains(const unsigned int k) const
+    {
+      return std::find(members_.begin(), members_.end(), k) != members_.end();
     }
 
     /// Whether soil can be at @p x: outside of all obstacles, those that do not

@@ -45,6 +45,12 @@ namespace talus
       return distance * heights_->bounds().slope;
     }
 
+    const Raster &
+    raster() const
+    {
+      return heights_->raster();
+    }
+
   private:
     /// A place on the map, and where the axes of the mesh go there.
     struct Place

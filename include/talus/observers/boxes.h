@@ -7,17 +7,28 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace talus
 {
+  /// Longest that a box in a cell of @p cell_size is along an axis, m: that the
+  /// weights let it be.
+  template <int dim>
+  inline double
+  longest_box(const State<dim> &state, const double cell_size)
+  {
+    return 2. * state.box_shape.most_half * cell_size;
+  }
+
+
+
   /// The edges of the box of point @p p, m: along the axes, or those of a
-  /// convected domain. A box that is longer than the weights let it be is as long
-  /// as they do: in a shear layer F grows without bound. One that is too thin for
-  /// the weights is as thin as it is, so that boxes cover the soil once. Points
-  /// that are in no cell yet have their whole box.
+  /// convected domain. A box that is longer than @p longest is as long: in a shear
+  /// layer F grows without bound. One that is too thin for the weights is as thin
+  /// as it is, so that boxes cover the soil once.
   template <int dim>
   inline std::array<dealii::Tensor<1, dim>, dim>
-  box_edges(const State<dim> &state, const unsigned int p)
+  box_edges(const State<dim> &state, const unsigned int p, const double longest)
   {
     const Points<dim>                      &points = state.points;
     const BoxShape                         &shape  = state.box_shape;
@@ -27,10 +38,6 @@ namespace talus
         edges[d] = edge_of_box(points, shape.rule, d, p);
       else
         edges[d][d] = points.data(points.reference_length, d)[p];
-    if (p >= points.n_sorted())
-      return edges;
-    const double longest =
-      2. * shape.most_half * state.grid.cells()[points.cell_of(p)].size;
     for (unsigned int i = 0; i < dim; ++i)
       {
         double length = 0;
@@ -45,17 +52,44 @@ namespace talus
 
 
 
-  /// Length of the box of point @p p along each axis, m; of a convected domain,
-  /// from its lowest to its highest corner. See box_edges().
+  /// The same as long as the weights let it be. Points that are in no cell yet
+  /// have their whole box.
+  template <int dim>
+  inline std::array<dealii::Tensor<1, dim>, dim>
+  box_edges(const State<dim> &state, const unsigned int p)
+  {
+    const Points<dim> &points = state.points;
+    return box_edges(
+      state,
+      p,
+      p >= points.n_sorted()
+        ? std::numeric_limits<double>::infinity()
+        : longest_box(state, state.grid.cells()[points.cell_of(p)].size));
+  }
+
+
+
+  /// Length along each axis of a box with these edges, m; of a convected domain,
+  /// from its lowest to its highest corner.
+  template <int dim>
+  inline dealii::Tensor<1, dim>
+  lengths_of(const std::array<dealii::Tensor<1, dim>, dim> &edges)
+  {
+    dealii::Tensor<1, dim> lengths;
+    for (const auto &edge : edges)
+      for (unsigned int d = 0; d < dim; ++d)
+        lengths[d] += std::abs(edge[d]);
+    return lengths;
+  }
+
+
+
+  /// That of point @p p, see box_edges().
   template <int dim>
   inline dealii::Tensor<1, dim>
   box_lengths(const State<dim> &state, const unsigned int p)
   {
-    dealii::Tensor<1, dim> lengths;
-    for (const auto &edge : box_edges(state, p))
-      for (unsigned int d = 0; d < dim; ++d)
-        lengths[d] += std::abs(edge[d]);
-    return lengths;
+    return lengths_of<dim>(box_edges(state, p));
   }
 } // namespace talus
 

@@ -25,8 +25,8 @@ namespace talus
 
 
 
-  /// Looks at the state of a run at times that Output chooses, changes nothing
-  /// and writes files of its own. All members but list_state() are collective;
+  /// Looks at the state of a run at times that Output chooses, or after each
+  /// step, changes nothing and writes files of its own. All members but list_state() are collective;
   /// they throw ExcUser if a file cannot be written.
   ///
   /// A new observer is a class of this kind and a line in the constructor of
@@ -44,6 +44,12 @@ namespace talus
       return true;
     }
 
+    /// Throw ExcUser if its parameters cannot be followed; nothing is written
+    /// yet. To be called when the mesh is there.
+    virtual void
+    check(const State<dim> & /*state*/) const
+    {}
+
     /// Start the files, or go on with them in a resumed run.
     virtual void
     begin(const OutputSettings &settings,
@@ -53,6 +59,11 @@ namespace talus
     /// The motion begins: what counts from there starts from zero.
     virtual void
     start(const State<dim> & /*state*/)
+    {}
+
+    /// A step is done: take what must be seen in every step.
+    virtual void
+    follow(const State<dim> & /*state*/)
     {}
 
     /// Write what there is to see now.

@@ -73,6 +73,11 @@ namespace talus
     void
     check(double local_damping) const;
 
+    /// Let all observers check their parameters, when the mesh is there and
+    /// nothing is written. Throws ExcUser. Collective.
+    void
+    check_observers(const State<dim> &state) const;
+
     /// Let no other run write into the folder, which is made if it is not there.
     /// Throws ExcUser if one does. Collective.
     void
@@ -140,6 +145,8 @@ namespace talus
 
     void
     list_observers(const Obstacles<dim> *obstacles);
+    void
+    follow(const State<dim> &state);
     void
     write(Schedule &schedule, const State<dim> &state);
 

@@ -115,6 +115,19 @@ namespace talus
       water.prepare(grid);
     }
 
+    const Surfaces<dim> &
+    surfaces() const
+    {
+      return surfaces_;
+    }
+
+    /// Easting, northing and height of the mesh's origin on the map, m.
+    const dealii::Point<3> &
+    origin() const
+    {
+      return origin_;
+    }
+
     void
     list_state(StateList &list)
     {

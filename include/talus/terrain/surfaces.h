@@ -2,6 +2,7 @@
 #ifndef talus_terrain_surfaces_h
 #define talus_terrain_surfaces_h
 
+#include <talus/base/raster.h>
 #include <talus/terrain/named_surface.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -33,6 +34,11 @@ namespace talus
     std::shared_ptr<const Surface<dim>>
     surface(const std::string &path,
             const std::string &expression) const override;
+
+    /// The raster that the surface @p name was read from; without a name, that
+    /// of the first surface that has one. Null if there is none.
+    const Raster *
+    raster(const std::string &name = "") const;
 
   private:
     std::vector<std::string>                            listed_names_;

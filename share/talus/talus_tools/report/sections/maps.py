@@ -22,7 +22,9 @@ MEANINGS = {
     "arrival-time": ("s", "YlGnBu_r", "When the soil first is as thick as the name says."),
     "time-of-maximum": ("s", "YlGnBu_r", "When the largest value was reached."),
     "final-thickness": ("m", "viridis", "The deposit at the last time."),
-    "erosion": ("m", "RdBu_r", "Soil that a place lost or gained."),
+    "thickness-at-start": ("m", "viridis", "Before anything moved."),
+    "final-mass": ("kg/m^2", "viridis", "Mass of the deposit per area."),
+    "erosion": ("m", "RdBu_r", "Thickness that a place lost; below zero, what it gained."),
 }
 GROUND = "ground"
 TABLE_HEAD = ["quantity", "largest", "where", "covered", "what it means"]

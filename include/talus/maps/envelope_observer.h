@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_maps_envelope_observer_h
+#define talus_maps_envelope_observer_h
+
+#include <talus/maps/envelope.h>
+#include <talus/maps/map_settings.h>
+#include <talus/observers/observer.h>
+#include <talus/problem/problem.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// An observer that looks at the columns of a plan in every step, and writes
+  /// their envelope whenever fields are due. Whoever derives from it says which
+  /// columns these are, and writes the files.
+  template <int dim>
+  class EnvelopeObserver : public Observer<dim>
+  {
+  public:
+    /// @p name of the state in checkpoints.
+    EnvelopeObserver(const std::string           &name,
+                     Problem<dim>                &problem,
+                     std::shared_ptr<MapSettings> settings);
+
+    void
+    begin(const OutputSettings &settings,
+          const State<dim>     &state,
+          Beginning             beginning) override;
+
+    void
+    start(const State<dim> &state) override;
+
+    void
+    follow(const State<dim> &state) override;
+
+    void
+    observe(const State<dim> &state) override;
+
+    /// Nothing if it is switched off.
+    void
+    list_state(StateList &list) override;
+
+    void
+    sync() override;
+
+  protected:
+    const Envelope<dim> &
+    envelope() const
+    {
+      return *envelope_;
+    }
+
+    const Problem<dim> &
+    problem() const
+    {
+      return problem_;
+    }
+
+    const MapSettings &
+    settings() const
+    {
+      return *settings_;
+    }
+
+    /// Path of a file of this name in the folder of the run, which whoever
+    /// asks writes now.
+    std::filesystem::path
+    path_of_output(const std::filesystem::path &name);
+
+  private:
+    virtual std::shared_ptr<const PlanColumns<dim>>
+    make_columns(const State<dim> &state) const = 0;
+
+    virtual ImpactFormula
+    impact() const
+    {
+      return {};
+    }
+
+    /// The envelope, on the first rank.
+    virtual void
+    write_files(const State<dim> &state) = 0;
+
+    void
+    sample(const State<dim> &state);
+
+    std::string                        name_;
+    Problem<dim>                      &problem_;
+    std::shared_ptr<MapSettings>       settings_;
+    std::filesystem::path              folder_;
+    std::optional<ColumnSums<dim>>     sums_;
+    std::optional<Envelope<dim>>       envelope_;
+    std::vector<double>                restored_; ///< rows of a checkpoint
+    unsigned long                      last_sample_ = 0; ///< step
+    std::vector<std::filesystem::path> written_;         ///< not synced
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_maps_maps_h
+#define talus_maps_maps_h
+
+#include <talus/maps/envelope_observer.h>
+
+namespace talus
+{
+  /// What the slide did at each place of the plan: in 3-D rasters that lie on
+  /// the map as that of the bathymetry does, maps/NAME.asc, and the same on the
+  /// ground as maps.vtu; in 2-D the table maps.csv. doc/output.md lists them.
+  template <int dim>
+  class Maps : public EnvelopeObserver<dim>
+  {
+  public:
+    Maps(Problem<dim> &problem, std::shared_ptr<MapSettings> settings);
+
+    bool
+    is_enabled(const OutputSettings & /*settings*/) const override
+    {
+      return this->settings().is_enabled();
+    }
+
+    /// Throws ExcUser if there is no such raster, or the maps had too many
+    /// cells.
+    void
+    check(const State<dim> &state) const override;
+
+    static constexpr const char *table_name   = "maps.csv";
+    static constexpr const char *surface_name = "maps.vtu";
+    static constexpr const char *folder_name  = "maps";
+
+  private:
+    using Axis = typename LatticeColumns<dim>::Axis;
+
+    std::shared_ptr<const PlanColumns<dim>>
+    make_columns(const State<dim> &state) const override;
+    void
+    write_files(const State<dim> &state) override;
+
+    std::array<Axis, dim - 1>
+    axes(const State<dim> &state) const;
+    void
+    find_ground(const State<dim> &state);
+    double
+    elevation(unsigned int column) const;
+    void
+    write_table();
+    void
+    write_rasters();
+    void
+    write_surface(const State<dim> &state);
+
+    std::array<Axis, dim - 1> axes_;
+    /// Height of the ground at the corners of the columns, m, x fastest.
+    std::vector<double> ground_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/contact/ground.h>
+#include <talus/io/esri_grid.h>
+#include <talus/io/vtu_writer.h>
+#include <talus/maps/maps.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  Maps<dim>::Maps(Problem<dim> &problem, std::shared_ptr<MapSettings> settings)
+    : EnvelopeObserver<dim>("maps", problem, std::move(settings))
+  {}
+
+
+
+  template <int dim>
+  void
+  Maps<dim>::check(const State<dim> &state) const
+  {
+    const std::string &name = this->settings().raster();
+    AssertThrow(name.empty() ||
+                  this->problem().surfaces().raster(name) != nullptr,
+                ExcUser(text("'Maps/Raster' is '",
+                             name,
+                             "', which is no surface with a raster. Name one "
+                             "of 'Surfaces/Names' that has a `File`.")));
+    double n = 1;
+    for (const Axis &axis : axes(state))
+      n *= axis.number;
+    AssertThrow(n <= 1e8,
+                ExcUser(text("The maps would have ",
+                             n,
+                             " cells. Make 'Maps/Cell size' larger.")));
+  }
+
+
+
+  // Faces of columns are faces of the raster's cells, and columns cover the
+  // mesh, beyond the raster, too.
+  template <int dim>
+  std::array<typename Maps<dim>::Axis, dim - 1>
+  Maps<dim>::axes(const State<dim> &state) const
+  {
+    const Box<dim>            domain = state.grid.domain_before_growth();
+    const Raster             *raster = nullptr;
+    std::array<Axis, dim - 1> axes;
+    if (dim == 3)
+      raster = this->problem().surfaces().raster(this->settings().raster());
+    for (unsigned int a = 0; a < dim - 1; ++a)
+      {
+        const unsigned int d    = (a == 0 ? 0 : dim - 1);
+        Axis              &axis = axes[a];
+        axis.lower              = domain.lower[d];
+        axis.size               = state.grid.cell_size();
+        if (raster != nullptr)
+          {
+            const Point<3> &origin = this->problem().origin();
+            axis.size              = (a == 0 ? raster->dx : raster->dy);
+            axis.lower =
+              a == 0
+                ? raster->west - origin[0]
+                : origin[1] - (raster->south + raster->n_rows * raster->dy);
+          }
+        if (this->settings().cell_size() > 0)
+          axis.size = this->settings().cell_size();
+        // Round-off must not add a column.
+        axis.lower +=
+          axis.size *
+          std::floor((domain.lower[d] - axis.lower) / axis.size + 1e-9);
+        axis.number = static_cast<unsigned int>(std::min(
+          1e9, std::ceil((domain.upper[d] - axis.lower) / axis.size - 1e-9)));
+      }
+    return axes;
+  }
+
+
+
+  template <int dim>
+  std::shared_ptr<const PlanColumns<dim>>
+  Maps<dim>::make_columns(const State<dim> &state) const
+  {
+    return std::make_shared<LatticeColumns<dim>>(axes(state));
+  }
+
+
+
+  /// Once, unless it moves. Outside of the mesh it is as high as at its edge.
+  template <int dim>
+  void
+  Maps<dim>::find_ground(const State<dim> &state)
+  {
+    if (!ground_.empty() && !this->problem().obstacles.move())
+      return;
+    ground_.clear();
+    axes_                     = axes(state);
+    const Box<dim>     domain = state.grid.domain_before_growth();
+    const Ground<dim>  ground(domain, &this->problem().obstacles);
+    const unsigned int n_z = (dim == 3 ? axes_[dim - 2].number : 0);
+    for (unsigned int k = 0; k <= n_z; ++k)
+      for (unsigned int i = 0; i <= axes_[0].number; ++i)
+        {
+          Point<dim> x;
+          x[dim - 1] = axes_[dim - 2].lower + k * axes_[dim - 2].size;
+          x[0]       = axes_[0].lower + i * axes_[0].size;
+          x[1]       = domain.upper[1];
+          for (unsigned int d = 0; d < dim; ++d)
+            x[d] = std::clamp(x[d], domain.lower[d], domain.upper[d]);
+          ground_.push_back(ground.elevation(x));
+        }
+  }
+
+
+
+  /// Numbers of the corners of a column among those of ground_, in deal.II's
+  /// order.
+  template <int dim>
+  std::vector<unsigned int>
+  corners_of_column(const unsigned int column, const unsigned int n_x)
+  {
+    const unsigned int i = column % n_x, k = column / n_x;
+    const unsigned int first = k * (n_x + 1) + i;
+    if (dim == 2)
+      return {first, first + 1};
+    return {first, first + 1, first + n_x + 1, first + n_x + 2};
+  }
+
+
+
+  template <int dim>
+  double
+  Maps<dim>::elevation(const unsigned int column) const
+  {
+    double     sum     = 0;
+    const auto corners = corners_of_column<dim>(column, axes_[0].number);
+    for (const unsigned int corner : corners)
+      sum += ground_[corner];
+    return sum / corners.size();
+  }
+
+
+
+  template <int dim>
+  void
+  Maps<dim>::write_files(const State<dim> &state)
+  {
+    find_ground(state);
+    if constexpr (dim == 2)
+      write_table();
+    else
+      {
+        write_rasters();
+        write_surface(state);
+      }
+  }
+
+
+
+  namespace
+  {
+    /// A field of the table has the thresholds of the settings, those of arrival
+    /// included.
+    template <int dim>
+    std::vector<HistoryField>
+    fields_of(const Envelope<dim> &envelope)
+    {
+      return history_fields(envelope.settings().arrival_thresholds);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  Maps<dim>::write_table()
+  {
+    const Envelope<dim>      &envelope = this->envelope();
+    const LatticeColumns<dim> columns(axes_);
+    const auto                fields = fields_of(envelope);
+    write_file(this->path_of_output(table_name), [&](std::ostream &out) {
+      out.precision(16);
+      out << "x [m],ground [m]";
+      for (const HistoryField &field : fields)
+        out << ',' << field.name << " [" << field.unit << ']';
+      for (const unsigned int column : envelope.reached())
+        {
+          out << '\n' << columns.centre(column)[0] << ',' << elevation(column);
+          for (const HistoryField &field : fields)
+            out << ',' << field.value(envelope[column]);
+        }
+      out << '\n';
+    });
+  }
+
+
+
+  /// Row by row as the columns are numbered: z points south, and a raster's
+  /// first row is the northernmost.
+  template <int dim>
+  void
+  Maps<dim>::write_rasters()
+  {
+    if constexpr (dim == 3)
+      {
+        const Point<3> &origin = this->problem().origin();
+        Raster          raster;
+        raster.n_columns = axes_[0].number;
+        raster.n_rows    = axes_[1].number;
+        raster.dx        = axes_[0].size;
+        raster.dy        = axes_[1].size;
+        raster.west      = origin[0] + axes_[0].lower;
+        raster.south = origin[1] - axes_[1].lower - raster.n_rows * raster.dy;
+        const unsigned int n = raster.n_columns * raster.n_rows;
+        for (unsigned int column = 0; column < n; ++column)
+          raster.values.push_back(origin[2] + elevation(column));
+        const auto write = [&](std::string name) {
+          std::replace(name.begin(), name.end(), ' ', '-');
+          const auto path = this->path_of_output(
+            std::filesystem::path(folder_name) / (name + ".asc"));
+          make_folder(path.parent_path());
+          write_esri_grid(path, raster);
+        };
+        write("ground");
+        for (const HistoryField &field : fields_of(this->envelope()))
+          {
+            raster.values.assign(n, std::numeric_limits<double>::quiet_NaN());
+            for (const unsigned int column : this->envelope().reached())
+              raster.values[column] = field.value(this->envelope()[column]);
+            write(field.name);
+          }
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  Maps<dim>::write_surface(const State<dim> &state)
+  {
+    const Envelope<dim> &envelope = this->envelope();
+    std::vector<Field>   fields;
+    for (const HistoryField &field : fields_of(envelope))
+      fields.push_back(
+        {field.name,
+         field.unit,
+         FieldKind::scalar,
+         [&envelope, field](const unsigned int column, float *value) {
+           *value = field.value(envelope[column]);
+         }});
+    OutputCells cells(
+      fields, ItemsAt::cells, CellShape::quad, state.time, state.step);
+    const unsigned int n_x = axes_[0].number;
+    for (const unsigned int column : envelope.reached())
+      {
+        for (const unsigned int corner : corners_of_column<dim>(column, n_x))
+          {
+            Point<dim> x;
+            x[dim - 1] =
+              axes_[dim - 2].lower + corner / (n_x + 1) * axes_[dim - 2].size;
+            x[0] = axes_[0].lower + corner % (n_x + 1) * axes_[0].size;
+            x[1] = ground_[corner];
+            cells.add_vertex(x);
+          }
+        cells.items.push_back(column);
+      }
+    write_file(this->path_of_output(surface_name),
+               [&](std::ostream &out) { write_vtu(out, cells); });
+  }
+
+
+
+  template class Maps<2>;
+  template class Maps<3>;
+} // namespace talus

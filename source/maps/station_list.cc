@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/maps/station_list.h>
+
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  StationList<dim>::StationList()
+    : ParameterAcceptor("/Stations")
+  {
+    add_parameter("Points",
+                  points_,
+                  "Places whose history is written to stations.csv: 'name: x' "
+                  "in 2-D, 'name: x, z' in 3-D, separated by '|' [m].");
+    add_parameter(
+      "Lines",
+      lines_,
+      "Lines, such as routes of pipelines, along which maxima are "
+      "written to lines.csv: 'name: x, z; x, z; ...' (in 2-D 'name: "
+      "x; x'), separated by '|' [m]. Thresholds are those of the "
+      "section Maps, which need not be switched on.");
+    add_parameter("Coordinates",
+                  coordinates_,
+                  "'map', 3-D only: easting and northing in place of x and z.",
+                  this->prm,
+                  Patterns::Selection("mesh|map"));
+    add_parameter("Width",
+                  width_,
+                  "Side of the square (in 2-D length of the interval) around a "
+                  "place over which means are taken [m]. 0: 'Grid/Cell size'.",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("Drag coefficient",
+                  impact_.drag_coefficient,
+                  "C_D of the estimate of the force on a pipeline per length "
+                  "and diameter, C_D rho u^2/2 + N_p s_u [-]. With both at 0 "
+                  "it is not written.",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter("Bearing factor",
+                  impact_.bearing_factor,
+                  "N_p of that estimate [-].",
+                  this->prm,
+                  Patterns::Double(0.));
+  }
+
+
+
+  template <int dim>
+  Point<dim>
+  StationList<dim>::parse_place(const std::string &entry,
+                                const std::string &place,
+                                const Point<3>    &origin) const
+  {
+    const auto numbers = Utilities::split_string_list(place, ',');
+    AssertThrow(
+      numbers.size() == dim - 1 &&
+        std::all_of(numbers.begin(),
+                    numbers.end(),
+                    [](const std::string &n) {
+                      return Patterns::Double().match(n);
+                    }),
+      ExcUser(text("'Stations/",
+                   entry,
+                   "' contains '",
+                   place,
+                   "', where ",
+                   dim == 2 ? "one number, x," : "two numbers, x and z,",
+                   " were expected. Write name: place, separated by '|'.")));
+    Point<dim> x;
+    for (unsigned int a = 0; a < numbers.size(); ++a)
+      x[a == 0 ? 0 : dim - 1] = Utilities::string_to_double(numbers[a]);
+    if (coordinates_ == "map")
+      {
+        x[0] -= origin[0];
+        x[dim - 1] = origin[1] - x[dim - 1];
+      }
+    return x;
+  }
+
+
+
+  template <int dim>
+  std::vector<typename StationList<dim>::Named>
+  StationList<dim>::parse(const std::string &entry,
+                          const std::string &value,
+                          const Box<dim>    &domain,
+                          const Point<3>    &origin) const
+  {
+    AssertThrow(dim == 3 || coordinates_ == "mesh",
+                ExcUser("'Stations/Coordinates' is 'map', but a section has "
+                        "no places on the map. Give x along it, and 'mesh'."));
+    std::vector<Named> result;
+    for (const std::string &item : Utilities::split_string_list(value, '|'))
+      {
+        const auto colon = item.find(':');
+        Named      named{Utilities::trim(item.substr(0, colon)), {}};
+        AssertThrow(colon != std::string::npos && !named.name.empty() &&
+                      named.name.find_first_of(",\"") == std::string::npos,
+                    ExcUser(text("'Stations/",
+                                 entry,
+                                 "' contains '",
+                                 item,
+                                 "', where 'name: place' was expected, with "
+                                 "neither comma nor quotation mark in the "
+                                 "name.")));
+        AssertThrow(std::none_of(result.begin(),
+                                 result.end(),
+                                 [&](const Named &other) {
+                                   return other.name == named.name;
+                                 }),
+                    ExcUser(text("'Stations/",
+                                 entry,
+                                 "' has two of the name '",
+                                 named.name,
+                                 "'. Give each its own.")));
+        for (const std::string &place :
+             Utilities::split_string_list(item.substr(colon + 1), ';'))
+          {
+            Point<dim> x = parse_place(entry, place, origin);
+            x[1]         = domain.lower[1];
+            AssertThrow(domain.contains(x),
+                        ExcUser(text("'Stations/",
+                                     entry,
+                                     "': '",
+                                     named.name,
+                                     "' has a place '",
+                                     place,
+                                     "' outside of the mesh. Correct it (and "
+                                     "look at 'Stations/Coordinates' and "
+                                     "'Grid/Origin'), or make the mesh "
+                                     "larger.")));
+            named.corners.push_back(x);
+          }
+        result.push_back(named);
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::vector<typename StationList<dim>::Named>
+  StationList<dim>::points(const Box<dim> &domain, const Point<3> &origin) const
+  {
+    const auto points = parse("Points", points_, domain, origin);
+    for (const Named &point : points)
+      AssertThrow(point.corners.size() == 1,
+                  ExcUser(text("'Stations/Points': '",
+                               point.name,
+                               "' has ",
+                               point.corners.size(),
+                               " places, where one was expected. Separate "
+                               "points by '|'; a line stands in "
+                               "'Stations/Lines'.")));
+    return points;
+  }
+
+
+
+  template <int dim>
+  std::vector<typename StationList<dim>::Named>
+  StationList<dim>::lines(const Box<dim> &domain, const Point<3> &origin) const
+  {
+    const auto lines = parse("Lines", lines_, domain, origin);
+    for (const Named &line : lines)
+      {
+        double length = 0;
+        for (unsigned int i = 1; i < line.corners.size(); ++i)
+          length += line.corners[i].distance(line.corners[i - 1]);
+        AssertThrow(length > 0,
+                    ExcUser(text("'Stations/Lines': '",
+                                 line.name,
+                                 "' has no length. Give two corners or more, "
+                                 "separated by semicolons.")));
+      }
+    return lines;
+  }
+
+
+
+  template class StationList<2>;
+  template class StationList<3>;
+} // namespace talus
