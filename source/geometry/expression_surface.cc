@@ -86,19 +86,18 @@ namespace talus
         arguments[n]      = value.height;
         slopes.emplace_back(n++, value.slope);
       }
-    // Exact for cubics; small features of flumes are millimetres.
-    constexpr double step = 1e-4;
+    // So small that features of flumes, millimetres, have their slope to 1e-4,
+    // and so large that heights of kilometres have theirs to 1e-7. Two
+    // evaluations are all it may cost: contact asks at each step.
+    constexpr double step = 1e-5;
     Value            result{evaluate(arguments), {}};
     for (const auto &[i, slope] : slopes)
       {
-        const auto difference = [&, i = i](const double by) {
-          Arguments after = arguments, before = arguments;
-          after[i] += by;
-          before[i] -= by;
-          return (evaluate(after) - evaluate(before)) / (2. * by);
-        };
+        Arguments after = arguments, before = arguments;
+        after[i] += step;
+        before[i] -= step;
         result.slope +=
-          (4. * difference(step) - difference(2. * step)) / 3. * slope;
+          (evaluate(after) - evaluate(before)) / (after[i] - before[i]) * slope;
       }
     return result;
   }

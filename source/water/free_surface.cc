@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numeric>
 
 namespace talus
 {
@@ -18,19 +20,25 @@ namespace talus
     /// Where the contour is.
     constexpr double half_filled = 0.5;
 
-    /// What an obstacle leaves of a simplex. What is as good as on its surface
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    /// What obstacles leave of a simplex of a cell, whose corners are @p distance
+    /// away from them, m, in deal.II's order. What is as good as on a surface
     /// counts as on it, as in surface_in_box().
     template <int dim>
     auto
-    open_parts(const Simplex<dim>   &simplex,
-               const Obstacles<dim> &obstacles,
-               const double          size)
+    open_parts(const Simplex<dim>                    &simplex,
+               const Cell<dim>                       &cell,
+               const std::array<double, (1u << dim)> &distance)
     {
       std::array<double, dim + 1> depth;
       for (unsigned int v = 0; v <= dim; ++v)
         {
-          depth[v] = -obstacles.signed_distance(simplex[v]);
-          if (std::abs(depth[v]) < 1e-9 * size)
+          unsigned int corner = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            corner |= (simplex[v][d] > cell.lower[d] + 0.5 * cell.size) << d;
+          depth[v] = -distance[corner];
+          if (std::abs(depth[v]) < 1e-9 * cell.size)
             depth[v] = 0;
         }
       return clip_simplex<dim>(simplex, depth).parts;
@@ -74,6 +82,28 @@ namespace talus
     records_.assign(std::size_t(width) * grid.n_nodes(), 0.);
     filled_nodes_.clear();
     facets_.clear();
+    distance_.assign(grid.n_nodes(), unknown);
+  }
+
+
+
+  /// How far the corners of a cell are from obstacles, m. Asked for in each step,
+  /// by the cells of a node as often as there are: remembered while obstacles
+  /// stay where they are.
+  template <int dim>
+  typename FreeSurface<dim>::ShapeValues
+  FreeSurface<dim>::distances(const Cell<dim>      &cell,
+                              const Obstacles<dim> &obstacles)
+  {
+    ShapeValues result;
+    for (unsigned int v = 0; v < result.size(); ++v)
+      {
+        double &known = distance_[cell.nodes()[v]];
+        if (std::isnan(known))
+          known = obstacles.signed_distance(cell.vertex(v));
+        result[v] = known;
+      }
+    return result;
   }
 
 
@@ -159,6 +189,8 @@ namespace talus
   {
     fill_records(state, contact);
     facets_.clear();
+    if (contact.obstacles().move())
+      std::fill(distance_.begin(), distance_.end(), unknown);
     ++n_searches_;
     const Grid<dim> &grid  = state.grid;
     const auto       visit = [&](const unsigned int node) {
@@ -231,9 +263,11 @@ namespace talus
     const Box<dim> box = cell.box();
     const bool     is_cut =
       is_near_obstacle && contact.facets().nearness_of_cells()[c] == 2;
+    ShapeValues distance{};
+    if (is_near_obstacle)
+      distance = distances(cell, contact.obstacles());
     if (is_near_obstacle && !is_cut &&
-        contact.obstacles().signed_distance(
-          Point<dim>(0.5 * (box.lower + Tensor<1, dim>(box.upper)))) < 0)
+        std::accumulate(distance.begin(), distance.end(), 0.) < 0)
       return; // soil is only beside it
 
     const auto add_facet = [&](const Simplex<dim> &simplex) {
@@ -253,7 +287,7 @@ namespace talus
     for (const Simplex<dim> &simplex : simplices_of(box))
       if (is_cut)
         for (const Simplex<dim> &part :
-             open_parts<dim>(simplex, contact.obstacles(), cell.size))
+             open_parts<dim>(simplex, cell, distance))
           add_facet(part);
       else
         add_facet(simplex);

@@ -83,6 +83,8 @@ namespace talus
       return records_.data() + std::size_t(width) * node;
     }
 
+    ShapeValues
+    distances(const Cell<dim> &cell, const Obstacles<dim> &obstacles);
     double
     room(const FacetContact<dim> &contact, unsigned int node) const;
     void
@@ -102,6 +104,7 @@ namespace talus
 
     std::vector<double> volume_; ///< integral of the shape function, by node
     std::vector<unsigned int>  first_cell_, cells_; ///< owned ones, by node
+    std::vector<double>        distance_; ///< from obstacles, by node, m
     NodalExchange<dim>         exchange_;
     std::vector<double>        records_;
     std::vector<unsigned int>  filled_nodes_; ///< whose records are not zero
