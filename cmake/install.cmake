@@ -14,6 +14,13 @@ install(TARGETS talus_library LIBRARY
   DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development NAMELINK_ONLY)
 install(DIRECTORY prm DESTINATION share/talus COMPONENT program)
 install(FILES doc/parameters.prm DESTINATION share/doc/talus COMPONENT program)
+# Reports and studies; they compare with the reference of all parameters.
+install(PROGRAMS share/talus/talus-report share/talus/talus-study
+  DESTINATION bin COMPONENT program)
+install(DIRECTORY share/talus/talus_tools DESTINATION share/talus
+  COMPONENT program PATTERN __pycache__ EXCLUDE)
+install(FILES share/talus/study-example.prm doc/parameters.prm
+  DESTINATION share/talus COMPONENT program)
 
 # Made by the program itself from its list of options.
 find_program(TALUS_GZIP gzip REQUIRED)

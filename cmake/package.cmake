@@ -58,6 +58,9 @@ set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${maintainer})
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
+# For talus-report and talus-study.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
+  "python3-numpy, python3-matplotlib, python3-jinja2, python3-scipy")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
   ${CMAKE_BINARY_DIR}/shlibs ${CMAKE_BINARY_DIR}/triggers)
 # Of a package the loader finds the libraries without.

@@ -64,6 +64,23 @@ namespace talus
 
 
 
+    /// Whether there is a comma that does not stand between the arguments of a
+    /// function: muParser takes what stands before it, and drops it.
+    bool
+    has_loose_comma(const std::string &expression)
+    {
+      int depth = 0;
+      for (const char c : expression)
+        {
+          depth += (c == '(') - (c == ')');
+          if (c == ',' && depth <= 0)
+            return true;
+        }
+      return false;
+    }
+
+
+
     /// Whether a constant may be called so: a word that muParser reads as one
     /// name, and that is neither a variable nor a constant defined before.
     bool
@@ -177,6 +194,14 @@ namespace talus
                              "' gives a variable a value by =, where a formula "
                              "was expected; compare by == and define names in "
                              "'Constants'.")));
+    AssertThrow(!has_loose_comma(expressions),
+                ExcUser(text(name,
+                             " = '",
+                             expressions,
+                             "' has a comma outside of a function's arguments, "
+                             "where one formula for each component was "
+                             "expected. Separate components by semicolons and "
+                             "write decimals with a point.")));
     const auto known = constants.values();
     const auto names = Utilities::split_string_list(variables, ',');
     for (const std::string &variable : names)

@@ -122,16 +122,23 @@ namespace talus
 
 
   /// Over the names of both: a parameter that only one of them has differs,
-  /// too. What state depends on must not change on the way, or the result would
-  /// be that of neither parameter file.
+  /// too. These come last: they follow from another one, as those of a law do
+  /// from its name, and that is what the user has changed. What state depends on
+  /// must not change on the way, or the result would be that of neither
+  /// parameter file.
   void
   check_parameter_changes(const std::string &saved, const std::string &now)
   {
-    const Values saved_values = read_parameters(saved);
-    const Values values       = read_parameters(now);
-    Values       all          = values;
-    all.insert(saved_values.begin(), saved_values.end());
-    for (const auto &[path, value] : all)
+    const Values             saved_values = read_parameters(saved);
+    const Values             values       = read_parameters(now);
+    std::vector<std::string> of_both, of_one;
+    for (const auto &[path, value] : values)
+      (saved_values.count(path) > 0 ? of_both : of_one).push_back(path);
+    for (const auto &[path, value] : saved_values)
+      if (values.count(path) == 0)
+        of_one.push_back(path);
+    of_both.insert(of_both.end(), of_one.begin(), of_one.end());
+    for (const std::string &path : of_both)
       {
         const std::string before = value_of(saved_values, path);
         const std::string after  = value_of(values, path);

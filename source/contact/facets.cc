@@ -130,33 +130,76 @@ namespace talus
 
 
   template <int dim>
+  typename Facets<dim>::Section
+  Facets<dim>::find_section(const Grid<dim>      &grid,
+                            const Obstacles<dim> &obstacles,
+                            const unsigned int    c) const
+  {
+    const Cell<dim> &cell = grid.cells()[c];
+    Section          section{obstacles.signed_distance(centre_of(cell)),
+                    facets_in(grid, obstacles, c),
+                    {}};
+    if (!section.facets.empty())
+      section.open_volume =
+        open_shape_integrals<dim>(cell.box(), [&](const Point<dim> &x) {
+          return obstacles.signed_distance(x);
+        });
+    return section;
+  }
+
+
+
+  /// A cell has the same section as long as it is there, unless an obstacle
+  /// moves. To find that is dear, and of a mesh that follows the soil most cells
+  /// stay when it changes. Those that are gone are forgotten.
+  template <int dim>
   void
-  Facets<dim>::cut(const Grid<dim>      &grid,
-                   const Obstacles<dim> &obstacles,
-                   const unsigned int    c)
+  Facets<dim>::keep_sections(const Grid<dim>      &grid,
+                             const Obstacles<dim> &obstacles)
+  {
+    std::unordered_map<unsigned long, Section> kept;
+    kept.reserve(grid.cells().size());
+    for (unsigned int c = 0; c < grid.cells().size(); ++c)
+      {
+        const unsigned long key = grid.key_of_cell(c);
+        if (auto known = sections_.extract(key);
+            !known.empty() && !obstacles.move())
+          kept.insert(std::move(known));
+        else
+          kept.emplace(key, find_section(grid, obstacles, c));
+      }
+    sections_.swap(kept);
+  }
+
+
+
+  template <int dim>
+  void
+  Facets<dim>::cut(const Grid<dim> &grid, const unsigned int c)
   {
     // Points may dip half a cell below a surface, and reach one more.
-    const Cell<dim> &cell     = grid.cells()[c];
-    const double     distance = obstacles.signed_distance(centre_of(cell));
-    if (distance <= 0 && distance > -2. * std::sqrt(double(dim)) * cell.size)
+    const Cell<dim> &cell    = grid.cells()[c];
+    const Section   &section = sections_.at(grid.key_of_cell(c));
+    if (section.distance <= 0 &&
+        section.distance > -2. * std::sqrt(double(dim)) * cell.size)
       cells_inside_.insert(c);
     else
       cells_inside_.erase(c);
-
-    std::vector<ContactFacet<dim>> facets = facets_in(grid, obstacles, c);
-    if (facets.empty())
+    if (section.facets.empty())
       {
         cut_cells_.erase(c);
         return;
       }
     CutCell &result = cut_cells_[c];
-    result.facets   = std::move(facets);
-    result.open_volume =
-      open_shape_integrals<dim>(cell.box(), [&](const Point<dim> &x) {
-        return obstacles.signed_distance(x);
-      });
-    result.touching = cells_around(grid, cell, 1);
-    result.near     = cells_around(grid, cell, 2);
+    result.facets   = section.facets;
+    for (ContactFacet<dim> &facet : result.facets)
+      {
+        facet.cell = c;
+        facet.node = cell.nodes();
+      }
+    result.open_volume = section.open_volume;
+    result.touching    = cells_around(grid, cell, 1);
+    result.near        = cells_around(grid, cell, 2);
   }
 
 
@@ -173,8 +216,11 @@ namespace talus
     is_contact_node_.assign(grid.n_nodes(), 0);
     is_near_.assign(grid.cells().size(), 0);
     if (!obstacles.empty())
-      for (unsigned int c = 0; c < grid.cells().size(); ++c)
-        cut(grid, obstacles, c);
+      {
+        keep_sections(grid, obstacles);
+        for (unsigned int c = 0; c < grid.cells().size(); ++c)
+          cut(grid, c);
+      }
     collect(grid, obstacles);
   }
 
@@ -216,7 +262,10 @@ namespace talus
       }
     clear_sums();
     for (const unsigned int c : cells)
-      cut(grid, obstacles, c);
+      {
+        sections_[grid.key_of_cell(c)] = find_section(grid, obstacles, c);
+        cut(grid, c);
+      }
     collect(grid, obstacles);
   }
 
@@ -283,7 +332,7 @@ namespace talus
           owned_nodes_.push_back(node);
       }
     for (const unsigned int c : touching)
-      add_open_volume(grid, obstacles, c);
+      add_open_volume(grid, c);
     for (const unsigned int c : cells_inside_)
       find_nodes_inside(grid, obstacles, c);
     // A node has a pair from each facet that it touches.
@@ -298,16 +347,14 @@ namespace talus
   /// What cell @p c has of it.
   template <int dim>
   void
-  Facets<dim>::add_open_volume(const Grid<dim>      &grid,
-                               const Obstacles<dim> &obstacles,
-                               const unsigned int    c)
+  Facets<dim>::add_open_volume(const Grid<dim> &grid, const unsigned int c)
   {
     const Cell<dim> &cell     = grid.cells()[c];
     const auto       nodes    = cell.nodes();
     const auto       cut_cell = cut_cells_.find(c);
     const bool       is_cut   = cut_cell != cut_cells_.end();
     const double     uncut =
-      (!is_cut && obstacles.signed_distance(centre_of(cell)) > 0
+      (!is_cut && sections_.at(grid.key_of_cell(c)).distance > 0
          ? std::pow(cell.size, dim) / nodes.size()
          : 0.);
     for (unsigned int v = 0; v < nodes.size(); ++v)

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 namespace talus
 {
@@ -64,11 +66,53 @@ namespace talus
 
 
 
+  template <int dim>
+  double
+  ExpressionSurface<dim>::height(const Point<dim> &x) const
+  {
+    Arguments    arguments{};
+    unsigned int n = 0;
+    for (unsigned int d = 0; d < dim; d += 2)
+      arguments[n++] = x[d];
+    for (const Named &other : others_)
+      arguments[n++] = other.second->at(x).height;
+    return evaluate(arguments);
+  }
+
+
+
+  /// The corners of the cells of a column, and the places at which these are
+  /// cut, have few places in plan, which are asked for again and again; a table
+  /// remembers the last ones. What is moved from its place by another one is
+  /// found anew when it is asked for.
+  template <int dim>
+  typename ExpressionSurface<dim>::Value
+  ExpressionSurface<dim>::at(const Point<dim> &x) const
+  {
+    constexpr unsigned int n_bits = 15;
+    remembered_.resize(1u << n_bits);
+    const std::array<double, 2> plan = {{x[0], dim == 3 ? x[dim - 1] : 0.}};
+    std::uint64_t               hash = 0;
+    for (const double coordinate : plan)
+      {
+        std::uint64_t bits;
+        std::memcpy(&bits, &coordinate, sizeof(bits));
+        hash = (hash ^ bits) * 0x9e3779b97f4a7c15ull; // golden ratio
+        hash ^= hash >> 32;
+      }
+    Remembered &known = remembered_[hash % remembered_.size()];
+    if (known.plan != plan)
+      known = {plan, find(x)};
+    return known.value;
+  }
+
+
+
   /// Only the expression itself is differentiated by differences: the others
   /// know their slopes, also at the edge of a raster.
   template <int dim>
   typename ExpressionSurface<dim>::Value
-  ExpressionSurface<dim>::at(const Point<dim> &x) const
+  ExpressionSurface<dim>::find(const Point<dim> &x) const
   {
     Arguments                                            arguments{};
     std::vector<std::pair<unsigned int, Tensor<1, dim>>> slopes;
@@ -130,8 +174,7 @@ namespace talus
           Point<dim> beside = x;
           beside[d] += share * distance;
           if (is_known_at(beside))
-            change =
-              std::max(change, std::abs(at(beside).height - here.height));
+            change = std::max(change, std::abs(height(beside) - here.height));
         }
     return 1.5 * change;
   }

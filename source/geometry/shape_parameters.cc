@@ -209,8 +209,15 @@ namespace talus
                              extent_z_,
                              "' must be two numbers separated by a "
                              "comma, or empty.")));
-    return {
+    const std::array<double, 2> ends = {
       {Utilities::string_to_double(z[0]), Utilities::string_to_double(z[1])}};
+    AssertThrow(ends[0] < ends[1],
+                ExcUser(text(path("Extent in z"),
+                             " = '",
+                             extent_z_,
+                             "' ends before it begins; the lower end comes "
+                             "first, and it must have a length.")));
+    return ends;
   }
 
 

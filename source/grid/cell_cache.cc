@@ -275,7 +275,8 @@ namespace talus
 
 
   /// A node is marked if it is a corner of a cell larger than h, on whatever
-  /// rank, or hangs on one.
+  /// rank, or hangs on one; or of a small cell that touches a larger one, where
+  /// obstacles could not have soil.
   /// Which cells have points that could touch a mark: those with one in their
   /// patch, or in that of a cell that touches them. Nodes and not cells are
   /// marked, as a larger cell may lie beyond the ghosts this rank knows, but
@@ -289,9 +290,20 @@ namespace talus
     is_near_larger_cell_.assign(n_owned_cells_, false);
     // Of the two numbers that travel for each node, the second is not used.
     AlignedVector<double> mark(2 * nodes.n_nodes(), 0.);
+    const auto            is_larger = [this](const unsigned int c) {
+      return level_of_cell_[c] < mesh_.base_level();
+    };
     for (unsigned int c = 0; c < n_owned_cells_; ++c)
-      if (level_of_cell_[c] < mesh_.base_level())
-        for (const unsigned int node : cells_[c].patch)
+      if (is_larger(c))
+        {
+          for (const unsigned int node : cells_[c].patch)
+            if (node != numbers::invalid_unsigned_int)
+              mark[2 * node] = 1.;
+        }
+      else if (!cells_[c].uniform && std::any_of(touching_cells(c).begin(),
+                                                 touching_cells(c).end(),
+                                                 is_larger))
+        for (const unsigned int node : cells_[c].nodes())
           if (node != numbers::invalid_unsigned_int)
             mark[2 * node] = 1.;
     exchange.add_to_owners(mark.data());

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/base/memory.h>
 #include <talus/grid/mesh_layout.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
@@ -267,17 +269,39 @@ namespace talus
         n_cells *= 1. * n_cells_per_axis_[d] * (1u << initial_refinement_);
       }
     // With mesh tracking the mesh of small cells never exists as a whole.
-    AssertThrow((grow ? n_trees : n_cells) < 4e8,
-                ExcUser(text("The mesh would have ",
-                             grow ? n_trees : n_cells,
-                             " cells. Choose a larger Grid/Cell size than ",
-                             cell_size_,
-                             " m or a smaller box",
-                             grow ? ", or raise Grid/Coarsest level." : ".")));
+    check_memory(grow ? n_trees : n_cells, grow);
     tree_size_   = cell_size_ * (1u << level);
     base_level_  = level + initial_refinement_;
     periodicity_ = Periodicity<dim>(periodic, domain_);
     return trees;
+  }
+
+
+
+  /// p4est counts cells of a rank by 32 bits; and before it or deal.II run out of
+  /// memory, which they say in words of their own, the user is told. What a cell
+  /// takes was measured (doc/cluster.md), without points and not with all that a
+  /// run may add: what is refused here cannot work.
+  template <int dim>
+  void
+  MeshLayout<dim>::check_memory(const double n_cells, const bool grow) const
+  {
+    constexpr double bytes_per_cell = (dim == 2 ? 720. : 1470.);
+    const double     bytes          = n_cells * bytes_per_cell /
+                         Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    AssertThrow(n_cells < 4e8 && bytes < largest_memory(),
+                ExcUser(text("The mesh would have ",
+                             n_cells,
+                             " cells, which take some ",
+                             bytes / 1e9,
+                             " GB of memory on each rank, where ",
+                             largest_memory() / 1e9,
+                             " GB are to be had, and 4e8 cells are the most. "
+                             "Choose a larger Grid/Cell size than ",
+                             cell_size_,
+                             " m, a smaller box",
+                             grow ? ", a larger Grid/Coarsest level" : "",
+                             ", or more ranks on more machines.")));
   }
 
 

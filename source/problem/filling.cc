@@ -139,15 +139,20 @@ namespace talus
       is_kept(const PartInside<dim> &part, unsigned int cell) const;
       std::pair<unsigned int, unsigned int>
       nearest_kept(const Point<dim> &x, unsigned int cell) const;
+      std::pair<unsigned int, unsigned int>
+      largest_neighbour(unsigned int cell, unsigned int box) const;
       std::vector<unsigned int>
       cells_around(unsigned int cell) const;
       std::map<unsigned int, std::vector<Gift<dim>>>
       take_slivers();
+      void
+      receive(const std::vector<Gift<dim>> &gifts);
 
       const Grid<dim>              &grid_;
       std::array<unsigned int, dim> n_;
       // By cell; a cell without any is missing.
-      std::map<unsigned int, Parts> parts_;
+      std::map<unsigned int, Parts> parts_; // at first, which decides
+      std::map<unsigned int, Parts> now_;
     };
 
 
@@ -169,6 +174,7 @@ namespace talus
           if (!parts.empty())
             parts_.emplace(c, std::move(parts));
         }
+      now_ = parts_;
     }
 
 
@@ -280,21 +286,52 @@ namespace talus
 
 
 
-    /// By the rank that gets them; what is taken is no longer there. A sliver
-    /// with no kept neighbour stays.
+    /// The box around of which most lies inside, if that is so much more than of
+    /// this one that the two could not be neighbours.
+    template <int dim>
+    std::pair<unsigned int, unsigned int>
+    ClippedBoxes<dim>::largest_neighbour(const unsigned int cell,
+                                         const unsigned int box) const
+    {
+      using Rank = std::tuple<double, unsigned long, unsigned int>;
+      Rank largest(parts_.at(cell)[box].volume / least_fraction, 0, 0);
+      std::pair<unsigned int, unsigned int> result{
+        numbers::invalid_unsigned_int, 0};
+      for (const unsigned int c : cells_around(cell))
+        if (const auto parts = parts_.find(c); parts != parts_.end())
+          for (unsigned int i = 0; i < parts->second.size(); ++i)
+            if (const Rank rank(parts->second[i].volume,
+                                grid_.key_of_cell(c),
+                                i);
+                rank > largest)
+              {
+                largest = rank;
+                result  = {c, i};
+              }
+      return result;
+    }
+
+
+
+    /// By the rank that gets them; what is taken is no longer there. Where soil
+    /// thins out so slowly that no kept box is around, slivers go to the largest
+    /// one, from where they may go on. They only go to boxes that had more at
+    /// first, and so come to an end. Soil that is thin everywhere stays.
     template <int dim>
     std::map<unsigned int, std::vector<Gift<dim>>>
     ClippedBoxes<dim>::take_slivers()
     {
       std::map<unsigned int, std::vector<Gift<dim>>> gifts;
-      for (auto &[cell, parts] : parts_)
+      for (auto &[cell, parts] : now_)
         for (unsigned int i = 0; i < parts.size(); ++i)
           {
             PartInside<dim> &part = parts[i];
             if (cell >= grid_.n_owned_cells() || part.volume == 0. ||
-                is_kept(part, cell))
+                is_kept(parts_.at(cell)[i], cell))
               continue;
-            const auto [to_cell, to_box] = nearest_kept(part.centroid, cell);
+            auto [to_cell, to_box] = nearest_kept(part.centroid, cell);
+            if (to_cell == numbers::invalid_unsigned_int)
+              std::tie(to_cell, to_box) = largest_neighbour(cell, i);
             if (to_cell == numbers::invalid_unsigned_int)
               continue;
             Gift<dim> gift;
@@ -320,15 +357,30 @@ namespace talus
     void
     ClippedBoxes<dim>::merge_slivers()
     {
-      std::vector<Gift<dim>> received;
-      for (const auto &[rank, gifts] :
-           Utilities::MPI::some_to_some(grid_.communicator(), take_slivers()))
-        received.insert(received.end(), gifts.begin(), gifts.end());
-      std::sort(received.begin(), received.end());
-      for (const auto &[names, numbers] : received)
+      for (bool are_all_at_home = false; !are_all_at_home;)
+        {
+          std::vector<Gift<dim>> received;
+          for (const auto &[rank, gifts] :
+               Utilities::MPI::some_to_some(grid_.communicator(),
+                                            take_slivers()))
+            received.insert(received.end(), gifts.begin(), gifts.end());
+          std::sort(received.begin(), received.end());
+          receive(received);
+          are_all_at_home = !Utilities::MPI::logical_or(!received.empty(),
+                                                        grid_.communicator());
+        }
+    }
+
+
+
+    template <int dim>
+    void
+    ClippedBoxes<dim>::receive(const std::vector<Gift<dim>> &gifts)
+    {
+      for (const auto &[names, numbers] : gifts)
         {
           PartInside<dim> &part =
-            parts_.at(grid_.cell_of_key(names[0]))[names[1]];
+            now_.at(grid_.cell_of_key(names[0]))[names[1]];
           // Steiner: the variance of two parts is theirs and that of their
           // centroids.
           const double share = numbers[0] / (part.volume + numbers[0]);
@@ -370,7 +422,7 @@ namespace talus
     ClippedBoxes<dim>::points() const
     {
       std::vector<NewPoint<dim>> result;
-      for (const auto &[c, parts] : parts_)
+      for (const auto &[c, parts] : now_)
         {
           if (c >= grid_.n_owned_cells())
             break;

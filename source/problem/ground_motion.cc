@@ -43,7 +43,7 @@ namespace talus
   /// jump. A table that ends with the ground in acceleration is not refused.
   template <int dim>
   void
-  GroundMotion<dim>::prepare()
+  GroundMotion<dim>::prepare(const double end_time)
   {
     table_.reset();
     AssertThrow(!file_.empty() || (start_time_ == 0. && factor_ == 1.),
@@ -86,6 +86,20 @@ namespace talus
                                    "let it begin with the run ('Ground "
                                    "motion/Start time').")));
         }
+    // Gravity keeps its outermost values.
+    AssertThrow(table_->has(gravity) ||
+                  (begin < end_time && start_time_ + table_->last_time() > 0.),
+                ExcUser(text("The table '",
+                             path.string(),
+                             "' is of t = ",
+                             begin,
+                             " s to ",
+                             start_time_ + table_->last_time(),
+                             " s of the run, which goes from 0 to 'End time' "
+                             "= ",
+                             end_time,
+                             " s: it would never act. Correct the table, "
+                             "'Ground motion/Start time' or 'End time'.")));
   }
 
 

@@ -111,9 +111,10 @@ namespace talus
   void
   Loading<dim>::prepare(const Materials<dim> &materials,
                         const unsigned int    n_bodies,
-                        const Constants      &constants)
+                        const Constants      &constants,
+                        const double          end_time)
   {
-    ground_motion_.prepare();
+    ground_motion_.prepare(end_time);
     full_.clear();
     for (unsigned int b = 0; b < n_bodies; ++b)
       full_.push_back(materials.of_body(b).submerged_density() /

@@ -79,7 +79,7 @@ namespace talus
     materials.add_columns(points,
                           trigger.changes_strength() || changes_strength);
     trigger.add_columns(points);
-    loading.prepare(materials, bodies_.size(), constants_);
+    loading.prepare(materials, bodies_.size(), constants_, end_time);
     boundaries.prepare(constants_);
     obstacles.prepare(constants_, &surfaces_);
   }

@@ -208,7 +208,7 @@ namespace talus
   /// Load is looked at every some steps only. Collective.
   template <int dim>
   void
-  BackgroundMesh<dim>::adapt(const Splitter<dim> &splitter)
+  BackgroundMesh<dim>::adapt()
   {
     PhaseTimer::Scope scope(timer_, "mesh");
     const MPI_Comm    communicator = state_.communicator();
@@ -223,14 +223,9 @@ namespace talus
           prepare();
           repartition();
         }
-    if (load_balance_.is_due(state_.step, communicator))
-      {
-        // Beside a sum over the ranks that has to be taken anyway.
-        splitter.check_total(
-          Utilities::MPI::sum(1. * state_.points.size(), communicator));
-        if (load_balance_.is_needed(state_.points, communicator))
-          repartition();
-      }
+    if (load_balance_.is_due(state_.step, communicator) &&
+        load_balance_.is_needed(state_.points, communicator))
+      repartition();
   }
 
 

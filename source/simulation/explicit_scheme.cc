@@ -61,7 +61,7 @@ namespace talus
   RunRequest
   ExplicitScheme<dim>::advance(const double end_time, const RunRequest own)
   {
-    mesh_.adapt(splitter_);
+    mesh_.adapt();
     if (filter_.is_due(state_.step))
       {
         PhaseTimer::Scope scope(timer_, "filter");
@@ -121,18 +121,22 @@ namespace talus
 
 
 
-  /// One message of all ranks per step: it carries the time step and what the
-  /// ranks want to happen after it (checkpoint, stop), which would else be a
-  /// second one. The last step is shortened to end at the end time.
+  /// One message of all ranks per step: it carries the time step, what the
+  /// ranks want to happen after it (checkpoint, stop) and how many points there
+  /// are, which would else be a second one. The last step is shortened to end at the end time.
   template <int dim>
   RunRequest
   ExplicitScheme<dim>::agree_on_step(const double     end_time,
                                      const RunRequest own)
   {
     PhaseTimer::Scope scope(timer_, "messages");
-    const StepPlan    plan = agreement_.agree(
-      {time_step_.stable_time_step(state_.points, problem_.materials), own},
-      state_.communicator());
+    const StepPlan    plan =
+      agreement_.agree({time_step_.stable_time_step(state_.points,
+                                                    problem_.materials),
+                        own,
+                        1. * state_.points.size()},
+                       state_.communicator());
+    splitter_.check_total(plan.n_points);
     state_.time_step = std::min(plan.time_step, end_time - state_.time);
     return plan.request;
   }

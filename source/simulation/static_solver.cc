@@ -15,13 +15,11 @@ namespace talus
                                   Problem<dim>        &problem,
                                   const Transfer<dim> &transfer,
                                   BackgroundMesh<dim> &mesh,
-                                  const Splitter<dim> &splitter,
                                   Log                 &log)
     : state_(state)
     , problem_(problem)
     , transfer_(transfer)
     , mesh_(mesh)
-    , splitter_(splitter)
     , log_(log)
   {}
 
@@ -76,7 +74,7 @@ namespace talus
         if (measure == StrainMeasure::large)
           {
             mesh_.relocate_all();
-            mesh_.adapt(splitter_);
+            mesh_.adapt();
           }
       }
     return true;
@@ -230,7 +228,7 @@ namespace talus
     restore(saved);
     send_points_to_owners(state_.points, state_.grid);
     mesh_.insert_points();
-    mesh_.adapt(splitter_);
+    mesh_.adapt();
   }
 
 

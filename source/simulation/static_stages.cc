@@ -13,14 +13,13 @@ namespace talus
                                   Problem<dim>        &problem,
                                   const Transfer<dim> &transfer,
                                   BackgroundMesh<dim> &mesh,
-                                  const Splitter<dim> &splitter,
                                   const Output<dim>   &output,
                                   Log                 &log)
     : state_(state)
     , problem_(problem)
     , output_(output)
     , log_(log)
-    , solver_(state, problem, transfer, mesh, splitter, log)
+    , solver_(state, problem, transfer, mesh, log)
   {}
 
 

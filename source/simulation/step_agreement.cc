@@ -7,9 +7,10 @@ namespace talus
 {
   namespace
   {
-    /// Least time step and largest request, element by element: the form that
-    /// MPI wants for an operation of one's own. Both commute, so the result
-    /// does not depend on the order of the ranks.
+    /// Least time step, largest request and number of points, element by
+    /// element: the form that MPI wants for an operation of one's own. All
+    /// commute, sums of whole numbers, too, so the result does not depend on the
+    /// order of the ranks.
     void
     combine(void *more, void *all, int *n, MPI_Datatype *)
     {
@@ -19,6 +20,7 @@ namespace talus
           StepPlan       &result = static_cast<StepPlan *>(all)[i];
           result.time_step       = std::min(result.time_step, one.time_step);
           result.request         = std::max(result.request, one.request);
+          result.n_points += one.n_points;
         }
     }
   } // namespace

@@ -127,8 +127,8 @@ namespace talus
 
 
 
-  /// For the message after an error: the place of the first point whose wave
-  /// speed or velocity is no finite number.
+  /// For the message after an error: the place of the first point of which a
+  /// number that the time step needs is not finite, or the volume not positive.
   template <int dim>
   std::string
   TimeStep<dim>::first_without_bound(const Points<dim>    &points,
@@ -137,17 +137,20 @@ namespace talus
     for (const Segment &segment : points.segments())
       for (unsigned int p = segment.begin; p < segment.end; ++p)
         {
-          double sum = materials.of_body(segment.body).wave_speed(points, p);
+          const double volume = volume_of_points<dim, double>(points, p);
+          double       sum =
+            materials.of_body(segment.body).wave_speed(points, p) + volume;
           for (unsigned int d = 0; d < dim; ++d)
-            sum += points.data(points.velocity, d)[p];
-          if (!std::isfinite(sum))
+            sum += points.data(points.velocity, d)[p] +
+                   points.data(points.stretch, d)[p];
+          if (!std::isfinite(sum) || !(volume > 0))
             return text("point ",
                         points.data(points.id)[p],
                         " at (",
                         load_place(points, points.position, p),
                         ") m");
         }
-    return "no point, though";
+    return "a point that could not be found";
   }
 
 
@@ -261,12 +264,14 @@ namespace talus
     // Infinite where there are no points.
     const double dt = 1. / std::sqrt(largest_);
     AssertThrow((std::isfinite(dt) || points.size() == 0) && dt > 0,
-                ExcPoint(text("No time step can be chosen (it would be ",
-                              dt,
-                              " s): velocity or wave speed are not finite at ",
-                              first_without_bound(points, materials),
-                              ". The simulation became unstable: lower 'Time "
-                              "step/CFL number'.")));
+                ExcPoint(
+                  text("No time step can be chosen (it would be ",
+                       dt,
+                       " s): velocity, wave speed, volume or stretch are "
+                       "not finite and positive at ",
+                       first_without_bound(points, materials),
+                       ". The simulation became unstable: lower 'Time "
+                       "step/CFL number'.")));
     return maximum_ > 0 ? std::min(dt, maximum_) : dt;
   }
 

@@ -229,7 +229,24 @@ class BadInput(Case):
                 ("a=1/0", "'a=1/0'", "inf", "finite")):
             self.refuse_set(["Constants=" + constants], "'Constants'", *words)
 
+    def test_mesh_that_does_not_fit(self):
+        words = ("The mesh would have", "cells, which take some",
+                 "GB are to be had", "Grid/Cell size", "more machines")
+        self.refuse_set(["Grid/Cell size=1e-4"], *words)
+        # 2.5e7 cells, of which a shell allows a quarter.
+        file = self.folder / "case.prm"
+        result = subprocess.run(
+            ["bash", "-c", 'ulimit -v 4000000; exec "$@"', "bash", TALUS,
+             "--set", "Grid/Cell size=8e-4", "--validate", file],
+            capture_output=True, text=True, timeout=120)
+        self.assertEqual(result.returncode, 1, result)
+        for word in (*words, "4.096 GB are"):
+            self.assertIn(word, result.stderr)
+
     def test_initial_displacement(self):
+        self.refuse_set(["Bodies/block/Initial displacement=-0.995*x; 0"],
+                        "Bodies/block/Initial displacement",
+                        "to 0.005 times its volume", "smaller")
         self.refuse_set(["Bodies/block/Initial displacement=-2*x; 0"],
                         "Bodies/block/Initial displacement", "inside out",
                         "-1", "smaller")

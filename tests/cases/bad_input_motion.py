@@ -29,6 +29,8 @@ class BadInputMotion(Case):
                 ([weaker, "Region=2*"], "'Trigger/Region'", "'2*'",
                  "cannot be understood"),
                 ([weaker, "Region=y; x"], "'Trigger/Region'", "1 are needed"),
+                ([weaker, "Region=1,2,3"], "'Trigger/Region' = '1,2,3'",
+                 "comma outside of a function's arguments"),
                 ([weaker, "Region=sqrt(y-1)"], "'Trigger/Region'", "nan",
                  "finite number"),
                 ([weaker, "Region=-y"], "'Trigger/Region' = '-y'",
@@ -77,12 +79,16 @@ class BadInputMotion(Case):
                 (a + "0,1\n", "1 rows", "at least two"),
                 (a + "0.5,1\n1,0\n", "0.5 s", "1 m/s^2", "jump",
                  "'horizontal [m/s^2]'", "row with zeros"),
+                (a + "0.5,0\n1,1\n", "t = 0.5 s to 1 s", "to 'End time' = 0.01",
+                 "never act"),
                 ("time [s],across [m/s^2]\n" + b, "'across [m/s^2]'",
                  "two-dimensional")):
             with self.subTest(content):
                 self.refuse_table(content, *words)
         self.refuse_table(a + b, "2 s", "jump",
                           settings=["Ground motion/Start time=2"])
+        self.refuse_table(a + b, "t = -10 s to -9 s", "never act",
+                          settings=["Ground motion/Start time=-10"])
 
     def test_ground_motion_without_table(self):
         self.refuse_set(["Ground motion/File=missing.csv"], "missing.csv",

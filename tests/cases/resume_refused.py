@@ -101,6 +101,12 @@ class ResumeRefused(Case):
             self.refuse([setting], "The parameter '" + setting.split("=")[0],
                         *words)
 
+    def test_another_law(self):
+        """By its name, not by a parameter that follows from it."""
+        self.refuse(["Materials/clay/Law=Herschel-Bulkley"],
+                    "The parameter 'Materials/clay/Law' is 'Herschel-Bulkley'",
+                    "'von Mises'")
+
     def test_table_that_changed(self):
         record = self.folder / "record.csv"
         record.write_text("time [s],horizontal [m/s^2]\n0,0\n1,1\n")

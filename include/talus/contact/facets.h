@@ -9,6 +9,7 @@
 #include <array>
 #include <map>
 #include <set>
+#include <unordered_map>
 #include <vector>
 
 namespace talus
@@ -136,7 +137,15 @@ namespace talus
     }
 
   private:
-    /// What the surfaces make of a cell.
+    /// What the surfaces make of a cell, whatever the numbers of its nodes.
+    struct Section
+    {
+      double distance; ///< of its centre from the obstacles, m
+      std::vector<ContactFacet<dim>>                 facets;
+      std::array<double, ContactFacet<dim>::n_nodes> open_volume{};
+    };
+
+    /// The same in the mesh.
     struct CutCell
     {
       std::vector<ContactFacet<dim>>                 facets;
@@ -145,8 +154,14 @@ namespace talus
       std::vector<unsigned int> near; ///< owned ones that touch one of these
     };
 
+    Section
+    find_section(const Grid<dim>      &grid,
+                 const Obstacles<dim> &obstacles,
+                 unsigned int          c) const;
     void
-    cut(const Grid<dim> &grid, const Obstacles<dim> &obstacles, unsigned int c);
+    keep_sections(const Grid<dim> &grid, const Obstacles<dim> &obstacles);
+    void
+    cut(const Grid<dim> &grid, unsigned int c);
     std::vector<ContactFacet<dim>>
     facets_in(const Grid<dim>      &grid,
               const Obstacles<dim> &obstacles,
@@ -156,26 +171,25 @@ namespace talus
     void
     collect(const Grid<dim> &grid, const Obstacles<dim> &obstacles);
     void
-    add_open_volume(const Grid<dim>      &grid,
-                    const Obstacles<dim> &obstacles,
-                    unsigned int          c);
+    add_open_volume(const Grid<dim> &grid, unsigned int c);
 
     void
     find_nodes_inside(const Grid<dim>      &grid,
                       const Obstacles<dim> &obstacles,
                       unsigned int          c);
 
-    std::map<unsigned int, CutCell> cut_cells_;    ///< ghosts, too
-    std::set<unsigned int>          cells_inside_; ///< beside surfaces
-    std::vector<unsigned int>       listed_near_;
-    std::vector<ContactFacet<dim>>  owned_;
-    std::vector<unsigned int>       owned_nodes_, nodes_;
-    std::vector<NodeAndSurface>     nodes_and_obstacles_;
-    std::vector<NodeInside>         nodes_inside_;
-    std::vector<unsigned char>      is_contact_node_; ///< by node
-    std::vector<unsigned int>       n_facets_;        ///< by node
-    std::vector<double>             open_volume_;     ///< by node
-    std::vector<unsigned char>      is_near_;         ///< by cell
+    std::unordered_map<unsigned long, Section> sections_;  ///< by key of cell
+    std::map<unsigned int, CutCell>            cut_cells_; ///< ghosts, too
+    std::set<unsigned int>         cells_inside_;          ///< beside surfaces
+    std::vector<unsigned int>      listed_near_;
+    std::vector<ContactFacet<dim>> owned_;
+    std::vector<unsigned int>      owned_nodes_, nodes_;
+    std::vector<NodeAndSurface>    nodes_and_obstacles_;
+    std::vector<NodeInside>        nodes_inside_;
+    std::vector<unsigned char>     is_contact_node_; ///< by node
+    std::vector<unsigned int>      n_facets_;        ///< by node
+    std::vector<double>            open_volume_;     ///< by node
+    std::vector<unsigned char>     is_near_;         ///< by cell
   };
 } // namespace talus
 

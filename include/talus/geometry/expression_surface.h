@@ -5,6 +5,8 @@
 #include <talus/base/expression.h>
 #include <talus/geometry/surface.h>
 
+#include <array>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -48,9 +50,22 @@ namespace talus
 
     double
     evaluate(const Arguments &arguments) const;
+    double
+    height(const dealii::Point<dim> &x) const;
+    Value
+    find(const dealii::Point<dim> &x) const;
 
-    std::vector<Named>             others_;
-    std::unique_ptr<Expression<3>> expression_;
+    /// A value that was found at a place of the plan.
+    struct Remembered
+    {
+      std::array<double, 2> plan = {
+        {std::numeric_limits<double>::quiet_NaN(), 0.}};
+      Value value{};
+    };
+
+    std::vector<Named>              others_;
+    std::unique_ptr<Expression<3>>  expression_;
+    mutable std::vector<Remembered> remembered_; ///< by hash of the plan
   };
 } // namespace talus
 

@@ -117,6 +117,8 @@ namespace talus
     check_lattice(unsigned int level) const;
     void
     fit_axis(unsigned int d, bool may_move, unsigned int factor);
+    void
+    check_memory(double n_cells, bool grow) const;
     unsigned int
     level_of_trees(const std::array<bool, 2 * dim> &may_move, bool grow) const;
 

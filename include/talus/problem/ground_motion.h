@@ -24,10 +24,10 @@ namespace talus
     explicit GroundMotion(const std::filesystem::path &folder);
 
     /// To be called after parsing; reads the table. Throws ExcUser if it cannot
-    /// be used, or if the ground would jump into motion in the middle of the
-    /// run.
+    /// be used, if the ground would jump into motion in the middle of the run, or
+    /// would move only after its end, s.
     void
-    prepare();
+    prepare(double end_time);
 
     /// Acceleration of the ground at time @p t, s, in m/s^2 along the axes of a
     /// mesh whose x axis points down a slope of @p angle (radians): zero before

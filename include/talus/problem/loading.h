@@ -22,11 +22,13 @@ namespace talus
     /// Paths of tables start in @p folder.
     explicit Loading(const std::filesystem::path &folder);
 
-    /// To be called after parsing: gravity of each of @p n_bodies bodies.
+    /// To be called after parsing: gravity of each of @p n_bodies bodies, in a
+    /// run to @p end_time, s. Throws ExcUser.
     void
     prepare(const Materials<dim> &materials,
             unsigned int          n_bodies,
-            const Constants      &constants);
+            const Constants      &constants,
+            double                end_time);
 
     /// Set the accelerations at time @p t, s; to be called before loads() are
     /// used.

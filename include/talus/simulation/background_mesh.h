@@ -4,7 +4,6 @@
 
 #include <talus/adaptivity/load_balance.h>
 #include <talus/adaptivity/mesh_tracking.h>
-#include <talus/adaptivity/splitter.h>
 #include <talus/base/phase_timer.h>
 #include <talus/checkpoint/checkpoint_content.h>
 #include <talus/problem/problem.h>
@@ -49,10 +48,9 @@ namespace talus
     void
     repartition();
 
-    /// Change mesh and partition if it is time to. Throws ExcPoint if there are
-    /// more points than @p splitter may make. Collective.
+    /// Change mesh and partition if it is time to. Collective.
     void
-    adapt(const Splitter<dim> &splitter);
+    adapt();
 
     /// Sort the points after a step that noted in the workspace which of them
     /// may have left their cell.

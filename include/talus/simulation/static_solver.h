@@ -2,7 +2,6 @@
 #ifndef talus_simulation_static_solver_h
 #define talus_simulation_static_solver_h
 
-#include <talus/adaptivity/splitter.h>
 #include <talus/equilibrium/equilibrium.h>
 #include <talus/equilibrium/static_problem.h>
 #include <talus/io/log.h>
@@ -27,7 +26,6 @@ namespace talus
                  Problem<dim>        &problem,
                  const Transfer<dim> &transfer,
                  BackgroundMesh<dim> &mesh,
-                 const Splitter<dim> &splitter,
                  Log                 &log);
 
     /// Start newton.csv, or go on with it.
@@ -111,7 +109,6 @@ namespace talus
     Problem<dim>        &problem_;
     const Transfer<dim> &transfer_;
     BackgroundMesh<dim> &mesh_;
-    const Splitter<dim> &splitter_;
     Log                 &log_;
     Equilibrium<dim>     equilibrium_;
     NewtonTable          table_;

@@ -21,7 +21,6 @@ namespace talus
                  Problem<dim>        &problem,
                  const Transfer<dim> &transfer,
                  BackgroundMesh<dim> &mesh,
-                 const Splitter<dim> &splitter,
                  const Output<dim>   &output,
                  Log                 &log);
 

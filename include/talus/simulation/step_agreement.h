@@ -21,6 +21,7 @@ namespace talus
   {
     double     time_step; ///< s; the least of all ranks is taken
     RunRequest request;   ///< the greatest of all ranks is fulfilled
+    double     n_points;  ///< those of all ranks are added up
   };
 
 

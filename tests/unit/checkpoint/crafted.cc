@@ -42,7 +42,9 @@ namespace
       H5Aclose);
     ASSERT_TRUE(attribute.is_valid());
     if (values != nullptr)
-      ASSERT_GE(H5Awrite(attribute, type, values), 0);
+      {
+        ASSERT_GE(H5Awrite(attribute, type, values), 0);
+      }
   }
 
 
@@ -89,8 +91,10 @@ namespace
       H5Dclose);
     ASSERT_TRUE(array.is_valid()) << name;
     if (values != nullptr)
-      ASSERT_GE(H5Dwrite(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
-                0);
+      {
+        ASSERT_GE(H5Dwrite(array, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values),
+                  0);
+      }
     replace_attribute(file, name, "checksum", checksum_);
   }
 

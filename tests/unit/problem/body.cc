@@ -195,6 +195,8 @@ namespace
       "4 m");
     expect(error<2>({box("0.1, 0.1", "0.2, 0.2")}), "got no points");
     expect(error<2>({box("2, 0", "1, 1")}), "must lie above");
+    expect(error<3>({polygon("0,0; 1,0; 1,1; 0,1") + "set Extent in z = 3, 1"}),
+           "'Bodies/0/Extent in z' = '3, 1' ends before it begins");
     expect(error<3>({box("0, 0, 0", "1, 1, 1") +
                      "set Points per cell and axis = 2, 3"}),
            "lists 2 numbers; give one, or one for each of the 3 axes");
@@ -288,11 +290,35 @@ namespace
             EXPECT_NEAR(all.get(points.reference_length, p)[1], 0.55, 2e-3);
           }
       }
-    // A sliver far from everything stays.
+    // Soil that is thin everywhere stays as it is.
     WithBodies<2> thin({box("0, 0", "4, 0.05") + clipped});
     thin.create();
     EXPECT_EQ(thin.points.size(), 8u);
     EXPECT_NEAR(thin.sum(thin.points.reference_volume), 0.2, 1e-4);
+  }
+
+
+
+  // A wedge of 1 in 20, whose thickness is below a fifth of a box over the first
+  // two cells: the tip has no kept box around, but must not be a point of its
+  // own that is hundreds of times lighter than the next one.
+  TEST(ClippedBodies, ThinEdgesEndInPointsOfSomeWeight)
+  {
+    WithBodies<2> wedge({polygon("0.45,0; 4,0; 4,0.1775") + clipped});
+    wedge.create();
+    const auto &points = wedge.points;
+    EXPECT_NEAR(wedge.sum(points.reference_volume), 0.5 * 3.55 * 0.1775, 1e-3);
+    for (unsigned int p = 0; p < points.size(); ++p)
+      for (unsigned int q = 0; q < points.size(); ++q)
+        {
+          const auto distance =
+            wedge.get(points.position, p) - wedge.get(points.position, q);
+          if (distance.norm() < 0.75)
+            {
+              EXPECT_GT(points.data(points.reference_volume)[p],
+                        0.15 * points.data(points.reference_volume)[q]);
+            }
+        }
   }
 
 

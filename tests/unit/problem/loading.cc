@@ -56,7 +56,7 @@ namespace
     void
     prepare()
     {
-      loading.prepare(materials, 2, Constants());
+      loading.prepare(materials, 2, Constants(), 100.);
     }
 
     /// Of body @p b at time @p t.

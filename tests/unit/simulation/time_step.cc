@@ -168,7 +168,7 @@ namespace
     soil.points.data(soil.points.velocity)[p] =
       std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(contains(message_of<ExcPoint>([&] { soil.step(); }),
-                         "velocity or wave speed are not finite at point 0"));
+                         "stretch are not finite and positive at point 0"));
   }
 
 

@@ -8,7 +8,7 @@ import re
 ROUTINE = [re.compile(pattern) for pattern in (
     r"The mesh fills .* points\.$", r"t = .*the time step is ", r"t = .*largest share of points",
     r"t = .*(mesh changed|shared out)", r"Wall time by phase", r"Peak memory of a rank", r"\s",
-    r"Stage '.*':$", r"\d+ steps to t = ", r"$")]
+    r"Stage '.*':$", r"\d+ steps to t = ", r"A report of this run: ", r"$")]
 SAFETY = re.compile(r"The factor of safety is ")
 RESULTS = [SAFETY, re.compile(r"Equilibrium was found ")]
 
