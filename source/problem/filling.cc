@@ -18,6 +18,11 @@ namespace talus
     /// is less than this of a box is no point of its own.
     constexpr double least_fraction = 0.2;
 
+    /// What is less than this of a box is not soil but round-off, far below the
+    /// error of the parts: where a layer ends its two surfaces go on as one, and
+    /// what lies between them there would be points of some grams.
+    constexpr double round_off_fraction = 1e-5;
+
 
 
     /// Most cells of the mesh are far from the body, and are passed over at
@@ -187,12 +192,17 @@ namespace talus
                                      const Region<dim> &region) const
     {
       const Tensor<1, dim> length = lattice_lengths<dim>(cell, n_);
-      Parts                parts;
-      bool                 is_empty = true;
+      double               whole  = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        whole *= length[d];
+      Parts parts;
+      bool  is_empty = true;
       for (const Point<dim> &centre : lattice_of<dim>(cell, n_))
         {
           const Box<dim> box{centre - 0.5 * length, centre + 0.5 * length};
           parts.push_back(region.part_inside(box));
+          if (parts.back().volume < round_off_fraction * whole)
+            parts.back().volume = 0.;
           is_empty = is_empty && parts.back().volume == 0.;
         }
       return is_empty ? Parts() : parts;
