@@ -111,22 +111,46 @@ namespace
 
   // -------------------------------------------------------------- is it urgent
 
-  /// Numbers over all ranks of the corners of the cells larger than h.
+  /// Numbers over all ranks of the corners of the cells larger than h, and of
+  /// those that touch one.
   template <int dim>
   std::set<unsigned long>
   nodes_of_larger_cells(const Grid<dim> &grid)
   {
-    std::set<unsigned long> own, all;
+    std::vector<Box<dim>> larger;
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
       if (grid.cells()[c].size > 1.5 * grid.cell_size())
-        for (unsigned int k = 0; k < power(4, dim); ++k)
+        larger.push_back(grid.cells()[c].box());
+    std::vector<std::array<double, 2 * dim>> own_ends;
+    for (const Box<dim> &box : larger)
+      {
+        std::array<double, 2 * dim> ends;
+        for (unsigned int d = 0; d < dim; ++d)
           {
-            bool is_corner = true;
-            for (unsigned int d = 0, rest = k; d < dim; ++d, rest /= 4)
-              is_corner = is_corner && (rest % 4 == 1 || rest % 4 == 2);
-            if (is_corner)
-              own.insert(number_of_node(grid, grid.cells()[c].patch[k]));
+            ends[d]       = box.lower[d];
+            ends[dim + d] = box.upper[d];
           }
+        own_ends.push_back(ends);
+      }
+    const auto all_ends       = MPI::all_gather(grid.communicator(), own_ends);
+    const auto touches_larger = [&](const Cell<dim> &cell) {
+      for (const auto &of_rank : all_ends)
+        for (const auto &ends : of_rank)
+          {
+            bool touches = true;
+            for (unsigned int d = 0; d < dim; ++d)
+              touches = touches && ends[d] < cell.box().upper[d] + 1e-6 &&
+                        ends[dim + d] > cell.lower[d] - 1e-6;
+            if (touches)
+              return true;
+          }
+      return false;
+    };
+    std::set<unsigned long> own, all;
+    for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+      if (touches_larger(grid.cells()[c])) // or is one
+        for (const unsigned int node : grid.cells()[c].nodes())
+          own.insert(number_of_node(grid, node));
     for (const auto &part : MPI::all_gather(grid.communicator(), own))
       all.insert(part.begin(), part.end());
     return all;
@@ -187,7 +211,10 @@ namespace
         bool expected = false;
         for (const unsigned long node : nodes_in_reach(grid, c, masters))
           expected = expected || larger.count(node) > 0;
-        EXPECT_EQ(core.tracking.is_urgent(grid, {c}), expected)
+        // In a cell beside smaller ones it may be urgent a cell too early.
+        const bool is_urgent = core.tracking.is_urgent(grid, {c});
+        EXPECT_TRUE(grid.cells()[c].uniform ? is_urgent == expected
+                                            : is_urgent || !expected)
           << grid.cells()[c].lower << ", " << grid.cells()[c].size;
         ++(expected ? n_urgent : n_calm);
       }
