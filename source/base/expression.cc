@@ -164,6 +164,46 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// What muParser would take for something else than the user meant.
+    void
+    check_form(const std::string &name,
+               const std::string &expressions,
+               const unsigned int n_components)
+    {
+      const auto parts = Utilities::split_string_list(expressions, ';');
+      AssertThrow(parts.size() == n_components,
+                  ExcUser(text(name,
+                               " = '",
+                               expressions,
+                               "' has ",
+                               parts.size(),
+                               " components, but ",
+                               n_components,
+                               " are needed, separated by semicolons.")));
+      AssertThrow(!has_assignment(expressions),
+                  ExcUser(
+                    text(name,
+                         " = '",
+                         expressions,
+                         "' gives a variable a value by =, where a formula "
+                         "was expected; compare by == and define names in "
+                         "'Constants'.")));
+      AssertThrow(!has_loose_comma(expressions),
+                  ExcUser(
+                    text(name,
+                         " = '",
+                         expressions,
+                         "' has a comma outside of a function's arguments, "
+                         "where one formula for each component was "
+                         "expected. Separate components by semicolons and "
+                         "write decimals with a point.")));
+    }
+  } // namespace
+
+
+
   /// Parsed, and with that checked, here and not when the first value is
   /// needed, which may be hours later, and then in the middle of a step.
   template <int dim>
@@ -177,31 +217,7 @@ namespace talus
     , variables_(variables)
     , function_(n_components)
   {
-    const auto parts = Utilities::split_string_list(expressions, ';');
-    AssertThrow(parts.size() == n_components,
-                ExcUser(text(name,
-                             " = '",
-                             expressions,
-                             "' has ",
-                             parts.size(),
-                             " components, but ",
-                             n_components,
-                             " are needed, separated by semicolons.")));
-    AssertThrow(!has_assignment(expressions),
-                ExcUser(text(name,
-                             " = '",
-                             expressions,
-                             "' gives a variable a value by =, where a formula "
-                             "was expected; compare by == and define names in "
-                             "'Constants'.")));
-    AssertThrow(!has_loose_comma(expressions),
-                ExcUser(text(name,
-                             " = '",
-                             expressions,
-                             "' has a comma outside of a function's arguments, "
-                             "where one formula for each component was "
-                             "expected. Separate components by semicolons and "
-                             "write decimals with a point.")));
+    check_form(name, expressions, n_components);
     const auto known = constants.values();
     const auto names = Utilities::split_string_list(variables, ',');
     for (const std::string &variable : names)

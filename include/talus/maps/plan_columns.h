@@ -150,12 +150,6 @@ namespace talus
       : axes_(axes)
     {}
 
-    const Axis &
-    axis(const unsigned int a) const
-    {
-      return axes_[a];
-    }
-
     unsigned int
     size() const override;
     double

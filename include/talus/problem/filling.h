@@ -32,11 +32,10 @@ namespace talus
   /// lattice of which at least a fifth lies in the region, at the centroid of
   /// that part. What lies in other boxes is added to the nearest of these
   /// points, in the same cell or one that touches it, with its moments; without
-  /// such a neighbour to the largest point around, if that is more than five times
-  /// as large, so that no point is much lighter than those around it.
-  /// For the owned cells; a point
-  /// may come to lie in a cell of somebody else. Does not depend on the ranks.
-  /// Collective.
+  /// such a neighbour to the largest point around, if that is more than five
+  /// times as large, so that no point is much lighter than those around it. For
+  /// the owned cells; a point may come to lie in a cell of somebody else. Does
+  /// not depend on the ranks. Collective.
   template <int dim>
   std::vector<NewPoint<dim>>
   clipped_filling(const Grid<dim>                     &grid,

@@ -304,10 +304,10 @@ namespace
   // own that is hundreds of times lighter than the next one.
   TEST(ClippedBodies, ThinEdgesEndInPointsOfSomeWeight)
   {
-    WithBodies<2> wedge({polygon("0.45,0; 4,0; 4,0.1775") + clipped});
+    WithBodies<2> wedge({polygon("0.3,0; 4,0; 4,0.185") + clipped});
     wedge.create();
     const auto &points = wedge.points;
-    EXPECT_NEAR(wedge.sum(points.reference_volume), 0.5 * 3.55 * 0.1775, 1e-3);
+    EXPECT_NEAR(wedge.sum(points.reference_volume), 0.5 * 3.7 * 0.185, 1e-3);
     for (unsigned int p = 0; p < points.size(); ++p)
       for (unsigned int q = 0; q < points.size(); ++q)
         {
