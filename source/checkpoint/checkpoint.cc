@@ -210,9 +210,7 @@ namespace talus
     head.version   = TALUS_VERSION;
     head.revision  = TALUS_GIT_REVISION;
 
-    Hdf5File file(folder / state_file_name,
-                  Hdf5File::Access::create,
-                  communicator_);
+    Hdf5OutputFile file(folder / state_file_name, communicator_);
     save_head(file, head);
     save_points(file, content.points, content.cell_weights);
     save_state(file, content.state);

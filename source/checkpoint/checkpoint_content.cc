@@ -65,7 +65,7 @@ namespace talus
     /// version wrote is noticed. Collective.
     template <int dim>
     void
-    load_column(Hdf5File           &file,
+    load_column(Hdf5InputFile      &file,
                 const Column       &column,
                 const std::uint64_t first,
                 Points<dim>        &points)
@@ -90,7 +90,7 @@ namespace talus
 
   /// Attributes of the file: h5dump shows them without reading any array.
   void
-  save_head(Hdf5File &file, const CheckpointHead &head)
+  save_head(Hdf5OutputFile &file, const CheckpointHead &head)
   {
     file.set_attribute("/", "format version", head.format);
     file.set_attribute("/", "dimension", head.dimension);
@@ -107,7 +107,7 @@ namespace talus
   /// The format comes first: of another format the other entries may not be
   /// there.
   CheckpointHead
-  load_head(Hdf5File &file)
+  load_head(Hdf5InputFile &file)
   {
     CheckpointHead head;
     head.format = file.integer_attribute("/", "format version");
@@ -132,7 +132,7 @@ namespace talus
   /// Collective.
   template <int dim>
   void
-  save_points(Hdf5File                  &file,
+  save_points(Hdf5OutputFile            &file,
               const Points<dim>         &points,
               const std::vector<double> &cell_weights)
   {
@@ -164,7 +164,7 @@ namespace talus
   /// The partition is state: it decides in which order the sums of ranks are
   /// taken.
   std::vector<double>
-  load_cell_weights(Hdf5File &file, const unsigned int n_cells)
+  load_cell_weights(Hdf5InputFile &file, const unsigned int n_cells)
   {
     return file.read("cells/weight",
                      file.first_and_total(n_cells).first,
@@ -179,7 +179,9 @@ namespace talus
   /// lost or made up, so both are errors. Collective.
   template <int dim>
   std::vector<unsigned int>
-  load_points(Hdf5File &file, const unsigned int n_cells, Points<dim> &points)
+  load_points(Hdf5InputFile     &file,
+              const unsigned int n_cells,
+              Points<dim>       &points)
   {
     const std::vector<double> points_of_cell =
       file.read("cells/points", file.first_and_total(n_cells).first, n_cells);
@@ -212,7 +214,7 @@ namespace talus
   /// Each rank's share by itself, not the sum: on the same number of ranks
   /// every rank gets its own back, and with it the same round-off. Collective.
   void
-  save_state(Hdf5File &file, const StateList &list)
+  save_state(Hdf5OutputFile &file, const StateList &list)
   {
     std::vector<double> own;
     for (const StateList::Number &number : list.numbers())
@@ -252,7 +254,7 @@ namespace talus
   /// restored_share(): sums and maxima of the whole run stay what they were.
   /// Collective.
   void
-  load_state(Hdf5File &file, const StateList &list)
+  load_state(Hdf5InputFile &file, const StateList &list)
   {
     const MPI_Comm      communicator = file.communicator();
     const unsigned int  n_ranks = Utilities::MPI::n_mpi_processes(communicator);
@@ -310,7 +312,7 @@ namespace talus
 
 
   void
-  check_read(const Hdf5File &file)
+  check_read(const Hdf5InputFile &file)
   {
     AssertThrow(file.error().empty(),
                 ExcUser("The checkpoint file '" + file.path().string() +
@@ -323,11 +325,11 @@ namespace talus
 
 
   template void
-  save_points(Hdf5File &, const Points<2> &, const std::vector<double> &);
+  save_points(Hdf5OutputFile &, const Points<2> &, const std::vector<double> &);
   template void
-  save_points(Hdf5File &, const Points<3> &, const std::vector<double> &);
+  save_points(Hdf5OutputFile &, const Points<3> &, const std::vector<double> &);
   template std::vector<unsigned int>
-  load_points(Hdf5File &, unsigned int, Points<2> &);
+  load_points(Hdf5InputFile &, unsigned int, Points<2> &);
   template std::vector<unsigned int>
-  load_points(Hdf5File &, unsigned int, Points<3> &);
+  load_points(Hdf5InputFile &, unsigned int, Points<3> &);
 } // namespace talus

@@ -213,9 +213,7 @@ namespace talus
     FoundCheckpoint found;
     for (const fs::path &path : list_for_all_ranks(output_folder, communicator))
       {
-        Hdf5File file(path / state_file_name,
-                      Hdf5File::Access::read,
-                      communicator);
+        Hdf5InputFile file(path / state_file_name, communicator);
         found.head = load_head(file);
         if (file.error().empty())
           check_kind(path, found.head, dimension);
@@ -255,9 +253,7 @@ namespace talus
     const auto all = list_for_all_ranks(output_folder, communicator);
     if (all.empty())
       return;
-    Hdf5File             file(all[0] / state_file_name,
-                  Hdf5File::Access::read,
-                  communicator);
+    Hdf5InputFile        file(all[0] / state_file_name, communicator);
     const CheckpointHead head = load_head(file);
     const bool           is_readable =
       file.error().empty() && head.format == checkpoint_format;

@@ -17,7 +17,7 @@ namespace talus
     /// Every value that would be loaded against its checksum: costs one reading
     /// of the file.
     void
-    verify_all(Hdf5File &file)
+    verify_all(Hdf5InputFile &file)
     {
       std::vector<std::string> groups = {"cells", "points", "state", "text"};
       // Runs without obstacles have none.
@@ -56,7 +56,7 @@ namespace talus
     /// Numbers of points per cell are whole, weights are positive or 0. Returns
     /// the sum of the rows that this rank looks at, or NaN.
     double
-    sum_of_counts(Hdf5File &file, const std::uint64_t n_cells)
+    sum_of_counts(Hdf5InputFile &file, const std::uint64_t n_cells)
     {
       const unsigned int n =
         Utilities::MPI::n_mpi_processes(file.communicator());
@@ -85,7 +85,7 @@ namespace talus
     /// alike, those of the points as the cells have points, and a share of each
     /// rank in the numbers.
     std::string
-    fault_of_extents(Hdf5File &file, const std::uint64_t n_ranks)
+    fault_of_extents(Hdf5InputFile &file, const std::uint64_t n_ranks)
     {
       const std::uint64_t n_cells = file.shape("cells/points").first;
       const double        own_sum = sum_of_counts(file, n_cells);
@@ -119,7 +119,7 @@ namespace talus
   /// All is looked at before anything is used: a damaged checkpoint is then left
   /// for the one before it. The mesh files are looked at by the first rank only.
   std::string
-  find_damage(Hdf5File &file, const CheckpointHead &head)
+  find_damage(Hdf5InputFile &file, const CheckpointHead &head)
   {
     const std::filesystem::path checkpoint = file.path().parent_path();
     verify_all(file);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
-#include <talus/io/hdf5_file.h>
+#include <talus/io/hdf5_output_file.h>
 #include <talus/io/hdf5_writer.h>
 
 #include <algorithm>
@@ -36,7 +36,6 @@ namespace talus
       FileWithDescription(const std::filesystem::path &path,
                           const MPI_Comm               communicator)
         : file(path,
-               Hdf5File::Access::create,
                communicator,
                {/*has_checksums=*/false,
                 /*is_compressed=*/true,
@@ -126,8 +125,8 @@ namespace talus
                             "        </Attribute>\n");
       }
 
-      Hdf5File    file;
-      std::string description;
+      Hdf5OutputFile file;
+      std::string    description;
     };
   } // namespace
 
@@ -144,7 +143,7 @@ namespace talus
                     std::vector<std::filesystem::path> &) const
   {
     FileWithDescription writer(folder / (base + ".h5"), communicator);
-    Hdf5File           &file = writer.file;
+    Hdf5OutputFile     &file = writer.file;
     file.set_attribute("/", "time [s]", cells.time);
     file.set_attribute("/", "step", static_cast<double>(cells.step));
     writer.write_mesh(cells);

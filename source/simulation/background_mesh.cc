@@ -89,7 +89,7 @@ namespace talus
   template <int dim>
   void
   BackgroundMesh<dim>::load(const std::string    &mesh,
-                            Hdf5File             &file,
+                            Hdf5InputFile        &file,
                             const CheckpointHead &head)
   {
     Grid<dim>         &grid = state_.grid;
@@ -116,7 +116,7 @@ namespace talus
   /// and then those of what it got are the state that load_balance_ keeps.
   template <int dim>
   void
-  BackgroundMesh<dim>::restore_partition(Hdf5File &file)
+  BackgroundMesh<dim>::restore_partition(Hdf5InputFile &file)
   {
     const auto weights = [&]() {
       const auto result =

@@ -176,9 +176,7 @@ namespace talus
     prepare();
     const MPI_Comm communicator = state_.communicator();
     resumed_from_ = find_checkpoint(output_.folder(), dim, communicator);
-    Hdf5File          file(resumed_from_.path / state_file_name,
-                  Hdf5File::Access::read,
-                  communicator);
+    Hdf5InputFile     file(resumed_from_.path / state_file_name, communicator);
     const std::string parameters = file.read_text("parameters");
     check_read(file);
     check_parameter_changes(parameters, parameters_as_text(this->prm));

@@ -3,7 +3,8 @@
 #define talus_checkpoint_checkpoint_content_h
 
 #include <talus/base/state.h>
-#include <talus/io/hdf5_file.h>
+#include <talus/io/hdf5_input_file.h>
+#include <talus/io/hdf5_output_file.h>
 #include <talus/points/points.h>
 
 #include <filesystem>
@@ -36,11 +37,11 @@ namespace talus
   };
 
   void
-  save_head(Hdf5File &file, const CheckpointHead &head);
+  save_head(Hdf5OutputFile &file, const CheckpointHead &head);
 
   /// Where the file has another format only that is right.
   CheckpointHead
-  load_head(Hdf5File &file);
+  load_head(Hdf5InputFile &file);
 
 
 
@@ -49,30 +50,30 @@ namespace talus
   /// of the cells, those of the first rank first.
   template <int dim>
   void
-  save_points(Hdf5File                  &file,
+  save_points(Hdf5OutputFile            &file,
               const Points<dim>         &points,
               const std::vector<double> &cell_weights);
 
   /// Load the weights of the @p n_cells cells this rank owns now.
   std::vector<double>
-  load_cell_weights(Hdf5File &file, unsigned int n_cells);
+  load_cell_weights(Hdf5InputFile &file, unsigned int n_cells);
 
   /// Load the points of the @p n_cells cells this rank owns now, in the order
   /// they had, which is part of the state. Returns the cell of each; @p points
   /// must be empty and have its columns. Throws ExcUser if the file has others.
   template <int dim>
   std::vector<unsigned int>
-  load_points(Hdf5File &file, unsigned int n_cells, Points<dim> &points);
+  load_points(Hdf5InputFile &file, unsigned int n_cells, Points<dim> &points);
 
 
 
   /// Save every rank's share of the numbers, and the texts.
   void
-  save_state(Hdf5File &file, const StateList &list);
+  save_state(Hdf5OutputFile &file, const StateList &list);
 
   /// Set what save_state() saved. Throws ExcUser if something is missing.
   void
-  load_state(Hdf5File &file, const StateList &list);
+  load_state(Hdf5InputFile &file, const StateList &list);
 
 
 
@@ -83,7 +84,7 @@ namespace talus
 
   /// Throw ExcUser if the file could not be read.
   void
-  check_read(const Hdf5File &file);
+  check_read(const Hdf5InputFile &file);
 } // namespace talus
 
 #endif

@@ -10,7 +10,7 @@ namespace talus
   /// checksums, its extents, or numbers that no run can have had; empty if
   /// nothing is. Collective.
   std::string
-  find_damage(Hdf5File &file, const CheckpointHead &head);
+  find_damage(Hdf5InputFile &file, const CheckpointHead &head);
 } // namespace talus
 
 #endif

@@ -38,7 +38,9 @@ namespace talus
     /// Make the mesh of a checkpoint, with its partition on as many ranks as
     /// then, and load its points.
     void
-    load(const std::string &mesh, Hdf5File &file, const CheckpointHead &head);
+    load(const std::string    &mesh,
+         Hdf5InputFile        &file,
+         const CheckpointHead &head);
 
     /// Sort in points that were just made, anywhere.
     void
@@ -81,7 +83,7 @@ namespace talus
     void
     prepare();
     void
-    restore_partition(Hdf5File &file);
+    restore_partition(Hdf5InputFile &file);
     void
     activate_nodes();
 

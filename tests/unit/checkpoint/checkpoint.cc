@@ -129,8 +129,8 @@ namespace
     EXPECT_EQ(found.head.end_time, 1.);
     EXPECT_EQ(found.head.dimension, 2u);
 
-    Hdf5File  file(path / "state.h5", Hdf5File::Access::read, MPI_COMM_WORLD);
-    Points<2> points;
+    Hdf5InputFile file(path / "state.h5", MPI_COMM_WORLD);
+    Points<2>     points;
     points.add_column("plastic strain", "-", 1, Inheritance::copied);
     const std::vector<unsigned int> cells =
       load_points(file, scene.grid.n_owned_cells(), points);
@@ -233,9 +233,7 @@ namespace
     EXPECT_NE(sentence_thrown_by([&]() { find(3); }).find("Dimension = 2"),
               std::string::npos);
     {
-      Hdf5File file(path / "state.h5",
-                    Hdf5File::Access::create,
-                    MPI_COMM_WORLD);
+      Hdf5OutputFile file(path / "state.h5", MPI_COMM_WORLD);
       file.set_attribute("/", "format version", checkpoint_format + 1);
       file.close();
     }

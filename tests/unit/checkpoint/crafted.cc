@@ -394,9 +394,7 @@ namespace
         if (found.path == previous)
           continue;
         EXPECT_EQ(found.head.step, 4u);
-        Hdf5File file(newest / "state.h5",
-                      Hdf5File::Access::read,
-                      MPI_COMM_WORLD);
+        Hdf5InputFile file(newest / "state.h5", MPI_COMM_WORLD);
         answer = 0.;
         load_state(file, state);
         EXPECT_EQ(answer, 42.);

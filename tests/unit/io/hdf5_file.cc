@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/checkpoint/checkpoint_content.h>
 #include <talus/io/checksum.h>
-#include <talus/io/hdf5_file.h>
+#include <talus/io/hdf5_input_file.h>
+#include <talus/io/hdf5_output_file.h>
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,6 @@ namespace
   using namespace talus;
   namespace fs = std::filesystem;
   using dealii::Utilities::MPI::this_mpi_process;
-  using Access = Hdf5File::Access;
 
   // Passes on any number of ranks; the second one has no rows.
   class Hdf5FileTest : public ObserversTest
@@ -45,7 +45,7 @@ namespace
     void
     write_file()
     {
-      Hdf5File file(path, Access::create, communicator);
+      Hdf5OutputFile file(path, communicator);
       file.create_group("a group");
       file.write("a group/some rows", own_rows(), 3);
       file.write("nothing", std::vector<double>(), 2);
@@ -61,7 +61,7 @@ namespace
     std::string
     damage_of(const std::string &name)
     {
-      Hdf5File file(path, Access::read, communicator);
+      Hdf5InputFile file(path, communicator);
       file.verify(name);
       return file.error();
     }
@@ -76,7 +76,7 @@ namespace
   TEST_F(Hdf5FileTest, GivesBackWhatItGotBitByBit)
   {
     write_file();
-    Hdf5File file(path, Access::read, communicator);
+    Hdf5InputFile file(path, communicator);
     EXPECT_EQ(
       file.names("/"),
       (std::vector<std::string>{"a group", "empty text", "nothing", "text"}));
@@ -113,7 +113,7 @@ namespace
   TEST_F(Hdf5FileTest, RemembersItsFirstFailure)
   {
     write_file();
-    Hdf5File file(path, Access::read, communicator);
+    Hdf5InputFile file(path, communicator);
     EXPECT_TRUE(file.read("missing", 0, 1).empty());
     const std::string error = file.error();
     EXPECT_NE(error.find("it has no array 'missing'"), std::string::npos);
@@ -121,9 +121,9 @@ namespace
     EXPECT_EQ(file.read_text("text"), "");
     EXPECT_EQ(file.error(), error);
 
-    Hdf5File other(path.parent_path() / "none.h5", Access::read, communicator);
+    Hdf5InputFile other(path.parent_path() / "none.h5", communicator);
     EXPECT_NE(other.error().find("could not be opened"), std::string::npos);
-    Hdf5File unwritable(path / "below", Access::create, communicator);
+    Hdf5OutputFile unwritable(path / "below", communicator);
     unwritable.write("x", std::vector<double>{1.}, 1);
     unwritable.close();
     EXPECT_EQ(unwritable.error(), "Not a directory");
@@ -174,7 +174,7 @@ namespace
       dealii::Utilities::MPI::n_mpi_processes(communicator);
     const Share saved(n_cells * rank / n_ranks, n_cells * (rank + 1) / n_ranks);
     {
-      Hdf5File file(path, Access::create, communicator);
+      Hdf5OutputFile file(path, communicator);
       save_points(file, saved.points, saved.weights);
       file.close();
       EXPECT_EQ(file.error(), "");
@@ -185,9 +185,9 @@ namespace
         const auto cut = [&](const unsigned int r) -> unsigned int {
           return n_cells * std::pow(r / n_ranks, power);
         };
-        const Share expected(cut(rank), cut(rank + 1));
-        Hdf5File    file(path, Access::read, communicator);
-        Points<2>   points;
+        const Share   expected(cut(rank), cut(rank + 1));
+        Hdf5InputFile file(path, communicator);
+        Points<2>     points;
         EXPECT_EQ(load_cell_weights(file, expected.weights.size()),
                   expected.weights);
         const std::vector<unsigned int> cells =

@@ -2,7 +2,7 @@
 // Compressed tables in a file that has its name only when it is complete. The
 // suite works on any number of ranks; ctest runs it on 1 and on 3.
 #include <talus/base/errors.h>
-#include <talus/io/hdf5_file.h>
+#include <talus/io/hdf5_output_file.h>
 #include <talus/observers/points_output.h>
 
 #include <deal.II/base/utilities.h>
@@ -26,16 +26,15 @@ namespace
   namespace MPI = dealii::Utilities::MPI;
 
   /// A file as output writes it.
-  class Table : public Hdf5File
+  class Table : public Hdf5OutputFile
   {
   public:
     explicit Table(const fs::path &path)
-      : Hdf5File(path,
-                 Access::create,
-                 MPI_COMM_WORLD,
-                 {/*has_checksums=*/false,
-                  /*is_compressed=*/true,
-                  /*is_atomic=*/true})
+      : Hdf5OutputFile(path,
+                       MPI_COMM_WORLD,
+                       {/*has_checksums=*/false,
+                        /*is_compressed=*/true,
+                        /*is_atomic=*/true})
     {}
   };
 
