@@ -161,7 +161,7 @@ namespace talus
   {
     newton_.begin(problem,
                   parameters_of_step(!problem.contact.obstacles().empty()));
-    imbalance_ = newton_.imbalance();
+    imbalance_ = newton_.equations().imbalance();
     if (load_ >= 1. && imbalance_ <= limits_.allowed_imbalance)
       {
         is_found_ = true;
@@ -171,7 +171,7 @@ namespace talus
     // soil flows.
     if (!is_settling())
       {
-        const auto [largest, place] = newton_.largest_imbalance();
+        const auto [largest, place] = newton_.equations().largest_imbalance();
         failure_                    = text("After ",
                         n_settling_,
                         " steps without further load the force out of balance "

@@ -29,8 +29,8 @@ namespace talus
   {
     const double h = state.grid.cell_size();
     folder_        = settings.folder;
-    sums_.emplace(make_columns(state));
-    envelope_.emplace(
+    sums_          = std::make_unique<ColumnSums<dim>>(make_columns(state));
+    envelope_      = std::make_unique<Envelope<dim>>(
       sums_->columns().size(),
       typename Envelope<dim>::Settings{settings_->smallest_thickness(h),
                                        settings_->arrival_thresholds(h),

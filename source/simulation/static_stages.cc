@@ -114,7 +114,8 @@ namespace talus
           throw_no_equilibrium(solver_.no_equilibrium());
         find_equilibrium_with_more_strength(before);
       }
-    const auto [largest, place] = equilibrium().newton().largest_imbalance();
+    const auto [largest, place] =
+      equilibrium().newton().equations().largest_imbalance();
     log_.say(LogLevel::result,
              text("Equilibrium was found in ",
                   equilibrium().n_steps(),

@@ -188,7 +188,7 @@ namespace
     void
     make_full(dealii::TrilinosWrappers::SparseMatrix &matrix) const
     {
-      // Trilinos' own pattern, as in Newton<dim>::make_pattern().
+      // Trilinos' own pattern, as in StaticEquations<dim>::make_pattern().
       const unsigned int                        n = unknowns.n_global();
       dealii::TrilinosWrappers::SparsityPattern pattern(
         unknowns.owned(),

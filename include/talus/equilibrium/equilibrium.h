@@ -113,7 +113,7 @@ namespace talus
     const StaticContact<dim> &
     contact() const
     {
-      return newton_.contact();
+      return newton_.equations().contact();
     }
 
     /// Go back to soil that stood so on the seabed.

@@ -8,7 +8,6 @@
 #include <talus/problem/problem.h>
 
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -92,8 +91,8 @@ namespace talus
     Problem<dim>                      &problem_;
     std::shared_ptr<MapSettings>       settings_;
     std::filesystem::path              folder_;
-    std::optional<ColumnSums<dim>>     sums_;
-    std::optional<Envelope<dim>>       envelope_;
+    std::unique_ptr<ColumnSums<dim>>   sums_;
+    std::unique_ptr<Envelope<dim>>     envelope_;
     std::vector<double>                restored_; ///< rows of a checkpoint
     unsigned long                      last_sample_ = 0; ///< step
     std::vector<std::filesystem::path> written_;         ///< not synced

@@ -60,7 +60,7 @@ namespace talus
   };
 
   template <>
-  constexpr unsigned int n_registers_at_once<HerschelBulkleyFlow> = 4;
+  inline constexpr unsigned int n_registers_at_once<HerschelBulkleyFlow> = 4;
 
 
 
