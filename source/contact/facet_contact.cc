@@ -359,9 +359,13 @@ namespace talus
                                     const double             normal_impulse,
                                     const double             dt) const
   {
-    return std::min(obstacles_.friction_factor() *
-                      obstacles_[facet.obstacle].friction_coefficient() *
-                      normal_impulse,
+    const double friction = obstacles_.friction_factor() *
+                            obstacles_[facet.obstacle].friction_coefficient() *
+                            normal_impulse;
+    // Whatever share of it a trigger leaves.
+    if (std::isinf(facet.maximum_shear_stress))
+      return friction;
+    return std::min(friction,
                     obstacles_.shear_stress_factor() *
                       facet.maximum_shear_stress * constraint.area * dt);
   }

@@ -26,7 +26,7 @@ namespace talus
                   maximum_shear_stress_text_,
                   "Largest shear stress that the surface passes to the soil "
                   "[Pa]: a number, or an expression in x, y, (z,) t of the "
-                  "place at the start, with t = 0.");
+                  "place at the start, with t = 0. Empty: any.");
     add_parameter("Velocity",
                   velocity_text_,
                   "Expressions in x, y, (z,) t for the components of the "
@@ -76,9 +76,11 @@ namespace talus
         everywhere.upper[d] = std::numeric_limits<double>::infinity();
         everywhere.lower[d] = -everywhere.upper[d];
       }
-    shape_                = shape_parameters_.make(everywhere);
-    maximum_shear_stress_ = std::make_unique<Expression<dim>>(
-      path("Maximum shear stress"), maximum_shear_stress_text_, 1, constants);
+    shape_ = shape_parameters_.make(everywhere);
+    maximum_shear_stress_.reset();
+    if (limits_shear_stress())
+      maximum_shear_stress_ = std::make_unique<Expression<dim>>(
+        path("Maximum shear stress"), maximum_shear_stress_text_, 1, constants);
     velocity_.reset();
     if (!velocity_text_.empty())
       velocity_ = std::make_unique<Expression<dim>>(path("Velocity"),
@@ -125,6 +127,8 @@ namespace talus
   double
   Obstacle<dim>::maximum_shear_stress(const Point<dim> &x) const
   {
+    if (!limits_shear_stress())
+      return std::numeric_limits<double>::infinity();
     const double result =
       maximum_shear_stress_->finite_value(x - displacement_, 0., 0);
     AssertThrow(result >= 0,

@@ -73,6 +73,18 @@ namespace talus
 
   template <int dim>
   bool
+  Obstacles<dim>::limit_shear_stress() const
+  {
+    for (const auto &obstacle : obstacles_)
+      if (obstacle->limits_shear_stress())
+        return true;
+    return false;
+  }
+
+
+
+  template <int dim>
+  bool
   Obstacles<dim>::move() const
   {
     for (const auto &obstacle : obstacles_)

@@ -363,10 +363,11 @@ namespace talus
       return;
     for (unsigned int i = 0; i < std::pow(n, dim - 1); ++i)
       {
-        Point<dim> x = domain.lower;
+        const unsigned int row = i / n;
+        Point<dim>         x   = domain.lower;
         x[0] += (i % n + 0.5) / n * domain.length(0);
         if (dim == 3)
-          x[dim - 1] += (i / n + 0.5) / n * domain.length(dim - 1);
+          x[dim - 1] += (row + 0.5) / n * domain.length(dim - 1);
         x[1] = domain.upper[1] + 1e-9 * domain.length(1);
         AssertThrow(!layer.contains(x),
                     ExcUser(text(path("Upper surface"),

@@ -259,11 +259,11 @@ namespace talus
       {
         for (const unsigned int corner : corners_of_column<dim>(column, n_x))
           {
-            Point<dim> x;
-            x[dim - 1] =
-              axes_[dim - 2].lower + corner / (n_x + 1) * axes_[dim - 2].size;
-            x[0] = axes_[0].lower + corner % (n_x + 1) * axes_[0].size;
-            x[1] = ground_[corner];
+            const unsigned int row = corner / (n_x + 1);
+            Point<dim>         x;
+            x[dim - 1] = axes_[dim - 2].lower + row * axes_[dim - 2].size;
+            x[0]       = axes_[0].lower + corner % (n_x + 1) * axes_[0].size;
+            x[1]       = ground_[corner];
             cells.add_vertex(x);
           }
         cells.items.push_back(column);

@@ -8,7 +8,6 @@
 
 namespace talus
 {
-  using dealii::ParameterAcceptor;
   namespace Patterns = dealii::Patterns;
 
   // Two densities: the pore water moves with the soil and has inertia, but its

@@ -74,7 +74,10 @@ namespace talus
     for (const auto &body : bodies_)
       materials_of_bodies.push_back(body->material());
     materials.assign(names, materials_of_bodies);
-    trigger.check(names, materials, has_seabed(), end_time);
+    trigger.check(names,
+                  materials,
+                  boundaries.has_seabed() || obstacles.limit_shear_stress(),
+                  end_time);
     // The strength factor is a column only if somebody changes strengths.
     materials.add_columns(points,
                           trigger.changes_strength() || changes_strength);

@@ -50,8 +50,9 @@ namespace talus
                   "displacement. Empty: everywhere.");
     add_fraction("Seabed shear stress fraction",
                  seabed_fraction_,
-                 "Fraction of `Boundaries/Seabed/Maximum shear stress` that is "
-                 "left [-]; the friction coefficient stays. 1: all of it.");
+                 "Fraction of `Maximum shear stress` of the seabed and of "
+                 "obstacles that is left [-]; friction coefficients stay. 1: "
+                 "all of it.");
   }
 
 
@@ -62,7 +63,7 @@ namespace talus
   void
   Trigger<dim>::check(const std::vector<std::string> &names_of_bodies,
                       const Materials<dim>           &materials,
-                      const bool                      has_seabed,
+                      const bool                      has_shear_stress_limit,
                       const double                    end_time)
   {
     const bool is_on = changes_strength() || seabed_fraction_ != 1.;
@@ -79,12 +80,14 @@ namespace talus
                              end_time,
                              " s, before anything would happen. Give an "
                              "earlier time or a later 'End time'.")));
-    AssertThrow(seabed_fraction_ == 1. || has_seabed,
-                ExcUser(text("'Trigger/Seabed shear stress fraction' is ",
-                             seabed_fraction_,
-                             ", but no face of the mesh is a seabed, and there "
-                             "are no obstacles. Set one in the section "
-                             "Boundaries or Obstacles, or remove the entry.")));
+    AssertThrow(seabed_fraction_ == 1. || has_shear_stress_limit,
+                ExcUser(
+                  text("'Trigger/Seabed shear stress fraction' is ",
+                       seabed_fraction_,
+                       ", but no face of the mesh is a seabed, and no "
+                       "obstacle has a 'Maximum shear stress'. Set one in "
+                       "the section Boundaries or Obstacles, or remove "
+                       "the entry.")));
     AssertThrow(changes_strength() ||
                   (names_of_bodies_.empty() && region_.empty()),
                 ExcUser("'Trigger/Bodies' or 'Trigger/Region' is given, but "

@@ -108,8 +108,8 @@ namespace talus
       {
         const Number v = load<Number>(points.data(points.velocity, d) + p);
         speed_square += v * v;
-        const Number half = half_widths[d];
-        numerator         = numerator * half + product;
+        const Number &half = half_widths[d];
+        numerator          = numerator * half + product;
         product *= half;
       }
     const auto   mass     = load<Number>(points.data(points.mass) + p);

@@ -41,6 +41,14 @@ class BadInputMotion(Case):
             with self.subTest(settings):
                 self.refuse_trigger(settings, *words)
 
+    def test_trigger_of_obstacles_without_a_limit(self):
+        obstacle = ("\nsubsection Obstacles\n  set Names = bed\n"
+                    "  subsection bed\n    set Shape = half-plane\n"
+                    "    set Normal = 0, 1\n  end\nend\n")
+        self.refuse_trigger(["Seabed shear stress fraction=0.5"],
+                            "no obstacle has a 'Maximum shear stress'",
+                            content=self.CLAY + obstacle)
+
     def test_trigger_of_a_body_without_strength(self):
         weaker = "Strength fraction=0.5"
         self.refuse_trigger([weaker], "/Materials/clay", "no strength",

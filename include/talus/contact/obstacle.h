@@ -74,7 +74,15 @@ namespace talus
     Box<dim>
     bounding_box() const;
 
-    /// Largest shear stress that the surface passes to the soil at @p x, Pa.
+    /// Whether friction has a limit besides the coefficient.
+    bool
+    limits_shear_stress() const
+    {
+      return !maximum_shear_stress_text_.empty();
+    }
+
+    /// Largest shear stress that the surface passes to the soil at @p x, Pa;
+    /// infinite if there is no limit.
     double
     maximum_shear_stress(const dealii::Point<dim> &x) const;
 
@@ -124,12 +132,12 @@ namespace talus
 
     // Parameters
     double      friction_coefficient_      = 10.;
-    std::string maximum_shear_stress_text_ = "1e3";
+    std::string maximum_shear_stress_text_ = "";
     std::string velocity_text_             = "";
     std::string reference_point_text_      = "";
 
     std::unique_ptr<Shape<dim>>      shape_;
-    std::unique_ptr<Expression<dim>> maximum_shear_stress_; ///< Pa
+    std::unique_ptr<Expression<dim>> maximum_shear_stress_; ///< Pa, if limited
     std::unique_ptr<Expression<dim>> velocity_;        ///< m/s, if it moves
     dealii::Point<dim>               reference_point_; ///< at the start, m
     dealii::Tensor<1, dim>           displacement_;

@@ -65,6 +65,10 @@ namespace talus
     void
     advance(double t, double dt);
 
+    /// Whether one of them has a maximum shear stress.
+    bool
+    limit_shear_stress() const;
+
     /// Let all surfaces pass @p factor times their maximum shear stress [-].
     void
     scale_maximum_shear_stress(const double factor)

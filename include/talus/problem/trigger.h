@@ -25,11 +25,11 @@ namespace talus
 
     /// To be called after parsing. Throws ExcUser if the parameters contradict
     /// each other or what they are to act on: the bodies, their materials,
-    /// whether a face is a seabed, and the end time, s.
+    /// whether a seabed or obstacle limits the shear stress, and the end time, s.
     void
     check(const std::vector<std::string> &names_of_bodies,
           const Materials<dim>           &materials,
-          bool                            has_seabed,
+          bool                            has_shear_stress_limit,
           double                          end_time);
 
     /// True if it needs the strength factor of the points.

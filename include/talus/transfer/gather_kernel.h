@@ -179,6 +179,8 @@ namespace talus
             }
         else
           for (unsigned int e = 0; e < I::n_entries; ++e)
+            // Of each point the caller has set all.
+            // NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage)
             entry[e] = row[0][e];
       }
     };
