@@ -84,20 +84,37 @@ namespace talus
 
 
 
-  /// The facets of all obstacles in cell @p c. Left out are two kinds: of a
-  /// surface that only grazes a face of the cell, which would count at its
-  /// nodes as others do, and those whose contact point is inside of another
-  /// obstacle, where it would hold soil that cannot be there.
-  template <int dim>
-  std::vector<ContactFacet<dim>>
-  Facets<dim>::facets_in(const Grid<dim>      &grid,
-                         const Obstacles<dim> &obstacles,
-                         const unsigned int    c) const
+  namespace
   {
-    const Cell<dim>               &cell   = grid.cells()[c];
-    const Point<dim>               centre = centre_of(cell);
-    const Box<dim>                 box    = cell.box();
-    std::vector<ContactFacet<dim>> result;
+    /// Normals that differ make the vector area less than the area. A surface
+    /// whose normals turn by 5 degrees within the cell is 1/40 of it from the
+    /// plane at most.
+    template <int dim>
+    double
+    deviation_from_plane(const CutSurface<dim> &surface, const double cell_size)
+    {
+      const double lost = 1. - surface.vector_area.norm() / surface.area;
+      return cell_size * (lost < 1e-3 ? 0.025 : 0.4);
+    }
+  } // namespace
+
+
+
+  /// The facets of all obstacles in cell @p c. Two kinds take no part in the
+  /// contact: of a surface that only grazes a face of the cell, which would
+  /// count at its nodes as others do, and those whose contact point is inside
+  /// of another obstacle, where it would hold soil that cannot be there. Points
+  /// must not slip through the latter either.
+  template <int dim>
+  void
+  Facets<dim>::find_facets(const Grid<dim>      &grid,
+                           const Obstacles<dim> &obstacles,
+                           const unsigned int    c,
+                           Section              &section) const
+  {
+    const Cell<dim> &cell   = grid.cells()[c];
+    const Point<dim> centre = centre_of(cell);
+    const Box<dim>   box    = cell.box();
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       {
         const Obstacle<dim> &obstacle = obstacles[k];
@@ -107,24 +124,25 @@ namespace talus
           surface_in_box<dim>(box, [&](const Point<dim> &x) {
             return obstacle.signed_distance(x);
           });
-        bool is_hidden = surface.area < 1e-8 * std::pow(cell.size, dim - 1.);
+        if (surface.area < 1e-8 * std::pow(cell.size, dim - 1.))
+          continue;
+        bool is_hidden = false;
         for (unsigned int other = 0; other < obstacles.size() && !is_hidden;
              ++other)
           is_hidden = other != k &&
                       obstacles[other].signed_distance(surface.centroid) < 0;
-        if (is_hidden)
-          continue;
-        result.push_back({c,
-                          grid.key_of_cell(c),
-                          k,
-                          cell.nodes(),
-                          shape_values_at(box, surface.centroid),
-                          surface.centroid,
-                          surface.vector_area / surface.vector_area.norm(),
-                          surface.area,
-                          obstacle.maximum_shear_stress(surface.centroid)});
+        (is_hidden ? section.hidden : section.facets)
+          .push_back({c,
+                      grid.key_of_cell(c),
+                      k,
+                      cell.nodes(),
+                      shape_values_at(box, surface.centroid),
+                      surface.centroid,
+                      surface.vector_area / surface.vector_area.norm(),
+                      surface.area,
+                      deviation_from_plane(surface, cell.size),
+                      obstacle.maximum_shear_stress(surface.centroid)});
       }
-    return result;
   }
 
 
@@ -136,9 +154,9 @@ namespace talus
                             const unsigned int    c) const
   {
     const Cell<dim> &cell = grid.cells()[c];
-    Section          section{obstacles.signed_distance(centre_of(cell)),
-                    facets_in(grid, obstacles, c),
-                    {}};
+    Section          section;
+    section.distance = obstacles.signed_distance(centre_of(cell));
+    find_facets(grid, obstacles, c, section);
     if (!section.facets.empty())
       section.open_volume =
         open_shape_integrals<dim>(cell.box(), [&](const Point<dim> &x) {
@@ -192,6 +210,7 @@ namespace talus
       }
     CutCell &result = cut_cells_[c];
     result.facets   = section.facets;
+    result.hidden   = section.hidden;
     for (ContactFacet<dim> &facet : result.facets)
       {
         facet.cell = c;

@@ -46,6 +46,7 @@ namespace talus
     , transfer_(transfer)
     , mesh_(mesh)
     , timer_(timer)
+    , confinement_(problem.obstacles, problem.contact.facets())
   {}
 
 
@@ -216,6 +217,7 @@ namespace talus
     const BoxRule rule = transfer_.box_shape().rule;
     state_.points.for_each_batch([&](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
+      confinement_.note(state_, batch);
       state_.works.gravity += transfer_.gather(state_.nodes,
                                                state_.grid,
                                                problem_.loading.loads(),
@@ -223,6 +225,7 @@ namespace talus
                                                state_.workspace,
                                                batch,
                                                dt);
+      confinement_.confine(state_);
       transfer_.apply_bbar_to_dilatation(state_.points,
                                          state_.workspace,
                                          batch);

@@ -29,7 +29,9 @@ namespace talus
     dealii::Point<dim>                centroid;    ///< m
     dealii::Tensor<1, dim>            normal; ///< out of the obstacle, mean
     double                            area;   ///< m^(dim-1)
-    double                            maximum_shear_stress; ///< Pa
+    /// How far the surface may be from the plane through the centroid, m.
+    double deviation;
+    double maximum_shear_stress; ///< Pa
   };
 
 
@@ -55,6 +57,21 @@ namespace talus
     owned() const
     {
       return owned_;
+    }
+
+    /// Call action(facet) for all that surfaces have in cell @p c, if it has one
+    /// of owned(): for those, and for those whose centroids lie inside of another
+    /// obstacle.
+    template <typename Action>
+    void
+    for_each_in_cell(const unsigned int c, const Action &action) const
+    {
+      if (is_near_[c] != 2)
+        return;
+      const CutCell &cut_cell = cut_cells_.at(c);
+      for (const auto *facets : {&cut_cell.facets, &cut_cell.hidden})
+        for (const ContactFacet<dim> &facet : *facets)
+          action(facet);
     }
 
     /// Nodes that touch a facet: those this rank owns, and all it knows.
@@ -141,7 +158,8 @@ namespace talus
     struct Section
     {
       double distance; ///< of its centre from the obstacles, m
-      std::vector<ContactFacet<dim>>                 facets;
+      std::vector<ContactFacet<dim>> facets; ///< where soil may be
+      std::vector<ContactFacet<dim>> hidden; ///< inside of another obstacle
       std::array<double, ContactFacet<dim>::n_nodes> open_volume{};
     };
 
@@ -149,6 +167,7 @@ namespace talus
     struct CutCell
     {
       std::vector<ContactFacet<dim>>                 facets;
+      std::vector<ContactFacet<dim>>                 hidden;
       std::array<double, ContactFacet<dim>::n_nodes> open_volume;
       std::vector<unsigned int> touching; ///< those that share a node with it
       std::vector<unsigned int> near; ///< owned ones that touch one of these
@@ -162,10 +181,11 @@ namespace talus
     keep_sections(const Grid<dim> &grid, const Obstacles<dim> &obstacles);
     void
     cut(const Grid<dim> &grid, unsigned int c);
-    std::vector<ContactFacet<dim>>
-    facets_in(const Grid<dim>      &grid,
-              const Obstacles<dim> &obstacles,
-              unsigned int          c) const;
+    void
+    find_facets(const Grid<dim>      &grid,
+                const Obstacles<dim> &obstacles,
+                unsigned int          c,
+                Section              &section) const;
     void
     clear_sums();
     void

@@ -5,6 +5,7 @@
 #include <talus/adaptivity/splitter.h>
 #include <talus/base/phase_timer.h>
 #include <talus/boundaries/damping.h>
+#include <talus/contact/point_confinement.h>
 #include <talus/problem/problem.h>
 #include <talus/simulation/background_mesh.h>
 #include <talus/simulation/step_agreement.h>
@@ -73,16 +74,17 @@ namespace talus
     void
     split();
 
-    State<dim>          &state_;
-    Problem<dim>        &problem_;
-    const Transfer<dim> &transfer_;
-    BackgroundMesh<dim> &mesh_;
-    PhaseTimer          &timer_;
-    NullSpaceFilter<dim> filter_;
-    Damping<dim>         damping_;
-    Splitter<dim>        splitter_;
-    TimeStep<dim>        time_step_;
-    StepAgreement        agreement_;
+    State<dim>           &state_;
+    Problem<dim>         &problem_;
+    const Transfer<dim>  &transfer_;
+    BackgroundMesh<dim>  &mesh_;
+    PhaseTimer           &timer_;
+    PointConfinement<dim> confinement_;
+    NullSpaceFilter<dim>  filter_;
+    Damping<dim>          damping_;
+    Splitter<dim>         splitter_;
+    TimeStep<dim>         time_step_;
+    StepAgreement         agreement_;
   };
 } // namespace talus
 

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_contact_point_confinement_h
+#define talus_contact_point_confinement_h
+
+#include <talus/contact/facets.h>
+#include <talus/state/state.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// Lets no centre of a material point go into an obstacle.
+  ///
+  /// Contact is a constraint on the velocity of the nodes, one for each facet.
+  /// In a layer thinner than a cell that is the velocity of the nodes with most
+  /// soil, which is not the one that the points at the surface move with: while
+  /// the layer spreads, these sink by 0.2 to 0.3 cells per unit of strain. So
+  /// of the motion of a point whose centre has come to the surface the part
+  /// that leads further in is left out. Velocities, stress and all balances
+  /// stay as they are. To push points out that are inside already would give
+  /// neighbours a jerk.
+  template <int dim>
+  class PointConfinement
+  {
+  public:
+    PointConfinement(const Obstacles<dim> &obstacles, const Facets<dim> &facets)
+      : obstacles_(obstacles)
+      , facets_(facets)
+    {}
+
+    /// Remember where the points of @p batch are that may come to a surface
+    /// within a step, before they move.
+    void
+    note(const State<dim> &state, const Batch &batch);
+
+    /// Take back what led the noted points further into obstacles, and tell the
+    /// workspace which these are: they may be in another cell than they were
+    /// seen in.
+    void
+    confine(State<dim> &state);
+
+  private:
+    struct Candidate
+    {
+      unsigned int             point;
+      const ContactFacet<dim> *facet;
+      dealii::Point<dim>       place; ///< before it moved, m
+    };
+
+    bool
+    confine(const Candidate    &candidate,
+            double              time,
+            double              dt,
+            dealii::Point<dim> &x) const;
+
+    const Obstacles<dim>  &obstacles_;
+    const Facets<dim>     &facets_;
+    std::vector<Candidate> candidates_; ///< one for each facet
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/contact/point_confinement.h>
+
+#include <algorithm>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    template <int dim>
+    double
+    distance_from_plane(const ContactFacet<dim> &facet, const Point<dim> &x)
+    {
+      return (x - facet.centroid) * facet.normal;
+    }
+  } // namespace
+
+
+
+  /// By the planes of the facets, since the distance from a terrain is dear and
+  /// most points of a cut cell are not at its surface. Points move with the
+  /// velocity of the grid, which is not much more than their own; whoever is
+  /// missed is found in the next step.
+  template <int dim>
+  void
+  PointConfinement<dim>::note(const State<dim> &state, const Batch &batch)
+  {
+    candidates_.clear();
+    if (obstacles_.empty())
+      return;
+    const Points<dim> &points = state.points;
+    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+      facets_.for_each_in_cell(
+        points.segments()[s].cell, [&](const ContactFacet<dim> &facet) {
+          for (unsigned int p = points.segments()[s].begin;
+               p < points.segments()[s].end;
+               ++p)
+            {
+              const Point<dim> x = load_place(points, points.position, p);
+              const double     later =
+                2. * state.time_step *
+                (load_vector(points, points.velocity, p) * facet.normal);
+              if (distance_from_plane(facet, x) + std::min(0., later) <
+                  facet.deviation)
+                candidates_.push_back({p, &facet, x});
+            }
+        });
+  }
+
+
+
+  template <int dim>
+  void
+  PointConfinement<dim>::confine(State<dim> &state)
+  {
+    Points<dim> &points = state.points;
+    for (const Candidate &candidate : candidates_)
+      {
+        const unsigned int p = candidate.point;
+        Point<dim>         x = load_place(points, points.position, p);
+        if (!confine(candidate, state.time, state.time_step, x))
+          continue;
+        for (unsigned int d = 0; d < dim; ++d)
+          points.data(points.position, d)[p] = x[d];
+        state.workspace.points_out_of_cell().push_back(p);
+      }
+  }
+
+
+
+  /// Obstacles are where they are at the end of the step. One that moves takes
+  /// the points at its surface along.
+  template <int dim>
+  bool
+  PointConfinement<dim>::confine(const Candidate &candidate,
+                                 const double     time,
+                                 const double     dt,
+                                 Point<dim>      &x) const
+  {
+    const ContactFacet<dim> &facet = *candidate.facet;
+    if (distance_from_plane(facet, x) > facet.deviation)
+      return false;
+    const Obstacle<dim> &obstacle = obstacles_[facet.obstacle];
+    const auto [distance, normal] = obstacle.distance_and_normal(x);
+    if (distance >= 0)
+      return false;
+    const Tensor<1, dim> drift   = dt * obstacle.velocity(time + 0.5 * dt);
+    const double         inwards = (drift - (x - candidate.place)) * normal;
+    if (inwards <= 0)
+      return false;
+    x += std::min(inwards, -distance) * normal;
+    return true;
+  }
+
+
+
+  template class PointConfinement<2>;
+  template class PointConfinement<3>;
+} // namespace talus
