@@ -107,8 +107,8 @@ namespace talus
 
     bool         enabled_   = false;
     unsigned int interval_  = 100;
-    double       length_    = 0.55;
-    double       tolerance_ = 0.2;
+    double       length_    = 0.45;
+    double       tolerance_ = 0.15;
 
     std::vector<unsigned int> members_; ///< of the segment at hand
     std::vector<unsigned int> removed_;
