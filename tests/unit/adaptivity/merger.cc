@@ -103,25 +103,21 @@ namespace
 
 
 
+  // Points may enter the smaller cells beside their own in the next step.
   TEST(Merger, LimitsAreInUnitsOfTheSmallestCellAround)
   {
-    Merging<2> core;
-    refine_corner(core);
-    for (const double x : {0.1, 2.1, 3.1}) // cells of 0.5 m, beside them, 1 m
+    const auto count_at = [](const Point<2> &x) {
+      Merging<2> core;
+      refine_corner(core);
       for (const double y : {0., 0.15})
-        core.add({x, 3.1 + y}, Point<2>(0.6, 0.15));
-    for (const double y : {0., 0.15})
-      core.add({0.1, 0.1 + y}, Point<2>(0.6, 0.15));
-    core.sort();
-    core.merge();
-    unsigned int n = 0; // of those far from small cells
-    for (unsigned int p = 0; p < core.points.size(); ++p)
-      n += core.points.data(core.points.position)[p] == 3.1;
-    EXPECT_EQ(n, 1u);
-    n = 0; // of those in small ones, of 0.6 m
-    for (unsigned int p = 0; p < core.points.size(); ++p)
-      n += core.points.data(core.points.position, 1)[p] < 1.;
-    EXPECT_EQ(n, 2u);
+        core.add(x + Point<2>(0., y), Point<2>(0.6, 0.15));
+      core.sort();
+      core.merge();
+      return core.points.size();
+    };
+    EXPECT_EQ(count_at({3.1, 3.1}), 1u) << "in cells of 1 m";
+    EXPECT_EQ(count_at({2.1, 1.1}), 2u) << "beside cells of 0.5 m";
+    EXPECT_EQ(count_at({0.1, 0.1}), 2u) << "in them";
   }
 
 
