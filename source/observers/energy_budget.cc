@@ -100,9 +100,9 @@ namespace talus
     bool
     has_column(const Term &term, const State<dim> &state)
     {
-      return term.needs == Needs::water   ? !state.added_mass.empty() :
-             term.needs == Needs::merging ? state.may_merge :
-                                            true;
+      return term.needs == Needs::water     ? !state.added_mass.empty()
+             : term.needs == Needs::merging ? state.may_merge
+                                            : true;
     }
 
 

@@ -70,9 +70,8 @@ namespace talus
     bool
     would_split(const double length, const double factor) const
     {
-      return factor * length > 1. ||
-             (enabled_ && factor > threshold_ &&
-              factor * length > minimum_length_);
+      return factor * length > 1. || (enabled_ && factor > threshold_ &&
+                                      factor * length > minimum_length_);
     }
 
     const SplitStatistics &
