@@ -35,9 +35,9 @@ namespace talus
         scale[d]       = mass * std::sqrt(speed_square);
         scale[dim + d] = mass * std::sqrt(distance_square);
       }
-    entry[2 * dim]     = mass;
-    entry[2 * dim + 1] = 0.5 * mass * speed_square;
-    entry[2 * dim + 2] = points.data(points.elastic_energy)[p];
+    entry[2 * dim]        = mass;
+    entry[kinetic_energy] = 0.5 * mass * speed_square;
+    entry[2 * dim + 2]    = points.data(points.elastic_energy)[p];
     for (unsigned int i = 2 * dim; i < n_entries; ++i)
       scale[i] = std::abs(entry[i]);
 
@@ -69,12 +69,11 @@ namespace talus
   // The unit differs between the entries.
   template <int dim>
   void
-  Ledger<dim>::list_state(StateList &list)
+  Ledger<dim>::list_state(StateList &list, const std::string &name)
   {
     list.add_components(
-      "split ledger difference", "", difference_, n_entries, Reduction::sum);
-    list.add_components(
-      "split ledger scale", "", scale_, n_entries, Reduction::sum);
+      name + " difference", "", difference_, n_entries, Reduction::sum);
+    list.add_components(name + " scale", "", scale_, n_entries, Reduction::sum);
   }
 
 

@@ -532,7 +532,7 @@ namespace talus
              statistics_.largest_generation,
              Reduction::maximum);
     list.add("split ledger", "-", statistics_.ledger, Reduction::maximum);
-    ledger_.list_state(list);
+    ledger_.list_state(list, "split ledger");
   }
 
 

@@ -60,6 +60,16 @@ namespace talus
 
 
 
+    /// What must be there for a term to have a column.
+    enum class Needs
+    {
+      nothing,
+      water,
+      merging
+    };
+
+
+
     // A term and its name: columns of statistics.csv, sums over ranks and state
     // of a checkpoint go through the same list, so that none of them can forget
     // one.
@@ -67,11 +77,11 @@ namespace talus
     {
       const char *name;
       double EnergyTerms::*value;
-      bool of_water = false; ///< a column only where there is water
+      Needs                needs = Needs::nothing;
     };
 
     /// The terms but for what they leave, in the order of their columns.
-    constexpr std::array<Term, 10> terms = {
+    constexpr std::array<Term, 11> terms = {
       {{"kinetic energy", &EnergyTerms::kinetic},
        {"grid kinetic energy", &EnergyTerms::grid_kinetic},
        {"elastic energy", &EnergyTerms::elastic},
@@ -80,8 +90,20 @@ namespace talus
        {"contact work", &EnergyTerms::contact},
        {"damping work", &EnergyTerms::damping},
        {"gravity work", &EnergyTerms::gravity},
-       {"drag work", &EnergyTerms::drag, /*of_water=*/true},
-       {"added mass kinetic energy", &EnergyTerms::added, /*of_water=*/true}}};
+       {"drag work", &EnergyTerms::drag, Needs::water},
+       {"added mass kinetic energy", &EnergyTerms::added, Needs::water},
+       {"merging work", &EnergyTerms::merging, Needs::merging}}};
+
+
+
+    template <int dim>
+    bool
+    has_column(const Term &term, const State<dim> &state)
+    {
+      return term.needs == Needs::water     ? !state.added_mass.empty()
+             : term.needs == Needs::merging ? state.may_merge
+                                            : true;
+    }
 
 
 
@@ -103,6 +125,7 @@ namespace talus
       result.damping      = state.works.damping;
       result.gravity      = state.works.gravity;
       result.drag         = state.works.drag;
+      result.merging      = state.works.merging;
       result.added        = kinetic_energy_of_added_mass(state);
       for (const Term &term : terms)
         result.*term.value =
@@ -138,7 +161,7 @@ namespace talus
       (now.elastic - start_.elastic) - (now.plastic - start_.plastic) -
       (now.friction - start_.friction) - (now.contact - start_.contact) -
       (now.damping - start_.damping) - (now.drag - start_.drag) -
-      (now.added - start_.added);
+      (now.added - start_.added) - now.merging;
     return now;
   }
 
@@ -151,7 +174,7 @@ namespace talus
   {
     const EnergyTerms now = evaluate(state);
     for (const Term &term : terms)
-      if (!term.of_water || !state.added_mass.empty())
+      if (has_column(term, state))
         list.push_back({term.name, "J", now.*term.value});
     list.push_back({"energy remainder", "J", now.remainder});
   }
@@ -165,10 +188,12 @@ namespace talus
   EnergyBudget<dim>::list_state(StateList &list)
   {
     for (const Term &term : terms)
-      list.add(std::string(term.name) + " at the start",
-               "J",
-               start_.*term.value,
-               Reduction::equal);
+      // Nothing is merged before the start.
+      if (term.needs != Needs::merging)
+        list.add(std::string(term.name) + " at the start",
+                 "J",
+                 start_.*term.value,
+                 Reduction::equal);
   }
 
 

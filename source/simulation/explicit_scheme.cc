@@ -63,6 +63,8 @@ namespace talus
   ExplicitScheme<dim>::advance(const double end_time, const RunRequest own)
   {
     mesh_.adapt();
+    if (merger_.is_due(state_.step))
+      merge();
     if (filter_.is_due(state_.step))
       {
         PhaseTimer::Scope scope(timer_, "filter");
@@ -82,6 +84,63 @@ namespace talus
     state_.time += state_.time_step;
     ++state_.step;
     return request;
+  }
+
+
+
+  /// The energy that goes is booked, so that the budget closes as without.
+  template <int dim>
+  void
+  ExplicitScheme<dim>::merge()
+  {
+    PhaseTimer::Scope   scope(timer_, "merging");
+    const unsigned long n_before = merger_.n_merges();
+    state_.works.merging += merger_.merge(state_.points,
+                                          state_.grid,
+                                          transfer_.box_shape().rule,
+                                          state_.added_mass,
+                                          splitter_);
+    if (merger_.n_merges() > n_before)
+      state_.points.for_each_batch([this](const Batch &batch) {
+        state_.works.merging += restore_hyperelastic(batch);
+      });
+  }
+
+
+
+  // What a rate law has stored belongs to the points and was summed up. Where
+  // the stress is a function of the deformation gradient, the mean of two of
+  // these has another stress and stores another energy: with a step of no time
+  // such a law computes both.
+  /// Returns the elastic energy that is gone, J.
+  template <int dim>
+  double
+  ExplicitScheme<dim>::restore_hyperelastic(const Batch &batch)
+  {
+    double loss = 0;
+    problem_.materials.for_each_material_range(
+      state_.points,
+      batch,
+      [&](const auto &law, const unsigned int begin, const unsigned int end) {
+        if (!law.is_hyperelastic())
+          return;
+        const auto energy = [&]() {
+          const double *const of_point =
+            state_.points.data(state_.points.elastic_energy);
+          return std::accumulate(of_point + begin, of_point + end, 0.);
+        };
+        state_.workspace.reinit(begin, end);
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            std::fill_n(state_.workspace.velocity_gradient(i, j),
+                        end - begin,
+                        0.);
+        const double before = energy();
+        law.update_stress(
+          state_.points, state_.workspace, begin, end, /*dt=*/0.);
+        loss += before - energy();
+      });
+    return loss;
   }
 
 

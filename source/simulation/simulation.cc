@@ -55,6 +55,7 @@ namespace talus
     add_map_observers(problem_, output_);
     output_.add_quantities([this](const State<dim> &state, Quantities &list) {
       scheme_.splitter().list_quantities(state, list);
+      scheme_.merger().list_quantities(state, list);
       problem_.water.list_quantities(state,
                                      -problem_.loading.gravity()[1],
                                      list);
@@ -126,6 +127,8 @@ namespace talus
     static_stages_.check();
     transfer_.use_bbar(problem_.bodies_with_bbar());
     state_.box_shape = transfer_.box_shape();
+    scheme_.merger().check(scheme_.splitter());
+    state_.may_merge = scheme_.merger().is_enabled();
   }
 
 
@@ -407,6 +410,7 @@ namespace talus
     problem_.list_state(list);
     mesh_.list_state(list);
     scheme_.splitter().list_state(list);
+    scheme_.merger().list_state(list);
     static_stages_.list_state(list);
     output_.list_state(list);
     return list;

@@ -192,6 +192,20 @@ class MeshThatChanges(KillAndResume):
                            "Output/Format=hdf5"]
 
 
+class PointsMerged(KillAndResume):
+    """Points that are split and merged in turn."""
+
+    N_KILLS = 6
+    settings = SETTINGS + ["End time=3", "Splitting/Merge=true",
+                           "Splitting/Merge interval=20"]
+
+    def finish(self, name):
+        super().finish(name)
+        lines = (self.folder / name / "statistics.csv").read_text().split()
+        self.assertGreater(
+            int(lines[-1].split(",")[-2]), 100, "merges")
+
+
 class Triggered(KillAndResume):
     """Soil and seabed that become weaker in an earthquake, in runs that are
     killed."""

@@ -43,6 +43,41 @@ TEST(LandslideStretched, WhatMustHoldToRest)
 
 
 
+// What compression and rest no longer need goes: the soil is as whole as
+// without merging, the front the same.
+TEST(LandslideMerged, ReturnsToThePointsOfTheStart)
+{
+  const std::string file = "landslide-quick.prm";
+  Verification      gates("Landslide, h = 0.4 m, stretched splitting, merging",
+                     "prm/" + file +
+                       ", Splitting/Directions=stretched, "
+                            "Splitting/Merge=true",
+                     "the same without merging; points of the start");
+  const Table       without = run<2>(file, "landslide-not-merged", stretched);
+  const Table       merged  = run<2>(file,
+                              "landslide-merged",
+                              stretched + Overrides{"Splitting/Merge=true"});
+  expect_split_landslide(gates, merged, 0.002);
+  gates.at_most("points at rest / at the start",
+                merged["points"].back() / merged["points"].front(),
+                2.);
+  gates.at_most("front x [m], difference to 30 s",
+                relative_difference(merged, without, "front x [m]", 30.),
+                0.003);
+  // Soil that was merged is not split again and again.
+  gates.at_most("splits / splits without merging",
+                merged["splits"].back() / without["splits"].back(),
+                1.);
+  EXPECT_GT(merged["merges"].back(), 1000);
+  gates.at_most("merge ledger", merged["merge ledger [-]"].back(), 1e-12);
+  gates.at_most("merging work / gravity work",
+                merged["merging work [J]"].back() /
+                  merged["gravity work [J]"].back(),
+                1e-3);
+}
+
+
+
 // Without splitting the slide tears: the program must say so. How many cells
 // stay empty depends on how far the boxes reach along the motion: those that
 // follow V do farther than those of U, for which more was found.

@@ -76,7 +76,7 @@ class Runs(unittest.TestCase):
         for name, values in expected.items():
             self.assertEqual(len(found[name]), len(values))
             scale = largest(values)
-            if name == "split ledger [-]":
+            if name.endswith(" ledger [-]"):
                 self.assertLess(largest(found[name]), 1e-12)
                 continue
             if name == "energy remainder [J]":
@@ -138,6 +138,15 @@ class Ranks(Runs):
             self.assertGreaterEqual(n_meshes, 3)
             # More often than the mesh changed: for the balance alone, too.
             self.assertGreater(n_shares, max(3, n_meshes))
+
+    def test_merging(self):
+        """On a mesh that changes, so that points are shared out anew."""
+        settings = SLIDE + TRACKING + BALANCE + TERSE + [
+            "Splitting/Merge=true", "Splitting/Merge interval=20"]
+        alone = self.run_on(1, settings)
+        self.assertGreater(alone["merges"][-1], 100)
+        for n_ranks in (2, 4):
+            self.assert_same(self.run_on(n_ranks, settings), alone)
 
     def test_obstacles(self):
         """A seabed through a mesh that changes; a pipe that moves."""

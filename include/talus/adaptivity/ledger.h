@@ -6,11 +6,13 @@
 #include <talus/points/points.h>
 
 #include <array>
+#include <string>
 
 namespace talus
 {
-  /// What must not change when points are split: sums of mass, momentum,
-  /// kinetic and elastic energy, and mass times position, over all splits.
+  /// What must not change when points are split or merged: sums of mass,
+  /// momentum, kinetic and elastic energy, and mass times position, over all
+  /// splits or merges.
   template <int dim>
   class Ledger
   {
@@ -24,12 +26,21 @@ namespace talus
     double
     relative_error() const;
 
-    /// Add the sums to the state of the run.
+    /// Count kinetic energy that was taken from the points and is booked
+    /// elsewhere, J.
     void
-    list_state(StateList &list);
+    book_kinetic_energy(const double energy)
+    {
+      difference_[kinetic_energy] -= energy;
+    }
+
+    /// Add the sums to the state of the run, as the @p name and what they are.
+    void
+    list_state(StateList &list, const std::string &name);
 
   private:
-    static constexpr unsigned int n_entries = 3 + 2 * dim;
+    static constexpr unsigned int n_entries      = 3 + 2 * dim;
+    static constexpr unsigned int kinetic_energy = 2 * dim + 1;
 
     std::array<double, n_entries> difference_{};
     std::array<double, n_entries> scale_{};

@@ -12,6 +12,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -56,6 +57,22 @@ namespace talus
     /// Throw ExcPoint if there are more points than allowed, over all ranks.
     void
     check_total(double n_points) const;
+
+    /// Length below which no point is split, in cells.
+    double
+    least_split_length() const
+    {
+      return enabled_ ? std::min(minimum_length_, 1.) : 1.;
+    }
+
+    /// Whether a point that is created with this @p length along an axis, in
+    /// cells, is split before it is stretched by @p factor.
+    bool
+    would_split(const double length, const double factor) const
+    {
+      return factor * length > 1. || (enabled_ && factor > threshold_ &&
+                                      factor * length > minimum_length_);
+    }
 
     const SplitStatistics &
     statistics() const

@@ -24,6 +24,8 @@ namespace talus
     double damping = 0;
     /// Energy that the drag of water took from the soil, J.
     double drag = 0;
+    /// Energy that merging took from the points, J; listed by State.
+    double merging = 0;
     /// Impulse that the seabed gave to the soil, N s.
     dealii::Tensor<1, dim> seabed_impulse;
     /// Impulse that walls and tractions gave to the soil, N s.
@@ -39,6 +41,7 @@ namespace talus
       contact += other.contact;
       damping += other.damping;
       drag += other.drag;
+      merging += other.merging;
       seabed_impulse += other.seabed_impulse;
       wall_impulse += other.wall_impulse;
       drag_impulse += other.drag_impulse;

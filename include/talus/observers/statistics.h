@@ -29,7 +29,8 @@ namespace talus
   ///   whether the slide has come to rest. It is 0 before the first step.
   /// - `clipped boxes` counts axes of boxes that the weights clip now.
   /// - The energy terms are those of EnergyTerms; the columns from `empty
-  ///   interior cells` on are those of FractureCounts and of the splitter.
+  ///   interior cells` on are those of FractureCounts, of the splitter and
+  ///   of the merger.
   template <int dim>
   class Statistics : public TableObserver<dim>
   {

@@ -2,6 +2,7 @@
 #ifndef talus_simulation_explicit_scheme_h
 #define talus_simulation_explicit_scheme_h
 
+#include <talus/adaptivity/merger.h>
 #include <talus/adaptivity/splitter.h>
 #include <talus/base/phase_timer.h>
 #include <talus/boundaries/damping.h>
@@ -62,7 +63,23 @@ namespace talus
       return splitter_;
     }
 
+    const Merger<dim> &
+    merger() const
+    {
+      return merger_;
+    }
+
+    Merger<dim> &
+    merger()
+    {
+      return merger_;
+    }
+
   private:
+    void
+    merge();
+    double
+    restore_hyperelastic(const Batch &batch);
     void
     points_to_grid();
     RunRequest
@@ -83,6 +100,7 @@ namespace talus
     NullSpaceFilter<dim>  filter_;
     Damping<dim>          damping_;
     Splitter<dim>         splitter_;
+    Merger<dim>           merger_;
     TimeStep<dim>         time_step_;
     StepAgreement         agreement_;
   };

@@ -36,6 +36,8 @@ namespace talus
       list.add("time step", "s", time_step, Reduction::equal);
       list.add("step", "-", step, Reduction::equal);
       works.list_state(list);
+      if (may_merge)
+        list.add("merging work", "J", works.merging, Reduction::sum);
     }
 
     Points<dim>        points;
@@ -47,6 +49,7 @@ namespace talus
     double             time      = 0; ///< s
     double             time_step = 0; ///< of the last step, s
     unsigned long      step      = 0; ///< number of steps so far
+    bool               may_merge = false; ///< whether points are merged
     /// By body, mass of water that moves with the soil, as a share of that of
     /// the soil [-]; empty if water does nothing.
     std::vector<double> added_mass;
