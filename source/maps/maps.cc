@@ -4,6 +4,7 @@
 #include <talus/io/esri_grid.h>
 #include <talus/io/vtu_writer.h>
 #include <talus/maps/maps.h>
+#include <talus/observers/state_cells.h>
 
 #include <algorithm>
 #include <cmath>
@@ -249,11 +250,11 @@ namespace talus
         {field.name,
          field.unit,
          FieldKind::scalar,
-         [&envelope, field](const unsigned int column, float *value) {
+         [&envelope, field](const unsigned int column, double *value) {
            *value = field.value(envelope[column]);
          }});
-    OutputCells cells(
-      fields, ItemsAt::cells, CellShape::quad, state.time, state.step);
+    OutputCells cells =
+      state_cells(state, fields, ItemsAt::cells, CellShape::quad);
     const unsigned int n_x = axes_[0].number;
     for (const unsigned int column : envelope.reached())
       {

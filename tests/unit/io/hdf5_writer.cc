@@ -316,7 +316,7 @@ namespace
     OutputCells cells({{"a/b <c> & \"d\"",
                         "m/s",
                         FieldKind::scalar,
-                        [](unsigned int, float *value) { *value = 7; }}},
+                        [](unsigned int, double *value) { *value = 7; }}},
                       ItemsAt::vertices,
                       CellShape::vertex,
                       0.,
