@@ -226,7 +226,7 @@ namespace talus
   std::unique_ptr<Shape<dim>>
   ShapeParameters<dim>::make_half_space() const
   {
-    AssertThrow(normal_.norm() > 0.,
+    AssertThrow(normal_.norm() > 0. && std::isfinite(normal_.norm()),
                 ExcUser(text(path("Normal"),
                              " = (",
                              normal_,

@@ -31,9 +31,17 @@ namespace talus
                              name,
                              "', which is no surface with a raster. Name one "
                              "of 'Surfaces/Names' that has a `File`.")));
+    const Box<dim> domain = state.grid.domain_before_growth();
+    this->settings().check(domain.length(1));
     double n = 1;
     for (const Axis &axis : axes(state))
       n *= axis.number;
+    AssertThrow(this->settings().cell_size() <= domain.length(0),
+                ExcUser(text("'Maps/Cell size' is ",
+                             this->settings().cell_size(),
+                             " m, more than the ",
+                             domain.length(0),
+                             " m of the mesh. Make it smaller.")));
     AssertThrow(n <= 1e8,
                 ExcUser(text("The maps would have ",
                              n,
@@ -74,8 +82,9 @@ namespace talus
         axis.lower +=
           axis.size *
           std::floor((domain.lower[d] - axis.lower) / axis.size + 1e-9);
-        axis.number = static_cast<unsigned int>(std::min(
-          1e9, std::ceil((domain.upper[d] - axis.lower) / axis.size - 1e-9)));
+        const double n = (domain.upper[d] - axis.lower) / axis.size;
+        axis.number =
+          static_cast<unsigned int>(std::clamp(std::ceil(n - 1e-9), 1., 1e9));
       }
     return axes;
   }

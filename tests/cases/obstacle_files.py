@@ -9,24 +9,20 @@ import base64
 import csv
 import math
 import pathlib
-import shutil
 import struct
-import subprocess
 import sys
 import unittest
 import xml.etree.ElementTree
 import zlib
 
-TALUS = pathlib.Path(sys.argv[1]).resolve()
-FOLDER = pathlib.Path(sys.argv[2]).resolve()
-MPIEXEC = sys.argv[3]
-PRM = pathlib.Path(sys.argv[4]).resolve()
+from ranks_case import Case, PRM
+
 HERE = pathlib.Path(__file__).resolve().parent
 
 # A row for each step, so that its forces are those of the step.
 EACH_STEP = ["Output/Statistics interval=1e-9", "Output/Write points=false",
              "Output/Write grid=false", "Output/Runout=false"]
-TYPES = {"Float32": "f", "Int32": "i", "UInt8": "B"}
+TYPES = {"Float32": "f", "Float64": "d", "Int32": "i", "UInt8": "B"}
 
 
 def values(element):
@@ -73,21 +69,7 @@ def measure(corners):
     return 0.5 * math.hypot(*cross)
 
 
-class ObstacleFiles(unittest.TestCase):
-    def setUp(self):
-        self.folder = FOLDER / self.id().split(".")[-1]
-        shutil.rmtree(self.folder, ignore_errors=True)
-        self.folder.mkdir(parents=True)
-
-    def run_talus(self, name, file, settings, n_ranks=1):
-        launcher = [MPIEXEC, "-n", str(n_ranks)] if n_ranks > 1 else []
-        options = [o for s in settings for o in ("--set", s)]
-        result = subprocess.run(
-            [*launcher, TALUS, file, *options, "--output", self.folder / name],
-            capture_output=True, text=True, timeout=300)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return self.folder / name
-
+class ObstacleFiles(Case):
     def rows(self, folder):
         with open(folder / "obstacles.csv") as lines:
             return list(csv.DictReader(lines))
