@@ -136,7 +136,7 @@ class BadInputTerrain(Case):
                 (self.HEAD.replace("size 5", "size 1e300") + self.ROWS,
                  "reaches to 3e+300 m", "head"),
                 (self.HEAD.replace("ncols 3", "ncols 1000000000")
-                 .replace("nrows 3", "nrows 1000000000") + self.ROWS, "line 6")):
+                 .replace("nrows 3", "nrows 1000000000") + self.ROWS, "a million")):
             with self.subTest(content):
                 self.refuse_raster(content, *words)
         for name in ("/dev/zero", ".", "/dev/null", "missing.asc"):

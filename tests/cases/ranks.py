@@ -161,7 +161,8 @@ class Ranks(Runs):
         """One rank of four sees it: one sentence, and the state of that rank;
         besides, the launcher tells that it stopped the others."""
         result = self.start("leaves", 4,
-                            SLIDE + ["Grid/Upper corner=60,8", "End time=30"])
+                            SLIDE + ["Grid/Upper corner=60,8", "End time=30"],
+                            "landslide.prm")
         self.assertNotEqual(result.returncode, 0)
         sentences = [line for line in result.stderr.splitlines()
                      if "talus:" in line]
