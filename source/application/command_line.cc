@@ -94,9 +94,9 @@ namespace talus
       }
     if (variables.count("version"))
       {
-        out << "talus " << TALUS_VERSION << " (" << TALUS_GIT_REVISION
-            << "), deal.II " << DEAL_II_PACKAGE_VERSION << ", kernels for "
-            << processor() << std::endl;
+        out << "talus " << TALUS_VERSION << " (git revision "
+            << TALUS_GIT_REVISION << "), deal.II " << DEAL_II_PACKAGE_VERSION
+            << ", kernels for " << processor() << std::endl;
         return {};
       }
     AssertThrow(result.document || !result.parameter_file.empty(),

@@ -8,6 +8,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
+#include <set>
 
 namespace talus
 {
@@ -17,6 +18,9 @@ namespace talus
   namespace
   {
     const std::string part_ending = ".part";
+
+    /// As many digits as keep the order of the names that of the steps.
+    constexpr unsigned int n_digits = 10;
 
     /// In a folder of their own, so that nothing else in the output folder is
     /// touched.
@@ -28,13 +32,17 @@ namespace talus
 
 
 
-    /// Its name is a number; what ends in .part is unfinished or about to go.
+    /// The files of a checkpoint: the state, and what deal.II writes of a mesh.
     bool
-    is_checkpoint(const fs::path &path)
+    is_file_of_checkpoint(const fs::path &path)
     {
+      static const std::set<std::string> endings = {
+        "", ".info", "_fixed.data", "_variable.data", "_triangulation.data"};
       const std::string name = path.filename().string();
-      return !name.empty() &&
-             name.find_first_not_of("0123456789") == std::string::npos;
+      const std::string mesh = mesh_file_name;
+      return name == state_file_name ||
+             (name.compare(0, mesh.size(), mesh) == 0 &&
+              endings.count(name.substr(mesh.size())) == 1);
     }
 
 
@@ -53,6 +61,65 @@ namespace talus
         result.push_back(entry->path());
       return result;
     }
+
+
+
+    /// Whether @p path may be a checkpoint, by @p name: that of a step as
+    /// checkpoint_path() makes it, and files of ours within, or none. Anything
+    /// else in the folder is somebody else's, and stays as it is.
+    bool
+    is_checkpoint(const fs::path &path, const std::string &name)
+    {
+      std::error_code error;
+      if (name.size() < n_digits ||
+          (name.size() > n_digits && name.front() == '0') ||
+          name.find_first_not_of("0123456789") != std::string::npos ||
+          !fs::is_directory(fs::symlink_status(path, error)))
+        return false;
+      const std::vector<fs::path> files = content(path);
+      return files.empty() ||
+             std::any_of(files.begin(), files.end(), is_file_of_checkpoint);
+    }
+
+
+
+    bool
+    is_unfinished(const fs::path &path)
+    {
+      return path.extension() == part_ending &&
+             is_checkpoint(path, path.stem().string());
+    }
+
+
+
+    /// Remove a checkpoint but for what others have put into its folder. The
+    /// state goes first: without it a half-removed one is damaged, and is no
+    /// checkpoint once the mesh has gone, too.
+    std::error_code
+    remove_checkpoint(const fs::path &path)
+    {
+      std::error_code error;
+      if (!fs::is_directory(fs::symlink_status(path, error)))
+        return {};
+      std::vector<fs::path> files = content(path);
+      std::sort(files.rbegin(), files.rend());
+      for (const fs::path &file : files)
+        if (is_file_of_checkpoint(file) && !fs::remove(file, error) && error)
+          return error;
+      if (content(path).empty())
+        fs::remove(path, error);
+      return error;
+    }
+
+
+
+    bool
+    has_foreign_files(const fs::path &checkpoint)
+    {
+      const std::vector<fs::path> files = content(checkpoint);
+      return !std::all_of(files.begin(), files.end(), is_file_of_checkpoint);
+    }
+
 
 
     /// All ranks must see the same, whatever their file systems show them.
@@ -102,8 +169,7 @@ namespace talus
   fs::path
   checkpoint_path(const fs::path &output_folder, const unsigned long step)
   {
-    // As many digits as keep the order of the names that of the steps.
-    return folder_of_all(output_folder) / Utilities::to_string(step, 10);
+    return folder_of_all(output_folder) / Utilities::to_string(step, n_digits);
   }
 
 
@@ -122,7 +188,7 @@ namespace talus
   {
     std::vector<fs::path> result;
     for (const fs::path &path : content(folder_of_all(output_folder)))
-      if (is_checkpoint(path))
+      if (is_checkpoint(path, path.filename().string()))
         result.push_back(path);
     std::sort(result.rbegin(), result.rend());
     return result;
@@ -133,10 +199,9 @@ namespace talus
   void
   remove_unfinished(const fs::path &output_folder)
   {
-    std::error_code ignored;
     for (const fs::path &path : content(folder_of_all(output_folder)))
-      if (path.extension() == part_ending)
-        fs::remove_all(path, ignored);
+      if (is_unfinished(path))
+        remove_checkpoint(path);
   }
 
 
@@ -144,9 +209,10 @@ namespace talus
   std::string
   make_temporary_folder(const fs::path &checkpoint)
   {
-    const fs::path  part = temporary_path(checkpoint);
-    std::error_code error;
-    fs::remove_all(part, error);
+    const fs::path  part  = temporary_path(checkpoint);
+    std::error_code error = remove_checkpoint(part);
+    if (!error && fs::exists(part, error))
+      return text("'", part.string(), "' is there and no checkpoint");
     if (!error)
       fs::create_directories(part, error);
     return error ? error.message() : "";
@@ -173,8 +239,7 @@ namespace talus
   {
     // One of the same step is there if it was damaged and the run resumed from
     // the one before.
-    std::error_code error;
-    fs::remove_all(checkpoint, error);
+    std::error_code error = remove_checkpoint(checkpoint);
     if (!error)
       fs::rename(temporary_path(checkpoint), checkpoint, error);
     if (error)
@@ -195,8 +260,10 @@ namespace talus
       if (std::find(kept.begin(), kept.end(), path) == kept.end())
         {
           // Under another name first: a half-removed one is none.
-          fs::rename(path, temporary_path(path), ignored);
-          fs::remove_all(temporary_path(path), ignored);
+          const fs::path part =
+            has_foreign_files(path) ? path : temporary_path(path);
+          fs::rename(path, part, ignored);
+          remove_checkpoint(part);
         }
   }
 

@@ -154,6 +154,16 @@ namespace talus
     if (moves())
       for (unsigned int d = 0; d < dim; ++d)
         v[d] = velocity_->finite_value(reference_point_, t, d);
+    AssertThrow(v.norm_square() <= 1e12,
+                ExcUser(text(path("Velocity"),
+                             " = ",
+                             velocity_text_,
+                             " is ",
+                             v.norm(),
+                             " m/s at t = ",
+                             t,
+                             " s, faster than anything that soil meets. "
+                             "Correct the expression.")));
     return v;
   }
 

@@ -76,7 +76,10 @@ namespace talus
         const auto [first, total] = file.first_and_total(cells.n_vertices());
         const unsigned int n      = cells.n_vertices_per_cell();
         file.create_group("mesh");
-        const std::string vertices = write("mesh/vertices", cells.vertices, 3);
+        const std::string vertices =
+          with_vertices(cells, [&](const auto &coordinates) {
+            return write("mesh/vertices", coordinates, 3);
+          });
         file.set_attribute("mesh/vertices", "unit", std::string("m"));
         const std::string corners =
           write("mesh/cells", corners_of_cells<std::int64_t>(cells, first), n);
@@ -106,7 +109,9 @@ namespace talus
         std::replace(name.begin(), name.end(), '/', '_');
         name = "fields/" + name;
         const std::string item =
-          write(name, values_of(field, cells.items), n_columns(field));
+          with_values(cells, field, [&](const auto &values) {
+            return write(name, values, n_columns(field));
+          });
         file.set_attribute(name, "name", name_with_unit(field));
         file.set_attribute(name, "unit", field.unit.empty() ? "-" : field.unit);
         file.set_attribute(name,

@@ -4,6 +4,7 @@
 #include <talus/io/netcdf_raster.h>
 #include <talus/io/raster_file.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -20,7 +21,8 @@ namespace talus
     {
       std::ifstream in(file, std::ios::binary);
       std::string   bytes(8, '\0');
-      if (!std::filesystem::is_directory(file))
+      // Not of a device or a pipe: what is read once is gone, or has no end.
+      if (std::filesystem::is_regular_file(file))
         in.read(bytes.data(), bytes.size());
       AssertThrow(in.gcount() > 0,
                   ExcUser("The raster '" + file.string() +
@@ -111,6 +113,46 @@ namespace talus
                      " out.tif && gdal_translate -of AAIGrid out.tif out.asc. "
                      "If it is in metres (a flume), set `Units` = m.")));
     }
+
+
+
+    /// A number such as 9.97e36 marks cells without a datum, but not all files
+    /// say so, and it would be taken for a mountain. And squares of coordinates
+    /// must not overflow.
+    void
+    check_magnitudes(const std::filesystem::path &file, const Raster &raster)
+    {
+      const auto        it = std::find_if(raster.values.begin(),
+                                   raster.values.end(),
+                                   [](const double height) {
+                                     return std::abs(height) > 1e6;
+                                   });
+      const std::size_t i  = it - raster.values.begin();
+      AssertThrow(it == raster.values.end(),
+                  ExcUser(text("The raster '",
+                               file.string(),
+                               "' has the height ",
+                               *it,
+                               " m in row ",
+                               i / raster.n_columns + 1,
+                               ", column ",
+                               i % raster.n_columns + 1,
+                               ". If that marks cells without a datum, say so "
+                               "in the head of the file: nodata_value ",
+                               *it,
+                               ".")));
+      const double farthest = std::max({std::abs(raster.west),
+                                        std::abs(raster.south),
+                                        raster.n_columns * raster.dx,
+                                        raster.n_rows * raster.dy});
+      AssertThrow(farthest <= 1e9,
+                  ExcUser(text("The raster '",
+                               file.string(),
+                               "' reaches to ",
+                               farthest,
+                               " m, where a map of the Earth in metres was "
+                               "expected. Correct its head.")));
+    }
   } // namespace
 
 
@@ -135,6 +177,7 @@ namespace talus
         (unit.rfind("degree", 0) == 0 ||
          (unit.empty() && looks_like_degrees(raster))))
       refuse_degrees(file, raster);
+    check_magnitudes(file, raster);
     return raster;
   }
 } // namespace talus

@@ -31,8 +31,7 @@ namespace talus
     // time, as its library checks that the two agree.
     unsigned int hdf5[3];
     H5get_libversion(&hdf5[0], &hdf5[1], &hdf5[2]);
-    const std::string revision = TALUS_GIT_REVISION;
-    const auto        line     = [&prefix](const auto &...words) {
+    const auto line = [&prefix](const auto &...words) {
       return text(prefix, words..., '\n');
     };
     const auto dotted = [](const auto a, const auto b, const auto c) {
@@ -41,7 +40,7 @@ namespace talus
     return line("talus ",
                 TALUS_VERSION,
                 ", git revision ",
-                revision.empty() ? "unknown" : revision) +
+                TALUS_GIT_REVISION) +
            line("deal.II ", DEAL_II_PACKAGE_VERSION) +
            line("Trilinos ",
                 dotted(DEAL_II_TRILINOS_VERSION_MAJOR,

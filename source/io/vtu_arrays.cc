@@ -110,6 +110,8 @@ namespace talus
 
 
   template void
+  write_vtu_array(std::ostream &, const std::vector<double> &);
+  template void
   write_vtu_array(std::ostream &, const std::vector<float> &);
   template void
   write_vtu_array(std::ostream &, const std::vector<std::int32_t> &);

@@ -34,11 +34,22 @@ namespace talus
 
 
 
+    /// Of the places in these cells.
+    std::string
+    type_of_places(const OutputCells &cells)
+    {
+      return cells.places_in_double ? "Float64" : "Float32";
+    }
+
+
+
     /// Type, name and number of components of a field.
     std::string
-    attributes_of(const Field &field)
+    attributes_of(const OutputCells &cells, const Field &field)
     {
-      return text("type=\"Float32\" Name=\"",
+      return text("type=\"",
+                  field.is_place ? type_of_places(cells) : "Float32",
+                  "\" Name=\"",
                   name_with_unit(field),
                   "\" NumberOfComponents=\"",
                   n_columns(field),
@@ -48,8 +59,7 @@ namespace talus
 
 
     /// Vertices cell by cell: the corners of cell c are the vertices from c
-    /// times their number on, in VTK's order by corners_of_cells(). Single
-    /// precision, as all fields.
+    /// times their number on, in VTK's order by corners_of_cells().
     void
     write_geometry(std::ostream &out, const OutputCells &cells)
     {
@@ -59,9 +69,12 @@ namespace talus
         offsets[c] = (c + 1) * cells.n_vertices_per_cell();
 
       out << "<Points>\n";
-      write_array(out,
-                  "type=\"Float32\" NumberOfComponents=\"3\"",
-                  cells.vertices);
+      with_vertices(cells, [&](const auto &vertices) {
+        write_array(out,
+                    "type=\"" + type_of_places(cells) +
+                      "\" NumberOfComponents=\"3\"",
+                    vertices);
+      });
       out << "</Points>\n<Cells>\n";
       write_array(out,
                   "type=\"Int32\" Name=\"connectivity\"",
@@ -100,12 +113,14 @@ namespace talus
           << "\">\n"
              "<PUnstructuredGrid GhostLevel=\"0\">\n"
              "<PPoints>\n"
-             "<PDataArray type=\"Float32\" NumberOfComponents=\"3\"/>\n"
+             "<PDataArray type=\""
+          << type_of_places(cells)
+          << "\" NumberOfComponents=\"3\"/>\n"
              "</PPoints>\n"
              "<P"
           << data << ">\n";
       for (const Field &field : cells.fields)
-        out << "<PDataArray " << attributes_of(field) << "/>\n";
+        out << "<PDataArray " << attributes_of(cells, field) << "/>\n";
       out << "</P" << data << ">\n";
       for (const std::string &piece : pieces)
         out << "<Piece Source=\"" << piece << "\"/>\n";
@@ -138,7 +153,9 @@ namespace talus
     write_geometry(out, cells);
     out << '<' << data << ">\n";
     for (const Field &field : cells.fields)
-      write_array(out, attributes_of(field), values_of(field, cells.items));
+      with_values(cells, field, [&](const auto &values) {
+        write_array(out, attributes_of(cells, field), values);
+      });
     out << "</" << data << ">\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
   }
 

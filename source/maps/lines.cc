@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
 #include <talus/maps/lines.h>
 
 #include <algorithm>
@@ -22,7 +23,19 @@ namespace talus
   void
   Lines<dim>::check(const State<dim> &state) const
   {
-    list_->lines(state.grid.domain_before_growth(), this->problem().origin());
+    const Box<dim> domain = state.grid.domain_before_growth();
+    const double   width  = list_->width(state.grid.cell_size());
+    this->settings().check(domain.length(1));
+    double n = 0;
+    for (const auto &line : list_->lines(domain, this->problem().origin()))
+      for (unsigned int i = 1; i < line.corners.size(); ++i)
+        n += line.corners[i].distance(line.corners[i - 1]) / width;
+    AssertThrow(n <= 1e7,
+                ExcUser(text("'Stations/Lines' would have ",
+                             n,
+                             " places, each a 'Stations/Width' of ",
+                             width,
+                             " m from the next. Make that larger.")));
   }
 
 

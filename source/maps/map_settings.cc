@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
 #include <talus/maps/map_settings.h>
+
+#include <set>
 
 namespace talus
 {
@@ -45,6 +48,34 @@ namespace talus
                   "is cheaper.",
                   this->prm,
                   Patterns::Integer(1));
+  }
+
+
+
+  void
+  MapSettings::check(const double height) const
+  {
+    const auto check_thickness = [height](const std::string &entry,
+                                          const double       thickness) {
+      AssertThrow(thickness <= height,
+                  ExcUser(text("'Maps/",
+                               entry,
+                               "' is ",
+                               thickness,
+                               " m, which soil in a mesh ",
+                               height,
+                               " m high cannot reach. Make it smaller.")));
+    };
+    check_thickness("Smallest thickness", smallest_thickness_);
+    std::set<double> known;
+    for (const double threshold : arrival_thresholds_)
+      {
+        check_thickness("Arrival thresholds", threshold);
+        AssertThrow(known.insert(threshold).second,
+                    ExcUser(text("'Maps/Arrival thresholds' lists ",
+                                 threshold,
+                                 " m twice. Remove one.")));
+      }
   }
 
 

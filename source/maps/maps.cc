@@ -4,6 +4,7 @@
 #include <talus/io/esri_grid.h>
 #include <talus/io/vtu_writer.h>
 #include <talus/maps/maps.h>
+#include <talus/observers/state_cells.h>
 
 #include <algorithm>
 #include <cmath>
@@ -30,9 +31,17 @@ namespace talus
                              name,
                              "', which is no surface with a raster. Name one "
                              "of 'Surfaces/Names' that has a `File`.")));
+    const Box<dim> domain = state.grid.domain_before_growth();
+    this->settings().check(domain.length(1));
     double n = 1;
     for (const Axis &axis : axes(state))
       n *= axis.number;
+    AssertThrow(this->settings().cell_size() <= domain.length(0),
+                ExcUser(text("'Maps/Cell size' is ",
+                             this->settings().cell_size(),
+                             " m, more than the ",
+                             domain.length(0),
+                             " m of the mesh. Make it smaller.")));
     AssertThrow(n <= 1e8,
                 ExcUser(text("The maps would have ",
                              n,
@@ -73,8 +82,9 @@ namespace talus
         axis.lower +=
           axis.size *
           std::floor((domain.lower[d] - axis.lower) / axis.size + 1e-9);
-        axis.number = static_cast<unsigned int>(std::min(
-          1e9, std::ceil((domain.upper[d] - axis.lower) / axis.size - 1e-9)));
+        const double n = (domain.upper[d] - axis.lower) / axis.size;
+        axis.number =
+          static_cast<unsigned int>(std::clamp(std::ceil(n - 1e-9), 1., 1e9));
       }
     return axes;
   }
@@ -249,11 +259,11 @@ namespace talus
         {field.name,
          field.unit,
          FieldKind::scalar,
-         [&envelope, field](const unsigned int column, float *value) {
+         [&envelope, field](const unsigned int column, double *value) {
            *value = field.value(envelope[column]);
          }});
-    OutputCells cells(
-      fields, ItemsAt::cells, CellShape::quad, state.time, state.step);
+    OutputCells cells =
+      state_cells(state, fields, ItemsAt::cells, CellShape::quad);
     const unsigned int n_x = axes_[0].number;
     for (const unsigned int column : envelope.reached())
       {

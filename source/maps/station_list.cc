@@ -42,12 +42,12 @@ namespace talus
                   "and diameter, C_D rho u^2/2 + N_p s_u [-]. With both at 0 "
                   "it is not written.",
                   this->prm,
-                  Patterns::Double(0.));
+                  Patterns::Double(0., 1e3));
     add_parameter("Bearing factor",
                   impact_.bearing_factor,
                   "N_p of that estimate [-].",
                   this->prm,
-                  Patterns::Double(0.));
+                  Patterns::Double(0., 1e3));
   }
 
 
@@ -96,6 +96,14 @@ namespace talus
     AssertThrow(dim == 3 || coordinates_ == "mesh",
                 ExcUser("'Stations/Coordinates' is 'map', but a section has "
                         "no places on the map. Give x along it, and 'mesh'."));
+    AssertThrow(width_ == 0. || (width_ <= domain.length(0) &&
+                                 width_ > 1e-9 * domain.length(0)),
+                ExcUser(text("'Stations/Width' is ",
+                             width_,
+                             " m, on a mesh that is ",
+                             domain.length(0),
+                             " m long. A width between a billionth of that and "
+                             "all of it was expected; correct it.")));
     std::vector<Named> result;
     for (const std::string &item : Utilities::split_string_list(value, '|'))
       {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/geometry/clip_simplex.h>
 #include <talus/observers/facets_output.h>
+#include <talus/observers/state_cells.h>
 
 #include <algorithm>
 #include <cmath>
@@ -116,7 +117,7 @@ namespace talus
       return {name,
               unit,
               FieldKind::scalar,
-              [value](const unsigned int c, float *to) { *to = value(c); }};
+              [value](const unsigned int c, double *to) { *to = value(c); }};
     }
 
 
@@ -128,7 +129,7 @@ namespace talus
       return {name,
               unit,
               FieldKind::vector,
-              [value](const unsigned int c, float *to) {
+              [value](const unsigned int c, double *to) {
                 const Tensor<1, dim> v = value(c);
                 std::copy_n(v.begin_raw(), dim, to);
               }};
@@ -223,11 +224,11 @@ namespace talus
   {
     if (contact_.duration_of_impulses() == 0)
       return;
-    OutputCells cells(facet_fields(contact_, state),
-                      ItemsAt::cells,
-                      dim == 2 ? CellShape::line : CellShape::quad,
-                      state.time,
-                      state.step);
+    OutputCells cells =
+      state_cells(state,
+                  facet_fields(contact_, state),
+                  ItemsAt::cells,
+                  dim == 2 ? CellShape::line : CellShape::quad);
     for (unsigned int c = 0; c < contact_.constraints().size(); ++c)
       if (contact_.constraints()[c].is_loaded)
         {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/grid/nodal_exchange.h>
 #include <talus/observers/grid_output.h>
+#include <talus/observers/state_cells.h>
 
 namespace talus
 {
@@ -55,7 +56,7 @@ namespace talus
         return Field{name,
                      unit,
                      n == 1 ? FieldKind::scalar : FieldKind::vector,
-                     [n, source](const unsigned int node, float *values) {
+                     [n, source](const unsigned int node, double *values) {
                        for (unsigned int c = 0; c < n; ++c)
                          values[c] = source(node)[c];
                      }};
@@ -104,12 +105,11 @@ namespace talus
   void
   GridOutput<dim>::observe(const State<dim> &state)
   {
-    const AlignedVector<double> sums = mass_and_force(state);
-    OutputCells                 cells(node_fields(state.nodes, sums),
-                      ItemsAt::vertices,
-                      box_shape<dim>,
-                      state.time,
-                      state.step);
+    const AlignedVector<double> sums  = mass_and_force(state);
+    OutputCells                 cells = state_cells(state,
+                                    node_fields(state.nodes, sums),
+                                    ItemsAt::vertices,
+                                    box_shape<dim>);
 
     unsigned int previous = numbers::invalid_unsigned_int;
     for (const Segment &segment : state.points.segments())

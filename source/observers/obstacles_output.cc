@@ -2,6 +2,7 @@
 #include <talus/base/agreement.h>
 #include <talus/geometry/contour.h>
 #include <talus/observers/obstacles_output.h>
+#include <talus/observers/state_cells.h>
 
 #include <algorithm>
 
@@ -61,13 +62,13 @@ namespace talus
       return {{"obstacle",
                "",
                FieldKind::scalar,
-               [&elements](const unsigned int i, float *value) {
+               [&elements](const unsigned int i, double *value) {
                  *value = elements[i].obstacle;
                }},
               {"normal",
                "",
                FieldKind::vector,
-               [&](const unsigned int i, float *value) {
+               [&](const unsigned int i, double *value) {
                  const Tensor<1, dim> n =
                    obstacles[elements[i].obstacle].normal(elements[i].middle());
                  std::copy_n(n.begin_raw(), dim, value);
@@ -75,7 +76,7 @@ namespace talus
               {"maximum shear stress",
                "Pa",
                FieldKind::scalar,
-               [&](const unsigned int i, float *value) {
+               [&](const unsigned int i, double *value) {
                  *value = obstacles[elements[i].obstacle].maximum_shear_stress(
                    elements[i].middle());
                }}};
@@ -115,11 +116,11 @@ namespace talus
       elements = elements_in(state.grid.domain_before_growth(),
                              obstacles_,
                              state.grid.finest_size());
-    OutputCells cells(surface_fields(obstacles_, elements),
-                      ItemsAt::cells,
-                      dim == 2 ? CellShape::line : CellShape::triangle,
-                      state.time,
-                      state.step);
+    OutputCells cells =
+      state_cells(state,
+                  surface_fields(obstacles_, elements),
+                  ItemsAt::cells,
+                  dim == 2 ? CellShape::line : CellShape::triangle);
     for (unsigned int i = 0; i < elements.size(); ++i)
       {
         for (const Point<dim> &corner : elements[i].corners)

@@ -338,7 +338,7 @@ namespace talus
                  {{"mechanism",
                    "-",
                    FieldKind::vector,
-                   [&](const unsigned int p, float *values) {
+                   [&](const unsigned int p, double *values) {
                      for (unsigned int d = 0; d < dim; ++d)
                        values[d] = mechanism[dim * p + d];
                    }}});

@@ -3,6 +3,7 @@
 #include <talus/io/vtu_writer.h>
 #include <talus/observers/boxes.h>
 #include <talus/observers/points_output.h>
+#include <talus/observers/state_cells.h>
 #include <talus/points/points_kernel.h>
 
 #include <algorithm>
@@ -22,7 +23,7 @@ namespace talus
     read_symmetric_tensor(const Points<dim> &points,
                           const unsigned int first,
                           const unsigned int p,
-                          float             *values)
+                          double            *values)
     {
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
@@ -59,22 +60,24 @@ namespace talus
                     ? column.name
                     : column.name + " " + std::to_string(c),
                   FieldKind::scalar,
-                  [&points, first, c](const unsigned int p, float *values) {
+                  [&points, first, c](const unsigned int p, double *values) {
                     *values = points.data(first, c)[p];
                   });
             break;
           case ColumnKind::vector:
             add(column.name,
                 FieldKind::vector,
-                [&points, first](const unsigned int p, float *values) {
+                [&points, first](const unsigned int p, double *values) {
                   for (unsigned int d = 0; d < dim; ++d)
                     values[d] = points.data(first, d)[p];
                 });
+            fields.back().is_place =
+              first == points.position || first == points.initial_position;
             break;
           case ColumnKind::symmetric_tensor:
             add(column.name,
                 FieldKind::tensor,
-                [&points, first](const unsigned int p, float *values) {
+                [&points, first](const unsigned int p, double *values) {
                   read_symmetric_tensor(points, first, p, values);
                 });
             break;
@@ -83,7 +86,7 @@ namespace talus
             add(column.name,
                 FieldKind::tensor,
                 [&points, first, kind = column.kind](const unsigned int p,
-                                                     float *values) {
+                                                     double *values) {
                   // In 2-D: nothing is stretched out of the plane, but any
                   // other tensor has 0 there. In 3-D the loop sets it.
                   values[8] = (kind == ColumnKind::deformation);
@@ -124,7 +127,7 @@ namespace talus
       fields.push_back({"displacement",
                         "m",
                         FieldKind::vector,
-                        [&points](const unsigned int p, float *values) {
+                        [&points](const unsigned int p, double *values) {
                           const Tensor<1, dim> u =
                             load_vector(points, points.position, p) -
                             load_vector(points, points.initial_position, p);
@@ -133,7 +136,7 @@ namespace talus
       fields.push_back({"box length",
                         "m",
                         FieldKind::vector,
-                        [&state](const unsigned int p, float *values) {
+                        [&state](const unsigned int p, double *values) {
                           const auto lengths = box_lengths(state, p);
                           for (unsigned int d = 0; d < dim; ++d)
                             values[d] = lengths[d];
@@ -154,8 +157,8 @@ namespace talus
         fields.push_back({name,
                           unit,
                           FieldKind::scalar,
-                          [value](const unsigned int p, float *values) {
-                            *values = static_cast<float>(value(p));
+                          [value](const unsigned int p, double *values) {
+                            *values = value(p);
                           }});
       };
       add("speed", "m/s", [&points](const unsigned int p) {
@@ -184,8 +187,8 @@ namespace talus
                        const ItemsAt     items_at,
                        const CellShape   shape)
     {
-      OutputCells cells(
-        point_fields(state), items_at, shape, state.time, state.step);
+      OutputCells cells =
+        state_cells(state, point_fields(state), items_at, shape);
       cells.items.resize(state.points.size());
       std::iota(cells.items.begin(), cells.items.end(), 0);
       cells.vertices.reserve(3 * cells.items.size() *

@@ -49,7 +49,9 @@ namespace talus
                   "Where x = y = z = 0 of the mesh lies on the map: easting, "
                   "northing and height [m]. Rasters are read relative to it, "
                   "so that coordinates are small numbers that lose no digits; "
-                  "in 2-D only the height counts.");
+                  "in 2-D only the height counts.",
+                  this->prm,
+                  Patterns::List(Patterns::Double(-1e9, 1e9), 3, 3));
     leave_subsection();
   }
 

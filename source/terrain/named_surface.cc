@@ -51,15 +51,17 @@ namespace talus
     for (const auto &corner : Utilities::split_string_list(section_, ';'))
       {
         const auto numbers = Utilities::split_string_list(corner, ',');
-        AssertThrow(numbers.size() == 2 &&
-                      Patterns::Double().match(numbers[0]) &&
-                      Patterns::Double().match(numbers[1]),
-                    ExcUser(text(path("Section"),
-                                 " contains '",
-                                 corner,
-                                 "', where two numbers 'easting,northing' were "
-                                 "expected; corners are separated by "
-                                 "semicolons.")));
+        // Squares of larger ones would overflow.
+        const Patterns::Double number(-1e9, 1e9);
+        AssertThrow(
+          numbers.size() == 2 && number.match(numbers[0]) &&
+            number.match(numbers[1]),
+          ExcUser(text(path("Section"),
+                       " contains '",
+                       corner,
+                       "', where two numbers 'easting,northing' of "
+                       "at most 1e9 m were expected; corners are separated by "
+                       "semicolons.")));
         const Point<2> x(Utilities::string_to_double(numbers[0]),
                          Utilities::string_to_double(numbers[1]));
         AssertThrow(corners.empty() || x.distance(corners.back()) > 0.,

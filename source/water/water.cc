@@ -18,30 +18,36 @@ namespace talus
     const auto add = [this](const std::string &name,
                             double            &value,
                             const std::string &sentence,
-                            const double       least) {
-      add_parameter(name, value, sentence, this->prm, Patterns::Double(least));
+                            const double       least,
+                            const double       most) {
+      add_parameter(
+        name, value, sentence, this->prm, Patterns::Double(least, most));
     };
     add("Density",
         density_,
         "Density of the water around the soil [kg/m^3].",
-        1e-300);
+        1e-3,
+        1e5);
     add("Added mass coefficient",
         added_mass_,
         "Mass of water that is accelerated with the soil, divided by the mass "
         "of the water that the soil displaces [-]; 0: none.",
-        0.);
+        0.,
+        1e3);
     add("Skin friction coefficient",
         skin_friction_,
         "Shear stress of the water on the free surface of the soil, divided by "
         "half the density of the water and the square of the velocity along "
         "the surface [-]; 0: none.",
-        0.);
+        0.,
+        1e3);
     add("Pressure drag coefficient",
         pressure_drag_,
         "Pressure of the water where the free surface moves outwards, divided "
         "by half the density of the water and the square of the velocity "
         "normal to the surface [-]; 0: none.",
-        0.);
+        0.,
+        1e3);
   }
 
 

@@ -17,6 +17,7 @@ from bad_input_folder import BadInputFolder
 from bad_input_motion import BadInputMotion
 from bad_input_stages import BadInputStages
 from bad_input_terrain import BadInputTerrain
+from bad_input_values import BadInputValues
 
 
 class BadInput(Case):
@@ -493,7 +494,7 @@ class DiskFull(Case):
 if __name__ == "__main__":
     print()
     tests = [BadInput, BadInputFolder, BadInputMotion, BadInputStages,
-             BadInputTerrain, CommandLine, DiskFull]
+             BadInputTerrain, BadInputValues, CommandLine, DiskFull]
     names = sys.argv[3:] or [test.__name__ for test in tests]
     suite = unittest.TestSuite(
         unittest.defaultTestLoader.loadTestsFromTestCase(globals()[name])

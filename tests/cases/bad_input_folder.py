@@ -151,6 +151,43 @@ class BadInputFolder(Case):
         self.assertTrue((self.results / "parameters.prm").read_text()
                         .startswith(RECORD))
 
+    def test_what_others_put_beside_checkpoints_stays(self):
+        places = ["checkpoints/2024/notes.txt", "checkpoints/0000000077/a.txt",
+                  "checkpoints/00000000123/state.h5", "checkpoints/12345678901",
+                  "checkpoints/data.part", "checkpoints/0000000912.part",
+                  "checkpoints/thesis.part/chapter.tex",
+                  "checkpoints/0000000913.part/notes.txt"]
+        empty = self.results / "checkpoints" / "1999"
+        empty.mkdir(parents=True)
+        for place in places:
+            (self.results / place).parent.mkdir(exist_ok=True)
+            (self.results / place).write_text("mine")
+        every = ["Checkpoint/Step interval=1", "Checkpoint/At the end=true"]
+        for settings, options in ((["End time=0.1", *every], []),
+                                  (["End time=0.2", *every], ["--resume"]),
+                                  (["End time=0.1"], ["--overwrite"])):
+            (self.folder / "case.prm").write_text(GOOD)
+            result = self.run_talus(
+                *[o for s in settings for o in ("--set", s)], *options,
+                "--output", "results", "case.prm")
+            self.assertEqual(result.returncode, 0, result.stderr)
+            for place in places:
+                self.assertEqual((self.results / place).read_text(), "mine")
+            self.assertTrue(empty.exists())
+
+    def test_checkpoints_of_an_earlier_run_go_but_for_what_is_in_them(self):
+        old = self.results / "checkpoints" / "0000000999"
+        half = self.results / "checkpoints" / "0000000998.part"
+        for folder in (old, half):
+            folder.mkdir(parents=True)
+            for name in ("state.h5", "mesh", "mesh.info", "notes.txt"):
+                (folder / name).write_text("of an earlier run")
+        (self.folder / "case.prm").write_text(GOOD)
+        result = self.run_talus("--overwrite", "--output", "results", "case.prm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        for folder in (old, half):
+            self.assertEqual([f.name for f in folder.iterdir()], ["notes.txt"])
+
     # Parameter files that include others
 
     def write(self, **files):

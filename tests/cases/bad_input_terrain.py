@@ -88,3 +88,58 @@ class BadInputTerrain(Case):
                 (["Stations/Lines=a: 1; 1"], "'a' has no length")):
             with self.subTest(settings):
                 self.refuse_set(settings, *words)
+
+    def test_numbers_out_of_any_range(self):
+        station, maps = ["Stations/Points=a: 2"], ["Maps/Write=true"]
+        for settings, *words in (
+                (maps + ["Maps/Cell size=1e300"], "'Maps/Cell size' is 1e+300",
+                 "4 m of the mesh"),
+                (maps + ["Maps/Arrival thresholds=1, 5"],
+                 "'Maps/Arrival thresholds' is 5", "4 m high"),
+                (maps + ["Maps/Arrival thresholds=1, 0.5, 1"], "1 m twice"),
+                (maps + ["Maps/Smallest thickness=1e300"],
+                 "'Maps/Smallest thickness'", "cannot reach"),
+                (["Stations/Lines=a: 1; 2", "Stations/Width=1e-8"],
+                 "'Stations/Lines'", "1e+08 places", "'Stations/Width'"),
+                (station + ["Stations/Width=1e300"], "'Stations/Width' is 1e+300"),
+                (station + ["Stations/Width=1e-300"], "'Stations/Width' is 1e-300"),
+                (station + ["Stations/Drag coefficient=1e300"],
+                 "'Drag coefficient'", "from 0 to 1000"),
+                (station + ["Stations/Bearing factor=1e300"],
+                 "'Bearing factor'", "from 0 to 1000"),
+                (["Water/Added mass coefficient=1e300"],
+                 "'Added mass coefficient'", "from 0 to 1000"),
+                (["Water/Density=1e300"], "'Density'", "to 100000"),
+                (["Grid/Origin=1e300,0,0"], "'Origin'", "1e+09"),
+                (self.FILE + ["Surfaces/bed/Section=0,0; 1e300,0"],
+                 "'1e300,0'", "at most 1e9 m")):
+            with self.subTest(settings):
+                self.refuse_set(settings, *words)
+        obstacle = ["Obstacles/Names=pipe", "Obstacles/pipe/Shape=ball",
+                    "Obstacles/pipe/Centre=3.5,3.5",
+                    "Obstacles/pipe/Radius=0.25"]
+        for setting, *words in (
+                ("Velocity=1e300;0", "'Obstacles/pipe/Velocity'", "t = 0 s"),
+                ("Centre=1e300,0", "'Obstacles/pipe/Centre'", "too far"),
+                ("Normal=1e300,1e300", "'Obstacles/pipe/Normal'",
+                 "no direction")):
+            with self.subTest(setting):
+                self.refuse_set(obstacle + ["Obstacles/pipe/" + setting]
+                                + ["Obstacles/pipe/Shape=half-plane"]
+                                * setting.startswith("Normal"), *words)
+
+    def test_rasters_of_no_ground(self):
+        for content, *words in (
+                (self.HEAD + "1 1 1\n1 9.97e36 1\n1 1 1\n",
+                 "height 9.97e+36 m in row 2, column 2",
+                 "nodata_value 9.97e+36"),
+                (self.HEAD.replace("size 5", "size 1e300") + self.ROWS,
+                 "reaches to 3e+300 m", "head"),
+                (self.HEAD.replace("ncols 3", "ncols 1000000000")
+                 .replace("nrows 3", "nrows 1000000000") + self.ROWS, "a million")):
+            with self.subTest(content):
+                self.refuse_raster(content, *words)
+        for name in ("/dev/zero", ".", "/dev/null", "missing.asc"):
+            self.refuse_set(self.BED + ["Surfaces/bed/File=" + name,
+                                        "Surfaces/bed/Section=0,0; 5,0"],
+                            "cannot be read", "existing file")

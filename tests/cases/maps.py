@@ -6,16 +6,11 @@ Usage: maps.py TALUS FOLDER MPIEXEC PRM_FOLDER.
 
 import csv
 import math
-import pathlib
-import shutil
-import subprocess
 import sys
 import unittest
 
-TALUS = pathlib.Path(sys.argv[1]).resolve()
-FOLDER = pathlib.Path(sys.argv[2]).resolve()
-MPIEXEC = sys.argv[3]
-PRM = pathlib.Path(sys.argv[4]).resolve()
+from ranks_case import Case
+
 
 NAMES = ["ground", "erosion", "final-thickness", "final-mass", "thickness-at-start",
          "arrival-time-0.5-m", "arrival-time-1-m",
@@ -40,26 +35,11 @@ def read_raster(path):
     return head, rows
 
 
-class Maps(unittest.TestCase):
+class Maps(Case):
     SLIDE = ["Grid/Cell size=0.8", "End time=4", "Output/Field interval=0.5",
              "Output/Statistics interval=0.5", "Output/Write points=false",
              "Output/Write grid=false", "Maps/Write=true",
              "Maps/Arrival thresholds=0.5, 1"]
-
-    def setUp(self):
-        self.folder = FOLDER / self.id().split(".")[-1]
-        shutil.rmtree(self.folder, ignore_errors=True)
-        self.folder.mkdir(parents=True)
-
-    def run_talus(self, name, file, settings, n_ranks=1):
-        launcher = [MPIEXEC, "-n", str(n_ranks)] if n_ranks > 1 else []
-        options = [o for s in settings for o in ("--set", s)]
-        result = subprocess.run(
-            [*launcher, TALUS, PRM / file, *options,
-             "--output", self.folder / name],
-            capture_output=True, text=True, timeout=600)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return self.folder / name
 
     def assert_close(self, a, b, tolerance):
         self.assertTrue(abs(a - b) <= tolerance * max(1, abs(a))

@@ -9,24 +9,20 @@ import base64
 import csv
 import math
 import pathlib
-import shutil
 import struct
-import subprocess
 import sys
 import unittest
 import xml.etree.ElementTree
 import zlib
 
-TALUS = pathlib.Path(sys.argv[1]).resolve()
-FOLDER = pathlib.Path(sys.argv[2]).resolve()
-MPIEXEC = sys.argv[3]
-PRM = pathlib.Path(sys.argv[4]).resolve()
+from ranks_case import Case, PRM
+
 HERE = pathlib.Path(__file__).resolve().parent
 
 # A row for each step, so that its forces are those of the step.
 EACH_STEP = ["Output/Statistics interval=1e-9", "Output/Write points=false",
              "Output/Write grid=false", "Output/Runout=false"]
-TYPES = {"Float32": "f", "Int32": "i", "UInt8": "B"}
+TYPES = {"Float32": "f", "Float64": "d", "Int32": "i", "UInt8": "B"}
 
 
 def values(element):
@@ -73,21 +69,7 @@ def measure(corners):
     return 0.5 * math.hypot(*cross)
 
 
-class ObstacleFiles(unittest.TestCase):
-    def setUp(self):
-        self.folder = FOLDER / self.id().split(".")[-1]
-        shutil.rmtree(self.folder, ignore_errors=True)
-        self.folder.mkdir(parents=True)
-
-    def run_talus(self, name, file, settings, n_ranks=1):
-        launcher = [MPIEXEC, "-n", str(n_ranks)] if n_ranks > 1 else []
-        options = [o for s in settings for o in ("--set", s)]
-        result = subprocess.run(
-            [*launcher, TALUS, file, *options, "--output", self.folder / name],
-            capture_output=True, text=True, timeout=300)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        return self.folder / name
-
+class ObstacleFiles(Case):
     def rows(self, folder):
         with open(folder / "obstacles.csv") as lines:
             return list(csv.DictReader(lines))
@@ -209,6 +191,85 @@ class ObstacleFiles(unittest.TestCase):
             with open(folder / "statistics.csv") as lines:
                 mass = float(next(csv.DictReader(lines))["mass [kg]"])
             self.assertAlmostEqual(mass, 2000 * (2 - 1), delta=1e-6)
+
+
+# In 3-D, so that all kinds of files are written.
+FAR = """\
+set Dimension = 3
+set End time  = 0.05
+subsection Grid
+  set Lower corner = %(a)r, 0, 0
+  set Upper corner = %(b)r, 4, 4
+  set Cell size    = 1
+end
+subsection Bodies
+  set Names = block
+  subsection block
+    set Shape        = box
+    set Lower corner = %(c)r, 1, 1
+    set Upper corner = %(d)r, 2, 3
+    set Material     = clay
+    set Initial velocity = 0.1; 0; 0
+  end
+end
+subsection Materials
+  set Names = clay
+  subsection clay
+    set Law             = linear elastic
+    set Young's modulus = 1e6
+  end
+end
+subsection Obstacles
+  set Names = plane
+  subsection plane
+    set Shape  = half-plane
+    set Point  = %(c)r, 1.05, 0
+    set Normal = 0.1, 1, 0
+  end
+end
+subsection Maps
+  set Write = true
+end
+subsection Output
+  set Runout         = false
+  set Field interval = 0.05
+end
+"""
+
+
+class LargeCoordinates(Case):
+    """At 5 000 km from the origin, where single precision has steps of half a metre,
+    files show what they show at the origin, to the 1e-9 m of double precision."""
+
+    def places(self, shift, boxes):
+        name = f"{shift}-{boxes}"
+        file = self.folder / "far.prm"
+        file.write_text(FAR % {k: shift + x for k, x in zip("abcd", (0, 6, 1, 3))})
+        folder = self.run_talus(name, file,
+                                [f"Output/Boxes as cells={boxes}"])
+        result = {}
+        for path in sorted(folder.glob("*.vtu")):
+            result[path.name] = [x for cell in read_vtu(path)[1]
+                                 for x in cell["corners"]]
+        with open(folder / "statistics.csv") as lines:
+            result["statistics.csv"] = [(float(row["centre x [m]"]), 0, 0)
+                                        for row in csv.DictReader(lines)]
+        return result
+
+    def test_no_file_loses_digits(self):
+        for boxes in ("true", "false"):
+            near = self.places(0, boxes)
+            far = self.places(5000000, boxes)
+            self.assertEqual(list(near), list(far))
+            for kind in ("points", "grid", "obstacles", "facets", "maps"):
+                self.assertTrue(any(kind in name for name in near), near.keys())
+            for name, places in near.items():
+                self.assertGreater(len(places), 0, name)
+                self.assertEqual(len(places), len(far[name]), name)
+                for x, y in zip(places, far[name]):
+                    # That of the first is in single precision.
+                    self.assertLess(max(abs(y[0] - 5e6 - x[0]), abs(y[1] - x[1]),
+                                        abs(y[2] - x[2])), 1e-6, (name, x, y))
 
 
 if __name__ == "__main__":

@@ -6,18 +6,13 @@ Usage: ranks.py TALUS FOLDER MPIEXEC PRM_FOLDER [TestClass].
 """
 
 import csv
-import pathlib
 import re
-import shutil
-import subprocess
 import sys
 import unittest
 import xml.etree.ElementTree
 
-TALUS = pathlib.Path(sys.argv[1]).resolve()
-FOLDER = pathlib.Path(sys.argv[2]).resolve()
-MPIEXEC = sys.argv[3]
-PRM = pathlib.Path(sys.argv[4]).resolve()
+from ranks_case import Case
+
 
 TERSE = ["Output/Write points=false", "Output/Write grid=false",
          "Output/Write obstacles=false"]
@@ -39,26 +34,12 @@ def largest(values):
     return max(abs(value) for value in values)
 
 
-class Runs(unittest.TestCase):
-    def setUp(self):
-        self.folder = FOLDER / self.id().split(".", 1)[-1]
-        shutil.rmtree(self.folder, ignore_errors=True)
-        self.folder.mkdir(parents=True)
-
-    def start(self, name, n_ranks, settings, file="landslide.prm"):
-        options = [o for s in settings for o in ("--set", s)]
-        launcher = [MPIEXEC, "-n", str(n_ranks)] if n_ranks > 1 else []
-        return subprocess.run(
-            [*launcher, TALUS, *options, "--output", name, PRM / file],
-            cwd=self.folder, capture_output=True, text=True, timeout=120)
-
+class Runs(Case):
     def run_on(self, n_ranks, settings, file="landslide.prm", name=None):
         """Run to the end; return the statistics, column by column."""
         name = name or f"ranks-{n_ranks}"
-        result = self.start(name, n_ranks, settings, file)
-        self.assertEqual(result.returncode, 0, result.stderr)
-        self.assertEqual(result.stderr, "")
-        return read_table(self.folder / name / "statistics.csv")
+        folder = self.run_talus(name, file, settings, n_ranks)
+        return read_table(folder / "statistics.csv")
 
     def forces(self, name):
         return read_table(self.folder / name / "obstacles.csv")
@@ -189,7 +170,8 @@ class Ranks(Runs):
         """One rank of four sees it: one sentence, and the state of that rank;
         besides, the launcher tells that it stopped the others."""
         result = self.start("leaves", 4,
-                            SLIDE + ["Grid/Upper corner=60,8", "End time=30"])
+                            SLIDE + ["Grid/Upper corner=60,8", "End time=30"],
+                            "landslide.prm")
         self.assertNotEqual(result.returncode, 0)
         sentences = [line for line in result.stderr.splitlines()
                      if "talus:" in line]

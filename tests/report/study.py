@@ -345,6 +345,7 @@ class Refused(StudyCase):
                 ("set Case = no.prm", ("no.prm", "cannot be read")),
                 ("subsection Design\nset Kind = dice\nend", ("Design/Kind", "dice", "grid")),
                 ("subsection Design\nset Kind = grid\nend", ("Varied/strength/Values",)),
+                ("subsection Design\nset Members = 1000000000000\nend", ("Members", "at most")),
                 ("subsection Design", ("end",))):
             self.refuse(self.write("bad", line), *parts)
         for varied, parts in (
@@ -352,10 +353,25 @@ class Refused(StudyCase):
                 ("subsection strength\nset Lower = 1\nset Upper = 2\nend", ("Parameter", "needed")),
                 (STRENGTH.replace("500", "-5"), ("Standard deviation", "positive")),
                 (STRENGTH.replace("500", "a"), ("Standard deviation", "numbers")),
+                (STRENGTH.replace("500", "1e300"), ("Standard deviation", "beyond 1e100")),
+                (STRENGTH.replace("500", "1e50"), ("Standard deviation", "million")),
+                (STRENGTH.replace("2000", "nan"), ("Mean", "nan")),
+                (STRENGTH.replace("500", "inf"), ("Standard deviation", "numbers")),
+                (STRENGTH.replace("Materials/mud/Undrained shear strength", "Output/Folder"),
+                 ("Parameter", "folder of its own")),
                 (STRENGTH.replace("lognormal", "uniform\nset Lower = 2\nset Upper = 1"),
                  ("Upper", "above 'Lower'")),
                 (STRENGTH.replace("set Mean ", "set Template = x\nset Mean "), ("Template", "{}"))):
             self.refuse(self.write("bad", varied=varied), *parts)
+
+    def test_options_and_folders(self):
+        study = self.write("options")
+        for options, parts in ((("--member", "a"), ("--member", "--help")),
+                               (("--at-once", "x"), ("--at-once",)),
+                               (("--output", "/dev/null"), ("/dev/null", "cannot be made")),
+                               (("--output", study), ("cannot be made",))):
+            self.assert_sentence(self.tool("talus-study", study, *options), *parts)
+        self.assert_sentence(self.tool("talus-report", "--fast", "x"), "--fast", "--help")
 
     def test_column_that_is_not_there(self):
         study = self.grid("column", "5", "subsection Quantities\nset Names = a\nsubsection a\n"

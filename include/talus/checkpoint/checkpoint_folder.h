@@ -14,7 +14,9 @@ namespace talus
 {
   // A checkpoint is a folder `checkpoints/STEP` in the output folder. It is
   // written under another name and renamed when it is complete and on the disk,
-  // so that whatever has a proper name is whole. Unless said otherwise one rank
+  // so that whatever has a proper name is whole. Only such folders, with files of
+  // a checkpoint in them, are looked at, and only those files are ever removed:
+  // what else lies there is the user's. Unless said otherwise one rank
   // calls what follows; functions that may fail return why, empty if they did
   // not.
 

@@ -2,9 +2,13 @@
 #ifndef talus_io_output_cells_h
 #define talus_io_output_cells_h
 
+#include <talus/base/box.h>
+
 #include <deal.II/base/point.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -31,7 +35,9 @@ namespace talus
     FieldKind   kind;
     /// Write the components at item @p i (a point, a node) to @p values, where
     /// zeros are.
-    std::function<void(unsigned int i, float *values)> evaluate;
+    std::function<void(unsigned int i, double *values)> evaluate;
+    /// Whether the values are places in the mesh, as vertices are.
+    bool is_place = false;
   };
 
 
@@ -55,17 +61,37 @@ namespace talus
 
 
   /// Values of the field at these items, n_columns() for each.
-  inline std::vector<float>
+  template <typename Number>
+  std::vector<Number>
   values_of(const Field &field, const std::vector<unsigned int> &items)
   {
-    std::vector<float> values(items.size() * n_columns(field));
-    float             *to = values.data();
+    std::vector<Number> values(items.size() * n_columns(field));
+    auto                to = values.begin();
     for (const unsigned int item : items)
       {
-        field.evaluate(item, to);
-        to += n_columns(field);
+        std::array<double, 9> components = {};
+        field.evaluate(item, components.data());
+        to = std::copy_n(components.begin(), n_columns(field), to);
       }
     return values;
+  }
+
+
+
+  /// Whether single precision would lose what a picture needs of the places in
+  /// this mesh. It has 24 bits: where the largest coordinate is 2^13 cells or
+  /// more, a corner of a box would move by up to 1/2048 of a cell, and by half a
+  /// metre at 5 000 km. Of the mesh, not of the soil, so that all files of a run
+  /// have the same types.
+  template <int dim>
+  bool
+  places_need_double(const Box<dim> &domain, const double cell_size)
+  {
+    double largest = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      largest = std::max(
+        {largest, std::abs(domain.lower[d]), std::abs(domain.upper[d])});
+    return largest >= 8192. * cell_size;
   }
 
 
@@ -130,12 +156,14 @@ namespace talus
                 const ItemsAt       items_at,
                 const CellShape     shape,
                 const double        time,
-                const unsigned long step)
+                const unsigned long step,
+                const bool          places_in_double = false)
       : fields(std::move(fields))
       , items_at(items_at)
       , shape(shape)
       , time(time)
       , step(step)
+      , places_in_double(places_in_double)
     {}
 
     template <int dim>
@@ -169,11 +197,39 @@ namespace talus
     CellShape          shape;
     double             time; ///< s
     unsigned long      step;
+    /// Else in single precision, as all other fields.
+    bool places_in_double;
     /// x, y, z of each vertex, m; z = 0 in 2-D. Cell by cell; those of quads and
     /// hexes in deal.II's order.
-    std::vector<float>        vertices;
+    std::vector<double>       vertices;
     std::vector<unsigned int> items; ///< one per vertex or per cell
   };
+
+
+
+  /// Call @p use with the coordinates of the vertices in the precision in which
+  /// they are to be written, and return what it returns.
+  template <typename Function>
+  auto
+  with_vertices(const OutputCells &cells, const Function &use)
+  {
+    if (cells.places_in_double)
+      return use(cells.vertices);
+    return use(
+      std::vector<float>(cells.vertices.begin(), cells.vertices.end()));
+  }
+
+
+
+  /// The same with the values of a field.
+  template <typename Function>
+  auto
+  with_values(const OutputCells &cells, const Field &field, const Function &use)
+  {
+    if (field.is_place && cells.places_in_double)
+      return use(values_of<double>(field, cells.items));
+    return use(values_of<float>(field, cells.items));
+  }
 
 
 

@@ -15,6 +15,11 @@ namespace talus
   public:
     MapSettings();
 
+    /// Throw ExcUser if soil in a mesh of this @p height [m] cannot be as thick
+    /// as asked for, or a threshold stands there twice.
+    void
+    check(double height) const;
+
     bool
     is_enabled() const
     {

@@ -1,11 +1,20 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Errors that a user can do something about."""
 
+import argparse
 import sys
 
 
 class UserError(Exception):
     """A whole sentence: what was found, where, and what to do about it."""
+
+
+class Parser(argparse.ArgumentParser):
+    """Of options; what is wrong with them is a sentence like all others."""
+
+    def error(self, message):
+        """Exit status 1 by run_tool() instead of argparse's 2, which is no sentence."""
+        raise UserError(f"The options cannot be understood: {message}. See {self.prog} --help.")
 
 
 def run_tool(name, main):

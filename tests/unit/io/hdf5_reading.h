@@ -29,6 +29,12 @@ native_type(float)
 }
 
 inline hid_t
+native_type(double)
+{
+  return H5T_NATIVE_DOUBLE;
+}
+
+inline hid_t
 native_type(std::int64_t)
 {
   return H5T_NATIVE_INT64;

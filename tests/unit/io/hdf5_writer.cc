@@ -310,13 +310,27 @@ namespace
 
 
 
+  TEST_F(Hdf5Test, FarFromTheOriginPlacesAreInDoublePrecision)
+  {
+    Scene<2> s("5000000, 0", "5000008, 4");
+    s.add({5000000.6, 0.5});
+    const fs::path file = write(s, /*boxes_as_cells=*/true);
+    const auto     x    = read_dataset<double>(file, "mesh/vertices");
+    EXPECT_NEAR(x.values.at(0), 5000000.35, 1e-8);
+    EXPECT_NEAR(x.values.at(3), 5000000.85, 1e-8);
+    EXPECT_EQ(read_dataset<double>(file, "fields/position").values.at(0),
+              5000000.6);
+  }
+
+
+
   // A slash would make a group, and XML has its own use for some characters.
   TEST_F(Hdf5Test, UnusualNames)
   {
     OutputCells cells({{"a/b <c> & \"d\"",
                         "m/s",
                         FieldKind::scalar,
-                        [](unsigned int, float *value) { *value = 7; }}},
+                        [](unsigned int, double *value) { *value = 7; }}},
                       ItemsAt::vertices,
                       CellShape::vertex,
                       0.,

@@ -248,6 +248,36 @@ namespace
 
 
 
+  // At 5 000 km single precision has steps of half a metre, as wide as the boxes.
+  TEST_F(VtuTest, FarFromTheOriginPlacesAreInDoublePrecision)
+  {
+    Scene<2> s("5000000, 0", "5000008, 4");
+    s.add({5000000.6, 0.5});
+    s.points.data(s.points.initial_position, 0)[0] = 5000000.6;
+    PointsOutput<2> output;
+    output.begin({folder, "vtu", /*boxes_as_cells=*/true}, s);
+    output.write(s);
+    boost::property_tree::ptree tree;
+    boost::property_tree::read_xml((folder / "points-0000.vtu").string(), tree);
+    const auto &piece = tree.get_child("VTKFile.UnstructuredGrid.Piece");
+    const auto &array = piece.get_child("Points.DataArray");
+    EXPECT_EQ(array.get<std::string>("<xmlattr>.type"), "Float64");
+    const auto vertices = decode<double>(array.data());
+    EXPECT_NEAR(vertices.at(0), 5000000.35, 1e-8);
+    EXPECT_NEAR(vertices.at(3), 5000000.85, 1e-8);
+    for (const auto &[tag, field] : piece.get_child("CellData"))
+      if (const auto name = field.get<std::string>("<xmlattr>.Name");
+          name == "position [m]" || name == "initial position [m]")
+        {
+          EXPECT_EQ(field.get<std::string>("<xmlattr>.type"), "Float64");
+          EXPECT_EQ(decode<double>(field.data()).at(0), 5000000.6) << name;
+        }
+      else
+        EXPECT_EQ(field.get<std::string>("<xmlattr>.type"), "Float32") << name;
+  }
+
+
+
   /// The test vectors of RFC 4648.
   TEST(VtuArrays, Base64)
   {

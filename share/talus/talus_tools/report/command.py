@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The command line of talus-report."""
 
-import argparse
-
+from talus_tools.errors import Parser
 from talus_tools.report.write import write_report
 
 DESCRIPTION = """Write report.html into the output folder of a run of talus: what was run, budgets,
@@ -12,7 +11,7 @@ needs no network."""
 
 def main():
     """Reports of the folders named; the last lines tell where they are."""
-    parser = argparse.ArgumentParser(prog="talus-report", description=DESCRIPTION)
+    parser = Parser(prog="talus-report", description=DESCRIPTION)
     parser.add_argument("folders", metavar="DIR", nargs="+", help="output folder of a run")
     for folder in parser.parse_args().folders:
         path, notices = write_report(folder)

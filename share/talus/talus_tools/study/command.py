@@ -1,14 +1,13 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The command line of talus-study."""
 
-import argparse
 import os
 import platform
 
 import numpy
 import scipy
 
-from talus_tools.errors import UserError
+from talus_tools.errors import Parser, UserError
 from talus_tools.study.ensemble import lock, make_members, program_version, run_members
 from talus_tools.study.member import FAILED, FINISHED
 from talus_tools.study.results import Results, plan_maps, section_maps, write_tables
@@ -21,7 +20,7 @@ UNFINISHED = 75  # exit status, as of talus: run the same command again
 
 def parse():
     """Options."""
-    parser = argparse.ArgumentParser(prog="talus-study", description=DESCRIPTION)
+    parser = Parser(prog="talus-study", description=DESCRIPTION)
     parser.add_argument("study", metavar="STUDY.prm", help="what to run; see doc/study.md")
     parser.add_argument("--output", metavar="DIR", help="folder, instead of 'Output folder'")
     parser.add_argument("--program", metavar="PATH", help="talus, instead of 'Program'")

@@ -36,8 +36,12 @@ def make_members(settings, version):
 
 def lock(folder):
     """A file locked as long as it is open, so that one study runs in a folder."""
-    os.makedirs(folder, exist_ok=True)
-    stream = open(os.path.join(folder, "lock"), "w", encoding="utf-8")
+    try:
+        os.makedirs(folder, exist_ok=True)
+        stream = open(os.path.join(folder, "lock"), "w", encoding="utf-8")
+    except OSError as error:
+        raise UserError(f"The folder '{folder}' cannot be made or written ({error.strerror}). "
+                        "Choose another one with 'Output folder' or --output.") from None
     try:
         fcntl.flock(stream, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except BlockingIOError:

@@ -2,6 +2,7 @@
 """What a study file says, checked."""
 
 import dataclasses
+import math
 import os
 import re
 import shlex
@@ -121,19 +122,23 @@ class Settings:
             raise self.error(name, " or ".join(f"'{word}'" for word in words))
         return self.get(name)
 
-    def whole(self, name, least):
-        """A whole number."""
+    def whole(self, name, least, most=10**6):
+        """A whole number. Each of a million members would have its folder."""
         text = self.get(name)
-        if not text.isdigit() or int(text) < least:
-            raise self.error(name, f"a whole number of at least {least}")
+        if not text.isdigit() or not least <= int(text) <= most:
+            raise self.error(name, f"a whole number of at least {least} and at most {most}")
         return int(text)
 
     def numbers(self, name):
         """A list of numbers, separated by commas."""
         try:
-            return [float(part) for part in self.get(name).split(",") if part.strip()]
+            numbers = [float(part) for part in self.get(name).split(",") if part.strip()]
         except ValueError:
-            raise self.error(name, "numbers separated by commas") from None
+            numbers = [math.nan]
+        # Squares of larger ones overflow.
+        if not all(abs(number) <= 1e100 for number in numbers):
+            raise self.error(name, "numbers separated by commas, none of them nan or beyond 1e100,")
+        return numbers
 
     def read_varied(self, name):
         """One section of Varied."""
@@ -174,7 +179,12 @@ class Settings:
             order = [n[key] for key in ("Lower", "Mode", "Upper") if key in n]
             if order != sorted(order) or (order and order[0] == order[-1]):
                 raise self.error(start + "Upper", "a number above 'Lower', with 'Mode' between")
+            if one.parameter == "Output/Folder":
+                raise self.error(start + "Parameter", "a parameter of the case (each member has a "
+                                 "folder of its own)")
             if n.get("Standard deviation", 1) <= 0:
                 raise self.error(start + "Standard deviation", "a positive number")
             if one.distribution == "lognormal" and n and n["Mean"] <= 0:
                 raise self.error(start + "Mean", "a positive number")
+            if one.distribution == "lognormal" and n and n["Standard deviation"] > 1e6 * n["Mean"]:
+                raise self.error(start + "Standard deviation", "at most a million times the mean")

@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Every entry of the parameter file without a value and with values that are none;
+run by bad_input.py."""
+
+import re
+
+from bad_input_case import Case, GOOD
+
+# What deal.II, Boost, HDF5 and the C++ library say to programmers.
+RAW = re.compile(r"An error occurred|violated condition|Exc[A-Z]\w+|terminate|"
+                 r"std::|dealii|Boost|what\(\)|PRM|Patterns|handler|muParser")
+
+# A case with a section of every kind.
+FULL = GOOD + """\
+subsection Obstacles
+  set Names = pipe
+  subsection pipe
+    set Shape  = ball
+    set Centre = 3.5, 3.5
+    set Radius = 0.25
+  end
+end
+
+subsection Surfaces
+  set Names = mudline
+  subsection mudline
+    set Expression = 2
+  end
+end
+"""
+
+
+def entries(parameters):
+    """Path and value of each entry of a parameter file."""
+    path = []
+    for line in map(str.strip, parameters.splitlines()):
+        if line.startswith("subsection "):
+            path.append(line[len("subsection "):])
+        elif line == "end":
+            path.pop()
+        elif line.startswith("set "):
+            name, value = line[len("set "):].split("=", 1)
+            yield "/".join([*path, name.strip()]), value.strip()
+
+
+class BadInputValues(Case):
+    def assert_refused(self, result, *words):
+        super().assert_refused(result, *words)
+        self.assertIsNone(RAW.search(result.stderr), result.stderr)
+
+    def full_entries(self):
+        """Path and settings of all entries that a file may have: those of the
+        reference, by the names of our case, and those of its obstacle."""
+        for path, value in entries(self.run_talus("--document").stdout):
+            first, *rest = path.split("/")
+            law = []
+            if first == "Bodies" and len(rest) == 2:
+                rest[0] = "block"
+            elif first == "Materials" and len(rest) == 2:
+                law = [f"Materials/clay/Law={rest[0]}"]
+                rest[0] = "clay"
+            yield "/".join([first, *rest]), value, law
+        self.assertEqual(self.run_file(FULL, output="full").returncode, 0)
+        record = (self.folder / "full" / "parameters.prm").read_text()
+        for path, value in entries(record):
+            if path.startswith("Obstacles/pipe/"):
+                yield path, value, []
+
+    def test_every_entry_without_value(self):
+        n_refused = 0
+        for path, value, law in self.full_entries():
+            # The folder is given by --output; nothing is a value of the others.
+            if not value or path == "Output/Folder":
+                continue
+            with self.subTest(path):
+                n_refused += 1
+                self.assert_refused(self.run_file(FULL, [*law, path + "="]),
+                                    path.split("/")[-1])
+        self.assertGreater(n_refused, 150)
+        self.assert_untouched()
+
+    def test_entries_that_may_be_empty(self):
+        paths = [path for path, value, law in self.full_entries()
+                 if not value and not law and path.count("/") < 2]
+        self.assertGreater(len(paths), 15)
+        settings = [path + "=" for path in paths
+                    if path not in ("Bodies/Names", "Materials/Names",
+                                    "Obstacles/Names", "Surfaces/Names")]
+        result = self.run_file(FULL, settings)
+        self.assertEqual(result.returncode, 0, result.stderr)
