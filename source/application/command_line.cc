@@ -96,7 +96,8 @@ namespace talus
       {
         out << "talus " << TALUS_VERSION << " (" << TALUS_GIT_REVISION
             << "), deal.II " << DEAL_II_PACKAGE_VERSION << ", kernels for "
-            << processor() << std::endl;
+            << processor() << (TALUS_WITH_PROJ ? ", with PROJ" : "")
+            << std::endl;
         return {};
       }
     AssertThrow(result.document || !result.parameter_file.empty(),

@@ -74,6 +74,7 @@ namespace talus
     for (const auto &body : bodies_)
       materials_of_bodies.push_back(body->material());
     materials.assign(names, materials_of_bodies);
+    strength_tables_ = tables_of_strength(materials, bodies_.size(), folder_);
     trigger.check(names, materials, has_seabed(), end_time);
     // The strength factor is a column only if somebody changes strengths.
     materials.add_columns(points,
@@ -138,6 +139,25 @@ namespace talus
         }))
       send_points_to_owners(points, state.grid);
     trigger.choose_points(points, constants_, state.communicator());
+  }
+
+
+
+  /// From the parameters alone, so that a resumed run has the same.
+  template <int dim>
+  void
+  Problem<dim>::find_mudline(const Grid<dim> &grid)
+  {
+    if (mudline_ || !(obstacles.depend_on_depth() ||
+                      boundaries.seabed().depends_on_depth()))
+      return;
+    mudline_ = std::make_shared<const Mudline<dim>>(
+      mudline_of(bodies_, grid.domain_before_growth()));
+    const auto depth = [mudline = mudline_](const Point<dim> &x) {
+      return mudline->depth(x);
+    };
+    obstacles.set_depth(depth);
+    boundaries.set_depth(depth);
   }
 
 

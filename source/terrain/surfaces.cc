@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/geometry/terrain.h>
+#include <talus/io/checksum.h>
 #include <talus/terrain/surfaces.h>
 
 #include <algorithm>
@@ -84,6 +85,7 @@ namespace talus
   {
     constants_ = &constants;
     surfaces_.clear();
+    files_.clear();
     for (const auto &named : named_)
       {
         check_name(named->name());
@@ -93,6 +95,11 @@ namespace talus
                                  ? surface(named->path("Expression"),
                                            named->expression())
                                  : named->read(folder, origin));
+        if (named->has_file())
+          files_.push_back({"raster of " + named->name(),
+                            "raster",
+                            named->file(folder),
+                            text(checksum_of_file(named->file(folder)))});
       }
   }
 
@@ -116,6 +123,16 @@ namespace talus
                                                     expression,
                                                     *constants_,
                                                     others);
+  }
+
+
+
+  template <int dim>
+  void
+  Surfaces<dim>::list_state(StateList &list) const
+  {
+    for (const InputFile &file : files_)
+      file.list_state(list);
   }
 
 
