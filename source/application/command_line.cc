@@ -97,7 +97,7 @@ namespace talus
         out << "talus " << TALUS_VERSION << " (" << TALUS_GIT_REVISION
             << "), deal.II " << DEAL_II_PACKAGE_VERSION << ", kernels for "
             << processor() << (TALUS_WITH_PROJ ? ", with PROJ" : "")
-            << std::endl;
+            << (TALUS_WITH_GDAL ? ", with GDAL" : "") << std::endl;
         return {};
       }
     AssertThrow(result.document || !result.parameter_file.empty(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/esri_grid.h>
+#include <talus/io/geotiff_raster.h>
 #include <talus/io/map_projection.h>
 #include <talus/io/netcdf_raster.h>
 #include <talus/io/raster_file.h>
@@ -33,20 +34,16 @@ namespace talus
 
 
 
-    void
-    refuse(const std::filesystem::path &file,
-           const std::string           &format,
-           const std::string           &command)
+    /// The order of the bytes, and 42, or 43 for files of more than 4 GB.
+    bool
+    is_tiff(const std::string &bytes)
     {
-      AssertThrow(false,
-                  ExcUser(text("The raster '",
-                               file.string(),
-                               "' is ",
-                               format,
-                               ", where an Esri ASCII grid or netCDF-4 was "
-                               "expected. Convert it with '",
-                               command,
-                               "'.")));
+      const std::string begin = bytes.substr(0, 4);
+      for (const char version : {'*', '+'})
+        if (begin == std::string({'I', 'I', version, '\0'}) ||
+            begin == std::string({'M', 'M', '\0', version}))
+          return true;
+      return false;
     }
 
 
@@ -146,16 +143,19 @@ namespace talus
   read_raster(const std::filesystem::path &file, const RasterUnits units)
   {
     const std::string bytes = beginning(file);
-    if (bytes.compare(0, 3, "CDF") == 0)
-      refuse(file, "netCDF-3", "nccopy -k nc4 in.nc out.nc");
-    if (bytes.compare(0, 3, std::string("II*")) == 0 ||
-        bytes.compare(0, 4, std::string("MM\0*", 4)) == 0)
-      refuse(file, "TIFF", "gdal_translate -of AAIGrid in.tif out.asc");
-
+    AssertThrow(bytes.compare(0, 3, "CDF") != 0,
+                ExcUser(
+                  text("The raster '",
+                       file.string(),
+                       "' is netCDF-3, where an Esri ASCII grid, netCDF-4 "
+                       "or GeoTIFF was expected. Convert it with 'nccopy "
+                       "-k nc4 in.nc out.nc'.")));
     Raster      raster;
     std::string unit;
     if (bytes == "\211HDF\r\n\032\n")
       std::tie(raster, unit) = read_netcdf_raster(file);
+    else if (is_tiff(bytes))
+      std::tie(raster, unit) = read_geotiff(file);
     else
       raster = read_esri_grid(file);
     const bool says_degrees = (unit.rfind("degree", 0) == 0);

@@ -257,7 +257,9 @@ namespace talus
   std::vector<std::string>
   Problem<dim>::notes(const double cell_size) const
   {
-    std::vector<std::string> result = materials.notes(cell_size);
+    std::vector<std::string> result      = materials.notes(cell_size);
+    const auto               of_surfaces = surfaces_.notes();
+    result.insert(result.end(), of_surfaces.begin(), of_surfaces.end());
     result.insert(result.end(), notes_.begin(), notes_.end());
     for (const std::string &note :
          {water.note(materials, bodies_.size()), trigger.note()})

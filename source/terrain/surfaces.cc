@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iomanip>
 #include <set>
+#include <sstream>
 
 namespace talus
 {
@@ -123,6 +125,30 @@ namespace talus
                                                     expression,
                                                     *constants_,
                                                     others);
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Surfaces<dim>::notes() const
+  {
+    std::vector<std::string> result;
+    for (const auto &named : named_)
+      if (const Raster *map = raster(named->name());
+          map != nullptr && !named->projection().empty())
+        {
+          std::ostringstream note;
+          note << std::setprecision(9) << "The raster of "
+               << named->path("File") << " was projected to "
+               << named->projection() << ": " << map->n_columns << " x "
+               << map->n_rows << " cells of " << map->dx << " m, easting from "
+               << map->west << " m to " << map->west + map->n_columns * map->dx
+               << " m, northing from " << map->south << " m to "
+               << map->south + map->n_rows * map->dy << " m.";
+          result.push_back(note.str());
+        }
+    return result;
   }
 
 

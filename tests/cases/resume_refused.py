@@ -122,8 +122,8 @@ class ResumeRefused(Case):
         """A surface, and a strength that is read at the start alone."""
         raster = self.folder / "bed.asc"
         strength = self.folder / "strength.csv"
-        contents = {raster: "ncols 2\nnrows 2\nxllcorner -10\nyllcorner -10\n"
-                            "cellsize 500\n-1 -1\n-1 -1\n",
+        contents = {raster: "ncols 2\nnrows 2\nxllcorner -1000\nyllcorner -1000\n"
+                            "cellsize 1500\n-1 -1\n-1 -1\n",
                     strength: "depth [m],undrained shear strength [Pa]\n"
                               "0,2500\n5,2600\n"}
         for file, content in contents.items():

@@ -18,8 +18,8 @@ namespace talus
 
 
 
-  /// Read a raster, an Esri ASCII grid or netCDF-4, whichever it is by its
-  /// content; in metres, unless @p units are degrees. Throws ExcUser, naming the
+  /// Read a raster, an Esri ASCII grid, netCDF-4 or GeoTIFF, whichever it is by
+  /// its content; in metres, unless @p units are degrees. Throws ExcUser, naming the
   /// file, if it cannot be read, is of another format, or not in these units: of
   /// one in degrees with the command that projects it.
   Raster

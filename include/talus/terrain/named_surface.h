@@ -55,6 +55,13 @@ namespace talus
       return expression_;
     }
 
+    /// The map that a raster in degrees is brought to; empty if it is in metres.
+    const std::string &
+    projection() const
+    {
+      return projection_;
+    }
+
     std::string
     path(const std::string &entry) const
     {

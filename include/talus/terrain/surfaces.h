@@ -37,6 +37,10 @@ namespace talus
     surface(const std::string &path,
             const std::string &expression) const override;
 
+    /// Sentences for the log: where projected rasters lie on the map.
+    std::vector<std::string>
+    notes() const;
+
     /// The rasters must be the same when the run is resumed.
     void
     list_state(StateList &list) const;
