@@ -21,8 +21,9 @@ namespace talus
     add_parameter("File",
                   file_,
                   "Raster of heights, from the folder of this file: an Esri "
-                  "ASCII grid or netCDF-4 (GEBCO, GMT), in metres, or in "
-                  "degrees with a `Projection`. In 3-D x is the easting and -z "
+                  "ASCII grid, netCDF-4 (GEBCO, GMT) or, if talus was built "
+                  "with GDAL, GeoTIFF; in metres, or in degrees with a "
+                  "`Projection`. In 3-D x is the easting and -z "
                   "the northing, from 'Grid/Origin' on.");
     add_parameter("Projection",
                   projection_,
@@ -134,7 +135,7 @@ namespace talus
                              " columns, but a surface needs two of both.")));
     if (projection_.empty())
       return raster;
-    return project_raster(raster,
+    return project_raster(std::move(raster),
                           MapProjection(path("Projection"), projection_),
                           cell_size_,
                           path("Projection") + " = " + projection_);

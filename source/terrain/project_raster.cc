@@ -164,25 +164,25 @@ namespace talus
   // Backwards, from each centre of the new cells to the old ones: so values are
   // interpolated in the raster's own lattice, and half a cell is half a cell.
   Raster
-  project_raster(const Raster        &degrees,
+  project_raster(Raster               degrees,
                  const MapProjection &projection,
                  const double         spacing,
                  const std::string   &place)
   {
-    const auto edge = outline(degrees);
+    const auto     edge   = outline(degrees);
+    const Point<2> centre = middle(degrees);
     check_scale(degrees, projection, edge, place);
-    const double own = cell_size(degrees, projection, middle(degrees)).on_map;
+    const double own = cell_size(degrees, projection, centre).on_map;
     Raster result = frame(edge, projection, spacing > 0 ? spacing : own, place);
     result.nodata = degrees.nodata;
-    const HeightField heights(degrees);
-    const double      centre = middle(degrees)[0];
+    const HeightField heights(std::move(degrees));
     result.values.reserve(std::size_t(result.n_rows) * result.n_columns);
     for (unsigned int r = 0; r < result.n_rows; ++r)
       for (unsigned int i = 0; i < result.n_columns; ++i)
         {
           Point<2> x = projection.inverse(Point<2>(result.x(i), result.y(r)));
           // A raster may count its longitudes from 0 to 360.
-          x[0] += 360. * std::round((centre - x[0]) / 360.);
+          x[0] += 360. * std::round((centre[0] - x[0]) / 360.);
           const auto value = heights.at(x);
           result.values.push_back(
             value ? value->height : std::numeric_limits<double>::quiet_NaN());

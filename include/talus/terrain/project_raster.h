@@ -22,7 +22,7 @@ namespace talus
   /// is true that its lengths are off by more than 1 %, or if the result would
   /// have more than a hundred million cells.
   Raster
-  project_raster(const Raster        &degrees,
+  project_raster(Raster               degrees,
                  const MapProjection &projection,
                  double               spacing,
                  const std::string   &place);
