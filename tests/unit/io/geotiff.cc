@@ -277,7 +277,7 @@ TEST_F(GeotiffTest, Degrees)
 
 TEST_F(GeotiffTest, RefusesWhatIsNoRasterOnAMap)
 {
-  expect_error("II*, and no more", "cannot be read (");
+  expect_error(std::string("II*\0 and no more", 17), "cannot be read (");
   expect_error(geotiff(pixels()).substr(0, 100), "cannot be read (");
   Georeference nowhere;
   nowhere.scale = {};
