@@ -98,6 +98,14 @@ namespace talus
                       return condition->depends_on_place();
                     }))
       places_ = places_of_owned_nodes(grid);
+    if (has_seabed() && seabed_.depends_on_place())
+      seabed_.locate(places_, [&](const unsigned int node) {
+        return std::any_of(
+          conditions_.begin(), conditions_.end(), [&](const auto &condition) {
+            return condition->is_one_sided() &&
+                   condition->acts_on(grid.faces_of_node(node));
+          });
+      });
   }
 
 
@@ -512,6 +520,7 @@ namespace talus
   {
     for (unsigned int face = 0; face < 2 * dim; ++face)
       check_expressions(face);
+    seabed_.prepare(constants);
     make_conditions(constants);
     std::vector<std::string> names;
     for (const auto &condition : conditions_)

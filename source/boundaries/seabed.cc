@@ -17,12 +17,13 @@ namespace talus
                   "Coulomb friction coefficient mu of soil on the seabed [-].",
                   this->prm,
                   Patterns::Double(0.));
-    add_parameter("Maximum shear stress",
-                  maximum_shear_stress_,
-                  "Largest shear stress tau_max that the seabed passes to the "
-                  "soil [Pa].",
-                  this->prm,
-                  Patterns::Double(0.));
+    add_parameter(
+      "Maximum shear stress",
+      maximum_shear_stress_text_,
+      "Largest shear stress tau_max that the seabed passes to the "
+      "soil [Pa]: a number, or an expression in x, y (, z) and "
+      "depth, how far the place lies below the mudline of the start "
+      "[m]; 0 where there was no soil above it.");
     add_parameter("Gap",
                   has_gap_,
                   "Let soil come to the seabed before it feels it: contact "
@@ -30,6 +31,32 @@ namespace talus
                   "twentieth of a cell, and a falling body is caught at the "
                   "face. Else (as in the paper) a node on the face feels it as "
                   "soon as it carries soil, up to a cell early.");
+  }
+
+
+
+  template <int dim>
+  void
+  Seabed<dim>::prepare(const Constants &constants)
+  {
+    cap_ = std::make_unique<ShearStressCap<dim>>(
+      "'Boundaries/Seabed/Maximum shear stress'",
+      maximum_shear_stress_text_,
+      constants);
+  }
+
+
+
+  template <int dim>
+  void
+  Seabed<dim>::locate(
+    const std::vector<Point<dim>>                &places,
+    const std::function<bool(unsigned int node)> &is_on_seabed)
+  {
+    cap_of_node_.assign(places.size(), 0.);
+    for (unsigned int node = 0; node < places.size(); ++node)
+      if (is_on_seabed(node))
+        cap_of_node_[node] = cap_->at(places[node]);
   }
 
 
@@ -71,7 +98,8 @@ namespace talus
     const double speed = v_t.norm();
     const double friction =
       std::min(mass * speed / dt,
-               largest_friction(normal_force,
+               largest_friction(node,
+                                normal_force,
                                 contact_area(nodes, grid, face, node)));
 
     Tensor<1, dim> normal_impulse;

@@ -5,7 +5,6 @@
 #include <talus/io/checksum.h>
 
 #include <algorithm>
-#include <fstream>
 #include <numeric>
 
 namespace talus
@@ -38,23 +37,6 @@ namespace talus
       AssertThrow(name.find('/') == std::string::npos,
                   ExcInternalError("'" + name + "' must not have a slash."));
       return name;
-    }
-
-
-
-    /// CRC-32, read in pieces of a megabyte: a mesh need not fit into memory.
-    std::uint64_t
-    checksum_of_file(const std::filesystem::path &path)
-    {
-      std::ifstream      file(path, std::ios::binary);
-      std::vector<char>  block(1 << 20);
-      boost::crc_32_type crc;
-      do
-        {
-          file.read(block.data(), block.size());
-          crc.process_bytes(block.data(), file.gcount());
-      } while (file);
-      return crc.checksum();
     }
 
 

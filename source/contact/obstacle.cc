@@ -22,11 +22,14 @@ namespace talus
                   "Coulomb friction coefficient mu of soil on the surface [-].",
                   this->prm,
                   Patterns::Double(0.));
-    add_parameter("Maximum shear stress",
-                  maximum_shear_stress_text_,
-                  "Largest shear stress that the surface passes to the soil "
-                  "[Pa]: a number, or an expression in x, y, (z,) t of the "
-                  "place at the start, with t = 0. Empty: any.");
+    add_parameter(
+      "Maximum shear stress",
+      maximum_shear_stress_text_,
+      "Largest shear stress that the surface passes to the soil "
+      "[Pa]: a number, or an expression in x, y (, z), the place at "
+      "the start, and, if the obstacle rests, in depth, how far the "
+      "place lies below the mudline of the start [m]; 0 where there "
+      "was no soil above it. Empty: any.");
     add_parameter("Velocity",
                   velocity_text_,
                   "Expressions in x, y, (z,) t for the components of the "
@@ -79,14 +82,25 @@ namespace talus
     shape_ = shape_parameters_.make(everywhere);
     maximum_shear_stress_.reset();
     if (limits_shear_stress())
-      maximum_shear_stress_ = std::make_unique<Expression<dim>>(
-        path("Maximum shear stress"), maximum_shear_stress_text_, 1, constants);
+      maximum_shear_stress_ =
+        std::make_unique<ShearStressCap<dim>>(path("Maximum shear stress"),
+                                              maximum_shear_stress_text_,
+                                              constants);
     velocity_.reset();
     if (!velocity_text_.empty())
       velocity_ = std::make_unique<Expression<dim>>(path("Velocity"),
                                                     velocity_text_,
                                                     dim,
                                                     constants);
+    AssertThrow(!moves() || !depends_on_depth(),
+                ExcUser(text(path("Maximum shear stress"),
+                             " = ",
+                             maximum_shear_stress_text_,
+                             " depends on the depth at the start, but the "
+                             "obstacle moves (",
+                             path("Velocity"),
+                             "), and would take that stress along. Give a "
+                             "stress without `depth`.")));
     reference_point_ = middle(shape_->bounding_box());
     if (!reference_point_text_.empty())
       {
@@ -127,21 +141,8 @@ namespace talus
   double
   Obstacle<dim>::maximum_shear_stress(const Point<dim> &x) const
   {
-    if (!limits_shear_stress())
-      return std::numeric_limits<double>::infinity();
-    const double result =
-      maximum_shear_stress_->finite_value(x - displacement_, 0., 0);
-    AssertThrow(result >= 0,
-                ExcUser(text(path("Maximum shear stress"),
-                             " = ",
-                             maximum_shear_stress_text_,
-                             " is ",
-                             result,
-                             " Pa at (",
-                             Point<dim>(x - displacement_),
-                             ") m, but a shear stress that resists sliding "
-                             "cannot be negative. Change the expression.")));
-    return result;
+    return limits_shear_stress() ? maximum_shear_stress_->at(x - displacement_)
+                                 : std::numeric_limits<double>::infinity();
   }
 
 

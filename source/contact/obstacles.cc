@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/contact/obstacles.h>
 
+#include <algorithm>
 #include <limits>
 
 namespace talus
@@ -79,6 +80,29 @@ namespace talus
       if (obstacle->limits_shear_stress())
         return true;
     return false;
+  }
+
+
+
+  template <int dim>
+  bool
+  Obstacles<dim>::depend_on_depth() const
+  {
+    return std::any_of(obstacles_.begin(),
+                       obstacles_.end(),
+                       [](const auto &obstacle) {
+                         return obstacle->depends_on_depth();
+                       });
+  }
+
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::set_depth(const typename ShearStressCap<dim>::Depth &depth)
+  {
+    for (const auto &obstacle : obstacles_)
+      obstacle->set_depth(depth);
   }
 
 

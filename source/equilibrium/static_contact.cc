@@ -32,8 +32,7 @@ namespace talus
       for (unsigned int face = 0; face < 2 * dim; ++face)
         if (const unsigned char faces =
               problem.state.grid.faces_of_node(active[k]);
-            (faces & (1u << face)) &&
-            problem.boundaries.is_seabed(face))
+            (faces & (1u << face)) && problem.boundaries.is_seabed(face))
           {
             Contact contact;
             contact.node = active[k];
@@ -129,9 +128,10 @@ namespace talus
     const unsigned int axis         = contact.face / 2;
     const double       outwards     = (contact.face % 2 == 0 ? -1. : 1.);
     const double       normal_force = -outwards * contact.reaction[axis];
-    const double       limit =
-      seabed.largest_friction(std::max(normal_force, 0.), contact.area);
-    Tensor<1, dim> &force =
+    const double       limit        = seabed.largest_friction(contact.node,
+                                                 std::max(normal_force, 0.),
+                                                 contact.area);
+    Tensor<1, dim>    &force =
       (contact.state == State::slips ? contact.friction : contact.reaction);
     Tensor<1, dim> tangential = force;
     tangential[axis]          = 0.;
@@ -179,8 +179,9 @@ namespace talus
         contact.state = State::open;
         return true;
       }
-    const double limit =
-      seabed.largest_friction(std::max(normal_force, 0.), contact.area);
+    const double   limit = seabed.largest_friction(contact.node,
+                                                 std::max(normal_force, 0.),
+                                                 contact.area);
     Tensor<1, dim> tangential;
     for (unsigned int d = 0; d < dim; ++d)
       if (d != axis && !(contact.walls & (1u << d)))

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/esri_grid.h>
+#include <talus/io/geotiff_raster.h>
+#include <talus/io/map_projection.h>
 #include <talus/io/netcdf_raster.h>
 #include <talus/io/raster_file.h>
 
@@ -34,51 +36,40 @@ namespace talus
 
 
 
-    void
-    refuse(const std::filesystem::path &file,
-           const std::string           &format,
-           const std::string           &command)
+    /// The order of the bytes, and 42, or 43 for files of more than 4 GB.
+    bool
+    is_tiff(const std::string &bytes)
     {
-      AssertThrow(false,
-                  ExcUser(text("The raster '",
-                               file.string(),
-                               "' is ",
-                               format,
-                               ", where an Esri ASCII grid or netCDF-4 was "
-                               "expected. Convert it with '",
-                               command,
-                               "'.")));
+      const std::string begin = bytes.substr(0, 4);
+      for (const char version : {'*', '+'})
+        if (begin == std::string({'I', 'I', version, '\0'}) ||
+            begin == std::string({'M', 'M', '\0', version}))
+          return true;
+      return false;
     }
 
 
 
-    /// Coordinates that fit on the globe, in cells of less than 10 km if they
-    /// are degrees. A flume may look the same, hence RasterUnits::metres.
+    /// Whether these can be longitudes and latitudes, however large the cells.
+    bool
+    fits_on_globe(const Raster &raster)
+    {
+      const double slack = raster.dx; // half a cell beyond the poles
+      return std::abs(raster.west) <= 360. + slack &&
+             std::abs(raster.west + raster.n_columns * raster.dx) <=
+               360. + slack &&
+             std::abs(raster.south) <= 90. + slack &&
+             std::abs(raster.south + raster.n_rows * raster.dy) <= 90. + slack;
+    }
+
+
+
+    /// Cells of less than 10 km if they are degrees. A flume may look the same,
+    /// hence RasterUnits::metres.
     bool
     looks_like_degrees(const Raster &raster)
     {
-      const double east  = raster.west + raster.n_columns * raster.dx;
-      const double north = raster.south + raster.n_rows * raster.dy;
-      const double slack = raster.dx; // half a cell beyond the poles
-      return std::abs(raster.west) <= 360. + slack &&
-             std::abs(east) <= 360. + slack &&
-             std::abs(raster.south) <= 90. + slack &&
-             std::abs(north) <= 90. + slack && raster.dx < 0.1 &&
-             raster.dy < 0.1;
-    }
-
-
-
-    /// The number of the coordinate system UTM in WGS 84 at the middle of a
-    /// raster in degrees.
-    unsigned int
-    epsg_of_utm(const Raster &raster)
-    {
-      double lon = raster.west + 0.5 * raster.n_columns * raster.dx;
-      lon -= 360. * std::floor((lon + 180.) / 360.);
-      const auto   zone = static_cast<unsigned int>((lon + 180.) / 6.) + 1;
-      const double lat  = raster.south + 0.5 * raster.n_rows * raster.dy;
-      return (lat < 0. ? 32700 : 32600) + zone;
+      return fits_on_globe(raster) && raster.dx < 0.1 && raster.dy < 0.1;
     }
 
 
@@ -88,9 +79,13 @@ namespace talus
     void
     refuse_degrees(const std::filesystem::path &file, const Raster &raster)
     {
+      const double lon  = raster.west + 0.5 * raster.n_columns * raster.dx;
+      const double lat  = raster.south + 0.5 * raster.n_rows * raster.dy;
+      const auto   zone = utm_zone(lon, lat);
       // A degree of latitude is 111 km; one digit is enough.
       const double size  = 111e3 * raster.dy;
       const double digit = std::pow(10., std::floor(std::log10(size)));
+      const auto   entry = text("`Projection` = ", zone.name());
       AssertThrow(
         false,
         ExcUser(text("The raster '",
@@ -101,9 +96,14 @@ namespace talus
                      raster.west,
                      " to ",
                      raster.west + raster.n_columns * raster.dx,
-                     ". A map in metres was expected. Project it: gdalwarp "
-                     "-t_srs EPSG:",
-                     epsg_of_utm(raster),
+                     ". A map in metres was expected. ",
+                     MapProjection::is_available()
+                       ? "Set " + entry + ", or project it yourself"
+                       : "Project it (this talus was built without PROJ, which "
+                         "would do that by the entry " +
+                           entry + ")",
+                     ": gdalwarp -t_srs EPSG:",
+                     zone.epsg(),
                      " -tr ",
                      digit * std::round(size / digit),
                      " ",
@@ -153,6 +153,30 @@ namespace talus
                                " m, where a map of the Earth in metres was "
                                "expected. Correct its head.")));
     }
+
+
+
+    void
+    refuse_metres(const std::filesystem::path &file,
+                  const Raster                &raster,
+                  const std::string           &unit)
+    {
+      AssertThrow(false,
+                  ExcUser(text("The raster '",
+                               file.string(),
+                               "' reaches from ",
+                               raster.west,
+                               " to ",
+                               raster.west + raster.n_columns * raster.dx,
+                               " and from ",
+                               raster.south,
+                               " to ",
+                               raster.south + raster.n_rows * raster.dy,
+                               unit.empty() ? "" : " in '" + unit + "'",
+                               ", which are no longitudes and latitudes in "
+                               "degrees, but a `Projection` is set for it. "
+                               "Remove that entry.")));
+    }
   } // namespace
 
 
@@ -161,23 +185,29 @@ namespace talus
   read_raster(const std::filesystem::path &file, const RasterUnits units)
   {
     const std::string bytes = beginning(file);
-    if (bytes.compare(0, 3, "CDF") == 0)
-      refuse(file, "netCDF-3", "nccopy -k nc4 in.nc out.nc");
-    if (bytes.compare(0, 3, std::string("II*")) == 0 ||
-        bytes.compare(0, 4, std::string("MM\0*", 4)) == 0)
-      refuse(file, "TIFF", "gdal_translate -of AAIGrid in.tif out.asc");
-
+    AssertThrow(bytes.compare(0, 3, "CDF") != 0,
+                ExcUser(
+                  text("The raster '",
+                       file.string(),
+                       "' is netCDF-3, where an Esri ASCII grid, netCDF-4 "
+                       "or GeoTIFF was expected. Convert it with 'nccopy "
+                       "-k nc4 in.nc out.nc'.")));
     Raster      raster;
     std::string unit;
     if (bytes == "\211HDF\r\n\032\n")
       std::tie(raster, unit) = read_netcdf_raster(file);
+    else if (is_tiff(bytes))
+      std::tie(raster, unit) = read_geotiff(file);
     else
       raster = read_esri_grid(file);
+    const bool says_degrees = (unit.rfind("degree", 0) == 0);
     if (units == RasterUnits::guess &&
-        (unit.rfind("degree", 0) == 0 ||
-         (unit.empty() && looks_like_degrees(raster))))
+        (says_degrees || (unit.empty() && looks_like_degrees(raster))))
       refuse_degrees(file, raster);
     check_magnitudes(file, raster);
+    if (units == RasterUnits::degrees &&
+        (!fits_on_globe(raster) || !(says_degrees || unit.empty())))
+      refuse_metres(file, raster, unit);
     return raster;
   }
 } // namespace talus

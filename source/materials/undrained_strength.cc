@@ -19,4 +19,15 @@ namespace talus
       }
     return number_;
   }
+
+
+
+  std::string
+  UndrainedStrength::table() const
+  {
+    const std::string keyword = "table ";
+    return words_.rfind(keyword, 0) == 0
+             ? dealii::Utilities::trim(words_.substr(keyword.size()))
+             : "";
+  }
 } // namespace talus

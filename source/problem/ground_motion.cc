@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/io/input_file.h>
 #include <talus/problem/ground_motion.h>
 
 #include <cmath>
@@ -152,26 +153,13 @@ namespace talus
 
 
 
-  /// The table is a file beside the parameters, which the comparison of
-  /// parameters does not see. So its checksum is state, and loading compares
-  /// it.
   template <int dim>
   void
   GroundMotion<dim>::list_state(StateList &list) const
   {
-    if (!table_)
-      return;
-    const std::string now = table_->checksum();
-    list.add_text(
-      {"checksum of the ground motion",
-       [now]() { return now; },
-       [now, this](const std::string &saved) {
-         AssertThrow(saved == now,
-                     ExcUser("The table '" + (folder_ / file_).string() +
-                             "' is not the one of the run to resume. "
-                             "Restore it, or start anew in another "
-                             "folder."));
-       }});
+    if (table_)
+      InputFile{"ground motion", "table", folder_ / file_, table_->checksum()}
+        .list_state(list);
   }
 
 

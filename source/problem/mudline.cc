@@ -63,6 +63,21 @@ namespace talus
 
 
 
+  template <int dim>
+  Mudline<dim>
+  mudline_of(const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+             const Box<dim>                                &domain)
+  {
+    typename Mudline<dim>::Bodies shapes;
+    for (const auto &body : bodies)
+      shapes.push_back(body->shape(domain));
+    return Mudline<dim>(std::move(shapes), domain);
+  }
+
+
+
   template class Mudline<2>;
   template class Mudline<3>;
+  template decltype(mudline_of<2>) mudline_of<2>;
+  template decltype(mudline_of<3>) mudline_of<3>;
 } // namespace talus

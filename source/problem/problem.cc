@@ -76,6 +76,7 @@ namespace talus
     for (const auto &body : bodies_)
       materials_of_bodies.push_back(body->material());
     materials.assign(names, materials_of_bodies);
+    strength_tables_ = tables_of_strength(materials, bodies_.size(), folder_);
     trigger.check(names,
                   materials,
                   boundaries.has_seabed() || obstacles.limit_shear_stress(),
@@ -143,6 +144,25 @@ namespace talus
         }))
       send_points_to_owners(points, state.grid);
     trigger.choose_points(points, constants_, state.communicator());
+  }
+
+
+
+  /// From the parameters alone, so that a resumed run has the same.
+  template <int dim>
+  void
+  Problem<dim>::find_mudline(const Grid<dim> &grid)
+  {
+    if (mudline_ || !(obstacles.depend_on_depth() ||
+                      boundaries.seabed().depends_on_depth()))
+      return;
+    mudline_ = std::make_shared<const Mudline<dim>>(
+      mudline_of(bodies_, grid.domain_before_growth()));
+    const auto depth = [mudline = mudline_](const Point<dim> &x) {
+      return mudline->depth(x);
+    };
+    obstacles.set_depth(depth);
+    boundaries.set_depth(depth);
   }
 
 
@@ -242,7 +262,9 @@ namespace talus
   std::vector<std::string>
   Problem<dim>::notes(const double cell_size) const
   {
-    std::vector<std::string> result = materials.notes(cell_size);
+    std::vector<std::string> result      = materials.notes(cell_size);
+    const auto               of_surfaces = surfaces_.notes();
+    result.insert(result.end(), of_surfaces.begin(), of_surfaces.end());
     result.insert(result.end(), notes_.begin(), notes_.end());
     for (const std::string &note :
          {water.note(materials, bodies_.size()), trigger.note()})

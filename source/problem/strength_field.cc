@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/io/checksum.h>
 #include <talus/points/points_kernel.h>
 #include <talus/problem/mudline.h>
 #include <talus/problem/strength_field.h>
@@ -8,6 +9,7 @@
 #include <deal.II/base/utilities.h>
 
 #include <cmath>
+#include <map>
 #include <optional>
 
 namespace talus
@@ -45,15 +47,19 @@ namespace talus
                                       const std::filesystem::path &folder)
       : number_(strength.number())
     {
-      const std::string &words = strength.words();
-      if (words.rfind("table ", 0) == 0)
-        table_.emplace(folder / Utilities::trim(words.substr(6)),
+      if (const std::string table = strength.table(); !table.empty())
+        table_.emplace(folder / table,
                        std::vector<std::string>{
                          "undrained shear strength [Pa]"},
                        std::make_pair(std::string("depth"), std::string("m")));
       else if (!number_)
-        expression_ = std::make_unique<Expression<dim>>(
-          path, words, 1, constants, dim == 2 ? "x,y,depth" : "x,y,z,depth");
+        expression_ =
+          std::make_unique<Expression<dim>>(path,
+                                            strength.words(),
+                                            1,
+                                            constants,
+                                            dim == 2 ? "x,y,depth"
+                                                     : "x,y,z,depth");
     }
 
 
@@ -128,10 +134,7 @@ namespace talus
     const unsigned int column = materials.undrained_strength();
     if (column == numbers::invalid_unsigned_int)
       return;
-    typename Mudline<dim>::Bodies shapes;
-    for (const auto &body : bodies)
-      shapes.push_back(body->shape(domain));
-    const Mudline<dim> mudline(std::move(shapes), domain);
+    const Mudline<dim> mudline = mudline_of(bodies, domain);
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         const MaterialModel<dim> &material = materials.of_body(b);
@@ -161,6 +164,34 @@ namespace talus
 
 
 
+  template <int dim>
+  std::vector<InputFile>
+  tables_of_strength(const Materials<dim>        &materials,
+                     const unsigned int           n_bodies,
+                     const std::filesystem::path &folder)
+  {
+    std::map<std::string, InputFile> tables; // by material
+    for (unsigned int b = 0; b < n_bodies; ++b)
+      if (const auto *strength = materials.of_body(b).undrained_strength())
+        if (const std::string table = strength->table(); !table.empty())
+          {
+            const std::string section = materials.of_body(b).section();
+            const std::string name    = section.substr(section.rfind('/') + 1);
+            tables[name]              = {"strength of " + name,
+                                         "table",
+                                         folder / table,
+                                         text(checksum_of_file(folder / table))};
+          }
+    std::vector<InputFile> result;
+    for (const auto &[name, table] : tables)
+      result.push_back(table);
+    return result;
+  }
+
+
+
   template decltype(set_undrained_strength<2>) set_undrained_strength<2>;
   template decltype(set_undrained_strength<3>) set_undrained_strength<3>;
+  template decltype(tables_of_strength<2>)     tables_of_strength<2>;
+  template decltype(tables_of_strength<3>)     tables_of_strength<3>;
 } // namespace talus

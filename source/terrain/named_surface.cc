@@ -2,8 +2,10 @@
 #include <talus/base/errors.h>
 #include <talus/geometry/terrain.h>
 #include <talus/io/files.h>
+#include <talus/io/map_projection.h>
 #include <talus/io/raster_file.h>
 #include <talus/terrain/named_surface.h>
+#include <talus/terrain/project_raster.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -19,14 +21,29 @@ namespace talus
     add_parameter("File",
                   file_,
                   "Raster of heights, from the folder of this file: an Esri "
-                  "ASCII grid or netCDF-4 (GEBCO, GMT), in metres. In 3-D x is "
-                  "the easting and -z the northing, from 'Grid/Origin' on.");
+                  "ASCII grid, netCDF-4 (GEBCO, GMT) or, if talus was built "
+                  "with GDAL, GeoTIFF; in metres, or in degrees with a "
+                  "`Projection`. In 3-D x is the easting and -z "
+                  "the northing, from 'Grid/Origin' on.");
+    add_parameter("Projection",
+                  projection_,
+                  "Of a raster in degrees (WGS 84): the map in metres that it "
+                  "is brought to on reading, and that 'Grid/Origin' and "
+                  "`Section` are on: zone and hemisphere as UTM 33N or UTM "
+                  "33S, or EPSG:3575, a number of PROJ's database. Empty: the "
+                  "raster is in metres.");
+    add_parameter("Cell size",
+                  cell_size_,
+                  "Of the raster on that map [m]; 0: the smaller side that its "
+                  "cells have in its middle.",
+                  this->prm,
+                  Patterns::Double(0.));
     add_parameter(
       "Units",
       units_,
       "Of the raster's coordinates: 'guess', by what the file says "
-      "and by their size, so that maps in degrees are refused; 'm', "
-      "for flumes, which may look like degrees.",
+      "and by their size, so that maps in degrees are refused without "
+      "a `Projection`; 'm', for flumes, which may look like degrees.",
       this->prm,
       Patterns::Selection("guess|m"));
     add_parameter("Section",
@@ -84,6 +101,50 @@ namespace talus
 
 
 
+  /// Projected, if it is in degrees.
+  template <int dim>
+  Raster
+  NamedSurface<dim>::read_file(const std::filesystem::path &file) const
+  {
+    AssertThrow(projection_.empty() || units_ != "m",
+                ExcUser(text(path("Projection"),
+                             " is '",
+                             projection_,
+                             "', which is for rasters in degrees, but ",
+                             path("Units"),
+                             " is 'm'. Remove one of the two entries.")));
+    AssertThrow(!projection_.empty() || cell_size_ == 0.,
+                ExcUser(text(path("Cell size"),
+                             " is ",
+                             cell_size_,
+                             " m, but the cells of a raster change only where "
+                             "there is a `Projection`. Remove the entry.")));
+    // Without PROJ the reader says how to project it by hand.
+    const bool is_projected =
+      !projection_.empty() && MapProjection::is_available();
+    protect_input(file);
+    Raster raster = read_raster(file,
+                                units_ == "m"  ? RasterUnits::metres
+                                : is_projected ? RasterUnits::degrees
+                                               : RasterUnits::guess);
+    AssertThrow(raster.n_columns >= 2 && raster.n_rows >= 2,
+                ExcUser(text("The raster '",
+                             file_,
+                             "' has ",
+                             raster.n_rows,
+                             " rows and ",
+                             raster.n_columns,
+                             " columns, but a surface needs two of both.")));
+    if (projection_.empty())
+      return raster;
+    return project_raster(std::move(raster),
+                          MapProjection(path("Projection"), projection_),
+                          cell_size_,
+                          path("Projection") + " = " + projection_);
+  }
+
+
+
   template <int dim>
   std::shared_ptr<const Surface<dim>>
   NamedSurface<dim>::read(const std::filesystem::path &folder,
@@ -97,18 +158,7 @@ namespace talus
                        file_.empty() ? "neither `File` nor" : "both `File` and",
                        " `Expression`. Give one of the two.")));
     const auto corners = section();
-    protect_input(folder / file_);
-    Raster raster =
-      read_raster(folder / file_,
-                  units_ == "m" ? RasterUnits::metres : RasterUnits::guess);
-    AssertThrow(raster.n_columns >= 2 && raster.n_rows >= 2,
-                ExcUser(text("The raster '",
-                             file_,
-                             "' has ",
-                             raster.n_rows,
-                             " rows and ",
-                             raster.n_columns,
-                             " columns, but a surface needs two of both.")));
+    Raster     raster  = read_file(file(folder));
     return std::make_shared<Terrain<dim>>(std::make_shared<const HeightField>(
                                             std::move(raster)),
                                           file_,

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/geometry/terrain.h>
+#include <talus/io/checksum.h>
 #include <talus/terrain/surfaces.h>
 
 #include <algorithm>
 #include <cctype>
+#include <iomanip>
 #include <set>
+#include <sstream>
 
 namespace talus
 {
@@ -84,6 +87,7 @@ namespace talus
   {
     constants_ = &constants;
     surfaces_.clear();
+    files_.clear();
     for (const auto &named : named_)
       {
         check_name(named->name());
@@ -93,6 +97,11 @@ namespace talus
                                  ? surface(named->path("Expression"),
                                            named->expression())
                                  : named->read(folder, origin));
+        if (named->has_file())
+          files_.push_back({"raster of " + named->name(),
+                            "raster",
+                            named->file(folder),
+                            text(checksum_of_file(named->file(folder)))});
       }
   }
 
@@ -116,6 +125,40 @@ namespace talus
                                                     expression,
                                                     *constants_,
                                                     others);
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Surfaces<dim>::notes() const
+  {
+    std::vector<std::string> result;
+    for (const auto &named : named_)
+      if (const Raster *map = raster(named->name());
+          map != nullptr && !named->projection().empty())
+        {
+          std::ostringstream note;
+          note << std::setprecision(9) << "The raster of "
+               << named->path("File") << " was projected to "
+               << named->projection() << ": " << map->n_columns << " x "
+               << map->n_rows << " cells of " << map->dx << " m, easting from "
+               << map->west << " m to " << map->west + map->n_columns * map->dx
+               << " m, northing from " << map->south << " m to "
+               << map->south + map->n_rows * map->dy << " m.";
+          result.push_back(note.str());
+        }
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  Surfaces<dim>::list_state(StateList &list) const
+  {
+    for (const InputFile &file : files_)
+      file.list_state(list);
   }
 
 

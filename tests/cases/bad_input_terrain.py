@@ -38,10 +38,21 @@ class BadInputTerrain(Case):
                 (self.HEAD.replace("-5", "6e5") + self.ROWS, "has no value at",
                  "from 600000 m to 600015 m"),
                 ("ncols 3\nnrows 3\nxllcorner 4\nyllcorner 63\ncellsize "
-                 "0.004\n" + self.ROWS, "degrees", "EPSG:32631 -tr 400 400",
-                 "`Units` = m")):
+                 "0.004\n" + self.ROWS, "degrees", "`Projection` = UTM 31N",
+                 "EPSG:32631 -tr 400 400", "`Units` = m")):
             with self.subTest(content):
                 self.refuse_raster(content, *words)
+
+    def test_projections(self):
+        (self.folder / "bed.asc").write_text(self.HEAD + self.ROWS)
+        for settings, *words in (
+                (["Projection=UTM 33N", "Units=m"],
+                 "'Surfaces/bed/Projection' is 'UTM 33N'", "'Surfaces/bed/Units'"),
+                (["Cell size=5"], "'Surfaces/bed/Cell size' is 5 m",
+                 "`Projection`")):
+            with self.subTest(settings):
+                self.refuse_set(self.FILE + ["Surfaces/bed/" + s
+                                             for s in settings], *words)
 
     def test_surfaces(self):
         layer = ["Bodies/block/Shape=layer", "Bodies/block/Lower surface=0"]

@@ -118,6 +118,34 @@ class ResumeRefused(Case):
         self.refuse(settings, "The table", "record.csv", "not the one",
                     "Restore it")
 
+    def test_files_that_changed(self):
+        """A surface, and a strength that is read at the start alone."""
+        raster = self.folder / "bed.asc"
+        strength = self.folder / "strength.csv"
+        contents = {raster: "ncols 2\nnrows 2\nxllcorner -1000\nyllcorner -1000\n"
+                            "cellsize 1500\n-1 -1\n-1 -1\n",
+                    strength: "depth [m],undrained shear strength [Pa]\n"
+                              "0,2500\n5,2600\n"}
+        for file, content in contents.items():
+            file.write_text(content)
+        shutil.rmtree(self.folder / "run")
+        settings = EVERY + [
+            "Surfaces/Names=bed", f"Surfaces/bed/File={raster}",
+            "Surfaces/bed/Section=0,0; 280,0", "Obstacles/Names=bottom",
+            "Obstacles/bottom/Shape=terrain", "Obstacles/bottom/Surface=bed",
+            f"Materials/clay/Undrained shear strength=table {strength}"]
+        self.assert_ends(self.run_talus("run", ["End time=0.1"] + settings))
+        self.before = self.content("run", [])
+        for file, of, *change in ((raster, "raster", "-1 -1\n-1", "-1 -1\n-2"),
+                                  (strength, "table", "2600", "2601")):
+            file.write_text(contents[file].replace(*change))
+            self.refuse(settings, f"The {of} '{file}' is not the one",
+                        "Restore it")
+            file.unlink()
+            self.refuse(settings, str(file))
+            file.write_text(contents[file])
+        self.assert_ends(self.run_talus("run", settings, ["--resume"]))
+
     def test_harmless_parameters(self):
         self.assert_ends(self.run_talus(
             "run", ["Title=Another", "End time=3", "Checkpoint/Step interval=7",

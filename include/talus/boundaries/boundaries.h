@@ -61,6 +61,13 @@ namespace talus
     bool
     has_seabed() const;
 
+    /// To be called before locate_nodes() if the seabed depends on the depth.
+    void
+    set_depth(const typename ShearStressCap<dim>::Depth &depth)
+    {
+      seabed_.set_depth(depth);
+    }
+
     /// Let the seabed pass @p factor times its maximum shear stress [-].
     void
     scale_seabed_shear_stress(const double factor)

@@ -2,11 +2,16 @@
 #ifndef talus_boundaries_seabed_h
 #define talus_boundaries_seabed_h
 
+#include <talus/base/shear_stress_cap.h>
 #include <talus/boundaries/boundary_condition.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <algorithm>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
 
 namespace talus
 {
@@ -18,6 +23,35 @@ namespace talus
   {
   public:
     Seabed();
+
+    /// To be called after parsing. Throws ExcUser if the maximum shear stress
+    /// cannot be understood.
+    void
+    prepare(const Constants &constants);
+
+    /// Whether locate() must be called, and whether set_depth() before it.
+    bool
+    depends_on_place() const
+    {
+      return !cap_->number();
+    }
+    bool
+    depends_on_depth() const
+    {
+      return cap_->depends_on_depth();
+    }
+
+    void
+    set_depth(const typename ShearStressCap<dim>::Depth &depth)
+    {
+      cap_->set_depth(depth);
+    }
+
+    /// Find the maximum shear stress at the nodes of the seabed, those that
+    /// @p is_on_seabed says yes to; @p places of all owned ones, m.
+    void
+    locate(const std::vector<dealii::Point<dim>>        &places,
+           const std::function<bool(unsigned int node)> &is_on_seabed);
 
     /// Change the velocity of @p node on @p face after a step of @p dt: where
     /// it would move into the seabed, its normal velocity becomes zero with the
@@ -44,12 +78,14 @@ namespace talus
     }
 
     /// Largest friction force on soil that is pressed onto @p area, m^(dim-1),
-    /// with @p normal_force, N.
+    /// at @p node with @p normal_force, N.
     double
-    largest_friction(const double normal_force, const double area) const
+    largest_friction(const unsigned int node,
+                     const double       normal_force,
+                     const double       area) const
     {
       return std::min(friction_factor_ * friction_coefficient_ * normal_force,
-                      factor_ * maximum_shear_stress_ * area);
+                      factor_ * maximum_shear_stress(node) * area);
     }
 
     /// From now on pass @p factor times the maximum shear stress [-].
@@ -67,11 +103,23 @@ namespace talus
     }
 
   private:
-    double friction_factor_      = 1.;
-    double factor_               = 1.; ///< of the maximum shear stress
-    double friction_coefficient_ = 10.;
-    double maximum_shear_stress_ = 1000.;
-    bool   has_gap_              = false;
+    /// At a node, Pa.
+    double
+    maximum_shear_stress(const unsigned int node) const
+    {
+      return cap_->number() ? *cap_->number() : cap_of_node_[node];
+    }
+
+    double friction_factor_ = 1.;
+    double factor_          = 1.; ///< of the maximum shear stress
+
+    // Parameters
+    double      friction_coefficient_      = 10.;
+    std::string maximum_shear_stress_text_ = "1000";
+    bool        has_gap_                   = false;
+
+    std::unique_ptr<ShearStressCap<dim>> cap_;         ///< Pa
+    std::vector<double>                  cap_of_node_; ///< Pa, if they differ
   };
 
 
@@ -85,6 +133,12 @@ namespace talus
       : BoundaryCondition<dim>(description)
       , seabed_(description.seabed)
     {}
+
+    bool
+    depends_on_place() const override
+    {
+      return seabed_.depends_on_place();
+    }
 
     bool
     is_one_sided() const override

@@ -3,6 +3,7 @@
 #define talus_contact_obstacle_h
 
 #include <talus/base/expression.h>
+#include <talus/base/shear_stress_cap.h>
 #include <talus/base/state.h>
 #include <talus/geometry/shape.h>
 #include <talus/geometry/shape_parameters.h>
@@ -86,6 +87,20 @@ namespace talus
     double
     maximum_shear_stress(const dealii::Point<dim> &x) const;
 
+    /// Whether set_depth() must be called before that.
+    bool
+    depends_on_depth() const
+    {
+      return limits_shear_stress() && maximum_shear_stress_->depends_on_depth();
+    }
+
+    void
+    set_depth(const typename ShearStressCap<dim>::Depth &depth)
+    {
+      if (limits_shear_stress())
+        maximum_shear_stress_->set_depth(depth);
+    }
+
     double
     friction_coefficient() const
     {
@@ -136,8 +151,9 @@ namespace talus
     std::string velocity_text_             = "";
     std::string reference_point_text_      = "";
 
-    std::unique_ptr<Shape<dim>>      shape_;
-    std::unique_ptr<Expression<dim>> maximum_shear_stress_; ///< Pa, if limited
+    std::unique_ptr<Shape<dim>> shape_;
+    std::unique_ptr<ShearStressCap<dim>>
+                                     maximum_shear_stress_; ///< Pa, if limited
     std::unique_ptr<Expression<dim>> velocity_;        ///< m/s, if it moves
     dealii::Point<dim>               reference_point_; ///< at the start, m
     dealii::Tensor<1, dim>           displacement_;

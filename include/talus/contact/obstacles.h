@@ -57,6 +57,14 @@ namespace talus
     unsigned int
     nearest(const dealii::Point<dim> &x) const;
 
+    /// Whether the shear stress that one of them passes depends on the depth
+    /// below the mudline, so that set_depth() must be called.
+    bool
+    depend_on_depth() const;
+
+    void
+    set_depth(const typename ShearStressCap<dim>::Depth &depth);
+
     /// Whether one of them moves.
     bool
     move() const;

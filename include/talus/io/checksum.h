@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,12 @@ namespace talus
     crc.process_bytes(text.data(), text.size());
     return crc.checksum();
   }
+
+
+
+  /// CRC-32 of a file, the same as that of its content as a text.
+  std::uint64_t
+  checksum_of_file(const std::filesystem::path &path);
 } // namespace talus
 
 #endif

@@ -12,14 +12,16 @@ namespace talus
   enum class RasterUnits
   {
     guess, ///< by what the file says, and by their size
-    metres
+    metres,
+    degrees
   };
 
 
 
-  /// Read a raster in metres, an Esri ASCII grid or netCDF-4, whichever it is by
-  /// its content. Throws ExcUser, naming the file, if it cannot be read, is of
-  /// another format, or in degrees: then with the command that projects it.
+  /// Read a raster, an Esri ASCII grid, netCDF-4 or GeoTIFF, whichever it is by
+  /// its content; in metres, unless @p units are degrees. Throws ExcUser, naming the
+  /// file, if it cannot be read, is of another format, or not in these units: of
+  /// one in degrees with the command that projects it.
   Raster
   read_raster(const std::filesystem::path &file,
               RasterUnits                  units = RasterUnits::guess);

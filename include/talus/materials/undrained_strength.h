@@ -32,6 +32,10 @@ namespace talus
     const std::optional<double> &
     number() const;
 
+    /// The file, if it is a table; else empty.
+    std::string
+    table() const;
+
     bool
     is_number() const
     {

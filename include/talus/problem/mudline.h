@@ -2,7 +2,7 @@
 #ifndef talus_problem_mudline_h
 #define talus_problem_mudline_h
 
-#include <talus/geometry/shape.h>
+#include <talus/problem/body.h>
 
 #include <memory>
 #include <vector>
@@ -37,6 +37,14 @@ namespace talus
     Bodies   bodies_;
     Box<dim> domain_;
   };
+
+
+
+  /// That of @p bodies in a mesh that fills @p domain.
+  template <int dim>
+  Mudline<dim>
+  mudline_of(const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+             const Box<dim>                                &domain);
 } // namespace talus
 
 #endif

@@ -7,6 +7,7 @@
 #include <talus/contact/seabed_gaps.h>
 #include <talus/problem/body.h>
 #include <talus/problem/loading.h>
+#include <talus/problem/mudline.h>
 #include <talus/problem/parameter_preview.h>
 #include <talus/problem/trigger.h>
 #include <talus/state/state.h>
@@ -109,6 +110,7 @@ namespace talus
     void
     locate(const Grid<dim> &grid)
     {
+      find_mudline(grid);
       boundaries.locate_nodes(grid);
       seabed_gaps.prepare(grid);
       contact.prepare(grid);
@@ -131,6 +133,9 @@ namespace talus
     void
     list_state(StateList &list)
     {
+      surfaces_.list_state(list);
+      for (const InputFile &table : strength_tables_)
+        table.list_state(list);
       loading.list_state(list);
       obstacles.list_state(list);
       contact.list_state(list);
@@ -138,6 +143,9 @@ namespace talus
     }
 
   private:
+    void
+    find_mudline(const Grid<dim> &grid);
+
     Constants                               constants_;
     std::filesystem::path                   folder_; ///< of the parameters
     std::string                             initial_velocity_time_ = "start";
@@ -145,7 +153,9 @@ namespace talus
     std::vector<std::string>                listed_names_;
     Surfaces<dim>                           surfaces_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
-    std::vector<std::string>                notes_; ///< on the initial state
+    std::vector<InputFile>                  strength_tables_;
+    std::shared_ptr<const Mudline<dim>>     mudline_; ///< if one asks for it
+    std::vector<std::string>                notes_;   ///< on the initial state
 
   public:
     // The parts, for those who work with them.

@@ -2,6 +2,7 @@
 #ifndef talus_problem_strength_field_h
 #define talus_problem_strength_field_h
 
+#include <talus/io/input_file.h>
 #include <talus/materials/materials.h>
 #include <talus/problem/body.h>
 
@@ -25,6 +26,16 @@ namespace talus
                          const std::filesystem::path &folder,
                          const Box<dim>              &domain,
                          MPI_Comm                     communicator);
+
+
+
+  /// The tables, in @p folder, that strengths of the materials of @p n_bodies
+  /// bodies are in, each once.
+  template <int dim>
+  std::vector<InputFile>
+  tables_of_strength(const Materials<dim>        &materials,
+                     unsigned int                 n_bodies,
+                     const std::filesystem::path &folder);
 } // namespace talus
 
 #endif

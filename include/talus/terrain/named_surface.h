@@ -2,6 +2,7 @@
 #ifndef talus_terrain_named_surface_h
 #define talus_terrain_named_surface_h
 
+#include <talus/base/raster.h>
 #include <talus/geometry/expression_surface.h>
 #include <talus/geometry/surface.h>
 
@@ -41,10 +42,24 @@ namespace talus
       return !file_.empty();
     }
 
+    /// Of the raster, from @p folder.
+    std::filesystem::path
+    file(const std::filesystem::path &folder) const
+    {
+      return folder / file_;
+    }
+
     const std::string &
     expression() const
     {
       return expression_;
+    }
+
+    /// The map that a raster in degrees is brought to; empty if it is in metres.
+    const std::string &
+    projection() const
+    {
+      return projection_;
     }
 
     std::string
@@ -62,10 +77,14 @@ namespace talus
   private:
     std::vector<dealii::Point<2>>
     section() const;
+    Raster
+    read_file(const std::filesystem::path &file) const;
 
     std::string name_;
     std::string file_       = "";
     std::string units_      = "guess";
+    std::string projection_ = "";
+    double      cell_size_  = 0.;
     std::string section_    = "";
     std::string expression_ = "";
   };

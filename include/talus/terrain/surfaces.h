@@ -3,6 +3,8 @@
 #define talus_terrain_surfaces_h
 
 #include <talus/base/raster.h>
+#include <talus/base/state.h>
+#include <talus/io/input_file.h>
 #include <talus/terrain/named_surface.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -35,6 +37,14 @@ namespace talus
     surface(const std::string &path,
             const std::string &expression) const override;
 
+    /// Sentences for the log: where projected rasters lie on the map.
+    std::vector<std::string>
+    notes() const;
+
+    /// The rasters must be the same when the run is resumed.
+    void
+    list_state(StateList &list) const;
+
     /// The raster that the surface @p name was read from; without a name, that
     /// of the first surface that has one. Null if there is none.
     const Raster *
@@ -45,6 +55,7 @@ namespace talus
     std::vector<std::unique_ptr<NamedSurface<dim>>>     named_;
     const Constants                                    *constants_ = nullptr;
     std::vector<typename ExpressionSurface<dim>::Named> surfaces_;
+    std::vector<InputFile>                              files_;
   };
 } // namespace talus
 

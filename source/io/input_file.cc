@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/io/input_file.h>
+
+namespace talus
+{
+  // By value: the list may outlive what made it.
+  void
+  InputFile::list_state(StateList &list) const
+  {
+    list.add_text({"checksum of the " + name,
+                   [now = checksum]() { return now; },
+                   [file = *this](const std::string &saved) {
+                     AssertThrow(saved == file.checksum,
+                                 ExcUser("The " + file.kind + " '" +
+                                         file.path.string() +
+                                         "' is not the one of the run to "
+                                         "resume. Restore it, or start anew in "
+                                         "another folder."));
+                   }});
+  }
+} // namespace talus

@@ -1,0 +1,362 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// From degrees to metres: the projection against Krueger's series, and rasters
+// whose values are a function of easting and northing.
+
+#include <talus/base/errors.h>
+#include <talus/geometry/height_field.h>
+#include <talus/io/map_projection.h>
+#include <talus/terrain/project_raster.h>
+#include <talus/version.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <sstream>
+
+#include "transverse_mercator.h"
+
+using namespace talus;
+using dealii::Point;
+
+namespace
+{
+  std::string
+  error(const std::function<void()> &action)
+  {
+    try
+      {
+        action();
+      }
+    catch (const ExcUser &error)
+      {
+        std::istringstream words(error.what());
+        std::string        result;
+        for (std::string word; words >> word;)
+          result += word + ' ';
+        return result;
+      }
+    return "";
+  }
+} // namespace
+
+
+
+TEST(MapProjection, ZonesOfPlaces)
+{
+  EXPECT_EQ(utm_zone(15.1, 67.).name(), "UTM 33N");
+  EXPECT_EQ(utm_zone(15.1, 67.).epsg(), 32633u);
+  EXPECT_EQ(utm_zone(-180., -1.).name(), "UTM 1S");
+  EXPECT_EQ(utm_zone(179.9, -1.).epsg(), 32760u);
+  EXPECT_EQ(utm_zone(190., 5.).name(), "UTM 2N");
+}
+
+
+
+#if TALUS_WITH_PROJ
+
+namespace
+{
+  constexpr double west = 14.25, south = 67., extent = 0.25;
+
+  const Point<2> middle = transverse_mercator({14.375, 67.125}, 33);
+
+  MapProjection
+  utm_33n()
+  {
+    return {"'Projection'", "UTM 33N"};
+  }
+
+
+
+  using Function = std::function<double(const Point<2> &)>;
+
+  /// n x n cells, whose centres have the values of @p height at their places on
+  /// the map.
+  Raster
+  in_degrees(const unsigned int n, const Function &height)
+  {
+    Raster raster;
+    raster.n_columns = raster.n_rows = n;
+    raster.dx = raster.dy = extent / n;
+    raster.west           = west;
+    raster.south          = south;
+    for (unsigned int r = 0; r < n; ++r)
+      for (unsigned int i = 0; i < n; ++i)
+        raster.values.push_back(
+          height(transverse_mercator({raster.x(i), raster.y(r)}, 33)));
+    return raster;
+  }
+
+
+
+  double
+  plane(const Point<2> &x)
+  {
+    return -1200. + 0.1 * (x[0] - middle[0]) - 0.07 * (x[1] - middle[1]);
+  }
+
+
+
+  /// Waves of 6 km, 1 m high.
+  double
+  waves(const Point<2> &x)
+  {
+    return std::sin(x[0] / 955.) * std::cos(x[1] / 955.);
+  }
+
+
+
+  /// The largest error of a raster within @p radius of the middle, m.
+  double
+  largest_error(const Raster   &raster,
+                const Function &height,
+                const double    radius)
+  {
+    double       result = 0.;
+    unsigned int n      = 0;
+    for (unsigned int r = 0; r < raster.n_rows; ++r)
+      for (unsigned int i = 0; i < raster.n_columns; ++i)
+        if (const Point<2> x(raster.x(i), raster.y(r));
+            x.distance(middle) < radius)
+          {
+            const double difference = std::abs(raster.value(i, r) - height(x));
+            EXPECT_FALSE(std::isnan(difference));
+            result = std::max(result, difference);
+            ++n;
+          }
+    EXPECT_GT(n, 200u);
+    return result;
+  }
+} // namespace
+
+
+
+// In the zone, at its edges and beyond, in both hemispheres.
+TEST(MapProjection, IsKruegersSeries)
+{
+  for (const auto &[name, zone, is_south] :
+       {std::make_tuple("UTM 33N", 33u, false),
+        std::make_tuple("UTM 1S", 1u, true),
+        std::make_tuple("UTM60S", 60u, true)})
+    {
+      const MapProjection projection("'Projection'", name);
+      for (double lon = -6.; lon <= 6.; lon += 1.5)
+        for (double lat = 1.; lat < 84.; lat += 7.)
+          {
+            const Point<2> place(6. * zone - 183. + lon, is_south ? -lat : lat);
+            const Point<2> x = projection.forward(place);
+            EXPECT_LT(x.distance(transverse_mercator(place, zone, is_south)),
+                      1e-6)
+              << name << ' ' << place;
+          }
+    }
+}
+
+
+
+// The CN Tower, as Wikipedia's page on UTM has it, to a tenth of a second.
+TEST(MapProjection, PublishedPlace)
+{
+  const Point<2> place(-(79. + 23. / 60. + 13.7 / 3600.),
+                       43. + 38. / 60. + 33.24 / 3600.);
+  EXPECT_EQ(utm_zone(place[0], place[1]).name(), "UTM 17N");
+  const Point<2> x = MapProjection("'Projection'", "UTM 17N").forward(place);
+  EXPECT_NEAR(x[0], 630084., 1.2);
+  EXPECT_NEAR(x[1], 4833438., 1.2);
+}
+
+
+
+// A millimetre, that is 1e-8 degrees, and of the map itself.
+TEST(MapProjection, ThereAndBack)
+{
+  for (const char *name : {"UTM 33N", "EPSG:32633", "EPSG:3575"})
+    {
+      const MapProjection projection("'Projection'", name);
+      for (double lon = 10.5; lon <= 19.5; lon += 1.)
+        for (double lat = 52.; lat < 84.; lat += 4.)
+          {
+            const Point<2> place(lon, lat);
+            const Point<2> x    = projection.forward(place);
+            const Point<2> back = projection.inverse(x);
+            EXPECT_LT(projection.forward(back).distance(x), 1e-3) << name;
+            EXPECT_LT(back.distance(place), 1e-8) << name;
+          }
+    }
+}
+
+
+
+TEST(MapProjection, NumbersOfTheDatabase)
+{
+  const Point<2>      place(14.3, 67.2);
+  const MapProjection by_number("'Projection'", "EPSG:32633");
+  EXPECT_LT(by_number.forward(place).distance(utm_33n().forward(place)), 1e-6);
+}
+
+
+
+TEST(MapProjection, RefusesWhatIsNoMapInMetres)
+{
+  for (const auto &[name, words] :
+       {std::make_pair("UTM 33", "hemisphere were expected"),
+        std::make_pair("UTM 33V", "hemisphere were expected"),
+        std::make_pair("UTM 61N", "from 1 to 60"),
+        std::make_pair("UTM 0N", "from 1 to 60"),
+        std::make_pair("+proj=utm +zone=33", "UTM 33N or UTM 33S"),
+        std::make_pair("EPSG:1234567", "PROJ:"),
+        std::make_pair("EPSG:4326", "no map whose easting"),
+        // In feet.
+        std::make_pair("EPSG:2263", "in metres")})
+    {
+      const std::string sentence =
+        error([name = name] { MapProjection("'Projection'", name); });
+      EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
+      EXPECT_NE(sentence.find(name), std::string::npos) << sentence;
+    }
+}
+
+
+
+// Half a cell of 190 m off, it would be wrong by 9 m.
+TEST(ProjectRaster, PlaneOfTheMap)
+{
+  const Raster raster =
+    project_raster(in_degrees(120, plane), utm_33n(), 0., "'Projection'");
+  EXPECT_LT(largest_error(raster, plane, 4e3), 1e-7);
+  // The outermost cells, where differences are one-sided, and all others.
+  unsigned int n_known = 0;
+  for (unsigned int r = 0; r < raster.n_rows; ++r)
+    for (unsigned int i = 0; i < raster.n_columns; ++i)
+      if (const double value = raster.value(i, r); !std::isnan(value))
+        {
+          ++n_known;
+          ASSERT_NEAR(value, plane({raster.x(i), raster.y(r)}), 1e-3);
+        }
+  EXPECT_GT(n_known, 0.95 * raster.n_columns * raster.n_rows);
+}
+
+
+
+// Their own width on the map, 0.25/120 degrees at 67.125 degrees north, which is
+// the smaller side; or as asked for.
+TEST(ProjectRaster, CellsOfTheMap)
+{
+  const Raster degrees = in_degrees(120, plane);
+  const Raster own     = project_raster(degrees, utm_33n(), 0., "'Projection'");
+  const double width =
+    transverse_mercator({14.375 + 0.5 * degrees.dx, 67.125}, 33)
+      .distance(transverse_mercator({14.375 - 0.5 * degrees.dx, 67.125}, 33));
+  EXPECT_NEAR(own.dx, width, 1e-6);
+  EXPECT_EQ(own.dx, own.dy);
+  const Raster asked = project_raster(degrees, utm_33n(), 100., "'Projection'");
+  EXPECT_EQ(asked.dx, 100.);
+  EXPECT_EQ(std::fmod(asked.west, 100.), 0.);
+  EXPECT_EQ(std::fmod(asked.south, 100.), 0.);
+  // All of the raster is covered, and not a row more.
+  for (const double lat : {south, south + extent})
+    for (const double lon : {west, west + extent})
+      {
+        const Point<2> x = transverse_mercator({lon, lat}, 33);
+        EXPECT_GE(x[0], asked.west);
+        EXPECT_GE(x[1], asked.south);
+        EXPECT_LE(x[0], asked.west + asked.n_columns * asked.dx);
+        EXPECT_LE(x[1], asked.south + asked.n_rows * asked.dy);
+      }
+  EXPECT_LT(largest_error(asked, plane, 4e3), 1e-7);
+}
+
+
+
+// The error of the cubic surface falls with the third power at least.
+TEST(ProjectRaster, Converges)
+{
+  const auto error_on = [](const unsigned int n) {
+    return largest_error(
+      project_raster(in_degrees(n, waves), utm_33n(), 90., "'Projection'"),
+      waves,
+      4e3);
+  };
+  const double coarse = error_on(60), fine = error_on(120);
+  EXPECT_LT(fine, 5e-4);
+  EXPECT_GT(coarse / fine, 7.);
+}
+
+
+
+TEST(ProjectRaster, LongitudesUpTo360)
+{
+  Raster east = in_degrees(30, plane);
+  // The same places west of Greenwich, once as negative numbers.
+  east.west -= 30.;
+  Raster beyond = east;
+  beyond.west += 360.;
+  const MapProjection projection("'Projection'", "UTM 28N");
+  const Raster        a = project_raster(east, projection, 300., "");
+  const Raster        b = project_raster(beyond, projection, 300., "");
+  EXPECT_EQ(a.west, b.west);
+  ASSERT_EQ(a.values.size(), b.values.size());
+  for (unsigned int i = 0; i < a.values.size(); ++i)
+    if (!std::isnan(a.values[i]) && !std::isnan(b.values[i]))
+      ASSERT_NEAR(a.values[i], b.values[i], 1e-6);
+}
+
+
+
+TEST(ProjectRaster, CellsWithoutData)
+{
+  Raster degrees               = in_degrees(60, plane);
+  degrees.nodata               = -32768.;
+  degrees.values[30 * 60 + 30] = std::numeric_limits<double>::quiet_NaN();
+  const Raster raster = project_raster(degrees, utm_33n(), 0., "'Projection'");
+  EXPECT_EQ(raster.nodata, -32768.);
+  unsigned int n_missing = 0;
+  for (unsigned int r = 0; r < raster.n_rows; ++r)
+    for (unsigned int i = 0; i < raster.n_columns; ++i)
+      if (Point<2>(raster.x(i), raster.y(r)).distance(middle) < 2e3)
+        {
+          const double value = raster.value(i, r);
+          n_missing += std::isnan(value);
+          if (!std::isnan(value))
+            ASSERT_NEAR(value, plane({raster.x(i), raster.y(r)}), 0.02);
+        }
+  // Two by two cells around the one that is missing, in cells of half the size.
+  EXPECT_GT(n_missing, 0u);
+  EXPECT_LT(n_missing, 16u);
+}
+
+
+
+TEST(ProjectRaster, RefusesMapsThatAreNotTrue)
+{
+  const Raster degrees = in_degrees(30, plane);
+  for (const char *name : {"UTM 40N", "EPSG:3857"})
+    {
+      const std::string sentence = error([&] {
+        project_raster(degrees,
+                       MapProjection("'Projection'", name),
+                       0.,
+                       "'Surfaces/bed/Projection' = " + std::string(name));
+      });
+      EXPECT_NE(sentence.find("lengths would be wrong by"), std::string::npos)
+        << sentence;
+      EXPECT_NE(sentence.find("UTM 33N"), std::string::npos) << sentence;
+    }
+  const std::string sentence =
+    error([&] { project_raster(degrees, utm_33n(), 0.1, "'Projection'"); });
+  EXPECT_NE(sentence.find("Choose larger cells"), std::string::npos)
+    << sentence;
+}
+
+#else
+
+TEST(MapProjection, NeedsProj)
+{
+  const std::string sentence =
+    error([] { MapProjection("'Projection'", "UTM 33N"); });
+  EXPECT_NE(sentence.find("libproj-dev"), std::string::npos) << sentence;
+}
+
+#endif
