@@ -60,7 +60,7 @@ namespace
 {
   constexpr double west = 14.25, south = 67., extent = 0.25;
 
-  const Point<2> middle = transverse_mercator({14.375, 67.125}, 33);
+  const Point<2> middle_of_map = transverse_mercator({14.375, 67.125}, 33);
 
   MapProjection
   utm_33n()
@@ -94,7 +94,8 @@ namespace
   double
   plane(const Point<2> &x)
   {
-    return -1200. + 0.1 * (x[0] - middle[0]) - 0.07 * (x[1] - middle[1]);
+    return -1200. + 0.1 * (x[0] - middle_of_map[0]) -
+           0.07 * (x[1] - middle_of_map[1]);
   }
 
 
@@ -108,7 +109,7 @@ namespace
 
 
 
-  /// The largest error of a raster within @p radius of the middle, m.
+  /// The largest error of a raster within @p radius of the middle_of_map, m.
   double
   largest_error(const Raster   &raster,
                 const Function &height,
@@ -119,7 +120,7 @@ namespace
     for (unsigned int r = 0; r < raster.n_rows; ++r)
       for (unsigned int i = 0; i < raster.n_columns; ++i)
         if (const Point<2> x(raster.x(i), raster.y(r));
-            x.distance(middle) < radius)
+            x.distance(middle_of_map) < radius)
           {
             const double difference = std::abs(raster.value(i, r) - height(x));
             EXPECT_FALSE(std::isnan(difference));
@@ -300,7 +301,9 @@ TEST(ProjectRaster, LongitudesUpTo360)
   ASSERT_EQ(a.values.size(), b.values.size());
   for (unsigned int i = 0; i < a.values.size(); ++i)
     if (!std::isnan(a.values[i]) && !std::isnan(b.values[i]))
-      ASSERT_NEAR(a.values[i], b.values[i], 1e-6);
+      {
+        ASSERT_NEAR(a.values[i], b.values[i], 1e-6);
+      }
 }
 
 
@@ -315,12 +318,14 @@ TEST(ProjectRaster, CellsWithoutData)
   unsigned int n_missing = 0;
   for (unsigned int r = 0; r < raster.n_rows; ++r)
     for (unsigned int i = 0; i < raster.n_columns; ++i)
-      if (Point<2>(raster.x(i), raster.y(r)).distance(middle) < 2e3)
+      if (Point<2>(raster.x(i), raster.y(r)).distance(middle_of_map) < 2e3)
         {
           const double value = raster.value(i, r);
           n_missing += std::isnan(value);
           if (!std::isnan(value))
-            ASSERT_NEAR(value, plane({raster.x(i), raster.y(r)}), 0.02);
+            {
+              ASSERT_NEAR(value, plane({raster.x(i), raster.y(r)}), 0.02);
+            }
         }
   // Two by two cells around the one that is missing, in cells of half the size.
   EXPECT_GT(n_missing, 0u);
