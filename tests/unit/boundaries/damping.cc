@@ -5,7 +5,7 @@
 
 namespace
 {
-  constexpr double dt = 0.1;
+  constexpr double step_length = 0.1;
 
   /// All nodes of a mesh of cells of 1 m, and local damping.
   struct Damped : Core<2>
@@ -39,7 +39,7 @@ namespace
     double
     apply()
     {
-      nodes.update_momentum(dt, 0.);
+      nodes.update_momentum(step_length, 0.);
       return damping.apply(nodes, grid, boundaries, {}, 0.);
     }
 
@@ -110,11 +110,12 @@ namespace
           }
         scene.boundaries.add_tractions(nodes, scene.grid, 0., 0.);
         const double taken = scene.apply();
-        const auto work = scene.boundaries.apply(nodes, scene.grid, 0., dt, 0.);
-        double     of_forces = 0;
+        const auto   work =
+          scene.boundaries.apply(nodes, scene.grid, 0., step_length, 0.);
+        double of_forces = 0;
         for (unsigned int i = 0; i < force.size(); ++i)
-          of_forces +=
-            dt * force[i] * nodes.mean_velocity(nodes.active_nodes()[i]);
+          of_forces += step_length * force[i] *
+                       nodes.mean_velocity(nodes.active_nodes()[i]);
         EXPECT_EQ(taken > 0, alpha > 0);
         EXPECT_NEAR(nodes.kinetic_energy() - before,
                     of_forces - taken - work.contact - work.friction,
@@ -138,7 +139,7 @@ namespace
                        scene.vector(-40., 40.));
       scene.apply();
       const auto work =
-        scene.boundaries.apply(scene.nodes, scene.grid, 0., dt, 0.);
+        scene.boundaries.apply(scene.nodes, scene.grid, 0., step_length, 0.);
       return std::make_pair(work.wall_impulse, work.seabed_impulse);
     };
     EXPECT_EQ(wall_impulse(0.), wall_impulse(0.9));
@@ -168,7 +169,7 @@ namespace
         nodes.activate(grid, all);
         for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
           nodes.set_sums(node, 1., 0., Tensor<1, dim>(), Tensor<1, dim>());
-        core.boundaries.apply(nodes, grid, 0., dt, 0.);
+        core.boundaries.apply(nodes, grid, 0., step_length, 0.);
         for (const auto &cell : grid.dof_handler().active_cell_iterators())
           if (cell->is_locally_owned())
             for (const unsigned int v : cell->vertex_indices())

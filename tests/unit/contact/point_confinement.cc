@@ -6,9 +6,10 @@
 namespace
 {
   /// Soil over obstacles, whose points are moved by hand.
-  struct Ground : Core<2>
+  struct SoilOnObstacles : Core<2>
   {
-    Ground(const std::vector<std::string> &names, const std::string &text)
+    SoilOnObstacles(const std::vector<std::string> &names,
+                    const std::string              &text)
       : Core<2>(slab<2>(), {}, MPI_COMM_SELF)
       , obstacles(names)
     {
@@ -43,13 +44,13 @@ namespace
     bool         is_noted = false; ///< for another look at its cell
   };
 
-  const std::string inclined =
+  const std::string inclined_bed =
     in_section("bed",
                "set Shape = half-plane\nset Point = 0, 1.2\n"
                "set Normal = -0.28, 0.96");
 
   void
-  expect_place(const Point<2> &found, const Point<2> &expected)
+  expect_moved_to(const Point<2> &found, const Point<2> &expected)
   {
     EXPECT_LT(found.distance(expected), 1e-14) << found << " | " << expected;
   }
@@ -64,17 +65,17 @@ TEST(PointConfinement, StopsAtTheSurface)
   const Tensor<1, 2> normal({-0.28, 0.96}), tangent({0.96, 0.28});
   const Point<2>     foot = Point<2>(0., 1.2) + 2.2 * tangent;
   {
-    Ground ground({"bed"}, inclined);
-    expect_place(ground.moved(foot + 0.03 * normal,
-                              0.05 * tangent - 0.08 * normal),
-                 foot + 0.05 * tangent);
-    EXPECT_TRUE(ground.is_noted);
+    SoilOnObstacles soil({"bed"}, inclined_bed);
+    expect_moved_to(soil.moved(foot + 0.03 * normal,
+                               0.05 * tangent - 0.08 * normal),
+                    foot + 0.05 * tangent);
+    EXPECT_TRUE(soil.is_noted);
   }
   {
-    Ground ground({"bed"}, inclined);
-    expect_place(ground.moved(foot + 0.03 * normal, -0.02 * normal),
-                 foot + 0.01 * normal);
-    EXPECT_FALSE(ground.is_noted);
+    SoilOnObstacles soil({"bed"}, inclined_bed);
+    expect_moved_to(soil.moved(foot + 0.03 * normal, -0.02 * normal),
+                    foot + 0.01 * normal);
+    EXPECT_FALSE(soil.is_noted);
   }
 }
 
@@ -85,13 +86,13 @@ TEST(PointConfinement, WhatIsInsideGoesNoDeeper)
   const Tensor<1, 2> normal({-0.28, 0.96}), tangent({0.96, 0.28});
   const Point<2>     inside = Point<2>(0., 1.2) + 2.2 * tangent - 0.04 * normal;
   {
-    Ground ground({"bed"}, inclined);
-    expect_place(ground.moved(inside, 0.02 * tangent - 0.01 * normal),
-                 inside + 0.02 * tangent);
+    SoilOnObstacles soil({"bed"}, inclined_bed);
+    expect_moved_to(soil.moved(inside, 0.02 * tangent - 0.01 * normal),
+                    inside + 0.02 * tangent);
   }
   {
-    Ground ground({"bed"}, inclined);
-    expect_place(ground.moved(inside, 0.01 * normal), inside + 0.01 * normal);
+    SoilOnObstacles soil({"bed"}, inclined_bed);
+    expect_moved_to(soil.moved(inside, 0.01 * normal), inside + 0.01 * normal);
   }
 }
 
@@ -100,13 +101,13 @@ TEST(PointConfinement, WhatIsInsideGoesNoDeeper)
 // The obstacle rises by 0.02 m in the step and carries what lies on it.
 TEST(PointConfinement, ObstacleThatMoves)
 {
-  Ground ground({"lift"},
-                in_section("lift",
-                           "set Shape = half-plane\nset Point = 0, 1.3\n"
-                           "set Normal = 0, 1\nset Velocity = 0; 0.2"));
-  ground.obstacles.advance(0., ground.time_step);
-  ground.facets.update(ground.grid, ground.obstacles);
-  expect_place(ground.moved({2.2, 1.3}, Point<2>(0.01, 0.)), {2.21, 1.32});
+  SoilOnObstacles soil({"lift"},
+                       in_section("lift",
+                                  "set Shape = half-plane\nset Point = 0, 1.3\n"
+                                  "set Normal = 0, 1\nset Velocity = 0; 0.2"));
+  soil.obstacles.advance(0., soil.time_step);
+  soil.facets.update(soil.grid, soil.obstacles);
+  expect_moved_to(soil.moved({2.2, 1.3}, Point<2>(0.01, 0.)), {2.21, 1.32});
 }
 
 
@@ -115,12 +116,13 @@ TEST(PointConfinement, ObstacleThatMoves)
 // the wall: it bears nothing, but points must not slip through it.
 TEST(PointConfinement, CornerOfTwoObstacles)
 {
-  Ground ground({"bed", "wall"},
-                in_section("bed",
-                           "set Shape = half-plane\nset Point = 0, 1.2\n"
-                           "set Normal = 0, 1") +
-                  in_section("wall",
-                             "set Shape = half-plane\nset Point = 2.3, 0\n"
-                             "set Normal = -1, 0"));
-  expect_place(ground.moved({2.26, 1.23}, Point<2>(0.06, -0.05)), {2.3, 1.2});
+  SoilOnObstacles soil(
+    {"bed", "wall"},
+    in_section("bed",
+               "set Shape = half-plane\nset Point = 0, 1.2\n"
+               "set Normal = 0, 1") +
+      in_section("wall",
+                 "set Shape = half-plane\nset Point = 2.3, 0\n"
+                 "set Normal = -1, 0"));
+  expect_moved_to(soil.moved({2.26, 1.23}, Point<2>(0.06, -0.05)), {2.3, 1.2});
 }

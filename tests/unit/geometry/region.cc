@@ -73,7 +73,9 @@ namespace
         for (const auto &x : below.facet)
           EXPECT_NEAR((x - origin) * gradient, 0., 1e-14);
         if (i % 3 != 0)
-          EXPECT_EQ(below.facet.empty(), above.facet.empty());
+          {
+            EXPECT_EQ(below.facet.empty(), above.facet.empty());
+          }
         if (below.facet.empty() || above.facet.empty())
           continue;
         const Tensor<1, dim> area = vector_area<dim>(below.facet);
