@@ -34,15 +34,29 @@ namespace talus
 
     /// The files of a checkpoint: the state, and what deal.II writes of a mesh.
     bool
-    is_file_of_checkpoint(const fs::path &path)
+    is_written_by_us(const std::string &name)
     {
       static const std::set<std::string> endings = {
         "", ".info", "_fixed.data", "_variable.data", "_triangulation.data"};
-      const std::string name = path.filename().string();
       const std::string mesh = mesh_file_name;
       return name == state_file_name ||
              (name.compare(0, mesh.size(), mesh) == 0 &&
               endings.count(name.substr(mesh.size())) == 1);
+    }
+
+
+
+    /// Open MPI keeps the file pointer that all ranks share in a hidden file
+    /// (".mesh.shfp.<job>.<number>") beside each file that it has open; it
+    /// stays if the run is killed at that moment.
+    bool
+    is_file_of_checkpoint(const fs::path &path)
+    {
+      const std::string name = path.filename().string();
+      const auto        end  = name.find(".shfp.");
+      return is_written_by_us(name) ||
+             (name.front() == '.' && end != std::string::npos &&
+              is_written_by_us(name.substr(1, end - 1)));
     }
 
 

@@ -182,11 +182,16 @@ class BadInputFolder(Case):
             folder.mkdir(parents=True)
             for name in ("state.h5", "mesh", "mesh.info", "notes.txt"):
                 (folder / name).write_text("of an earlier run")
+        # Open MPI's, beside the file that was open when the run was killed.
+        killed = self.results / "checkpoints" / "0000000997.part"
+        killed.mkdir()
+        (killed / ".mesh.shfp.12174.1361915309").touch()
         (self.folder / "case.prm").write_text(GOOD)
         result = self.run_talus("--overwrite", "--output", "results", "case.prm")
         self.assertEqual(result.returncode, 0, result.stderr)
         for folder in (old, half):
             self.assertEqual([f.name for f in folder.iterdir()], ["notes.txt"])
+        self.assertFalse(killed.exists())
 
     # Parameter files that include others
 
