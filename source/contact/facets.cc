@@ -100,11 +100,42 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// What an obstacle has of its surface in a cell, and whether it lies on a
+    /// face that the cell, which is inside, has in common with an open one.
+    template <int dim>
+    std::pair<CutSurface<dim>, bool>
+    find_surface(const Cell<dim> &cell, const Obstacle<dim> &obstacle)
+    {
+      const auto   box  = cell.box();
+      const double none = 1e-8 * std::pow(cell.size, dim - 1.);
+      const auto   surface =
+        surface_in_box<dim>(box, [&](const Point<dim> &x) {
+          return obstacle.signed_distance(x);
+        });
+      if (surface.area >= none)
+        return {surface, false};
+      // A surface on faces of the mesh belongs to the cells where the distance
+      // is positive.
+      auto inside = surface_in_box<dim>(box, [&](const Point<dim> &x) {
+        return -obstacle.signed_distance(x);
+      });
+      inside.vector_area *= -1.;
+      if (inside.area < none)
+        inside.area = 0;
+      return {inside, true};
+    }
+  } // namespace
+
+
+
   /// The facets of all obstacles in cell @p c. Two kinds take no part in the
   /// contact: of a surface that only grazes a face of the cell, which would
   /// count at its nodes as others do, and those whose contact point is inside
   /// of another obstacle, where it would hold soil that cannot be there. Points
-  /// must not slip through the latter either.
+  /// must not slip through the latter either, nor through a surface on a face
+  /// of the mesh, where they are in the cell behind it as soon as they touch it.
   template <int dim>
   void
   Facets<dim>::find_facets(const Grid<dim>      &grid,
@@ -120,13 +151,9 @@ namespace talus
         const Obstacle<dim> &obstacle = obstacles[k];
         if (!obstacle.may_cut_ball(centre, outer_radius(cell)))
           continue;
-        const CutSurface<dim> surface =
-          surface_in_box<dim>(box, [&](const Point<dim> &x) {
-            return obstacle.signed_distance(x);
-          });
-        if (surface.area < 1e-8 * std::pow(cell.size, dim - 1.))
+        auto [surface, is_hidden] = find_surface(cell, obstacle);
+        if (surface.area == 0)
           continue;
-        bool is_hidden = false;
         for (unsigned int other = 0; other < obstacles.size() && !is_hidden;
              ++other)
           is_hidden = other != k &&
@@ -157,7 +184,7 @@ namespace talus
     Section          section;
     section.distance = obstacles.signed_distance(centre_of(cell));
     find_facets(grid, obstacles, c, section);
-    if (!section.facets.empty())
+    if (!section.facets.empty() || !section.hidden.empty())
       section.open_volume =
         open_shape_integrals<dim>(cell.box(), [&](const Point<dim> &x) {
           return obstacles.signed_distance(x);
@@ -203,7 +230,7 @@ namespace talus
       cells_inside_.insert(c);
     else
       cells_inside_.erase(c);
-    if (section.facets.empty())
+    if (section.facets.empty() && section.hidden.empty())
       {
         cut_cells_.erase(c);
         return;
@@ -254,9 +281,10 @@ namespace talus
   {
     std::set<unsigned int> cells;
     for (const auto &[c, cut_cell] : cut_cells_)
-      for (const ContactFacet<dim> &facet : cut_cell.facets)
-        if (obstacles[facet.obstacle].moves())
-          cells.insert(c);
+      for (const auto *facets : {&cut_cell.facets, &cut_cell.hidden})
+        for (const ContactFacet<dim> &facet : *facets)
+          if (obstacles[facet.obstacle].moves())
+            cells.insert(c);
     // The smallest cells, so that none is passed over.
     const double h = grid.finest_size();
     for (unsigned int k = 0; k < obstacles.size(); ++k)
@@ -342,8 +370,9 @@ namespace talus
               listed_near_.push_back(near);
             }
       }
-    for (const ContactFacet<dim> &facet : owned_)
-      is_near_[facet.cell] = 2;
+    for (const auto &[c, cut_cell] : cut_cells_)
+      if (c < grid.n_owned_cells())
+        is_near_[c] = (cut_cell.facets.empty() ? 3 : 2);
     for (const unsigned int node : nodes_)
       {
         is_contact_node_[node] = 1;

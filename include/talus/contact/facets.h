@@ -59,14 +59,14 @@ namespace talus
       return owned_;
     }
 
-    /// Call action(facet) for all that surfaces have in cell @p c, if it has one
-    /// of owned(): for those, and for those whose centroids lie inside of another
-    /// obstacle.
+    /// Call action(facet) for all that surfaces have in cell @p c of this rank:
+    /// for those of owned(), for those whose centroids lie inside of another
+    /// obstacle, and for surfaces on the faces of a cell inside.
     template <typename Action>
     void
     for_each_in_cell(const unsigned int c, const Action &action) const
     {
-      if (is_near_[c] != 2)
+      if (is_near_[c] < 2)
         return;
       const CutCell &cut_cell = cut_cells_.at(c);
       for (const auto *facets : {&cut_cell.facets, &cut_cell.hidden})
@@ -145,8 +145,9 @@ namespace talus
       return is_near_[cell];
     }
 
-    /// Of all cells: 0 for those that are not near, 2 for those with a facet, 1
-    /// for the others.
+    /// Of all cells: 0 for those that are not near, 2 for those with a facet, 3
+    /// for those with surfaces that take no part in the contact, 1 for the
+    /// others.
     const std::vector<unsigned char> &
     nearness_of_cells() const
     {

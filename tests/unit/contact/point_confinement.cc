@@ -126,3 +126,20 @@ TEST(PointConfinement, CornerOfTwoObstacles)
                  "set Normal = -1, 0"));
   expect_moved_to(soil.moved({2.26, 1.23}, Point<2>(0.06, -0.05)), {2.3, 1.2});
 }
+
+
+
+// Where a wall lies on faces of the mesh, a point that has been stopped there is
+// in the cell behind it, which has no facet. The wall must hold it there, too.
+TEST(PointConfinement, WallOnTheMesh)
+{
+  for (const double gap : {0.03, 0.})
+    {
+      SoilOnObstacles soil({"wall"},
+                           in_section("wall",
+                                      "set Shape = half-plane\n"
+                                      "set Point = 3, 0\nset Normal = -1, 0"));
+      expect_moved_to(soil.moved({3. - gap, 1.3}, Point<2>(0.05, 0.02)),
+                      {3., 1.32});
+    }
+}
