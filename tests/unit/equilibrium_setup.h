@@ -42,9 +42,11 @@ namespace
     Statics(const std::string               &below,
             const std::vector<MaterialName> &names,
             const std::string               &own,
-            const MPI_Comm                   communicator = MPI_COMM_WORLD)
+            const MPI_Comm                   communicator = MPI_COMM_WORLD,
+            const std::vector<std::string>  &obstacle_names = {})
       : Base(below, {}, communicator)
       , materials(names)
+      , obstacles(obstacle_names)
     {
       dealii::ParameterAcceptor::declare_all_parameters();
       dealii::ParameterAcceptor::prm.parse_input_from_string(own);
@@ -55,6 +57,8 @@ namespace
       materials.assign(bodies, bodies);
       materials.add_columns(points);
       boundaries.prepare(Constants());
+      obstacles.prepare(Constants());
+      contact.prepare(grid);
     }
 
     /// The part [@p lower, @p upper] filled with @p n points along each axis
@@ -105,7 +109,7 @@ namespace
     StaticProblem<dim>
     problem()
     {
-      return {*this, transfer, materials, boundaries, loads, no_obstacles};
+      return {*this, transfer, materials, boundaries, loads, contact};
     }
 
     /// Search until the end. Returns whether equilibrium is found; residuals by
@@ -139,8 +143,8 @@ namespace
     }
 
     Materials<dim>                            materials;
-    Obstacles<dim>                            obstacles{{}};
-    FacetContact<dim>                         no_obstacles{obstacles};
+    Obstacles<dim>                            obstacles;
+    FacetContact<dim>                         contact{obstacles};
     Equilibrium<dim>                          equilibrium;
     unsigned int                              n_before = 0;
     std::vector<std::vector<NewtonIteration>> runs;
