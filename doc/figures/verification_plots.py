@@ -167,7 +167,7 @@ def draw_all(source, target):
            ("Herschel-Bulkley, n = 0.5", "layer-herschel-bulkley")]),
          ("shear stress", "Pa", [("layer on a capped seabed", "shear-layer")])],
         "verification-layers.png"),
-        "Viscoplastic layers on a slope of 5 degrees and a layer that slides "
+        "Viscoplastic layers on a slope of 5 degrees, and a layer that slides "
         "on a capped seabed, against their closed forms (grey).")
     add("Seabed and layers", vertical_cut(source, target),
         "Vertical cut in clay under growing weight. Runs end where the crest "
