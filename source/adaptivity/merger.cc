@@ -8,7 +8,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 namespace talus

@@ -138,7 +138,7 @@ namespace talus
     // Before MPI starts, as MPI looks at the environment only then.
     choose_mpi_io();
     // Without the options, which are not for the libraries: PETSc, if deal.II has
-    // it, would say at the end that nobody has asked for them.
+    // it, would say at the end that they were not used.
     int                                      n_words = 1;
     dealii::Utilities::MPI::MPI_InitFinalize mpi(n_words, argv, 1);
     try

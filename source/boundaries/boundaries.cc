@@ -84,8 +84,8 @@ namespace talus
 
 
 
-  // A pass over all owned cells, and a place per node: spared where nobody asks
-  // for it.
+  // A pass over all owned cells, and a place per node: left out where it is not
+  // needed.
   template <int dim>
   void
   Boundaries<dim>::locate_nodes(const Grid<dim> &grid)
@@ -128,8 +128,8 @@ namespace talus
 
 
 
-  // The seabed may hold all components or none, as the soil pushes: who asks
-  // here leaves them all alone.
+  // The seabed may hold all components or none, as the soil pushes: so all count
+  // as held here.
   template <int dim>
   unsigned char
   Boundaries<dim>::constrained_components(const unsigned char faces) const
@@ -146,7 +146,7 @@ namespace talus
   const Point<dim> &
   Boundaries<dim>::place_of(const unsigned int node) const
   {
-    static const Point<dim> unknown; // nobody asks for it
+    static const Point<dim> unknown; // not used
     return places_.empty() ? unknown : places_[node];
   }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/checkpoint/checkpoint_content.h>
 #include <talus/io/checksum.h>
@@ -306,12 +305,8 @@ namespace talus
 
 
 
-  template void
-  save_points(Hdf5OutputFile &, const Points<2> &, const std::vector<double> &);
-  template void
-  save_points(Hdf5OutputFile &, const Points<3> &, const std::vector<double> &);
-  template std::vector<unsigned int>
-  load_points(Hdf5InputFile &, unsigned int, Points<2> &);
-  template std::vector<unsigned int>
-  load_points(Hdf5InputFile &, unsigned int, Points<3> &);
+  template decltype(save_points<2>) save_points<2>;
+  template decltype(save_points<3>) save_points<3>;
+  template decltype(load_points<2>) load_points<2>;
+  template decltype(load_points<3>) load_points<3>;
 } // namespace talus

@@ -56,7 +56,7 @@ namespace talus
   {
     Points<dim> &points = problem.state.points;
     set_gradients(problem, weights, u);
-    answers_.resize(points.size());
+    linearizations_.resize(points.size());
     volumes_.resize(points.size());
     bool sound = true;
     problem.materials.for_each_material_range(
@@ -70,7 +70,7 @@ namespace talus
                                          begin,
                                          end,
                                          measure_,
-                                         answers_.data() + begin);
+                                         linearizations_.data() + begin);
       });
     // Nothing was added so far, so the caller may try a shorter step.
     if (!sound)
@@ -113,7 +113,7 @@ namespace talus
     const auto   q    = [this](const unsigned int p) {
       double sum = 0;
       for (unsigned int i = 0; i < dim; ++i)
-        sum += answers_[p].stress[(dim + 1) * i];
+        sum += linearizations_[p].stress[(dim + 1) * i];
       return sum / dim;
     };
     double sum = 0, volume = 0;
@@ -133,7 +133,8 @@ namespace talus
             {
               double sum = shift * weight[a].gradient[i];
               for (unsigned int j = 0; j < dim; ++j)
-                sum += answers_[p].stress[dim * i + j] * weight[a].gradient[j];
+                sum += linearizations_[p].stress[dim * i + j] *
+                       weight[a].gradient[j];
               forces[dim * patch.nodes[a] + i] += volumes_[p] * sum;
             }
       }
@@ -207,7 +208,7 @@ namespace talus
   template <int dim>
   void
   InternalForces<dim>::add_point(const double              volume,
-                                 const StressTangent<dim> &answer,
+                                 const StressTangent<dim> &linearization,
                                  const unsigned int        n,
                                  Scratch                  &scratch) const
   {
@@ -215,7 +216,7 @@ namespace talus
     for (unsigned int k = 0; k < n_gradients; ++k)
       for (unsigned int l = 0; l < n_gradients; ++l)
         {
-          const double  A    = volume * answer.tangent[k][l];
+          const double  A    = volume * linearization.tangent[k][l];
           const double *from = &scratch.strain[l * n];
           double       *to   = &scratch.stressed[k * n];
           for (unsigned int b = 0; b < n; ++b)
@@ -262,7 +263,7 @@ namespace talus
                         patch.n_nodes,
                         volumes_of_mean_[p] > 0.,
                         scratch);
-            add_point(volumes_[p], answers_[p], n, scratch);
+            add_point(volumes_[p], linearizations_[p], n, scratch);
           }
         scratch.unknowns.clear();
         for (unsigned int a = 0; a < patch.n_nodes; ++a)

@@ -74,7 +74,7 @@ namespace talus
   Newton<dim>::solve_with_contact(StaticProblem<dim> &problem,
                                   const Observer     &observe)
   {
-    // A node of the seabed may change its mind some times.
+    // The state of a node may change several times.
     for (unsigned int trial = 0; trial < 50; ++trial)
       {
         equations_.constrain(problem);

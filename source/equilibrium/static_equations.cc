@@ -375,13 +375,13 @@ namespace talus
         rhs(unknowns_.first(node) + d) = residual[dim * node + d];
       });
     rhs.compress(VectorOperation::insert);
-    const LinearSolution answer = linear_solver.solve(
+    const LinearSolution outcome = linear_solver.solve(
       matrix_, solution, rhs, free_rigid_modes(), dim, is_symmetric());
     Correction result{unknowns_.field(),
                       0.,
-                      answer.n_iterations,
-                      answer.failure};
-    if (!answer.failure.empty())
+                      outcome.n_iterations,
+                      outcome.failure};
+    if (!outcome.failure.empty())
       return result;
     unknowns_.for_each_free_dof(
       [&](const unsigned int node, const unsigned int d) {

@@ -236,20 +236,12 @@ namespace talus
 
 
 
-  template ClippedSimplex<2>
-  clip_simplex(const Simplex<2> &, const std::array<double, 3> &);
-  template ClippedSimplex<3>
-  clip_simplex(const Simplex<3> &, const std::array<double, 4> &);
-  template double
-  volume<2>(const Simplex<2> &);
-  template double
-  volume<3>(const Simplex<3> &);
-  template Point<2>
-  centroid<2>(const Simplex<2> &);
-  template Point<3>
-  centroid<3>(const Simplex<3> &);
-  template std::array<Simplex<2>, 2>
-  simplices_of(const Box<2> &);
-  template std::array<Simplex<3>, 6>
-  simplices_of(const Box<3> &);
+  template decltype(clip_simplex<2>) clip_simplex<2>;
+  template decltype(clip_simplex<3>) clip_simplex<3>;
+  template decltype(volume<2>)       volume<2>;
+  template decltype(volume<3>)       volume<3>;
+  template decltype(centroid<2>)     centroid<2>;
+  template decltype(centroid<3>)     centroid<3>;
+  template decltype(simplices_of<2>) simplices_of<2>;
+  template decltype(simplices_of<3>) simplices_of<3>;
 } // namespace talus

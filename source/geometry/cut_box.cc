@@ -181,16 +181,10 @@ namespace talus
 
 
 
-  template std::array<double, 4>
-  shape_values_at(const Box<2> &, const Point<2> &);
-  template std::array<double, 8>
-  shape_values_at(const Box<3> &, const Point<3> &);
-  template CutSurface<2>
-  surface_in_box(const Box<2> &, const DistanceFunction<2> &);
-  template CutSurface<3>
-  surface_in_box(const Box<3> &, const DistanceFunction<3> &);
-  template std::array<double, 4>
-  open_shape_integrals(const Box<2> &, const DistanceFunction<2> &);
-  template std::array<double, 8>
-  open_shape_integrals(const Box<3> &, const DistanceFunction<3> &);
+  template decltype(shape_values_at<2>)      shape_values_at<2>;
+  template decltype(shape_values_at<3>)      shape_values_at<3>;
+  template decltype(surface_in_box<2>)       surface_in_box<2>;
+  template decltype(surface_in_box<3>)       surface_in_box<3>;
+  template decltype(open_shape_integrals<2>) open_shape_integrals<2>;
+  template decltype(open_shape_integrals<3>) open_shape_integrals<3>;
 } // namespace talus

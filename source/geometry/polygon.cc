@@ -3,7 +3,6 @@
 #include <talus/geometry/polygon.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace talus

@@ -3,7 +3,6 @@
 #include <talus/grid/nodal_exchange.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace talus
 {

@@ -36,12 +36,8 @@ namespace talus
 
 
 
-  template unsigned long
-  key_of_place<2>(const Lattice<2> &, unsigned int);
-  template unsigned long
-  key_of_place<3>(const Lattice<3> &, unsigned int);
-  template unsigned long
-  key_of_parent<2>(unsigned long);
-  template unsigned long
-  key_of_parent<3>(unsigned long);
+  template decltype(key_of_place<2>)  key_of_place<2>;
+  template decltype(key_of_place<3>)  key_of_place<3>;
+  template decltype(key_of_parent<2>) key_of_parent<2>;
+  template decltype(key_of_parent<3>) key_of_parent<3>;
 } // namespace talus

@@ -4,7 +4,6 @@
 #include <deal.II/base/mpi.h>
 
 #include <deal.II/grid/grid_generator.h>
-#include <deal.II/grid/tria_iterator.h>
 
 #include <algorithm>
 
@@ -47,8 +46,8 @@ namespace talus
 
 
 
-  // First down to h everywhere, which asks nobody, and the cells spread over
-  // the ranks; then the boxes, which may lie on one of them.
+  // First down to h everywhere, for which no rank needs another, and the cells
+  // are spread over the ranks; then the boxes, which may lie on one of them.
   template <int dim>
   void
   Mesh<dim>::refine()

@@ -91,8 +91,8 @@ namespace talus
   {
     const std::size_t size = values.size() * sizeof(Number);
     AssertThrow(size <= std::numeric_limits<std::uint32_t>::max(),
-                ExcMessage("An array of a VTU file is larger than 4 GB. Use "
-                           "more ranks or 'Output/Format = hdf5'."));
+                ExcUser("An array of a VTU file is larger than 4 GB. Use "
+                        "more ranks or 'Output/Format = hdf5'."));
     const auto *bytes  = reinterpret_cast<const unsigned char *>(values.data());
     const Bytes packed = pack(bytes, size, level_for(bytes, size));
 
@@ -109,12 +109,10 @@ namespace talus
 
 
 
-  template void
-  write_vtu_array(std::ostream &, const std::vector<double> &);
-  template void
-  write_vtu_array(std::ostream &, const std::vector<float> &);
-  template void
-  write_vtu_array(std::ostream &, const std::vector<std::int32_t> &);
-  template void
-  write_vtu_array(std::ostream &, const std::vector<std::uint8_t> &);
+  template decltype(write_vtu_array<double>) write_vtu_array<double>;
+  template decltype(write_vtu_array<float>)  write_vtu_array<float>;
+  template decltype(write_vtu_array<std::int32_t>)
+    write_vtu_array<std::int32_t>;
+  template decltype(write_vtu_array<std::uint8_t>)
+    write_vtu_array<std::uint8_t>;
 } // namespace talus

@@ -2,7 +2,6 @@
 #include <talus/base/errors.h>
 #include <talus/maps/lines.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace talus

@@ -87,11 +87,8 @@ namespace talus
 
 
   template <int dim>
-  std::vector<typename StationList<dim>::Named>
-  StationList<dim>::parse(const std::string &entry,
-                          const std::string &value,
-                          const Box<dim>    &domain,
-                          const Point<3>    &origin) const
+  void
+  StationList<dim>::check(const Box<dim> &domain) const
   {
     AssertThrow(dim == 3 || coordinates_ == "mesh",
                 ExcUser("'Stations/Coordinates' is 'map', but a section has "
@@ -104,6 +101,18 @@ namespace talus
                              domain.length(0),
                              " m long. A width between a billionth of that and "
                              "all of it was expected; correct it.")));
+  }
+
+
+
+  template <int dim>
+  std::vector<typename StationList<dim>::Named>
+  StationList<dim>::parse(const std::string &entry,
+                          const std::string &value,
+                          const Box<dim>    &domain,
+                          const Point<3>    &origin) const
+  {
+    check(domain);
     std::vector<Named> result;
     for (const std::string &item : Utilities::split_string_list(value, '|'))
       {

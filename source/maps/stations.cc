@@ -2,7 +2,6 @@
 #include <talus/maps/column_sums.h>
 #include <talus/maps/stations.h>
 
-#include <algorithm>
 
 namespace talus
 {

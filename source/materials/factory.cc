@@ -114,10 +114,8 @@ namespace talus
 
 
 
-  template void
-  add_law<2>(const Law<2> &);
-  template void
-                                       add_law<3>(const Law<3> &);
+  template decltype(add_law<2>)        add_law<2>;
+  template decltype(add_law<3>)        add_law<3>;
   template decltype(material_names<2>) material_names<2>;
   template decltype(material_names<3>) material_names<3>;
   template decltype(names_of_laws_with_strength<2>)

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/observers/point_motion.h>
-#include <talus/points/points_kernel.h>
 
 #include <deal.II/base/mpi.h>
 

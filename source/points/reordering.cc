@@ -35,10 +35,10 @@ namespace talus
 
   /// Add a point that comes from elsewhere, at the end of its segment.
   void
-  Reordering::add_mover(const CellChange &mover)
+  Reordering::add_change(const CellChange &change)
   {
-    open_segment(mover.cell, mover.body);
-    element_moves_.push_back({mover.index, n_points_});
+    open_segment(change.cell, change.body);
+    element_moves_.push_back({change.index, n_points_});
     segments_.back().end = ++n_points_;
   }
 
@@ -132,10 +132,10 @@ namespace talus
   {
     const unsigned int n_sorted = (segments.empty() ? 0 : segments.back().end);
     leaving_                    = departed;
-    for (const CellChange &mover : changes)
+    for (const CellChange &change : changes)
       // Appended points leave no segment.
-      if (mover.index < n_sorted)
-        leaving_.push_back(mover.index);
+      if (change.index < n_sorted)
+        leaving_.push_back(change.index);
     std::sort(leaving_.begin(), leaving_.end());
     std::sort(changes.begin(),
               changes.end(),
@@ -147,16 +147,16 @@ namespace talus
     block_moves_.clear();
     element_moves_.clear();
     segments_.clear();
-    n_points_         = 0;
-    std::size_t skip  = 0;
-    auto        mover = changes.begin();
+    n_points_          = 0;
+    std::size_t skip   = 0;
+    auto        change = changes.begin();
     for (std::size_t s = 0; s < segments.size(); ++s)
       {
         // The first segment behind the one that is entered next, and the first
         // that is left.
         const auto entered = std::partition_point(
           segments.begin() + s, segments.end(), [&](const Segment &segment) {
-            return mover == changes.end() || key(segment) <= key(*mover);
+            return change == changes.end() || key(segment) <= key(*change);
           });
         const auto left = std::partition_point(
           segments.begin() + s, segments.end(), [&](const Segment &segment) {
@@ -168,13 +168,13 @@ namespace talus
         if (s == segments.size())
           break;
         // Segments that did not exist, and those behind the one copied last.
-        for (; mover != changes.end() && key(*mover) < key(segments[s]);
-             ++mover)
-          add_mover(*mover);
+        for (; change != changes.end() && key(*change) < key(segments[s]);
+             ++change)
+          add_change(*change);
         add_staying(segments[s], skip);
       }
-    for (; mover != changes.end(); ++mover)
-      add_mover(*mover);
+    for (; change != changes.end(); ++change)
+      add_change(*change);
   }
 
 

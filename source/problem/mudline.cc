@@ -2,7 +2,6 @@
 #include <talus/problem/mudline.h>
 
 #include <algorithm>
-#include <limits>
 
 namespace talus
 {

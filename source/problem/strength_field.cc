@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/checksum.h>
-#include <talus/points/points_kernel.h>
 #include <talus/problem/mudline.h>
 #include <talus/problem/strength_field.h>
 #include <talus/problem/time_table.h>
 
-#include <deal.II/base/utilities.h>
-
-#include <cmath>
 #include <map>
 #include <optional>
 

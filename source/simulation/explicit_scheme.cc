@@ -80,7 +80,7 @@ namespace talus
     update_nodes();
     grid_to_points();
     split();
-    mesh_.relocate(); // children, too: they may live next door
+    mesh_.relocate(); // children, too: they may lie in other cells
     state_.time += state_.time_step;
     ++state_.step;
     return request;
@@ -183,7 +183,8 @@ namespace talus
 
   /// One message of all ranks per step: it carries the time step, what the
   /// ranks want to happen after it (checkpoint, stop) and how many points there
-  /// are, which would else be a second one. The last step is shortened to end at the end time.
+  /// are, which would else be a second one. The last step is shortened to end at
+  /// the end time.
   template <int dim>
   RunRequest
   ExplicitScheme<dim>::agree_on_step(const double     end_time,

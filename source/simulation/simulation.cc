@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/base/interrupt.h>
 #include <talus/checkpoint/parameter_changes.h>

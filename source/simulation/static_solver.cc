@@ -182,8 +182,8 @@ namespace talus
 
 
   /// A copy of all columns in memory, and the contact with seabed and
-  /// obstacles, which belongs to it: trials must be undone, and a checkpoint on the disk would take
-  /// longer.
+  /// obstacles, which belongs to it: trials must be undone, and a checkpoint on
+  /// the disk would take longer.
   template <int dim>
   typename StaticSolver<dim>::Saved
   StaticSolver<dim>::save() const

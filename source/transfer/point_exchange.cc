@@ -34,9 +34,9 @@ namespace talus
 
   /// A message is the list of its points, each the key of its new cell and then
   /// all columns. The sender has found the cell, so the receiver need not look
-  /// for it. A neighbour to which nobody goes gets an empty message: else it
-  /// could not know that none will come, short of an operation of all ranks in
-  /// every step.
+  /// for it. A neighbour that gets no point gets an empty message: else it could
+  /// not know that none will come, short of an operation of all ranks in every
+  /// step.
   template <int dim>
   void
   PointExchange<dim>::send(const std::vector<OutgoingPoint> &outgoing,
@@ -48,18 +48,18 @@ namespace talus
     outgoing_.resize(ranks.size());
     for (auto &message : outgoing_)
       message.clear();
-    for (const OutgoingPoint &traveller : outgoing)
+    for (const OutgoingPoint &point : outgoing)
       {
-        const unsigned int to = grid.owner_of_cell(traveller.cell);
+        const unsigned int to = grid.owner_of_cell(point.cell);
         auto              &message =
           outgoing_[std::lower_bound(ranks.begin(), ranks.end(), to) -
                     ranks.begin()];
-        const unsigned long key = grid.key_of_cell(traveller.cell);
+        const unsigned long key = grid.key_of_cell(point.cell);
         double              key_as_double;
         std::memcpy(&key_as_double, &key, sizeof(key));
         message.push_back(key_as_double);
         for (unsigned int array = 0; array < n; ++array)
-          message.push_back(points.data(array)[traveller.index]);
+          message.push_back(points.data(array)[point.index]);
       }
     requests_.resize(ranks.size());
     for (unsigned int i = 0; i < ranks.size(); ++i)

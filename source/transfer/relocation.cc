@@ -248,7 +248,7 @@ namespace talus
 
 
 
-  /// Where nobody has noted which points left their cell.
+  /// Where it was not noted which points left their cell.
   template <int dim>
   void
   Relocation<dim>::find_all_changes(Points<dim> &points, const Grid<dim> &grid)
@@ -272,12 +272,12 @@ namespace talus
     exchange_.connect(grid.communicator());
     if (grid.neighbor_ranks().empty())
       return;
-    const auto leaves = [&](const CellChange &mover) {
-      return mover.cell >= grid.n_owned_cells();
+    const auto leaves = [&](const CellChange &change) {
+      return change.cell >= grid.n_owned_cells();
     };
-    for (const CellChange &mover : changes_)
-      if (leaves(mover))
-        outgoing_.push_back({mover.index, mover.cell});
+    for (const CellChange &change : changes_)
+      if (leaves(change))
+        outgoing_.push_back({change.index, change.cell});
     changes_.erase(std::remove_if(changes_.begin(), changes_.end(), leaves),
                    changes_.end());
     for (const auto &[index, cell] :
@@ -353,10 +353,10 @@ namespace talus
   Relocation<dim>::sort_in(Points<dim> &points)
   {
     departed_.clear();
-    for (const auto &traveller : outgoing_)
+    for (const auto &point : outgoing_)
       // Appended points are in no segment that they could leave.
-      if (traveller.index < points.n_sorted())
-        departed_.push_back(traveller.index);
+      if (point.index < points.n_sorted())
+        departed_.push_back(point.index);
     reordering_.merge(points.segments(), changes_, departed_);
     AssertThrow(reordering_.n_points() + outgoing_.size() == points.size(),
                 ExcMessage(text("Points were lost or counted twice: ",

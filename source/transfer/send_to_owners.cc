@@ -25,7 +25,7 @@ namespace talus
       Point<dim> x;
       for (unsigned int d = 0; d < dim; ++d)
         x[d] = record[points.position + d];
-      // Whoever lies outside is told so by the relocation at the boundary.
+      // Points outside of the mesh are an error of the relocation.
       const unsigned int c = grid.find_cell(x);
       return c != numbers::invalid_unsigned_int && c < grid.n_owned_cells();
     }
@@ -33,13 +33,12 @@ namespace talus
 
 
 
-  // Here nobody knows who owns a cell far away: so each rank shows the points
-  // that lie elsewhere to all others, and takes from theirs what lies in its
-  // own cells. That is a message of all to all, and memory for all these points
-  // on every rank, which is right for what happens when points are made or the
-  // mesh changes, and is simple; in a step points go to neighbours only
-  // (PointExchange). Those at home come first, in their order, then the others,
-  // by rank.
+  // No rank knows who owns a cell far away: so each shows the points that lie
+  // elsewhere to all others, and takes from theirs what lies in its own cells.
+  // That is a message of all to all, and memory for all these points on every
+  // rank, which is simple and good enough where points are made or the mesh
+  // changes; in a step points go to neighbours only (PointExchange). Points that
+  // stay come first, in their order, then the others, by rank.
   template <int dim>
   void
   send_points_to_owners(Points<dim> &points, const Grid<dim> &grid)

@@ -195,7 +195,7 @@ TEST(Trigger, WeakLayerLetsGo)
 
 
 // Points that become weaker do so with all their children, and no others.
-TEST(Trigger, DaughtersFollowTheirMother)
+TEST(Trigger, ChildrenFollowTheirParent)
 {
   Case<2>            slide("landslide-quick.prm",
                 {"Grid/Cell size=0.8",

@@ -80,12 +80,12 @@ namespace talus
                 Scratch                                        &scratch) const;
     void
     add_point(double                    volume,
-              const StressTangent<dim> &answer,
+              const StressTangent<dim> &linearization,
               unsigned int              n,
               Scratch                  &scratch) const;
 
     StrainMeasure                   measure_;
-    std::vector<StressTangent<dim>> answers_;
+    std::vector<StressTangent<dim>> linearizations_;
     std::vector<double>             volumes_; ///< at the start of the step
     std::vector<double> volumes_of_mean_; ///< the same, 0 where none is taken
   };

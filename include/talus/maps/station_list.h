@@ -61,6 +61,8 @@ namespace talus
     }
 
   private:
+    void
+    check(const Box<dim> &domain) const;
     std::vector<Named>
     parse(const std::string      &entry,
           const std::string      &value,

@@ -56,7 +56,7 @@ namespace talus
     void
     open_segment(unsigned int cell, unsigned int body);
     void
-    add_mover(const CellChange &mover);
+    add_change(const CellChange &change);
     void
     add_run(unsigned int begin, unsigned int end);
     void

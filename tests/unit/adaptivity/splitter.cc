@@ -62,7 +62,7 @@ namespace
 
   // --------------------------------------------------------------- criterion
 
-  TEST(Splitter, WaitsWhereDaughtersWouldLieBeyondAWall)
+  TEST(Splitter, WaitsWhereChildrenWouldLieBeyondAWall)
   {
     // They lie 0.27 m farther out; half of a cell of 1 m is allowed.
     EXPECT_EQ(count_after_at_height(-0.2), 4u);
@@ -236,10 +236,10 @@ namespace
   /// lies, a bit per axis.
   template <int dim>
   unsigned int
-  expect_box_of_daughter(const Core<dim>   &core,
-                         const unsigned int parent,
-                         const unsigned int q,
-                         const unsigned int halved_axes)
+  expect_box_of_child(const Core<dim>   &core,
+                      const unsigned int parent,
+                      const unsigned int q,
+                      const unsigned int halved_axes)
   {
     const auto  &points = core.points;
     unsigned int corner = 0;
@@ -271,10 +271,10 @@ namespace
 
   template <int dim>
   void
-  expect_state_of_daughter(const Core<dim>   &core,
-                           const unsigned int parent,
-                           const unsigned int q,
-                           const unsigned int n_daughters)
+  expect_state_of_child(const Core<dim>   &core,
+                        const unsigned int parent,
+                        const unsigned int q,
+                        const unsigned int n_children)
   {
     const auto &points = core.points;
     EXPECT_EQ(points.data(points.generation)[q], 1.);
@@ -289,7 +289,7 @@ namespace
             const bool divided = column.inheritance == Inheritance::divided;
             EXPECT_EQ(points.data(column.first, c)[q],
                       points.data(column.first, c)[parent] /
-                        (divided ? n_daughters : 1))
+                        (divided ? n_children : 1))
               << column.name;
           }
   }
@@ -298,7 +298,7 @@ namespace
 
   template <int dim>
   void
-  expect_daughters(const std::string &directions, const unsigned int axes)
+  expect_children(const std::string &directions, const unsigned int axes)
   {
     Core<dim> core(cube<dim>() + splitting("set Directions = " + directions));
     auto     &points = core.points;
@@ -315,8 +315,8 @@ namespace
       {
         const unsigned int q = (k == 0 ? child : n_before + k - 1);
         ++ids[points.data(points.id)[q]];
-        ++corners[expect_box_of_daughter(core, parent, q, mask)];
-        expect_state_of_daughter(core, parent, q, n);
+        ++corners[expect_box_of_child(core, parent, q, mask)];
+        expect_state_of_child(core, parent, q, n);
       }
     EXPECT_EQ(corners.size(), n) << "one child in each corner";
     EXPECT_EQ(ids.size(), n);
@@ -327,15 +327,15 @@ namespace
 
 
 
-  TEST(Splitter, DaughtersInheritTheState)
+  TEST(Splitter, ChildrenInheritTheState)
   {
-    expect_daughters<2>("all", 1);
-    expect_daughters<2>("stretched", 1);
-    expect_daughters<2>("stretched", 2);
-    expect_daughters<2>("stretched", 3);
-    expect_daughters<3>("all", 4);
+    expect_children<2>("all", 1);
+    expect_children<2>("stretched", 1);
+    expect_children<2>("stretched", 2);
+    expect_children<2>("stretched", 3);
+    expect_children<3>("all", 4);
     for (unsigned int axes = 1; axes < 8; ++axes)
-      expect_daughters<3>("stretched", axes);
+      expect_children<3>("stretched", axes);
   }
 
 

@@ -93,7 +93,7 @@ namespace
   expect_split_on_entry(const std::string    &directions,
                         const Point<dim>     &x,
                         const Tensor<1, dim> &lengths,
-                        const unsigned int    n_daughters)
+                        const unsigned int    n_children)
   {
     // The threshold alone would never split.
     Core<dim> core(cube<dim>() + splitting(directions, "1000"));
@@ -109,7 +109,7 @@ namespace
     core.set(core.points.position, 0, x);
     const auto before = core.scatter();
     ASSERT_TRUE(core.split());
-    EXPECT_EQ(core.points.size(), n_daughters);
+    EXPECT_EQ(core.points.size(), n_children);
     core.sort();
     expect_boxes_fit(core);
     EXPECT_LT(change<dim>(before, core.scatter()), 1e-12);

@@ -378,7 +378,7 @@ namespace
 
   template <int dim>
   void
-  expect_daughters_to_tile()
+  expect_children_to_tile()
   {
     for (unsigned int i = 0; i < 100; ++i)
       {
@@ -402,10 +402,10 @@ namespace
 
 
 
-  TEST(ConvectedDomains, DaughtersTileAtAnyRotation)
+  TEST(ConvectedDomains, ChildrenTileAtAnyRotation)
   {
-    expect_daughters_to_tile<2>();
-    expect_daughters_to_tile<3>();
+    expect_children_to_tile<2>();
+    expect_children_to_tile<3>();
   }
 
 
