@@ -230,8 +230,9 @@ TEST(PaperSlopeSafety, OneFactorWhateverTheSearch)
 
 
 
-// Boxes that are clipped for the weights, as they are with many points in a cell,
-// reach into cells where they leave hardly any soil at the nodes. These settle, too.
+// Boxes that are clipped for the weights, as they are with many points in a
+// cell, reach into cells where they leave hardly any soil at the nodes. These
+// settle, too.
 TEST(PaperSlopeSafety, ClippedBoxesSettle)
 {
   for (const auto &[n_points, least_half] : {std::pair(6, 0.1), {8, 0.25}})

@@ -137,8 +137,9 @@ TEST(GroundMotion, AxesInSpace)
 
 
 // A rigid block on ground that is accelerated by a > mu g for a time T slides
-// back by d = a T^2 (a - mu g)/(2 mu g) @cite newmark1965. It starts in equilibrium;
-// the stiffer it is, the closer (1 % off with E = 1e8 Pa, 0.4 % with 4e8 Pa).
+// back by d = a T^2 (a - mu g)/(2 mu g) @cite newmark1965. It starts in
+// equilibrium; the stiffer it is, the closer (1 % off with E = 1e8 Pa, 0.4 %
+// with 4e8 Pa).
 TEST(GroundMotion, NewmarkSlidingBlock)
 {
   constexpr double a = 6., T = 0.3, mu = 0.3, g = 9.81;

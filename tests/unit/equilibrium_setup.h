@@ -42,7 +42,7 @@ namespace
     Statics(const std::string               &below,
             const std::vector<MaterialName> &names,
             const std::string               &own,
-            const MPI_Comm                   communicator = MPI_COMM_WORLD,
+            const MPI_Comm                   communicator   = MPI_COMM_WORLD,
             const std::vector<std::string>  &obstacle_names = {})
       : Base(below, {}, communicator)
       , materials(names)

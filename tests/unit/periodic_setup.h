@@ -133,8 +133,8 @@ namespace
 
 
   /// Points in random states anywhere in the mesh and up to
-  /// @p beyond_faces cells beyond its periodic ones, the same on any number of ranks; each
-  /// @p copies times along every periodic axis.
+  /// @p beyond_faces cells beyond its periodic ones, the same on any number of
+  /// ranks; each @p copies times along every periodic axis.
   template <int dim>
   void
   add_repeated(Core<dim>           &core,

@@ -45,10 +45,11 @@ namespace talus
          const Grid<dim>   &grid,
          BoxRule            rule);
 
-    /// Split the points that mark() noted, once. Children may lie outside
-    /// their parent's cell: they wait for Relocation::update(). The first one
-    /// takes the parent's place, and is added to those that may be out of their
-    /// cell; the others are appended. Returns whether any point was split. Throws ExcPoint if this rank would have too many points.
+    /// Split the points that mark() noted, once. Children may lie outside their
+    /// parent's cell: they wait for Relocation::update(). The first one takes
+    /// the parent's place, and is added to those that may be out of their cell;
+    /// the others are appended. Returns whether any point was split. Throws
+    /// ExcPoint if this rank would have too many points.
     bool
     split_marked(Points<dim>               &points,
                  BoxRule                    rule,

@@ -6,8 +6,8 @@
 
 namespace talus
 {
-  /// From now on SIGTERM, SIGINT, SIGUSR1, SIGHUP and SIGXCPU do not end the program but are
-  /// remembered. A second SIGINT (Ctrl-C) ends it at once.
+  /// From now on SIGTERM, SIGINT, SIGUSR1, SIGHUP and SIGXCPU do not end the
+  /// program but are remembered. A second SIGINT (Ctrl-C) ends it at once.
   void
   remember_signals();
 

@@ -10,9 +10,10 @@
 
 namespace talus
 {
-  /// Walls, seabed and obstacles in equilibrium. Walls hold what they hold. A node on the
-  /// seabed sticks to it, slips against the largest friction, or has lifted
-  /// off; which of these is found by trial, Newton's method by Newton's method.
+  /// Walls, seabed and obstacles in equilibrium. Walls hold what they hold. A
+  /// node on the seabed sticks to it, slips against the largest friction, or
+  /// has lifted off; which of these is found by trial, Newton's method by
+  /// Newton's method.
   template <int dim>
   class StaticContact
   {

@@ -15,8 +15,8 @@
 namespace talus
 {
   /// MaterialModel::linearize() for laws in rate form: @p moduli_at maps a
-  /// point to its moduli, @p flow a point and its trial deviator to a Flow. Returns false if a point is turned inside
-  /// out.
+  /// point to its moduli, @p flow a point and its trial deviator to a Flow.
+  /// Returns false if a point is turned inside out.
   template <int dim, typename ModuliAt, typename FlowRule>
   inline bool
   linearize_rate_law(const Points<dim>        &points,

@@ -10,9 +10,9 @@
 
 namespace talus
 {
-  /// The lattice of cells of size h (`Grid/Cell size`) over the box of the mesh, whatever
-  /// the mesh's own cells are. y points up: a column is all cells with the same
-  /// x (2-D) or x and z (3-D).
+  /// The lattice of cells of size h (`Grid/Cell size`) over the box of the
+  /// mesh, whatever the mesh's own cells are. y points up: a column is all
+  /// cells with the same x (2-D) or x and z (3-D).
   ///
   /// A cell is one number, its key. Keys sort by x, then z, then y, so the
   /// cells of a column follow each other from the bottom to the top.

@@ -36,7 +36,8 @@ namespace talus
   ///   energy - plastic work - friction work - contact work - damping work - drag
   ///   work - merging work,
   /// every term counted from the start. It is the points' kinetic energy that
-  /// enters, with that of the water that moves with them, so the remainder holds what the transfer dissipates.
+  /// enters, with that of the water that moves with them, so the remainder
+  /// holds what the transfer dissipates.
   template <int dim>
   class EnergyBudget
   {

@@ -26,11 +26,12 @@ namespace talus
 
 
   /// Looks at the state of a run at times that Output chooses, or after each
-  /// step, changes nothing and writes files of its own. All members but list_state() are collective;
-  /// they throw ExcUser if a file cannot be written.
+  /// step, changes nothing and writes files of its own. All members but
+  /// list_state() are collective; they throw ExcUser if a file cannot be
+  /// written.
   ///
-  /// A new observer is a class of this kind and a line in the constructor of
-  /// Output.
+  /// A new observer is a class of this kind and a line in
+  /// Output::list_observers().
   template <int dim>
   class Observer
   {

@@ -88,8 +88,8 @@ namespace talus
 
 
     /// Make the folder, write the parameters and begin all files of a run to
-    /// @p end_time, s; in a resumed run go on with them. Throws ExcUser if the folder cannot be written; then no file of an
-    /// earlier run was touched.
+    /// @p end_time, s; in a resumed run go on with them. Throws ExcUser if the
+    /// folder cannot be written; then no file of an earlier run was touched.
     void
     begin(const State<dim> &state,
           double            end_time,

@@ -31,9 +31,10 @@ namespace talus
     /// Find the cells of all points and sort those that changed cell, and those
     /// appended since the last call, into the order; those whose new cell
     /// belongs to another rank travel there. Returns whether the set of the
-    /// occupied cells changed. One that left through a periodic face goes on at the opposite one, its
-    /// initial position shifted as far, so that its displacement does not jump.
-    /// Throws ExcPoint, naming the point, if one left the mesh. Collective.
+    /// occupied cells changed. One that left through a periodic face goes on at
+    /// the opposite one, its initial position shifted as far, so that its
+    /// displacement does not jump. Throws ExcPoint, naming the point, if one
+    /// left the mesh. Collective.
     bool
     update(Points<dim> &points, const Grid<dim> &grid);
 

@@ -106,7 +106,8 @@ namespace
     EXPECT_EQ(bank.equilibrium.n_steps(), 1u);
     EXPECT_EQ(bank.equilibrium.load(), 1.);
     EXPECT_LT(bank.equilibrium.imbalance(), 1e-12);
-    EXPECT_LT(bank.equilibrium.newton().equations().largest_imbalance().first, 1e-7);
+    EXPECT_LT(bank.equilibrium.newton().equations().largest_imbalance().first,
+              1e-7);
   }
 
 

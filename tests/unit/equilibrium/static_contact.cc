@@ -283,7 +283,8 @@ namespace
       contact.begin(all, parts.unknowns, 1e6);
     }
 
-    /// Returns the number of changes; displacement becomes what update_active_set() left.
+    /// Returns the number of changes; displacement becomes what
+    /// update_active_set() left.
     unsigned int
     update_active_set(const Force &reaction, Force &displacement)
     {

@@ -77,8 +77,8 @@ TEST(StrengthFactor, WhoHasAStrength)
 
 
 
-// 1 changes nothing, f is f times all strengths, and neighbours in the same register
-// do not matter.
+// 1 changes nothing, f is f times all strengths, and neighbours in the same
+// register do not matter.
 TEST(StrengthFactor, MultipliesTheStrength)
 {
   constexpr unsigned int n = 11;
