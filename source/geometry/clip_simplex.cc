@@ -240,8 +240,12 @@ namespace talus
   template decltype(clip_simplex<3>) clip_simplex<3>;
   template decltype(volume<2>)       volume<2>;
   template decltype(volume<3>)       volume<3>;
-  template decltype(centroid<2>)     centroid<2>;
-  template decltype(centroid<3>)     centroid<3>;
   template decltype(simplices_of<2>) simplices_of<2>;
   template decltype(simplices_of<3>) simplices_of<3>;
+
+  // Facets have one of the same name.
+  template Point<2>
+  centroid<2>(const Simplex<2> &);
+  template Point<3>
+  centroid<3>(const Simplex<3> &);
 } // namespace talus
