@@ -15,7 +15,7 @@ namespace talus
 {
   /// Obstacles in equilibrium: at the contact point of each facet the soil
   /// sticks, slips against the largest friction, or has lifted off. By augmented
-  /// Lagrangians @cite alart1991: a facet passes the force that is given plus
+  /// Lagrangians, @cite alart1991, a facet passes the force that is given plus
   /// that of a stiff spring, cut to what it can bear; when Newton's method has
   /// converged, the force found is the one given for the next loop, until the
   /// spring has nothing to do.
