@@ -26,6 +26,6 @@ mount -t sysfs sysfs "$folder/sys"
 mount --rbind /dev "$folder/dev"
 mount --make-rslave "$folder/dev"
 chroot "$folder" env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 sh -c "
-  cd /talus && cmake --preset release -D TALUS_UNITY=ON &&
+  cd /talus && cmake --preset release &&
   cmake --build --preset release --target talus talus-unit &&
   ctest --test-dir build/release -R '$pattern' --output-on-failure"

@@ -3,6 +3,7 @@
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
 #include <talus/io/run_record.h>
+#include <talus/io/text_file.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 #include <deal.II/base/utilities.h>
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace talus
@@ -31,6 +31,11 @@ namespace talus
                   ExcUser("--set '" + override_text +
                           "' was given, where 'Section/Subsection/Entry=value' "
                           "was expected."));
+      // What stood in a line of its own could include a file.
+      AssertThrow(override_text.find('\n') == std::string::npos,
+                  ExcUser("--set '" + override_text.substr(0, equals) +
+                          "' was given a value of several lines, where one "
+                          "was expected. Give --set once for each entry."));
       auto path =
         Utilities::split_string_list(override_text.substr(0, equals), '/');
       const std::string entry = path.back();
@@ -84,25 +89,40 @@ namespace talus
 
   namespace
   {
-    /// The whole of a file that parameters may be in. A folder opens as a stream,
-    /// too, and a device may have no end. Only the first file may be a @p pipe.
+    /// The whole of a file that parameters may be in. Only the first one may be a
+    /// pipe: those that it includes are read twice.
     std::string
-    read_parameter_file(const std::string &name, const bool may_be_pipe)
+    read_parameter_file(const std::string &name, const Pipes pipes)
     {
-      namespace fs = std::filesystem;
-      std::error_code       error;
-      const fs::file_status status = fs::status(name, error);
-      const bool            is_file =
-        fs::is_regular_file(status) || (may_be_pipe && fs::is_fifo(status));
-      std::ostringstream  content;
-      const std::ifstream file(name);
-      if (is_file && file.good())
-        content << file.rdbuf();
-      AssertThrow(is_file && file.good(),
+      const auto content = read_text_file(name, pipes);
+      AssertThrow(content.has_value(),
                   ExcUser("The parameter file '" + name +
                           "' cannot be read. Give the path of an existing "
                           "file."));
-      return content.str();
+      return *content;
+    }
+
+
+
+    /// The lines as deal.II takes them: a backslash at the end of one joins it to
+    /// the next.
+    std::vector<std::string>
+    joined_lines(const std::string &content)
+    {
+      std::vector<std::string> lines;
+      std::istringstream       in(content);
+      bool                     goes_on = false;
+      for (std::string line; std::getline(in, line);)
+        {
+          line = Utilities::trim(line);
+          if (!goes_on)
+            lines.emplace_back();
+          goes_on = !line.empty() && line.back() == '\\';
+          if (goes_on)
+            line.pop_back();
+          lines.back() += line;
+        }
+      return lines;
     }
 
 
@@ -124,13 +144,15 @@ namespace talus
 
     /// Protect the files that @p content includes, and those that they do. deal.II
     /// reads them, as parts of the text, but would follow a circle for ever.
-    /// @p chain: the file that has the content, and whose include has led to it.
+    /// @p chain: the file that has the content, and whose include has led to it;
+    /// @p n_left: how many more may be included in all, as files that include
+    /// others twice double with each file of the chain.
     void
     check_includes(const std::string              &content,
-                   const std::vector<std::string> &chain)
+                   const std::vector<std::string> &chain,
+                   unsigned int                   &n_left)
     {
-      std::istringstream in(content);
-      for (std::string line; std::getline(in, line);)
+      for (const std::string &line : joined_lines(content))
         {
           const std::string file = included_file(line);
           if (file.empty())
@@ -141,6 +163,11 @@ namespace talus
                               "' includes '" + file +
                               "', which includes it in turn, directly or by "
                               "others. Remove one of the lines 'include'."));
+          AssertThrow(n_left > 0,
+                      ExcUser("The parameter file '" + chain.front() +
+                              "' includes others more than 1000 times, those "
+                              "that they include counted. Include fewer."));
+          --n_left;
           protect_input(file);
           std::vector<std::string> longer = chain;
           longer.push_back(file);
@@ -149,7 +176,9 @@ namespace talus
                               "' includes others through more than 20 files, "
                               "down to '" +
                               file + "'. Include fewer."));
-          check_includes(read_parameter_file(file, false), longer);
+          check_includes(read_parameter_file(file, Pipes::refused),
+                         longer,
+                         n_left);
         }
     }
   } // namespace
@@ -166,7 +195,8 @@ namespace talus
   {
     if (!is_run_record(file_name_))
       protect_input(file_name_);
-    check_includes(content_, {file_name_});
+    unsigned int n_includes = 1000;
+    check_includes(content_, {file_name_}, n_includes);
   }
 
 

@@ -2,19 +2,38 @@
 #include <talus/base/memory.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include <sys/resource.h>
 #include <unistd.h>
 
 namespace talus
 {
+  namespace
+  {
+    /// Bytes of the addresses that the process has taken, its libraries' among
+    /// them; 0 where the system does not tell.
+    double
+    taken_addresses()
+    {
+      std::ifstream file("/proc/self/statm");
+      double        pages = 0;
+      file >> pages;
+      return pages * sysconf(_SC_PAGESIZE);
+    }
+  } // namespace
+
+
+
+  // A limit on addresses counts all of them: the libraries alone take 0.5 GB.
   double
   largest_memory()
   {
     double largest = 1. * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
     rlimit limit;
     if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-      largest = std::min(largest, 1. * limit.rlim_cur);
+      largest =
+        std::min(largest, std::max(0., limit.rlim_cur - taken_addresses()));
     return largest;
   }
 } // namespace talus

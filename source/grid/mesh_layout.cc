@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iomanip>
 
 namespace talus
 {
@@ -121,7 +122,8 @@ namespace talus
                              h,
                              " m.")));
     AssertThrow(fits || exact > 1,
-                ExcUser(text("The mesh is only ",
+                ExcUser(text(std::setprecision(12),
+                             "The mesh is only ",
                              exact * h,
                              " m long along axis ",
                              d,
@@ -130,7 +132,8 @@ namespace talus
                              " m. Choose smaller cells or a larger box.")));
     AssertThrow(fits || may_move,
                 ExcUser(
-                  text("The mesh is ",
+                  text(std::setprecision(12),
+                       "The mesh is ",
                        exact * h,
                        " m long along axis ",
                        d,
@@ -146,7 +149,8 @@ namespace talus
     if (fits && n == whole)
       return;
     domain_.upper[d] = domain_.lower[d] + n * h;
-    adjustment_ += text(" The face '",
+    adjustment_ += text(std::setprecision(12),
+                        " The face '",
                         face_names[face],
                         "' was moved outwards from ",
                         upper_corner_[d],

@@ -26,44 +26,79 @@ namespace talus
 
   namespace
   {
-    /// Who wrote the lock, for a sentence.
+    /// What stands in the lock: who has it. The beginning is enough.
     std::string
     content_of(const int file)
     {
       std::array<char, 256> buffer;
       const ssize_t         n = ::pread(file, buffer.data(), buffer.size(), 0);
-      const std::string     content(buffer.data(), n > 0 ? n : 0);
-      return content.empty() ? "somewhere" : content;
+      return {buffer.data(), static_cast<std::size_t>(n > 0 ? n : 0)};
     }
 
 
+
+    const std::string first_words = "on host '";
 
     std::string
     process_on_host()
     {
       std::array<char, 256> name = {};
       ::gethostname(name.data(), name.size() - 1);
-      return text("on host '", name.data(), "' as process ", ::getpid());
+      return text(first_words, name.data(), "' as process ", ::getpid());
     }
 
 
 
-    /// Lock @p path; returns why that is not possible, empty if it is.
+    /// Whether nobody but talus has written into the lock.
+    bool
+    is_ours(const std::string &content)
+    {
+      return content.compare(0, first_words.size(), first_words) == 0 ||
+             content.empty();
+    }
+
+
+
+    std::string
+    foreign_lock(const std::filesystem::path &path)
+    {
+      return text(
+        "The output folder '",
+        path.parent_path().string(),
+        "' holds a 'lock' that no run has written, and this one would "
+        "write over it. Move it, or choose another folder with "
+        "Output/Folder or --output.");
+    }
+
+
+
+    std::string
+    other_run(const std::filesystem::path &path, const std::string &owner)
+    {
+      return text("The output folder '",
+                  path.parent_path().string(),
+                  "' belongs to another run, which runs ",
+                  owner.empty() ? "somewhere" : owner,
+                  ". Wait until that has ended, or choose another folder "
+                  "with Output/Folder or --output.");
+    }
+
+
+
+    /// Lock @p path; returns why that is not possible, empty if it is. Not
+    /// through a link: what it leads to is not ours.
     std::string
     lock(const std::filesystem::path &path, int &file)
     {
-      file = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+      file =
+        ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
       if (file < 0)
-        return talus::failed_write(path, std::strerror(errno));
+        return errno == ELOOP ? foreign_lock(path)
+                              : talus::failed_write(path, std::strerror(errno));
       if (::flock(file, LOCK_EX | LOCK_NB) != 0)
-        return errno == EWOULDBLOCK
-                 ? text("The output folder '",
-                        path.parent_path().string(),
-                        "' belongs to another run, which runs ",
-                        content_of(file),
-                        ". Wait until that has ended, or choose another folder "
-                        "with Output/Folder or --output.")
-                 : "";
+        return errno == EWOULDBLOCK ? other_run(path, content_of(file)) : "";
+      if (!is_ours(content_of(file)))
+        return foreign_lock(path);
       // The lock is what counts. The content only tells who has it, and may be
       // missing, as on a full disk.
       const std::string           content = process_on_host();

@@ -95,6 +95,24 @@ namespace talus
 
 
   void
+  check_no_results_without_a_run(const fs::path &folder)
+  {
+    const std::vector<fs::path> found = outputs_in(folder);
+    AssertThrow(found.empty(),
+                ExcUser(
+                  text("The output folder '",
+                       folder.string(),
+                       "' holds '",
+                       found.empty() ? "" : found.front().string(),
+                       "', which is named as the output of a run, but no "
+                       "'parameters.prm' of one, so that it may be yours. "
+                       "Move it, or choose another folder with "
+                       "Output/Folder or --output.")));
+  }
+
+
+
+  void
   remove_earlier_results(const fs::path &folder)
   {
     const fs::path record = folder / "parameters.prm";

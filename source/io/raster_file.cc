@@ -21,11 +21,16 @@ namespace talus
     std::string
     beginning(const std::filesystem::path &file)
     {
-      std::ifstream in(file, std::ios::binary);
-      std::string   bytes(8, '\0');
-      // Not of a device or a pipe: what is read once is gone, or has no end.
-      if (std::filesystem::is_regular_file(file))
-        in.read(bytes.data(), bytes.size());
+      std::ifstream   in;
+      std::string     bytes(8, '\0');
+      std::error_code error;
+      // Not of a device or a pipe: what is read once is gone, or has no end, and
+      // to open a pipe is to wait for who writes it.
+      if (std::filesystem::is_regular_file(file, error))
+        {
+          in.open(file, std::ios::binary);
+          in.read(bytes.data(), bytes.size());
+        }
       AssertThrow(in.gcount() > 0,
                   ExcUser("The raster '" + file.string() +
                           "' cannot be read or is empty. Give the path of an "

@@ -146,10 +146,11 @@ namespace talus
       {
         make_folder(folder_);
         check_no_foreign_file(folder_);
-        // Else nobody knows whose the files are.
         const std::filesystem::path record =
           std::filesystem::path(folder_) / "parameters.prm";
         const bool had_a_run = is_run_record(record);
+        if (!had_a_run && beginning == Beginning::fresh)
+          check_no_results_without_a_run(folder_);
         // First, as it shows whether the folder can be written and replaces
         // an earlier file only on success.
         write_run_record(record, this->prm);

@@ -2,6 +2,7 @@
 #include <talus/base/errors.h>
 #include <talus/io/checksum.h>
 #include <talus/io/files.h>
+#include <talus/io/text_file.h>
 #include <talus/problem/time_table.h>
 
 #include <deal.II/base/utilities.h>
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <sstream>
 
 namespace talus
@@ -23,22 +23,18 @@ namespace talus
 
 
 
-    /// The whole file, byte by byte, since its checksum is state. A folder
-    /// opens as a stream, too, hence the question.
+    /// The whole file, byte by byte, since its checksum is state.
     std::string
     read_file(const std::filesystem::path &file)
     {
-      std::ifstream      in(file, std::ios::binary);
-      std::ostringstream content;
-      if (in.good() && !std::filesystem::is_directory(file))
-        content << in.rdbuf();
-      AssertThrow(!content.str().empty(),
+      const auto content = read_text_file(file);
+      AssertThrow(content.has_value() && !content->empty(),
                   ExcUser("The table '" + file.string() +
                           "' cannot be read or is empty. Give the path of an "
                           "existing CSV file, from the folder of the parameter "
                           "file."));
       protect_input(file);
-      return content.str();
+      return *content;
     }
 
 

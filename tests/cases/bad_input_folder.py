@@ -2,6 +2,7 @@
 """What talus does with the files that it finds: those of an earlier run, those of
 another run that is going on, and those of the user."""
 
+import os
 import pathlib
 import signal
 import subprocess
@@ -143,13 +144,41 @@ class BadInputFolder(Case):
                 self.assertNotEqual((self.results / name).read_text(),
                                     "of an earlier run", name)
 
-    def test_folder_without_a_run_keeps_all(self):
+    def test_results_without_a_run_may_be_the_users(self):
         (self.results / "parameters.prm").unlink()
-        (self.results / "last-state.vtu").write_text("mine")
+        (self.results / "statistics.csv").unlink()
+        self.earlier = {}
+        for name in ("statistics.csv", "log.txt", "points-0000.vtu",
+                     "last-state.vtu"):
+            (self.results / name).write_text("mine")
+            self.earlier[name] = "mine"
+            self.assert_refused(self.run_file(), "results/" + name,
+                                "may be yours", "--output")
+            self.assert_untouched()
+            (self.results / name).unlink()
+            self.earlier = {}
+
+    def test_results_that_are_links_leave_what_they_lead_to(self):
+        mine = self.folder / "mine.csv"
+        mine.write_text("mine")
+        for name in ("log.txt", "profile.csv", "points-0000.vtu"):
+            (self.results / name).symlink_to("../mine.csv")
         self.assertEqual(self.run_file().returncode, 0)
-        self.assertEqual((self.results / "last-state.vtu").read_text(), "mine")
-        self.assertTrue((self.results / "parameters.prm").read_text()
-                        .startswith(RECORD))
+        self.assertEqual(mine.read_text(), "mine")
+
+    def test_lock_of_the_user(self):
+        mine = self.folder / "mine.txt"
+        mine.write_text("mine")
+        (self.results / "lock").write_text("mine")
+        self.assert_refused(self.run_file(), "'lock'", "no run has written",
+                            "--output")
+        self.assertEqual((self.results / "lock").read_text(), "mine")
+        (self.results / "lock").unlink()
+        (self.results / "lock").symlink_to("../mine.txt")
+        self.assert_refused(self.run_file(), "'lock'", "no run has written",
+                            "--output")
+        self.assertEqual(mine.read_text(), "mine")
+        self.assert_untouched()
 
     def test_what_others_put_beside_checkpoints_stays(self):
         places = ["checkpoints/2024/notes.txt", "checkpoints/0000000077/a.txt",
@@ -214,8 +243,44 @@ class BadInputFolder(Case):
                                 "includes", file + ".prm")
         self.assert_untouched()
 
+    def test_include_in_joined_lines(self):
+        self.write(a="inc\\\nlude \\\n  a.prm\n")
+        self.assert_refused(self.run_talus("--output", "results", "a.prm"),
+                            "includes 'a.prm'")
+        self.write(a="include a.prm\n", case=GOOD)
+        self.assert_refused(
+            self.run_talus("--output", "results", "--set",
+                           "End time=0.01\ninclude a.prm", "case.prm"),
+            "--set 'End time'", "several lines")
+        self.assert_untouched()
+
+    def test_include_that_doubles(self):
+        self.write(**{f"a{i}": f"include a{i + 1}.prm\n" * 2
+                      for i in range(18)}, a18="")
+        self.assert_refused(self.run_talus("--output", "results", "a0.prm"),
+                            "'a0.prm'", "more than 1000 times")
+        self.assert_untouched()
+
+    def test_files_without_end(self):
+        (self.folder / "case.prm").write_text(GOOD)
+        with open(self.folder / "holes.prm", "wb") as file:
+            file.truncate(10**12)
+        self.assert_refused(self.run_talus("--output", "results", "holes.prm"),
+                            "'holes.prm'", "more than 100 MB")
+        for table, words in (("holes.prm", "more than 100 MB"),
+                             ("/dev/zero", "cannot be read")):
+            self.assert_refused(
+                self.run_talus("--set", "Ground motion/File=" + table,
+                               "--output", "results", "case.prm"), words)
+        result = subprocess.run(
+            ["bash", "-c", f"'{TALUS}' --output results <(cat /dev/zero)"],
+            cwd=self.folder, capture_output=True, text=True, timeout=120)
+        self.assert_refused(result, "more than 100 MB")
+        self.assert_untouched()
+
     def test_include_what_is_no_file(self):
-        for name in ("/dev/zero", ".", "missing.prm"):
+        os.mkfifo(self.folder / "pipe.prm")
+        for name in ("/dev/zero", ".", "missing.prm", "pipe.prm"):
             self.write(a=f"include {name}\n")
             self.assert_refused(self.run_talus("--output", "results", "a.prm"),
                                 f"'{name}'", "cannot be read")

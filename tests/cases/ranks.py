@@ -7,11 +7,14 @@ Usage: ranks.py TALUS FOLDER MPIEXEC PRM_FOLDER [TestClass].
 
 import csv
 import re
+import subprocess
 import sys
+import time
 import unittest
 import xml.etree.ElementTree
 
-from ranks_case import Case
+from bad_input_case import GOOD
+from ranks_case import Case, MPIEXEC, TALUS
 
 
 TERSE = ["Output/Write points=false", "Output/Write grid=false",
@@ -165,6 +168,40 @@ class Ranks(Runs):
         for n_ranks in (2, 4):
             self.assert_same(self.run_on(n_ranks, settings, name), alone)
 
+    def test_budget_of_points_is_that_of_all_ranks(self):
+        (self.folder / "case.prm").write_text(GOOD)
+        for n_ranks in (1, 2, 3):
+            # 16 points become 64, on no rank of several more than 40.
+            result = self.start(f"ranks-{n_ranks}", n_ranks,
+                                ["Splitting/Maximum number of points=40",
+                                 "Splitting/Threshold=1.01",
+                                 "Splitting/Minimum length=0", "End time=0.1",
+                                 "Bodies/block/Initial velocity=10*(x-2); 0"],
+                                self.folder / "case.prm")
+            self.assertNotEqual(result.returncode, 0)
+            self.assertIn("64 points", result.stderr)
+            self.assertIn("'Splitting/Maximum number of points' = 40",
+                          result.stderr)
+
+    def test_folder_of_another_run(self):
+        """Which has several ranks; the second one has several, and one."""
+        (self.folder / "case.prm").write_text(GOOD)
+        first = subprocess.Popen(
+            [MPIEXEC, "-n", "2", TALUS, "--set", "End time=1e6", "--output",
+             "results", "case.prm"], cwd=self.folder, text=True,
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(first.wait)
+        self.addCleanup(first.terminate)
+        log = self.folder / "results" / "log.txt"
+        while not log.exists() or "time step" not in log.read_text():
+            self.assertIsNone(first.poll())
+            time.sleep(0.05)
+        for n_ranks in (1, 2):
+            result = self.start("results", n_ranks, [],
+                                self.folder / "case.prm")
+            self.assertNotEqual(result.returncode, 0)
+            self.assertEqual(result.stderr.count("belongs to another run"), 1)
+        self.assertIsNone(first.poll())
 
     def test_a_point_that_leaves(self):
         """One rank of four sees it: one sentence, and the state of that rank;

@@ -17,7 +17,7 @@ from tools_case import ROOT, SHARE, TALUS, Case, main, read_csv
 
 from talus_tools.errors import UserError
 from talus_tools.study.design import design, quantile
-from talus_tools.study.ensemble import make_members, program_version
+from talus_tools.study.ensemble import lock, make_members, program_version
 from talus_tools.study.settings import ENTRIES, Settings
 
 # The first slope on cells of 2 m: half a second.
@@ -372,6 +372,12 @@ class Refused(StudyCase):
                                (("--output", study), ("cannot be made",))):
             self.assert_sentence(self.tool("talus-study", study, *options), *parts)
         self.assert_sentence(self.tool("talus-report", "--fast", "x"), "--fast", "--help")
+
+    def test_lock_of_the_user(self):
+        file = self.folder / "lock"
+        file.write_text("mine")
+        lock(self.folder).close()
+        self.assertEqual(file.read_text(), "mine")
 
     def test_column_that_is_not_there(self):
         study = self.grid("column", "5", "subsection Quantities\nset Names = a\nsubsection a\n"

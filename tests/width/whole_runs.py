@@ -60,7 +60,6 @@ def build(folder, base, definitions):
             "-DCMAKE_BUILD_TYPE=Release",
             "-DTALUS_NATIVE=OFF",
             "-DTALUS_TESTS=OFF",
-            "-DTALUS_UNITY=ON",
             "-DCMAKE_CXX_COMPILER=" + cached(base, "CMAKE_CXX_COMPILER"),
             "-Ddeal.II_DIR=" + cached(base, "deal.II_DIR"),
             *definitions,

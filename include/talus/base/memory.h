@@ -4,8 +4,8 @@
 
 namespace talus
 {
-  /// Bytes that this process can have at most: the memory of the machine, or less
-  /// if the user's shell or a queue has set a limit (ulimit -v).
+  /// Bytes that this process can have at most: the memory of the machine, or what
+  /// is left if the user's shell or a queue has set a limit (ulimit -v).
   double
   largest_memory();
 } // namespace talus

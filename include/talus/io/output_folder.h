@@ -28,6 +28,13 @@ namespace talus
 
 
 
+  /// Throw ExcUser if the folder, in which no run has left a parameters.prm, holds
+  /// files named as those of a run: nobody knows whose they are. For the first rank.
+  void
+  check_no_results_without_a_run(const std::filesystem::path &folder);
+
+
+
   /// Remove what an earlier run left in the folder but for parameters.prm, so that
   /// nothing of it looks as if it were of the new one; its checkpoints are not
   /// touched. For the first rank.

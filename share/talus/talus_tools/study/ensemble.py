@@ -38,7 +38,7 @@ def lock(folder):
     """A file locked as long as it is open, so that one study runs in a folder."""
     try:
         os.makedirs(folder, exist_ok=True)
-        stream = open(os.path.join(folder, "lock"), "w", encoding="utf-8")
+        stream = open(os.path.join(folder, "lock"), "a", encoding="utf-8")
     except OSError as error:
         raise UserError(f"The folder '{folder}' cannot be made or written ({error.strerror}). "
                         "Choose another one with 'Output folder' or --output.") from None

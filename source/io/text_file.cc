@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/io/text_file.h>
+
+#include <fstream>
+#include <vector>
+
+namespace talus
+{
+  // What a file is must be known before it is opened: to open a pipe is to wait
+  // for who writes it. And a pipe, or a file of nothing but holes, may have more
+  // bytes than the memory, hence the limit.
+  std::optional<std::string>
+  read_text_file(const std::filesystem::path &file, const Pipes pipes)
+  {
+    namespace fs                  = std::filesystem;
+    constexpr std::size_t largest = 100'000'000;
+    std::error_code       error;
+    const fs::file_status status = fs::status(file, error);
+    if (!fs::is_regular_file(status) &&
+        !(pipes == Pipes::read && fs::is_fifo(status)))
+      return {};
+    std::ifstream in(file, std::ios::binary);
+    if (!in)
+      return {};
+    std::string       content;
+    std::vector<char> block(1 << 16);
+    while (in)
+      {
+        in.read(block.data(), block.size());
+        content.append(block.data(), in.gcount());
+        AssertThrow(content.size() <= largest,
+                    ExcUser("The file '" + file.string() +
+                            "' has more than 100 MB, where parameters or a "
+                            "table were expected. Give the path of such a "
+                            "file."));
+      }
+    if (!in.eof())
+      return {};
+    return content;
+  }
+} // namespace talus
