@@ -19,6 +19,13 @@ namespace talus
     double                 normal = 0; ///< along the facet's normal, N s
     dealii::Tensor<1, dim> tangential; ///< along the facet, N s
     double                 effective_mass = 0; ///< that the facet sees, kg
+    double mean_normal = 0; ///< of the last steps, which limits friction, N s
+
+    bool
+    acts() const
+    {
+      return normal > 0 || tangential.norm_square() > 0;
+    }
   };
 
 
@@ -133,7 +140,8 @@ namespace talus
     gap_inside(const Grid<dim>                        &grid,
                const typename Facets<dim>::NodeInside &inside) const;
 
-    /// Largest impulse along the facet in a step of @p dt, N s.
+    /// Largest impulse along the facet in a step of @p dt, N s, for this
+    /// impulse along the normal.
     double
     friction_limit(const ContactFacet<dim> &facet,
                    const Constraint        &constraint,
@@ -165,7 +173,7 @@ namespace talus
   private:
     // Impulses of facets as rows of numbers: key of the cell (two), obstacle,
     // and those of FacetImpulse.
-    static constexpr unsigned int n_columns = 5 + dim;
+    static constexpr unsigned int n_columns = 6 + dim;
     std::vector<double>
     rows_of_impulses() const;
     void
@@ -184,6 +192,8 @@ namespace talus
     warm_start(const State<dim> &state);
     void
     sweep(const State<dim> &state);
+    double
+    mean_normal(const FacetImpulse<dim> &impulse, double newest) const;
     dealii::Tensor<1, dim>
     velocity_at(const ContactFacet<dim> &facet,
                 const Constraint        &constraint) const;
