@@ -168,30 +168,21 @@ TEST(LandslideInclinedFine, ToRest)
 }
 
 
+
 // Half of a slide 12 m wide, that spreads sideways, too: z = 0 is its middle.
 TEST(LandslideInclined, SpreadsAsOnTheFaceOfTheMeshIn3d)
 {
-  const Overrides half    = {"Dimension=3",
-                             "End time=6",
-                             "Grid/Cell size=0.8",
-                             "Bodies/slide/Extent in z=0,6",
-                             "Boundaries/Back=roller"};
-  const Table     aligned = run<3>("landslide-quick.prm",
+  const Table aligned = run<3>("landslide-3d.prm",
                                "landslide-aligned-3d",
-                               half + stretched +
-                                 Overrides{"Grid/Lower corner=-16,0,0",
-                                           "Grid/Upper corner=96,8,16"});
-  const Table     inclined =
-    run<3>(file,
-           "landslide-inclined-3d",
-           half + Overrides{"Grid/Lower corner=-16,-12.8,0",
-                            "Grid/Upper corner=96,9.6,16",
-                            "Obstacles/bed/Point=0,0,0",
-                            "Obstacles/bed/Normal=0.08715574274765817,"
-                            "0.9961946980917455,0"});
+                               {"End time=6",
+                                "Grid/Lower corner=-16,0,0",
+                                "Grid/Upper corner=96,8,16",
+                                "Bodies/slide/Extent in z=0,6"});
+  const Table inclined =
+    run<3>("landslide-inclined-3d.prm", "landslide-inclined-3d");
   Verification gates("Landslide in 3-D on a seabed turned by 5 degrees, "
                      "h = 0.8 m",
-                     "prm/" + file + ", half of 12 m wide",
+                     "tests/cases/landslide-inclined-3d.prm",
                      "the same on a face of the mesh");
   expect_same_slide(gates, inclined, aligned, 5, {{3, 0.01}, {6, 0.01}});
   gates.near("mean distance from the middle [m] at 6 s",

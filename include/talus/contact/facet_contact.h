@@ -52,6 +52,8 @@ namespace talus
       double mass        = 0;     ///< kg
       double gap         = 0;     ///< m
       double area        = 0;     ///< in contact, m^(dim-1)
+      /// Share of this step's normal impulse in the mean that limits friction.
+      double share_in_mean = 1;
     };
 
     explicit FacetContact(Obstacles<dim> &obstacles);
@@ -187,13 +189,16 @@ namespace talus
     void
     load_nodes(const State<dim> &state);
     Constraint
-    constraint_of(const Grid<dim> &grid, const ContactFacet<dim> &facet) const;
+    constraint_of(const State<dim>        &state,
+                  const ContactFacet<dim> &facet) const;
+    double
+    share_in_mean(const State<dim>        &state,
+                  const ContactFacet<dim> &facet,
+                  const Constraint        &constraint) const;
     void
     warm_start(const State<dim> &state);
     void
     sweep(const State<dim> &state);
-    double
-    mean_normal(const FacetImpulse<dim> &impulse, double newest) const;
     dealii::Tensor<1, dim>
     velocity_at(const ContactFacet<dim> &facet,
                 const Constraint        &constraint) const;
@@ -240,6 +245,8 @@ namespace talus
 
     // Of one step
     std::vector<Constraint>    constraints_;
+    std::vector<unsigned int>  loaded_; ///< facets with soil at their nodes
+    std::vector<unsigned int>  active_nodes_; ///< owned ones with soil
     std::vector<ImpulseInside> impulses_inside_;
     std::vector<double>        records_;        ///< see Record
     NodalGaps<dim>             gaps_;           ///< the obstacles' surfaces
