@@ -23,6 +23,12 @@ namespace talus
     // sweep, and does not change with more than four.
     constexpr unsigned int n_sweeps_at_rest = 1, n_sweeps_moving = 4;
 
+    // Of the memory of friction: it fades within so many steps, and within so much
+    // of a cell of slip. On a block that rings (1000 steps a second, h/c 2.5 steps)
+    // 8 are not enough, 16 to 64 do the same. Without the second, soil that slides
+    // half as fast as its waves would be gone before friction has felt it.
+    constexpr double n_steps_of_memory = 32, slip_of_memory = 0.05;
+
 
 
     template <int dim>
@@ -33,6 +39,19 @@ namespace talus
       for (unsigned int d = 0; d < dim; ++d)
         result[d] = values[first + d];
       return result;
+    }
+
+
+
+    /// Of the last steps, with @p newest as that of this one.
+    template <int dim>
+    double
+    mean_normal(const FacetImpulse<dim>                      &impulse,
+                const typename FacetContact<dim>::Constraint &constraint,
+                const double                                  newest)
+    {
+      return impulse.mean_normal +
+             constraint.share_in_mean * (newest - impulse.mean_normal);
     }
 
 
@@ -121,7 +140,8 @@ namespace talus
                        double(facet.key & 0xffffffff),
                        double(facet.obstacle),
                        impulse.normal,
-                       impulse.effective_mass});
+                       impulse.effective_mass,
+                       impulse.mean_normal});
           for (unsigned int d = 0; d < dim; ++d)
             rows.push_back(impulse.tangential[d]);
         }
@@ -137,7 +157,7 @@ namespace talus
     std::map<std::array<double, 3>, FacetImpulse<dim>> by_key;
     for (std::size_t r = 0; r < rows.size(); r += n_columns)
       by_key[{{rows[r], rows[r + 1], rows[r + 2]}}] = {
-        rows[r + 3], vector_at<dim>(rows, r + 5), rows[r + 4]};
+        rows[r + 3], vector_at<dim>(rows, r + 6), rows[r + 4], rows[r + 5]};
     impulses_.assign(facets_.owned().size(), {});
     for (unsigned int c = 0; c < impulses_.size(); ++c)
       {
@@ -172,12 +192,14 @@ namespace talus
                                                        : n_sweeps_at_rest);
     for (unsigned int s = 0; s < n_sweeps; ++s)
       sweep(state);
+    for (const unsigned int c : loaded_)
+      impulses_[c].mean_normal =
+        mean_normal(impulses_[c], constraints_[c], impulses_[c].normal);
     has_begun_          = true;
     previous_time_step_ = state.time_step;
-    for (const unsigned int node : facets_.owned_nodes())
-      if (records_[std::size_t(width) * node + fill] > 0)
-        state.nodes.set_velocity(
-          node, vector_at<dim>(records_, std::size_t(width) * node + velocity));
+    for (const unsigned int node : active_nodes_)
+      state.nodes.set_velocity(
+        node, vector_at<dim>(records_, std::size_t(width) * node + velocity));
     hold_nodes_inside(state);
   }
 
@@ -193,8 +215,13 @@ namespace talus
                facets_.nearness_of_cells());
     load_nodes(state);
     constraints_.clear();
+    loaded_.clear();
     for (const ContactFacet<dim> &facet : facets_.owned())
-      constraints_.push_back(constraint_of(state.grid, facet));
+      {
+        constraints_.push_back(constraint_of(state, facet));
+        if (constraints_.back().is_loaded)
+          loaded_.push_back(constraints_.size() - 1);
+      }
   }
 
 
@@ -274,6 +301,7 @@ namespace talus
   FacetContact<dim>::load_nodes(const State<dim> &state)
   {
     const NodalFields<dim> &nodes = state.nodes;
+    active_nodes_.clear();
     for (const unsigned int node : facets_.owned_nodes())
       {
         double *const record = records_.data() + std::size_t(width) * node;
@@ -283,6 +311,7 @@ namespace talus
         const double room = facets_.open_volume(node);
         if (mass <= state.mass_cutoff || room <= 0)
           continue;
+        active_nodes_.push_back(node);
         record[fill]      = std::min(1., nodes.volume(node) / room);
         record[splitting] = facets_.n_facets(node) / mass;
         for (unsigned int d = 0; d < dim; ++d)
@@ -298,7 +327,7 @@ namespace talus
   // the wall into the soil.
   template <int dim>
   typename FacetContact<dim>::Constraint
-  FacetContact<dim>::constraint_of(const Grid<dim>         &grid,
+  FacetContact<dim>::constraint_of(const State<dim>        &state,
                                    const ContactFacet<dim> &facet) const
   {
     Constraint result;
@@ -311,7 +340,7 @@ namespace talus
       }
     if (sum <= 0)
       return result;
-    const Cell<dim> &cell = grid.cells()[facet.cell];
+    const Cell<dim> &cell = state.grid.cells()[facet.cell];
     AssertThrow(cell.uniform,
                 ExcPoint(text("Soil has come to the surface of the obstacle '",
                               obstacles_[facet.obstacle].name(),
@@ -346,8 +375,37 @@ namespace talus
     result.normal_mass =
       (inverse_normal_mass > 1e-6 * inverse_mass ? 1. / inverse_normal_mass
                                                  : 0.);
-    result.area = facet.area * sum;
+    result.area          = facet.area * sum;
+    result.share_in_mean = share_in_mean(state, facet, result);
     return result;
+  }
+
+
+
+  // Where an elastic body may ring, Coulomb friction on a rigid surface has no
+  // steady sliding: the normal force and its friction feed the waves, the body
+  // chatters, slips by turns and is thrown up. What tames it is that friction does
+  // not follow the normal force at once, but within some slip or time (@cite
+  // cochard2000, eq. 5). It is impulses that are remembered, not pressures: then
+  // their sum is kept while soil slides from facet to facet, and with it the mean
+  // force.
+  template <int dim>
+  double
+  FacetContact<dim>::share_in_mean(const State<dim>        &state,
+                                   const ContactFacet<dim> &facet,
+                                   const Constraint        &constraint) const
+  {
+    if (!has_begun_)
+      return 1.;
+    const double         dt = state.time_step;
+    const Tensor<1, dim> u =
+      velocity_at(facet, constraint) -
+      obstacles_[facet.obstacle].velocity(state.time + 0.5 * dt);
+    const double slip = (u - (u * facet.normal) * facet.normal).norm() * dt;
+    return std::min(1.,
+                    1. / n_steps_of_memory +
+                      slip /
+                        (slip_of_memory * state.grid.cells()[facet.cell].size));
   }
 
 
@@ -410,9 +468,12 @@ namespace talus
         const double factor =
           longer * std::min(1., constraint.mass / impulse.effective_mass);
         impulse.normal *= factor;
-        impulse.tangential = cut_to_length(
-          factor * impulse.tangential,
-          friction_limit(facet, constraint, impulse.normal, state.time_step));
+        impulse.mean_normal *= longer;
+        impulse.tangential     = cut_to_length(factor * impulse.tangential,
+                                           friction_limit(facet,
+                                                          constraint,
+                                                          impulse.mean_normal,
+                                                          state.time_step));
         impulse.effective_mass = constraint.mass;
         add_impulse(facet,
                     constraint,
@@ -450,10 +511,10 @@ namespace talus
     std::vector<Tensor<1, dim>> of_obstacle;
     for (unsigned int k = 0; k < obstacles_.size(); ++k)
       of_obstacle.push_back(obstacles_[k].velocity(state.time + 0.5 * dt));
-    for (unsigned int c = 0; c < impulses_.size(); ++c)
+    for (const unsigned int c : loaded_)
       {
         const Constraint &constraint = constraints_[c];
-        if (!constraint.is_loaded || constraint.normal_mass == 0)
+        if (constraint.normal_mass == 0)
           continue;
         const ContactFacet<dim> &facet   = facets_.owned()[c];
         FacetImpulse<dim>       &impulse = impulses_[c];
@@ -468,7 +529,10 @@ namespace talus
                      constraint.normal_mass * (constraint.gap / dt + u_n));
         const Tensor<1, dim> tangential =
           cut_to_length(impulse.tangential - constraint.mass * u_t,
-                        friction_limit(facet, constraint, normal, dt));
+                        friction_limit(facet,
+                                       constraint,
+                                       mean_normal(impulse, constraint, normal),
+                                       dt));
         add_impulse(facet,
                     constraint,
                     (normal - impulse.normal) * facet.normal + tangential -
@@ -488,14 +552,14 @@ namespace talus
   FacetContact<dim>::update_velocities(const State<dim> &state)
   {
     exchange_of_impulses_.add_to_owners(nodal_impulses_.data());
-    for (const unsigned int node : facets_.owned_nodes())
+    for (const unsigned int node : active_nodes_)
       {
         double *const impulse =
           nodal_impulses_.data() + std::size_t(dim) * node;
         double *const record = records_.data() + std::size_t(width) * node;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            if (record[fill] > 0 && !(held_[node] & (1u << d)))
+            if (!(held_[node] & (1u << d)))
               record[velocity + d] += impulse[d] / state.nodes.mass(node);
             total_impulses_[std::size_t(dim) * node + d] += impulse[d];
             impulse[d] = 0;
@@ -575,10 +639,10 @@ namespace talus
   FacetContact<dim>::book_facets(const State<dim>               &state,
                                  std::vector<StepReaction<dim>> &steps) const
   {
-    for (unsigned int c = 0; c < impulses_.size(); ++c)
+    for (const unsigned int c : loaded_)
       {
         const FacetImpulse<dim> &impulse = impulses_[c];
-        if (impulse.normal == 0)
+        if (!impulse.acts())
           continue;
         const ContactFacet<dim> &facet      = facets_.owned()[c];
         const Constraint        &constraint = constraints_[c];
@@ -657,7 +721,7 @@ namespace talus
       {"facet impulses",
        "key of the cell: upper and lower 32 bits; obstacle; normal impulse [N "
        "s]; "
-       "effective mass [kg]; friction impulse [N s]",
+       "effective mass [kg]; mean normal impulse [N s]; friction impulse [N s]",
        n_columns,
        [this]() { return rows_of_impulses(); },
        [this](const std::vector<double> &rows) { restored_ = rows; }});

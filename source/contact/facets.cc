@@ -108,12 +108,11 @@ namespace talus
     std::pair<CutSurface<dim>, bool>
     find_surface(const Cell<dim> &cell, const Obstacle<dim> &obstacle)
     {
-      const auto   box  = cell.box();
-      const double none = 1e-8 * std::pow(cell.size, dim - 1.);
-      const auto   surface =
-        surface_in_box<dim>(box, [&](const Point<dim> &x) {
-          return obstacle.signed_distance(x);
-        });
+      const auto   box     = cell.box();
+      const double none    = 1e-8 * std::pow(cell.size, dim - 1.);
+      const auto   surface = surface_in_box<dim>(box, [&](const Point<dim> &x) {
+        return obstacle.signed_distance(x);
+      });
       if (surface.area >= none)
         return {surface, false};
       // A surface on faces of the mesh belongs to the cells where the distance
@@ -233,9 +232,11 @@ namespace talus
     if (section.facets.empty() && section.hidden.empty())
       {
         cut_cells_.erase(c);
+        cut_cell_at_[c] = nullptr;
         return;
       }
     CutCell &result = cut_cells_[c];
+    cut_cell_at_[c] = &result;
     result.facets   = section.facets;
     result.hidden   = section.hidden;
     for (ContactFacet<dim> &facet : result.facets)
@@ -255,6 +256,7 @@ namespace talus
   Facets<dim>::prepare(const Grid<dim> &grid, const Obstacles<dim> &obstacles)
   {
     cut_cells_.clear();
+    cut_cell_at_.assign(grid.cells().size(), nullptr);
     cells_inside_.clear();
     clear_sums();
     n_facets_.assign(grid.n_nodes(), 0);

@@ -392,7 +392,8 @@ namespace talus
           forces.push_back(
             {point.found.normal,
              point.found.tangential,
-             point.stiffness > 0 ? problem.contact.constraints()[k].mass : 0.});
+             point.stiffness > 0 ? problem.contact.constraints()[k].mass : 0.,
+             point.found.normal});
       }
     problem.contact.set_forces(forces);
   }

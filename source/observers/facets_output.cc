@@ -189,7 +189,7 @@ namespace talus
         scalar<dim>("contact area",
                     area,
                     [&](const unsigned int c) {
-                      return impulses[c].normal > 0 ? constraints[c].area : 0.;
+                      return impulses[c].acts() ? constraints[c].area : 0.;
                     }),
         scalar<dim>("obstacle", "", [&](const unsigned int c) {
           return facets[c].obstacle;

@@ -166,3 +166,29 @@ TEST(LandslideInclinedFine, ToRest)
     {{5, 0.005}, {10, 0.005}, {15, 0.005}, {20, 0.008}, {30, 0.01}});
   expect_momentum_closed(gates, inclined, "landslide-inclined-fine");
 }
+
+
+
+// Half of a slide 12 m wide, that spreads sideways, too: z = 0 is its middle.
+TEST(LandslideInclined, SpreadsAsOnTheFaceOfTheMeshIn3d)
+{
+  const Table aligned = run<3>("landslide-3d.prm",
+                               "landslide-aligned-3d",
+                               {"End time=6",
+                                "Grid/Lower corner=-16,0,0",
+                                "Grid/Upper corner=96,8,24",
+                                "Bodies/slide/Extent in z=0,6",
+                                "Bodies/slide/Filling=clipped"});
+  const Table inclined =
+    run<3>("landslide-inclined-3d.prm", "landslide-inclined-3d");
+  Verification gates("Landslide in 3-D on a seabed turned by 5 degrees, "
+                     "h = 0.8 m",
+                     "tests/cases/landslide-inclined-3d.prm",
+                     "the same on a face of the mesh");
+  expect_same_slide(gates, inclined, aligned, 5, {{3, 0.005}, {6, 0.005}});
+  gates.near("mean distance from the middle [m] at 6 s",
+             inclined.at(6, "centre z [m]"),
+             aligned.at(6, "centre z [m]"),
+             0.005);
+  expect_momentum_closed(gates, inclined, "landslide-inclined-3d");
+}

@@ -19,6 +19,13 @@ namespace talus
     double                 normal = 0; ///< along the facet's normal, N s
     dealii::Tensor<1, dim> tangential; ///< along the facet, N s
     double                 effective_mass = 0; ///< that the facet sees, kg
+    double mean_normal = 0; ///< of the last steps, which limits friction, N s
+
+    bool
+    acts() const
+    {
+      return normal > 0 || tangential.norm_square() > 0;
+    }
   };
 
 
@@ -45,6 +52,8 @@ namespace talus
       double mass        = 0;     ///< kg
       double gap         = 0;     ///< m
       double area        = 0;     ///< in contact, m^(dim-1)
+      /// Share of this step's normal impulse in the mean that limits friction.
+      double share_in_mean = 1;
     };
 
     explicit FacetContact(Obstacles<dim> &obstacles);
@@ -133,7 +142,8 @@ namespace talus
     gap_inside(const Grid<dim>                        &grid,
                const typename Facets<dim>::NodeInside &inside) const;
 
-    /// Largest impulse along the facet in a step of @p dt, N s.
+    /// Largest impulse along the facet in a step of @p dt, N s, for this
+    /// impulse along the normal.
     double
     friction_limit(const ContactFacet<dim> &facet,
                    const Constraint        &constraint,
@@ -165,7 +175,7 @@ namespace talus
   private:
     // Impulses of facets as rows of numbers: key of the cell (two), obstacle,
     // and those of FacetImpulse.
-    static constexpr unsigned int n_columns = 5 + dim;
+    static constexpr unsigned int n_columns = 6 + dim;
     std::vector<double>
     rows_of_impulses() const;
     void
@@ -179,7 +189,12 @@ namespace talus
     void
     load_nodes(const State<dim> &state);
     Constraint
-    constraint_of(const Grid<dim> &grid, const ContactFacet<dim> &facet) const;
+    constraint_of(const State<dim>        &state,
+                  const ContactFacet<dim> &facet) const;
+    double
+    share_in_mean(const State<dim>        &state,
+                  const ContactFacet<dim> &facet,
+                  const Constraint        &constraint) const;
     void
     warm_start(const State<dim> &state);
     void
@@ -230,6 +245,8 @@ namespace talus
 
     // Of one step
     std::vector<Constraint>    constraints_;
+    std::vector<unsigned int>  loaded_; ///< facets with soil at their nodes
+    std::vector<unsigned int>  active_nodes_; ///< owned ones with soil
     std::vector<ImpulseInside> impulses_inside_;
     std::vector<double>        records_;        ///< see Record
     NodalGaps<dim>             gaps_;           ///< the obstacles' surfaces

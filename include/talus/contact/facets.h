@@ -66,12 +66,10 @@ namespace talus
     void
     for_each_in_cell(const unsigned int c, const Action &action) const
     {
-      if (is_near_[c] < 2)
-        return;
-      const CutCell &cut_cell = cut_cells_.at(c);
-      for (const auto *facets : {&cut_cell.facets, &cut_cell.hidden})
-        for (const ContactFacet<dim> &facet : *facets)
-          action(facet);
+      if (const CutCell *const cut_cell = cut_cell_at_[c])
+        for (const auto *facets : {&cut_cell->facets, &cut_cell->hidden})
+          for (const ContactFacet<dim> &facet : *facets)
+            action(facet);
     }
 
     /// Nodes that touch a facet: those this rank owns, and all it knows.
@@ -201,8 +199,9 @@ namespace talus
 
     std::unordered_map<unsigned long, Section> sections_;  ///< by key of cell
     std::map<unsigned int, CutCell>            cut_cells_; ///< ghosts, too
-    std::set<unsigned int>         cells_inside_;          ///< beside surfaces
-    std::vector<unsigned int>      listed_near_;
+    std::vector<const CutCell *> cut_cell_at_;  ///< by cell, for who asks often
+    std::set<unsigned int>       cells_inside_; ///< beside surfaces
+    std::vector<unsigned int>    listed_near_;
     std::vector<ContactFacet<dim>> owned_;
     std::vector<unsigned int>      owned_nodes_, nodes_;
     std::vector<NodeAndSurface>    nodes_and_obstacles_;
