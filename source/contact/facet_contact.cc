@@ -386,7 +386,7 @@ namespace talus
   // steady sliding: the normal force and its friction feed the waves, the body
   // chatters, slips by turns and is thrown up. What tames it is that friction does
   // not follow the normal force at once, but within some slip or time (@cite
-  // cochard2000, eq. 5). It is impulses that are remembered, not pressures: then
+  // cochard2000). It is impulses that are remembered, not pressures: then
   // their sum is kept while soil slides from facet to facet, and with it the mean
   // force.
   template <int dim>

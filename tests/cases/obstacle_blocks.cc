@@ -242,6 +242,29 @@ TEST(BlockOnPlane, SticksBelowTheAngleOfFriction)
 
 
 
+// Gravity at once, and friction that would do at rest: the ringing must not wear
+// the block loose.
+TEST(BlockOnPlane, SticksAlthoughItRings)
+{
+  Verification gates(
+    "Block on a plane of 30 degrees through the mesh, mu = 0.7",
+    "prm/" + block + ", gravity at once",
+    "sticks below the angle of friction");
+  for (const double angle : {0., 17.})
+    {
+      const Table table = run<2>(block,
+                                 "block-on-plane",
+                                 block_on(angle, 30) + friction("0.7", "1e12"));
+      const auto  u     = along(table, Turned(angle), "centre");
+      gates.at_most("creep over the second second [m/s]" + degrees(angle),
+                    std::abs(u.back() - u[u.size() / 2]),
+                    1e-4);
+      EXPECT_LT(lift(table, angle), 1e-3);
+    }
+}
+
+
+
 // Strength reduction divides the friction of obstacles, too.
 TEST(BlockOnPlane, FactorOfSafety)
 {
