@@ -190,7 +190,7 @@ namespace talus
   ParameterFile::ParameterFile(const std::string              &file_name,
                                const std::vector<std::string> &overrides)
     : file_name_(file_name)
-    , content_(read_parameter_file(file_name, true))
+    , content_(read_parameter_file(file_name, Pipes::read))
     , overrides_(overrides)
   {
     if (!is_run_record(file_name_))
