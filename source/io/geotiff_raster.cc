@@ -11,7 +11,8 @@
 #include <type_traits>
 
 #if TALUS_WITH_GDAL
-#  include <cpl_error.h>
+#  include <talus/io/quiet_gdal.h>
+
 #  include <gdal.h>
 #  include <gdal_frmts.h>
 #  include <ogr_srs_api.h>
@@ -24,25 +25,6 @@ namespace talus
 #if TALUS_WITH_GDAL
   namespace
   {
-    /// Errors of GDAL are not printed: their words go into ours.
-    struct QuietGdal
-    {
-      QuietGdal()
-      {
-        CPLPushErrorHandler(CPLQuietErrorHandler);
-        CPLErrorReset();
-      }
-      ~QuietGdal()
-      {
-        CPLPopErrorHandler();
-      }
-      QuietGdal(const QuietGdal &) = delete;
-      QuietGdal &
-      operator=(const QuietGdal &) = delete;
-    };
-
-
-
     /// Of all that GDAL reads GeoTIFF alone: it also reads HDF5, by another
     /// library of that name than ours.
     class GeotiffFile
@@ -128,12 +110,13 @@ namespace talus
             "lies askew on the map, where rows from west to east were "
             "expected. Turn it: gdalwarp in.tif out.tif.");
       Raster result;
-      result.n_columns = GDALGetRasterXSize(file_.get());
-      result.n_rows    = GDALGetRasterYSize(file_.get());
-      result.dx        = t[1];
-      result.dy        = std::abs(t[5]);
-      result.west      = t[0];
-      result.south     = std::min(t[3], t[3] + result.n_rows * t[5]);
+      result.coordinate_system = GDALGetProjectionRef(file_.get());
+      result.n_columns         = GDALGetRasterXSize(file_.get());
+      result.n_rows            = GDALGetRasterYSize(file_.get());
+      result.dx                = t[1];
+      result.dy                = std::abs(t[5]);
+      result.west              = t[0];
+      result.south             = std::min(t[3], t[3] + result.n_rows * t[5]);
       check(double(result.n_columns) * result.n_rows < 1e9,
             text("has ",
                  result.n_columns,
@@ -175,10 +158,12 @@ namespace talus
       const double missing     = GDALGetRasterNoDataValue(band_, &has_missing);
       const double scale       = GDALGetRasterScale(band_, nullptr);
       const double offset      = GDALGetRasterOffset(band_, nullptr);
+      const bool   is_packed   = (scale != 1. || offset != 0.);
       for (double &value : result)
-        value = has_missing && value == missing
-                  ? std::numeric_limits<double>::quiet_NaN()
-                  : scale * value + offset;
+        if (has_missing && value == missing)
+          value = std::numeric_limits<double>::quiet_NaN();
+        else if (is_packed) // else -0 would become 0
+          value = scale * value + offset;
       std::array<double, 6> t{};
       GDALGetGeoTransform(file_.get(), t.data());
       if (t[5] > 0.) // from the south

@@ -4,6 +4,7 @@
 #include <talus/version.h>
 
 #include <cmath>
+#include <optional>
 #include <regex>
 
 #if TALUS_WITH_PROJ
@@ -73,19 +74,29 @@ namespace talus
   {
     using Projection = std::unique_ptr<PJ, decltype(&proj_destroy)>;
 
-    /// By the formulas alone: PROJ's database, a file beside the library, is
-    /// not needed. Nothing if @p name is no zone.
-    PJ *
-    utm(PJ_CONTEXT *const context, const std::string &name)
+    /// Nothing if @p name is none.
+    std::optional<UtmZone>
+    zone_of(const std::string &name)
     {
       std::smatch parts;
       if (!std::regex_match(name, parts, std::regex("UTM ?([0-9]{1,2})([NS])")))
-        return nullptr;
+        return {};
+      return UtmZone{static_cast<unsigned int>(std::stoul(parts[1])),
+                     parts[2] == "S"};
+    }
+
+
+
+    /// By the formulas alone: PROJ's database, a file beside the library, is
+    /// not needed.
+    PJ *
+    utm(PJ_CONTEXT *const context, const UtmZone &zone)
+    {
       return proj_create(context,
                          text("+proj=pipeline +step +proj=unitconvert "
                               "+xy_in=deg +xy_out=rad +step +proj=utm +zone=",
-                              parts[1].str(),
-                              parts[2] == "S" ? " +south" : "",
+                              zone.number,
+                              zone.is_south ? " +south" : "",
                               " +ellps=WGS84")
                            .c_str());
     }
@@ -148,9 +159,12 @@ namespace talus
     : library_(std::make_shared<Library>())
   {
     const bool has_number = std::regex_match(name, std::regex("EPSG:[0-9]+"));
-    library_->transformation = has_number
-                                 ? from_database(library_->context, path, name)
-                                 : utm(library_->context, name);
+    const auto zone       = zone_of(name);
+    if (has_number)
+      library_->transformation = from_database(library_->context, path, name);
+    else if (zone)
+      library_->transformation = utm(library_->context, *zone);
+    coordinate_system_ = zone ? text("EPSG:", zone->epsg()) : name;
     AssertThrow(library_->transformation != nullptr,
                 ExcUser(text(path,
                              " = '",

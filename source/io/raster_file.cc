@@ -55,6 +55,23 @@ namespace talus
 
 
 
+    /// The map of a raster whose format has no place for it: what GIS keep in a
+    /// file of the same name that ends with .prj. Empty if there is none.
+    std::string
+    system_beside(std::filesystem::path file)
+    {
+      std::ifstream     in(file.replace_extension(".prj"), std::ios::binary);
+      std::string       words(65536, '\0');
+      const std::string blanks = " \t\r\n";
+      in.read(words.data(), words.size());
+      words.resize(in.gcount());
+      words.erase(words.find_last_not_of(blanks) + 1);
+      words.erase(0, std::min(words.find_first_not_of(blanks), words.size()));
+      return words;
+    }
+
+
+
     /// Whether these can be longitudes and latitudes, however large the cells.
     bool
     fits_on_globe(const Raster &raster)
@@ -204,7 +221,12 @@ namespace talus
     else if (is_tiff(bytes))
       std::tie(raster, unit) = read_geotiff(file);
     else
-      raster = read_esri_grid(file);
+      {
+        raster                   = read_esri_grid(file);
+        raster.coordinate_system = system_beside(file);
+        if (raster.coordinate_system.rfind("GEOG", 0) == 0)
+          unit = "degrees";
+      }
     const bool says_degrees = (unit.rfind("degree", 0) == 0);
     if (units == RasterUnits::guess &&
         (says_degrees || (unit.empty() && looks_like_degrees(raster))))

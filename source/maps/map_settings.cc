@@ -18,6 +18,11 @@ namespace talus
                   "of the times of arrival, and of the final thickness and the "
                   "erosion: in 3-D rasters (Esri ASCII grids in the folder "
                   "maps) and maps.vtu, in 2-D maps.csv.");
+    add_parameter("Write GeoTIFF",
+                  writes_geotiff_,
+                  "3-D only: write each of these rasters as GeoTIFF, too, with "
+                  "the coordinate system of the raster whose cells they have. "
+                  "Needs a talus that was built with GDAL.");
     add_parameter("Raster",
                   raster_,
                   "3-D only: name of the surface whose raster gives the maps "

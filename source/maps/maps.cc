@@ -2,6 +2,7 @@
 #include <talus/base/errors.h>
 #include <talus/contact/ground.h>
 #include <talus/io/esri_grid.h>
+#include <talus/io/geotiff_raster.h>
 #include <talus/io/vtu_writer.h>
 #include <talus/maps/maps.h>
 #include <talus/observers/state_cells.h>
@@ -46,6 +47,19 @@ namespace talus
                 ExcUser(text("The maps would have ",
                              n,
                              " cells. Make 'Maps/Cell size' larger.")));
+    if (dim == 3 && this->settings().writes_geotiff())
+      check_geotiff(coordinate_system());
+  }
+
+
+
+  template <int dim>
+  std::string
+  Maps<dim>::coordinate_system() const
+  {
+    const Raster *raster =
+      this->problem().surfaces().raster(this->settings().raster());
+    return raster != nullptr ? raster->coordinate_system : "";
   }
 
 
@@ -209,6 +223,21 @@ namespace talus
 
 
 
+  /// @p name without what it ends with.
+  template <int dim>
+  void
+  Maps<dim>::write_raster(const std::filesystem::path &name,
+                          const Raster                &raster)
+  {
+    const auto grid = this->path_of_output(name.string() + ".asc");
+    make_folder(grid.parent_path());
+    write_esri_grid(grid, raster);
+    if (this->settings().writes_geotiff())
+      write_geotiff(this->path_of_output(name.string() + ".tif"), raster);
+  }
+
+
+
   /// Row by row as the columns are numbered: z points south, and a raster's
   /// first row is the northernmost.
   template <int dim>
@@ -228,12 +257,11 @@ namespace talus
         const unsigned int n = raster.n_columns * raster.n_rows;
         for (unsigned int column = 0; column < n; ++column)
           raster.values.push_back(origin[2] + elevation(column));
-        const auto write = [&](std::string name) {
+        raster.coordinate_system = coordinate_system();
+        const auto write         = [&](std::string name) {
           std::replace(name.begin(), name.end(), ' ', '-');
-          const auto path = this->path_of_output(
-            std::filesystem::path(folder_name) / (name + ".asc"));
-          make_folder(path.parent_path());
-          write_esri_grid(path, raster);
+          const auto path = std::filesystem::path(folder_name) / name;
+          write_raster(path, raster);
         };
         write("ground");
         for (const HistoryField &field : fields_of(this->envelope()))

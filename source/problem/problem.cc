@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/problem/bottom_of_mesh.h>
 #include <talus/problem/geostatic.h>
 #include <talus/problem/problem.h>
 #include <talus/problem/strength_field.h>
@@ -139,6 +140,14 @@ namespace talus
                            Ground<dim>(state.grid.domain(), &obstacles),
                            state.communicator());
     notes_.insert(notes_.end(), notes_on_stress.begin(), notes_on_stress.end());
+    // Face 2 is the bottom, in both dimensions.
+    const std::string on_bottom =
+      boundaries.is_free(2) ? note_on_bottom(obstacles,
+                                             state.grid.domain_before_growth(),
+                                             state.grid.cell_size())
+                            : "";
+    if (!on_bottom.empty())
+      notes_.push_back(on_bottom);
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const auto &body) {
           return body->initial_state().is_displaced() || body->is_clipped();
         }))

@@ -137,10 +137,13 @@ namespace talus
                              " columns, but a surface needs two of both.")));
     if (projection_.empty())
       return raster;
-    return project_raster(std::move(raster),
-                          MapProjection(path("Projection"), projection_),
-                          cell_size_,
-                          path("Projection") + " = " + projection_);
+    const MapProjection map(path("Projection"), projection_);
+    raster                   = project_raster(std::move(raster),
+                            map,
+                            cell_size_,
+                            path("Projection") + " = " + projection_);
+    raster.coordinate_system = map.coordinate_system();
+    return raster;
   }
 
 

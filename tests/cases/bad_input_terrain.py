@@ -21,6 +21,20 @@ class BadInputTerrain(Case):
         result = self.run_file(settings=self.FILE)
         self.assertEqual(result.returncode, 0, result.stderr)
 
+    def test_bed_below_the_mesh_is_told(self):
+        """Where the bed leaves a mesh whose bottom is free, soil would, too."""
+        words = "The surface of the obstacle 'bottom' goes up to"
+        for rows, bottom, told in ((self.ROWS, "free", False),
+                                   ("1 1 -20\n" * 3, "free", True),
+                                   ("1 1 -20\n" * 3, "roller", False)):
+            with self.subTest(rows=rows, bottom=bottom):
+                (self.folder / "bed.asc").write_text(self.HEAD + rows)
+                result = self.run_file(settings=self.FILE + [
+                    "Boundaries/Bottom=" + bottom])
+                self.assertEqual(result.returncode, 0, result.stderr)
+                log = next(self.folder.rglob("log.txt")).read_text()
+                self.assertEqual(words in log, told, log)
+
     def test_rasters(self):
         for content, *words in (
                 ("", "cannot be read or is empty"),

@@ -6,10 +6,13 @@ Usage: maps.py TALUS FOLDER MPIEXEC PRM_FOLDER.
 
 import csv
 import math
+import struct
+import subprocess
 import sys
 import unittest
+import zlib
 
-from ranks_case import Case
+from ranks_case import TALUS, Case
 
 
 NAMES = ["ground", "erosion", "final-thickness", "final-mass", "thickness-at-start",
@@ -27,12 +30,52 @@ def read_table(path):
 def read_raster(path):
     """Head and the values by column and row; None where there is no datum."""
     lines = path.read_text().splitlines()
-    head = {key: float(value) for key, value in map(str.split, lines[:6])}
+    n = sum(line[0].isalpha() for line in lines)
+    head = {key: float(value) for key, value in map(str.split, lines[:n])}
     rows = [[None if float(v) == head["nodata_value"] else float(v)
-             for v in line.split()] for line in lines[6:]]
+             for v in line.split()] for line in lines[n:]]
     assert len(rows) == head["nrows"]
     assert all(len(row) == head["ncols"] for row in rows)
     return head, rows
+
+
+# As GIS write it beside a grid.
+UTM_33N = """PROJCS["WGS_1984_UTM_Zone_33N",GEOGCS["GCS_WGS_1984",
+DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,298.257223563]],
+PRIMEM["Greenwich",0.0],UNIT["Degree",0.0174532925199433]],
+PROJECTION["Transverse_Mercator"],PARAMETER["False_Easting",500000.0],
+PARAMETER["False_Northing",0.0],PARAMETER["Central_Meridian",15.0],
+PARAMETER["Scale_Factor",0.9996],PARAMETER["Latitude_Of_Origin",0.0],
+UNIT["Meter",1.0]]"""
+WITH_GDAL = "GDAL" in subprocess.run(
+    [TALUS, "--version"], capture_output=True, text=True, check=True).stdout
+
+
+def read_tiff(path):
+    """Tags by number, and the values: strips of doubles, by the standard."""
+    data = path.read_bytes()
+    assert data[:4] == b"II*\0"
+    start, = struct.unpack("<I", data[4:8])
+    n, = struct.unpack_from("<H", data, start)
+    tags = {}
+    for i in range(n):
+        tag, kind, count = struct.unpack_from("<HHI", data, start + 2 + 12 * i)
+        form = f"<{count}{' BsHI       d'[kind]}"
+        at = start + 10 + 12 * i
+        if struct.calcsize(form) > 4:
+            at, = struct.unpack_from("<I", data, at)
+        value = struct.unpack_from(form, data, at)
+        if kind == 2:
+            value = value[0].rstrip(b"\0 ").decode()
+        tags[tag] = value[0] if count == 1 and kind != 2 else value
+    # 64 bits, deflated, floating point.
+    assert (tags[258], tags[259], tags[339]) == (64, 8, 3)
+    as_tuple = [v if isinstance(v, tuple) else (v,)
+                for v in (tags[273], tags[279])]
+    strips = b"".join(zlib.decompress(data[at:at + size])
+                      for at, size in zip(*as_tuple))
+    tags["values"] = list(struct.unpack(f"<{len(strips) // 8}d", strips))
+    return tags
 
 
 class Maps(Case):
@@ -203,6 +246,49 @@ class Maps(Case):
                     self.assertEqual(x is None, y is None)
                     if x is not None and not name.startswith("time-of"):
                         self.assert_close(x, y, 1e-9)
+
+    def test_geotiff(self):
+        """The same numbers at the same places, with the map of the input."""
+        rows = "".join(" ".join(["-100"] * 40) + "\n" for _ in range(40))
+        (self.folder / "sea.asc").write_text(
+            "ncols 40\nnrows 40\nxllcorner 499990\nyllcorner 6499930\n"
+            "dx 3\ndy 2.5\nnodata_value -1\n" + rows)
+        (self.folder / "sea.prj").write_text(UTM_33N)
+        settings = ["Grid/Cell size=1.2", "End time=0.1", "Maps/Write=true",
+                    "Maps/Write GeoTIFF=true", "Grid/Origin=5e5, 6.5e6, -100",
+                    "Surfaces/Names=sea",
+                    f"Surfaces/sea/File={self.folder / 'sea.asc'}"]
+        if not WITH_GDAL:
+            result = self.start("run", 1, settings, "landslide-3d.prm")
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("'Maps/Write GeoTIFF' is true", result.stderr)
+            return
+        folder = self.run_talus("run", "landslide-3d.prm", settings)
+        names = sorted(p.stem for p in (folder / "maps").glob("*.asc"))
+        self.assertIn("maximum-thickness", names)
+        self.assertEqual(
+            names, sorted(p.stem for p in (folder / "maps").glob("*.tif")))
+        for name in names:
+            head, values = read_raster(folder / "maps" / f"{name}.asc")
+            tags = read_tiff(folder / "maps" / f"{name}.tif")
+            self.assertEqual(tags[42113], "-9999")
+            self.assertEqual(tags["values"], [
+                -9999. if v is None else v for row in values for v in row])
+            self.assertEqual((tags[256], tags[257]),
+                             (head["ncols"], head["nrows"]))
+            self.assertEqual(tags[33550][:2], (head["dx"], head["dy"]))
+            north = head["yllcorner"] + head["nrows"] * head["dy"]
+            self.assertEqual(tags[33922],
+                             (0, 0, 0, head["xllcorner"], north, 0))
+            # GeoKeys: a map, of areas, whose central meridian is at 15 E.
+            keys = {tags[34735][i]: tags[34735][i + 1:i + 4]
+                    for i in range(4, len(tags[34735]), 4)}
+            self.assertEqual((keys[1024][2], keys[1025][2]), (1, 1))
+            self.assertTrue(keys[3072][2] == 32633
+                            or 15. in tags[34736], (keys, tags.get(34736)))
+        # In a new run without maps they go.
+        self.run_talus("run", "landslide-3d.prm", settings[:2])
+        self.assertFalse(list((folder / "maps").glob("*.tif")))
 
     def test_earlier_maps_go(self):
         settings = ["Grid/Cell size=1.2", "End time=0.01", "Maps/Write=true"]

@@ -3,6 +3,7 @@
 #define talus_base_raster_h
 
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace talus
@@ -22,6 +23,9 @@ namespace talus
     std::vector<double> values;
     /// What stands for NaN in a file.
     double nodata = -9999.;
+    /// The map that it lies on, as well-known text or EPSG:NUMBER; empty if the
+    /// file does not say it.
+    std::string coordinate_system;
 
     /// Easting of the centre of a column, m.
     double

@@ -17,6 +17,16 @@ namespace talus
   /// talus was built without GDAL.
   std::pair<Raster, std::string>
   read_geotiff(const std::filesystem::path &file);
+
+  /// Write one, with its numbers in double precision: every bit comes back.
+  /// Throws ExcUser if that fails, or if check_geotiff() would.
+  void
+  write_geotiff(const std::filesystem::path &file, const Raster &raster);
+
+  /// Throw ExcUser if no GeoTIFF on this map, a Raster::coordinate_system, can
+  /// be written: if talus was built without GDAL, or GDAL does not know it.
+  void
+  check_geotiff(const std::string &coordinate_system);
 } // namespace talus
 
 #endif

@@ -25,6 +25,13 @@ namespace talus
     static bool
     is_available();
 
+    /// The number of the map, EPSG:32633 of UTM 33N.
+    const std::string &
+    coordinate_system() const
+    {
+      return coordinate_system_;
+    }
+
     /// Of @p place, longitude and latitude in degrees (WGS 84): easting and
     /// northing, m. Infinite where the map has no such place.
     dealii::Point<2>
@@ -37,6 +44,7 @@ namespace talus
   private:
     struct Library;
     std::shared_ptr<Library> library_;
+    std::string              coordinate_system_;
   };
 
 

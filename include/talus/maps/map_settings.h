@@ -26,6 +26,13 @@ namespace talus
       return is_enabled_;
     }
 
+    /// Whether rasters are written as GeoTIFF, too.
+    bool
+    writes_geotiff() const
+    {
+      return writes_geotiff_;
+    }
+
     /// Name of the surface whose raster gives the cells; may be empty.
     const std::string &
     raster() const
@@ -64,9 +71,10 @@ namespace talus
     }
 
   private:
-    bool                is_enabled_ = false;
-    std::string         raster_     = "";
-    double              cell_size_  = 0;
+    bool                is_enabled_     = false;
+    bool                writes_geotiff_ = false;
+    std::string         raster_         = "";
+    double              cell_size_      = 0;
     std::vector<double> arrival_thresholds_;
     double              smallest_thickness_    = 0;
     unsigned int        steps_between_samples_ = 1;

@@ -7,8 +7,8 @@
 namespace talus
 {
   /// What the slide did at each place of the plan: in 3-D rasters that lie on
-  /// the map as that of the bathymetry does, maps/NAME.asc, and the same on the
-  /// ground as maps.vtu; in 2-D the table maps.csv. doc/output.md lists them.
+  /// the map as that of the bathymetry does, maps/NAME.asc (and NAME.tif, if the
+  /// user asks for it), and the same on the ground as maps.vtu; in 2-D the table maps.csv. doc/output.md lists them.
   template <int dim>
   class Maps : public EnvelopeObserver<dim>
   {
@@ -44,8 +44,12 @@ namespace talus
     find_ground(const State<dim> &state);
     double
     elevation(unsigned int column) const;
+    std::string
+    coordinate_system() const;
     void
     write_table();
+    void
+    write_raster(const std::filesystem::path &name, const Raster &raster);
     void
     write_rasters();
     void

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // GeoTIFF, written here byte by byte as the formats say: the plane
-// z = a x + b y + c comes back, and what is no raster on a map is refused.
+// z = a x + b y + c comes back, and what is no raster on a map is refused. What
+// we write comes back by bit, with its map.
 
 #include <talus/base/errors.h>
+#include <talus/io/geotiff_raster.h>
 #include <talus/io/raster_file.h>
 #include <talus/version.h>
 
@@ -12,6 +14,7 @@
 #include <cstring>
 #include <fstream>
 #include <functional>
+#include <random>
 #include <sstream>
 
 #include <unistd.h>
@@ -202,9 +205,16 @@ namespace
     void
     expect_error(const std::string &content, const std::string &sentence)
     {
+      expect_error([&] { read(content); }, sentence);
+    }
+
+    void
+    expect_error(const std::function<void()> &action,
+                 const std::string           &sentence)
+    {
       try
         {
-          read(content);
+          action();
           ADD_FAILURE() << "no error: " << sentence;
         }
       catch (const ExcUser &error)
@@ -288,11 +298,78 @@ TEST_F(GeotiffTest, RefusesWhatIsNoRasterOnAMap)
   expect_error(geotiff(pixels(), feet), "is not in metres");
 }
 
+
+
+TEST_F(GeotiffTest, WritesAndReadsEveryBit)
+{
+  std::mt19937                           random(5);
+  std::uniform_real_distribution<double> some(-4000., 10.);
+  for (const std::string system : {"", "EPSG:32633", "EPSG:3575"})
+    {
+      Raster raster;
+      raster.n_columns         = 13;
+      raster.n_rows            = 7;
+      raster.west              = 612345.678901;
+      raster.south             = 7.1e6 + 0.5;
+      raster.dx                = 12.3;
+      raster.dy                = 0.125;
+      raster.coordinate_system = system;
+      for (unsigned int i = 0; i < 13 * 7; ++i)
+        raster.values.push_back(i % 10 == 9 ? std::nan("") : some(random));
+      raster.values[0] = 1e-310; // denormal
+      raster.values[1] = -0.;
+      write_geotiff(path, raster);
+      const Raster same = read_raster(path);
+      ASSERT_EQ(same.n_columns, 13u);
+      ASSERT_EQ(same.n_rows, 7u);
+      EXPECT_EQ(same.west, raster.west);
+      EXPECT_EQ(same.south, raster.south);
+      EXPECT_EQ(same.dx, raster.dx);
+      EXPECT_EQ(same.dy, raster.dy);
+      EXPECT_EQ(std::memcmp(same.values.data(),
+                            raster.values.data(),
+                            13 * 7 * sizeof(double)),
+                0);
+      // Well-known text ends with the number: AUTHORITY["EPSG","32633"]].
+      const std::string number =
+        system.empty() ? "" : "\"EPSG\",\"" + system.substr(5) + "\"]]";
+      const std::string &words = same.coordinate_system;
+      EXPECT_EQ(words.substr(words.size() - number.size()), number) << words;
+      EXPECT_EQ(words.empty(), system.empty());
+      // What was read can be written in turn.
+      std::stringstream once, twice;
+      once << std::ifstream(path, std::ios::binary).rdbuf();
+      write_geotiff(path, same);
+      twice << std::ifstream(path, std::ios::binary).rdbuf();
+      EXPECT_EQ(once.str(), twice.str());
+    }
+}
+
+
+
+// As GIS write it: Esri's names, without a number.
+TEST_F(GeotiffTest, SystemThatNobodyKnowsIsRefused)
+{
+  check_geotiff(R"(PROJCS["WGS_1984_UTM_Zone_33N",GEOGCS["GCS_WGS_1984",)"
+                R"(DATUM["D_WGS_1984",SPHEROID["WGS_1984",6378137.0,)"
+                R"(298.257223563]],PRIMEM["Greenwich",0.0],)"
+                R"(UNIT["Degree",0.0174532925199433]],)"
+                R"(PROJECTION["Transverse_Mercator"],)"
+                R"(PARAMETER["False_Easting",500000.0],)"
+                R"(PARAMETER["Central_Meridian",15.0],)"
+                R"(PARAMETER["Scale_Factor",0.9996],UNIT["Meter",1.0]])");
+  for (const std::string words :
+       {"somewhere", "EPSG:1", "PROJCS[", "/etc/hosts"})
+    expect_error([&] { check_geotiff(words); }, "is not known to GDAL");
+}
+
 #else
 
 TEST_F(GeotiffTest, NeedsGdal)
 {
   expect_error(geotiff(pixels()), "gdal_translate -of AAIGrid");
+  expect_error([] { check_geotiff(""); }, "'Maps/Write GeoTIFF' is true");
+  expect_error([&] { write_geotiff(path, Raster()); }, "built without GDAL");
 }
 
 #endif

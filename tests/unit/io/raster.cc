@@ -327,6 +327,22 @@ TEST_F(RasterTest, WritesAndReadsEveryBit)
 
 
 
+// Which GIS keep beside grids of text, in a file of its own.
+TEST_F(RasterTest, CoordinateSystemBeside)
+{
+  const std::string grid =
+    "ncols 1\nnrows 1\nxllcorner 4\nyllcorner 63\ncellsize 1\n5\n";
+  EXPECT_EQ(read(grid).coordinate_system, "");
+  const fs::path beside = path.string() + ".prj";
+  std::ofstream(beside) << "PROJCS[\"of the user\"]\r\n";
+  EXPECT_EQ(read(grid).coordinate_system, "PROJCS[\"of the user\"]");
+  std::ofstream(beside) << "GEOGCS[\"GCS_WGS_1984\"]";
+  expect_error(grid, "is in degrees");
+  fs::remove(beside);
+}
+
+
+
 TEST_F(RasterTest, NetcdfAsGmtWritesIt)
 {
   const MapFrame lattice{{10., 12., 14., 16.}, {100., 105., 110.}};

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_problem_bottom_of_mesh_h
+#define talus_problem_bottom_of_mesh_h
+
+#include <talus/base/box.h>
+#include <talus/contact/obstacles.h>
+
+#include <string>
+
+namespace talus
+{
+  /// A sentence for the log if a terrain among the @p obstacles goes below the
+  /// bottom of the mesh, which fills @p domain and whose bottom face is free,
+  /// where no other obstacle is: soil that comes there is lost. Looked for in
+  /// distances of @p cell_size, m. Empty if there is no such place.
+  template <int dim>
+  std::string
+  note_on_bottom(const Obstacles<dim> &obstacles,
+                 const Box<dim>       &domain,
+                 double                cell_size);
+} // namespace talus
+
+#endif

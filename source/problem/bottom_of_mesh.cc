@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/geometry/side_of_surface.h>
+#include <talus/problem/bottom_of_mesh.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Centres of the cells of the bottom face.
+    template <int dim>
+    std::vector<Point<dim>>
+    places_on_bottom(const Box<dim> &domain, const double cell_size)
+    {
+      std::vector<Point<dim>> places = {domain.lower};
+      for (unsigned int d = 0; d < dim; d += 2)
+        {
+          std::vector<Point<dim>> row;
+          const unsigned int      n =
+            std::max(1., std::round(domain.length(d) / cell_size));
+          for (const Point<dim> &first : places)
+            for (unsigned int i = 0; i < n; ++i)
+              {
+                Point<dim> x = first;
+                x[d] += (i + 0.5) * domain.length(d) / n;
+                row.push_back(x);
+              }
+          places = row;
+        }
+      return places;
+    }
+  } // namespace
+
+
+
+  // Without a word a run would end where the soil gets there, perhaps after
+  // days. It need not get there, so this is no error.
+  template <int dim>
+  std::string
+  note_on_bottom(const Obstacles<dim> &obstacles,
+                 const Box<dim>       &domain,
+                 const double          cell_size)
+  {
+    for (unsigned int k = 0; k < obstacles.size(); ++k)
+      {
+        const Shape<dim> &shape = obstacles[k].shape();
+        if (dynamic_cast<const SideOfSurface<dim> *>(&shape) == nullptr)
+          continue;
+        double     depth = 0.; // of the surface below the bottom, m
+        Point<dim> deepest;
+        for (const Point<dim> &x : places_on_bottom(domain, cell_size))
+          if (obstacles.signed_distance(x) > 0.)
+            {
+              const auto [distance, normal] = shape.distance_and_normal(x);
+              if (distance / normal[1] > depth)
+                {
+                  depth   = distance / normal[1];
+                  deepest = x;
+                }
+            }
+        if (depth > 0.)
+          return text("The surface of the obstacle '",
+                      obstacles[k].name(),
+                      "' goes up to ",
+                      depth,
+                      " m below the bottom of the mesh, most at (",
+                      deepest,
+                      ") m. Soil that comes to such a place leaves the mesh, "
+                      "and the run ends. If it can come so far, make y of "
+                      "'Grid/Lower corner' smaller.");
+      }
+    return "";
+  }
+
+
+
+  template decltype(note_on_bottom<2>) note_on_bottom<2>;
+  template decltype(note_on_bottom<3>) note_on_bottom<3>;
+} // namespace talus
