@@ -8,7 +8,8 @@ namespace talus
 {
   /// What the slide did at each place of the plan: in 3-D rasters that lie on
   /// the map as that of the bathymetry does, maps/NAME.asc (and NAME.tif, if the
-  /// user asks for it), and the same on the ground as maps.vtu; in 2-D the table maps.csv. doc/output.md lists them.
+  /// user asks for it), and the same on the ground as maps.vtu; in 2-D the table
+  /// maps.csv. doc/output.md lists them.
   template <int dim>
   class Maps : public EnvelopeObserver<dim>
   {
