@@ -24,9 +24,9 @@ namespace talus
     constexpr unsigned int n_sweeps_at_rest = 1, n_sweeps_moving = 4;
 
     // Of the memory of friction: it fades within so many steps, and within so much
-    // of a cell of slip. On a block that rings (1000 steps a second, h/c 2.5 steps)
+    // of a cell of slip. On a block that rings (2600 steps a second, h/c 2.5 steps)
     // 8 are not enough, 16 to 64 do the same. Without the second, soil that slides
-    // half as fast as its waves would be gone before friction has felt it.
+    // a quarter as fast as its waves would be gone before friction has felt it.
     constexpr double n_steps_of_memory = 32, slip_of_memory = 0.05;
 
 
