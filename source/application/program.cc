@@ -5,7 +5,7 @@
 #include <talus/application/program.h>
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
-#include <talus/base/mpi_io.h>
+#include <talus/base/mpi_setup.h>
 #include <talus/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
@@ -136,7 +136,7 @@ namespace talus
   run_program(int argc, char **argv)
   {
     // Before MPI starts, as MPI looks at the environment only then.
-    choose_mpi_io();
+    prepare_mpi();
     // Without the options, which are not for the libraries: PETSc, if deal.II has
     // it, would say at the end that they were not used.
     int                                      n_words = 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/mpi_io.h>
+#include <talus/base/mpi_setup.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -8,7 +8,7 @@
 int
 main(int argc, char **argv)
 {
-  talus::choose_mpi_io();
+  talus::prepare_mpi();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv))

@@ -16,7 +16,7 @@ using namespace talus::cases;
 namespace
 {
   constexpr double  L = 20., h = 0.25; // m
-  const std::string file = "verification/elastica.prm";
+  const std::string elastica_file = "verification/elastica.prm";
 
   /// Load, deflections of the inextensible elastica, and when it rests.
   struct Elastica
@@ -31,7 +31,7 @@ namespace
   void
   hold(Verification &gates, const Elastica &exact, const double limit)
   {
-    Case<2> cantilever(file,
+    Case<2> cantilever(elastica_file,
                        {text("Constants=Q = ", exact.Q, "; T = 71.5"),
                         text("End time=", exact.end)});
     while (cantilever->state().time < exact.end)
@@ -65,15 +65,16 @@ namespace
 
 
 
-  const std::string name   = "Elastica, L/b = 20, 4 cells over the thickness",
-                    source = "elliptic integrals of the inextensible elastica";
+  const std::string name = "Elastica, L/b = 20, 4 cells over the thickness",
+                    elastica_source =
+                      "elliptic integrals of the inextensible elastica";
 } // namespace
 
 
 
 TEST(Elastica, LargestLoad)
 {
-  Verification gates(name, "prm/" + file, source);
+  Verification gates(name, "prm/" + elastica_file, elastica_source);
   hold(gates, {10., 0.81061, 0.55500, 143.}, 0.005);
 }
 
@@ -81,7 +82,9 @@ TEST(Elastica, LargestLoad)
 
 TEST(ElasticaLoads, Smaller)
 {
-  Verification gates(name, "prm/" + file + ", Constants", source);
+  Verification gates(name,
+                     "prm/" + elastica_file + ", Constants",
+                     elastica_source);
   hold(gates, {1., 0.30172, 0.05643, 229.}, 0.01);
   hold(gates, {2., 0.49346, 0.16064, 186.}, 0.01);
   hold(gates, {5., 0.71379, 0.38763, 157.}, 0.01);

@@ -15,12 +15,12 @@ using namespace talus::cases;
 
 namespace
 {
-  constexpr double  end     = 1.6; // s, before torn pieces reach the far end
-  const std::string file    = "verification/hanging-block.prm";
-  const std::string end_set = text("End time=", end);
+  constexpr double  end = 1.6; // s, before torn pieces reach the far end
+  const std::string hanging_block_file = "verification/hanging-block.prm";
+  const std::string end_set            = text("End time=", end);
 
   double
-  largest(const std::vector<double> &values)
+  largest_of(const std::vector<double> &values)
   {
     return *std::max_element(values.begin(), values.end());
   }
@@ -30,7 +30,7 @@ namespace
   double
   largest_stretch()
   {
-    Case<2> block(file, {end_set});
+    Case<2> block(hanging_block_file, {end_set});
     double  result = 0;
     while (block->state().time < end)
       {
@@ -49,13 +49,14 @@ namespace
 TEST(HangingBlock, TearsOnlyWithoutSplitting)
 {
   Verification gates("Hanging block under sudden gravity",
-                     "prm/" + file,
+                     "prm/" + hanging_block_file,
                      "a hyperelastic body cannot tear");
   gates.at_least("largest stretch", largest_stretch(), 2.5, "above 2.5");
   const auto &state = [&](const std::string &name, const Overrides &overrides) {
-    const Table table = run<2>(file, name, Overrides{end_set} + overrides);
-    return std::array<double, 2>{
-      {largest(table["empty columns"]), largest(table["connected bodies"])}};
+    const Table table =
+      run<2>(hanging_block_file, name, Overrides{end_set} + overrides);
+    return std::array<double, 2>{{largest_of(table["empty columns"]),
+                                  largest_of(table["connected bodies"])}};
   };
   const auto whole = state("hanging-block", {});
   gates.holds("with splitting: empty columns, bodies, at most",

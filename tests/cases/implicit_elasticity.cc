@@ -104,9 +104,9 @@ TEST(ImplicitColumn, NewtonsMethodIsQuadratic)
 
 namespace
 {
-  constexpr double L = 20.; // m
+  constexpr double cantilever_length = 20.; // m
 
-  struct Elastica
+  struct DeadLoad
   {
     double Q;    // P L^2/(E I)
     double w, u; // deflections of the inextensible elastica over L
@@ -116,7 +116,7 @@ namespace
 
   void
   hold(Verification   &gates,
-       const Elastica &exact,
+       const DeadLoad &exact,
        const double    h,
        const double    limit)
   {
@@ -130,7 +130,8 @@ namespace
     const Points<2> &points = cantilever.points();
     double           n = 0, u = 0, w = 0;
     for (unsigned int p = 0; p < points.size(); ++p)
-      if (std::abs(points.data(points.initial_position, 0)[p] - L) < 0.5 * h)
+      if (std::abs(points.data(points.initial_position, 0)[p] -
+                   cantilever_length) < 0.5 * h)
         {
           ++n;
           u += points.data(points.initial_position, 0)[p] -
@@ -143,9 +144,9 @@ namespace
       [&](const std::string &name, const double value, const double reference) {
         gates.at_most(
           text("|", name, "/L - ", reference, "|, P L^2/EI = ", exact.Q),
-          std::abs(value / n / L - reference),
+          std::abs(value / n / cantilever_length - reference),
           limit,
-          text("0 (found ", value / n / L, ")"));
+          text("0 (found ", value / n / cantilever_length, ")"));
       };
     compare("w", w, exact.w);
     compare("u", u, exact.u);
@@ -158,14 +159,15 @@ namespace
                     run_of_elastica =
                       "prm/verification/elastica.prm, Stages = equilibrium, "
                       "Strain = large, 50 load steps",
-                    source = "elliptic integrals of the inextensible elastica";
+                    dead_load_source =
+                      "elliptic integrals of the inextensible elastica";
 } // namespace
 
 
 
 TEST(ImplicitElastica, LargestLoad)
 {
-  Verification gates(elastica, run_of_elastica, source);
+  Verification gates(elastica, run_of_elastica, dead_load_source);
   hold(gates, {10., 0.81061, 0.55500}, 0.25, 0.005);
 }
 
@@ -173,7 +175,7 @@ TEST(ImplicitElastica, LargestLoad)
 
 TEST(ImplicitElasticaLoads, Smaller)
 {
-  Verification gates(elastica, run_of_elastica, source);
+  Verification gates(elastica, run_of_elastica, dead_load_source);
   hold(gates, {1., 0.30172, 0.05643}, 0.25, 0.005);
   hold(gates, {2., 0.49346, 0.16064}, 0.25, 0.005);
   hold(gates, {5., 0.71379, 0.38763}, 0.25, 0.005);

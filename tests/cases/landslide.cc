@@ -16,8 +16,8 @@ using namespace talus::cases;
 
 namespace
 {
-  const Overrides unsplit   = {"Splitting/Enabled=false"};
-  const Overrides stretched = {"Splitting/Directions=stretched"};
+  const Overrides unsplit_slide = {"Splitting/Enabled=false"};
+  const Overrides stretched     = {"Splitting/Directions=stretched"};
 
   /// Set a parameter to all digits of @p value.
   std::string
@@ -87,7 +87,7 @@ TEST(LandslideUnsplit, FracturesAndStillBalances)
                      "prm/landslide-quick.prm, Splitting/Enabled=false",
                      "balance of momentum and energy");
   const Table  table =
-    run<2>("landslide-quick.prm", "landslide-unsplit", unsplit);
+    run<2>("landslide-quick.prm", "landslide-unsplit", unsplit_slide);
   expect_momentum(gates, table);
   expect_energy(gates, table, 0.005, 0.005);
   EXPECT_EQ(table["splits"].back(), 0);
@@ -104,7 +104,7 @@ TEST(LandslideUnsplit, FracturesAndStillBalances)
   expect_fracture(of_U,
                   run<2>("landslide-quick.prm",
                          "landslide-unsplit-right-stretch",
-                         unsplit +
+                         unsplit_slide +
                            Overrides{"Transfer/Box rule=right stretch"}),
                   5);
 }

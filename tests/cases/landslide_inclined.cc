@@ -15,7 +15,7 @@ using namespace talus::cases;
 
 namespace
 {
-  const std::string file = "landslide-inclined.prm";
+  const std::string inclined_file = "landslide-inclined.prm";
 
   /// Of the foremost centre along a bed turned by @p angle, m: points there are
   /// h/4 above the bed.
@@ -94,7 +94,7 @@ namespace
 
 
 
-  const Overrides stretched = {"Splitting/Directions=stretched"};
+  const Overrides stretched_only = {"Splitting/Directions=stretched"};
 } // namespace
 
 
@@ -103,10 +103,10 @@ TEST(LandslideInclined, RunsAsOnTheFaceOfTheMesh)
 {
   const Overrides end = {"End time=10"};
   const Table     aligned =
-    run<2>("landslide-quick.prm", "landslide-aligned", stretched + end);
-  const Table  inclined = run<2>(file, "landslide-inclined", end);
+    run<2>("landslide-quick.prm", "landslide-aligned", stretched_only + end);
+  const Table  inclined = run<2>(inclined_file, "landslide-inclined", end);
   Verification gates("Landslide on a seabed turned by 5 degrees, h = 0.4 m",
-                     "prm/" + file,
+                     "prm/" + inclined_file,
                      "the same on a face of the mesh");
   expect_same_slide(gates, inclined, aligned, 5, {{5, 0.005}, {10, 0.005}});
   expect_momentum_closed(gates, inclined, "landslide-inclined");
@@ -119,11 +119,11 @@ TEST(LandslideInclinedFull, ToRest)
   const std::vector<Gate> times = {
     {5, 0.005}, {10, 0.005}, {15, 0.005}, {20, 0.008}, {30, 0.01}};
   const Table aligned =
-    run<2>("landslide-quick.prm", "landslide-aligned", stretched);
+    run<2>("landslide-quick.prm", "landslide-aligned", stretched_only);
   {
-    const Table  inclined = run<2>(file, "landslide-inclined");
+    const Table  inclined = run<2>(inclined_file, "landslide-inclined");
     Verification gates("Landslide on a seabed turned by 5 degrees to rest",
-                       "prm/" + file,
+                       "prm/" + inclined_file,
                        "the same on a face of the mesh");
     expect_same_slide(gates, inclined, aligned, 5, times);
     expect_momentum_closed(gates, inclined, "landslide-inclined");
@@ -131,7 +131,7 @@ TEST(LandslideInclinedFull, ToRest)
   {
     // Turned by 12 degrees, and gravity with it.
     const Table inclined =
-      run<2>(file,
+      run<2>(inclined_file,
              "landslide-inclined",
              {"Gravity/Slope angle=-7",
               "Grid/Lower corner=-22.4,-44.8",
@@ -140,7 +140,7 @@ TEST(LandslideInclinedFull, ToRest)
               "40.1654625,-3.4257296; 9.5103167,3.0902228",
               "Obstacles/bed/Normal=0.20791169081775934,0.9781476007338057"});
     Verification gates("Landslide on a seabed turned by 12 degrees to rest",
-                       "prm/" + file + " turned",
+                       "prm/" + inclined_file + " turned",
                        "the same on a face of the mesh");
     expect_same_slide(gates, inclined, aligned, 12, times);
   }
@@ -150,13 +150,14 @@ TEST(LandslideInclinedFull, ToRest)
 
 TEST(LandslideInclinedFine, ToRest)
 {
-  const Overrides fine = {"Grid/Cell size=0.2"};
-  const Table     aligned =
-    run<2>("landslide-quick.prm", "landslide-aligned-fine", stretched + fine);
-  const Table  inclined = run<2>(file, "landslide-inclined-fine", fine);
+  const Overrides fine    = {"Grid/Cell size=0.2"};
+  const Table     aligned = run<2>("landslide-quick.prm",
+                               "landslide-aligned-fine",
+                               stretched_only + fine);
+  const Table inclined = run<2>(inclined_file, "landslide-inclined-fine", fine);
   Verification gates(
     "Landslide on a seabed turned by 5 degrees to rest, h = 0.2 m",
-    "prm/" + file,
+    "prm/" + inclined_file,
     "the same on a face of the mesh");
   expect_same_slide(
     gates,

@@ -29,7 +29,7 @@ namespace
                   tolerance);
   }
 
-  const std::string source =
+  const std::string slow_source =
     "balance of momentum and energy; the paper's slide";
 } // namespace
 
@@ -39,7 +39,7 @@ namespace
 TEST(LandslideFourWay, ToRestAndAgainstItsVariants)
 {
   const std::string file = "landslide-quick.prm";
-  Verification      gates("Landslide, h = 0.4 m", "prm/" + file, source);
+  Verification      gates("Landslide, h = 0.4 m", "prm/" + file, slow_source);
   const Table       four_way = run<2>(file, "landslide-four-way");
   expect_split_landslide(gates, four_way, 0.002);
 
@@ -72,7 +72,7 @@ TEST(LandslideFull, ToRestAndAgainstCoarseCells)
 {
   Verification gates("Landslide of the paper, h = 0.2 m",
                      "prm/landslide.prm",
-                     source);
+                     slow_source);
   const Table  fine = run<2>("landslide.prm", "landslide-full");
   expect_split_landslide(gates, fine, 0.001);
 
@@ -91,7 +91,7 @@ TEST(LandslideFullUnsplit, Fractures)
   Verification gates("Landslide of the paper, h = 0.2 m, unsplit",
                      "prm/landslide.prm, Splitting/Enabled=false, "
                      "Transfer/Box rule=right stretch",
-                     source);
+                     slow_source);
   const Table  table =
     run<2>("landslide.prm",
            "landslide-full-unsplit",

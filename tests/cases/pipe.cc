@@ -14,12 +14,12 @@ using namespace talus::cases;
 
 namespace
 {
-  const std::string file = "verification/pipe.prm";
+  const std::string pipe_file = "verification/pipe.prm";
 
   /// Force over s_u D by the lower bound of plasticity, for a surface that
   /// passes alpha s_u.
   double
-  bearing_factor(const double alpha)
+  bearing_factor_of_pipe(const double alpha)
   {
     const double delta = std::asin(alpha);
     return M_PI + 2 * delta + 2 * std::cos(delta) +
@@ -65,7 +65,7 @@ namespace
   factor_of(const double alpha, const int cells)
   {
     const std::string folder = "pipe";
-    run<2>(file, folder, pipe_with(alpha, cells));
+    run<2>(pipe_file, folder, pipe_with(alpha, cells));
     return measured_factor(folder);
   }
 } // namespace
@@ -75,7 +75,7 @@ namespace
 TEST(Pipe, BearingFactor)
 {
   Verification gates("Pipe dragged through clay, cells of D/8",
-                     "prm/" + file,
+                     "prm/" + pipe_file,
                      "Randolph & Houlsby 1984");
   const double smooth = factor_of(0, 8), rough = factor_of(1, 8);
   gates.at_least("N of a smooth pipe", smooth, 9.1, "9.142");
@@ -91,7 +91,7 @@ TEST(Pipe, MovesAsTheClayDoes)
 {
   const std::string pistons = "-v*if(t<t0, 0.5*(1-cos(pi*t/t0)), 1); 0";
   Verification      gates("Pipe at rest in moving clay, cells of D/8",
-                     "prm/" + file + " with pistons",
+                     "prm/" + pipe_file + " with pistons",
                      "the same pipe in clay at rest");
   for (const double alpha : {0., 1.})
     {
@@ -122,13 +122,13 @@ TEST(Pipe, BetweenRollersIn3d)
 TEST(PipeRefined, BearingFactors)
 {
   Verification gates("Pipe dragged through clay, finer and coarser",
-                     "prm/" + file,
+                     "prm/" + pipe_file,
                      "Randolph & Houlsby 1984");
   for (const int cells : {4, 8, 16, 32})
     for (const double alpha : {0., 0.5, 1.})
       gates.near("N, alpha = " + std::to_string(alpha).substr(0, 3) +
                    ", cells of D/" + std::to_string(cells),
                  factor_of(alpha, cells),
-                 bearing_factor(alpha),
+                 bearing_factor_of_pipe(alpha),
                  cells == 4 ? 0.08 : 0.04);
 }

@@ -18,7 +18,7 @@ namespace
 {
   const Overrides filtered = {"Transfer/Scheme=filtered FLIP"};
 
-  struct Result
+  struct QuietResult
   {
     Table  table;
     double scatter = 0.; // of the mean stress of the points at the end, Pa
@@ -55,7 +55,7 @@ namespace
 
 
   template <int dim>
-  Result
+  QuietResult
   slide(const std::string &file,
         const std::string &name,
         const Overrides   &overrides)
@@ -69,7 +69,7 @@ namespace
                               "Splitting/Directions=stretched"} +
                       overrides);
     slide->run();
-    Result result;
+    QuietResult result;
     result.table   = Table(folder / "statistics.csv");
     result.scatter = scatter_of_mean_stress(slide.points());
     return result;
@@ -79,10 +79,10 @@ namespace
 
   /// What the filter must not change, and what it must.
   void
-  expect_same_slide(Verification &gates,
-                    const Result &plain,
-                    const Result &quiet,
-                    const double  end)
+  expect_same_slide(Verification      &gates,
+                    const QuietResult &plain,
+                    const QuietResult &quiet,
+                    const double       end)
   {
     gates.at_most(
       "front, difference to FLIP",
@@ -107,8 +107,8 @@ TEST(QuietPoints, LandslideAtRest)
                      "the slide by FLIP; balance of momentum and energy");
   const Overrides   coarse = {"Grid/Cell size=0.5"};
   const std::string file   = "landslide-quick.prm";
-  const Result      plain  = slide<2>(file, "noisy-points", coarse);
-  const Result      quiet  = slide<2>(file, "quiet-points", coarse + filtered);
+  const QuietResult plain  = slide<2>(file, "noisy-points", coarse);
+  const QuietResult quiet  = slide<2>(file, "quiet-points", coarse + filtered);
   const double      later  = time_of_rest(quiet.table) + 3.;
   ASSERT_LE(later, 30.);
   double fastest = 0.;
@@ -131,7 +131,7 @@ TEST(QuietPoints, Landslide3d)
                      "prm/landslide-3d.prm, Transfer/Scheme=filtered FLIP",
                      "the slide by FLIP");
   const std::string file  = "landslide-3d.prm";
-  const Result      plain = slide<3>(file, "noisy-points-3d", {});
-  const Result      quiet = slide<3>(file, "quiet-points-3d", filtered);
+  const QuietResult plain = slide<3>(file, "noisy-points-3d", {});
+  const QuietResult quiet = slide<3>(file, "quiet-points-3d", filtered);
   expect_same_slide(gates, plain, quiet, 4.);
 }

@@ -17,8 +17,8 @@ using namespace talus::cases;
 
 namespace
 {
-  const std::string file   = "verification/self-weight-column.prm";
-  const std::string source = "equilibrium: sigma_yy = -rho0 g (l0 - Y)";
+  const std::string column_file   = "verification/self-weight-column.prm";
+  const std::string column_source = "equilibrium: sigma_yy = -rho0 g (l0 - Y)";
 
 
 
@@ -33,7 +33,7 @@ namespace
   AtRest
   come_to_rest(const unsigned int n, const Overrides &overrides = {})
   {
-    Case<2> column(file, column_of(n) + overrides);
+    Case<2> column(column_file, column_of(n) + overrides);
     while (column->state().time < 450.)
       column->advance();
     const auto &state = column->state();
@@ -47,8 +47,8 @@ namespace
 TEST(SelfWeightColumn, Stress)
 {
   Verification gates("Column under its own weight, rho0 g l0/E = 4, Hencky",
-                     "prm/" + file,
-                     source);
+                     "prm/" + column_file,
+                     column_source);
   // What the best implicit code of the kind reaches.
   const std::vector<std::pair<unsigned int, double>> known = {{16, 3.7e-3},
                                                               {32, 1.05e-3},
@@ -80,7 +80,7 @@ TEST(SelfWeightColumn, Stress)
 TEST(SelfWeightColumn, Heights)
 {
   Verification gates("Column under its own weight, 64 cells",
-                     "prm/" + file + ", Materials/elastic/Law",
+                     "prm/" + column_file + ", Materials/elastic/Law",
                      "integral of the stretch, see the file");
   for (const auto &[law, height] : column_heights())
     gates.near("height at rest [m], " + law,

@@ -16,7 +16,7 @@ using namespace talus::cases;
 
 namespace
 {
-  const std::string slide          = "landslide-inclined.prm";
+  const std::string slide_file     = "landslide-inclined.prm";
   const std::string infinite_slope = "verification/infinite-slope.prm";
   const Overrides   coarse         = {"Grid/Cell size=0.8", "End time=0.5"};
   const std::string clay           = "Materials/clay/";
@@ -31,12 +31,12 @@ namespace
   {
     const Overrides all = coarse + overrides;
     const Table     number =
-      run<2>(slide, name + "-number", all + Overrides{s_u + "2500"});
+      run<2>(slide_file, name + "-number", all + Overrides{s_u + "2500"});
     for (const Overrides &points :
          {Overrides{s_u + "2500 + 0*depth"},
           Overrides{s_u + "2500 + 0*depth", clay + "Stiffness ratio=100"}})
       {
-        const Table table = run<2>(slide, name + "-points", all + points);
+        const Table table = run<2>(slide_file, name + "-points", all + points);
         ASSERT_EQ(table.n_rows(), number.n_rows());
         for (const std::string column : {"front x [m]",
                                          "kinetic energy [J]",
@@ -78,7 +78,7 @@ TEST(StrengthWithDepth, MovesWithTheSoil)
                                 (40.2835666374081 - 9.06282479921281) *
                                 (1.4947437805524 - 4.22620475826401);
   };
-  Case<2> run(slide,
+  Case<2> run(slide_file,
               coarse + Overrides{s_u + "2000 + 1500*depth + 10*x",
                                  "Trigger/Strength fraction=0.5",
                                  "Splitting/Enabled=false"});
@@ -196,7 +196,7 @@ TEST(StrengthWithDepth, WhatCannotBeIsSaid)
   const auto error = [](const Overrides &overrides) {
     try
       {
-        const Case<2> run(slide, coarse + overrides);
+        const Case<2> run(slide_file, coarse + overrides);
       }
     catch (const ExcUser &error)
       {

@@ -18,10 +18,11 @@ using namespace talus::cases;
 
 namespace
 {
-  constexpr double  height = 5., ramp_time = 1.5, end = 5.; // m, s, s
+  constexpr double  height = 5., ramp_time = 1.5, end_of_cut = 5.; // m, s, s
   constexpr double  enough = 2e-3; // settlement over H that ends a run
-  const std::string file   = "verification/vertical-cut.prm";
-  const std::string source = "limit analysis: 3.776 <= N_c <= 3.83";
+  const std::string vertical_cut_file = "verification/vertical-cut.prm";
+  const std::string vertical_cut_source =
+    "limit analysis: 3.776 <= N_c <= 3.83";
 
   /// What became of a cut. It stands if the soil comes to rest, and collapses
   /// if the crest settles by more than five times as much as in elastic soil.
@@ -96,16 +97,16 @@ namespace
   Outcome
   excavate(const double load, const unsigned int cells)
   {
-    Case<2>      cut(file,
+    Case<2>      cut(vertical_cut_file,
                 {text("Gravity/Magnitude=", load),
                       text("Grid/Cell size=", height / cells)});
     const double crest = find_crest(cut.points());
     Outcome      result;
     double       most_energy = 0, time = 0;
-    while (time < end && result.settlement < enough &&
+    while (time < end_of_cut && result.settlement < enough &&
            !(time > ramp_time && result.stands()))
       {
-        for (unsigned int i = 0; i < 50 && cut->state().time < end; ++i)
+        for (unsigned int i = 0; i < 50 && cut->state().time < end_of_cut; ++i)
           cut->advance();
         time                = cut->state().time;
         const double energy = cut->state().nodes.kinetic_energy();
@@ -160,8 +161,8 @@ namespace
 TEST(VerticalCut, StandsAndCollapses)
 {
   Verification  gates("Vertical cut in clay, cells of H/16",
-                     "prm/" + file,
-                     source);
+                     "prm/" + vertical_cut_file,
+                     vertical_cut_source);
   const Outcome below = excavate(3.6, 16), above = excavate(4.0, 16);
   gates.holds("gamma H / s_u = 3.6", below.str(), "stands", below.stands());
   gates.holds("gamma H / s_u = 4.0",
@@ -175,8 +176,9 @@ TEST(VerticalCut, StandsAndCollapses)
 TEST(VerticalCutBracket, CriticalLoad)
 {
   Verification gates("Vertical cut in clay: critical load",
-                     "prm/" + file + " Gravity/Magnitude=3.6 ... 4.2",
-                     source);
+                     "prm/" + vertical_cut_file +
+                       " Gravity/Magnitude=3.6 ... 4.2",
+                     vertical_cut_source);
   const auto   name = [](const unsigned int cells) {
     return text("critical gamma H / s_u, cells of H/", cells);
   };

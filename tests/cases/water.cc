@@ -13,7 +13,7 @@ using namespace talus::cases;
 
 namespace
 {
-  const std::string file = "verification/block-in-water.prm";
+  const std::string water_file = "verification/block-in-water.prm";
 
   // (rho + C_m rho_w) du/dt = A - B u^2, for each volume of the block.
   const double driving        = 600. * 9.81 * std::sin(M_PI / 36.) - 1000. / 5.;
@@ -48,9 +48,9 @@ namespace
 
 TEST(BlockInWater, VelocityAndDisplacement)
 {
-  const Table  table = run<2>(file, "block-in-water");
+  const Table  table = run<2>(water_file, "block-in-water");
   Verification rows("Block in water, 5 degrees",
-                    "prm/" + file,
+                    "prm/" + water_file,
                     "u_t tanh(t/t_0)");
   rows.near("velocity at 10 s [m/s]",
             table.at(10., "centre velocity x [m/s]"),
@@ -68,7 +68,7 @@ TEST(BlockInWater, VelocityAndDisplacement)
 // the energies add up.
 TEST(BlockInWater, BudgetsClose)
 {
-  const Table        table = run<2>(file, "block-in-water-budgets");
+  const Table        table = run<2>(water_file, "block-in-water-budgets");
   const unsigned int n     = table.n_rows() - 1;
   const double       gravity =
     600. * 200. * 9.81 * std::sin(M_PI / 36.) * table["time [s]"][n];
@@ -93,13 +93,13 @@ TEST(BlockInWater, DragConverges)
 {
   std::array<double, 3> missing;
   Verification          rows("Block in water, drag by cell size",
-                    "prm/" + file,
+                    "prm/" + water_file,
                     "1/2 rho_w (C_F L + C_P H) u^2, first order in h");
   for (unsigned int i = 0; i < 3; ++i)
     {
       const std::string h       = i == 0 ? "1" : i == 1 ? "0.5" : "0.25";
       const auto [force, exact] = drag_at_end(
-        run<2>(file, "block-in-water-" + h, {"Grid/Cell size=" + h}));
+        run<2>(water_file, "block-in-water-" + h, {"Grid/Cell size=" + h}));
       missing[i] = 1. - force / exact;
       rows.at_most("drag missing at h = " + h + " m [-]",
                    missing[i],

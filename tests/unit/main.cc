@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/mpi_io.h>
+#include <talus/base/mpi_setup.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -45,7 +45,7 @@ main(int argc, char **argv)
       testing::InitGoogleTest();
       return list_suites();
     }
-  talus::choose_mpi_io();
+  talus::prepare_mpi();
   dealii::Utilities::MPI::MPI_InitFinalize mpi(argc, argv, 1);
   // The other ranks only tell what failed.
   if (dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD) > 0)
