@@ -92,7 +92,7 @@ namespace
 
 
 
-  [[maybe_unused]] const bool registered = []() {
+  [[maybe_unused]] const bool kernels_registered = []() {
     benchmark::RegisterBenchmark("axis_weights", weights);
     for (const std::string law : {"linear elastic",
                                   "neo-Hookean",

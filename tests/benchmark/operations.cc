@@ -213,7 +213,7 @@ namespace
 
 
 
-  [[maybe_unused]] const bool registered = []() {
+  [[maybe_unused]] const bool operations_registered = []() {
     const auto add = [](const std::string &name, void (*formula)()) {
       benchmark::RegisterBenchmark(("operations/" + name).c_str(),
                                    count,

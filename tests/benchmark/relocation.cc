@@ -54,7 +54,7 @@ namespace
 
 
   void
-  count_points(benchmark::State &state, const double n_points)
+  count_relocated(benchmark::State &state, const double n_points)
   {
     state.counters["s_per_point"] =
       benchmark::Counter(n_points * state.iterations(),
@@ -71,7 +71,7 @@ namespace
     for (auto _ : state)
       benchmark::DoNotOptimize(
         field.relocation.update(field.points, field.grid));
-    count_points(state, field.points.size());
+    count_relocated(state, field.points.size());
   }
 
 
@@ -90,7 +90,7 @@ namespace
         benchmark::DoNotOptimize(
           field.relocation.update(field.points, field.grid));
       }
-    count_points(state, field.points.size());
+    count_relocated(state, field.points.size());
   }
 } // namespace
 

@@ -85,7 +85,7 @@ namespace
 
 
 
-  [[maybe_unused]] const bool registered = []() {
+  [[maybe_unused]] const bool runs_registered = []() {
     for (const unsigned int n : {50, 100, 158, 200, 400, 500})
       {
         const double n_points = 4. * n * n;
