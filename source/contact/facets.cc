@@ -339,6 +339,8 @@ namespace talus
     listed_near_.clear();
     owned_.clear();
     owned_nodes_.clear();
+    nodes_on_faces_.clear();
+    owned_nodes_on_faces_.clear();
     nodes_inside_.clear();
   }
 
@@ -377,9 +379,16 @@ namespace talus
         is_near_[c] = (cut_cell.facets.empty() ? 3 : 2);
     for (const unsigned int node : nodes_)
       {
+        const bool is_on_face  = grid.faces_of_node(node) != 0;
         is_contact_node_[node] = 1;
+        if (is_on_face)
+          nodes_on_faces_.push_back(node);
         if (node < grid.n_owned_nodes())
-          owned_nodes_.push_back(node);
+          {
+            owned_nodes_.push_back(node);
+            if (is_on_face)
+              owned_nodes_on_faces_.push_back(node);
+          }
       }
     for (const unsigned int c : touching)
       add_open_volume(grid, c);
@@ -415,9 +424,9 @@ namespace talus
 
 
 
-  // By distances, which all ranks agree on: the owner of such a node need not
-  // know the cut cell that it is beside.
-  /// Those of cell @p c that lie inside of an obstacle and touch no facet.
+  /// Those of cell @p c that lie inside of an obstacle and touch no facet: by
+  /// distances, which all ranks agree on, since the owner of such a node need not
+  /// know the cut cell that it is beside.
   template <int dim>
   void
   Facets<dim>::find_nodes_inside(const Grid<dim>      &grid,

@@ -34,9 +34,14 @@ namespace talus
     // asks for them, and they must not keep points busy. Of ghosts all are open,
     // since only the owner knows all surfaces beside a node, and all their
     // records travel.
+    present_.clear();
     for (const NodeAndSurface &pair : pairs)
+      if (pair.node >= state.grid.n_owned_nodes() ||
+          state.nodes.mass(pair.node) > 0)
+        present_.push_back(pair);
+    for (const NodeAndSurface &pair : present_)
       std::fill_n(gaps_.begin() + n * pair.node, n, -none);
-    for (const NodeAndSurface &pair : pairs)
+    for (const NodeAndSurface &pair : present_)
       {
         gaps_[n * pair.node + pair.surface] = none;
         is_open_[pair.node]                 = 1;
@@ -55,7 +60,7 @@ namespace talus
         later_.push_back(segment);
     for (const Segment &segment : later_)
       add_segment(state, segment);
-    for (const NodeAndSurface &pair : pairs)
+    for (const NodeAndSurface &pair : present_)
       is_open_[pair.node] = 0;
     exchange_.minimum_to_owners(gaps_.data());
     exchange_.copy_to_ghosts(gaps_.data());

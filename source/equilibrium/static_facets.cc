@@ -88,8 +88,9 @@ namespace talus
             point.coefficient = problem.contact.obstacles().friction_factor() *
                                 problem.contact.obstacles()[facets[k].obstacle]
                                   .friction_coefficient();
-            point.largest_friction = problem.contact.friction_limit(
-              facets[k], constraint, /*normal_impulse=*/1e100, /*dt=*/1.);
+            point.largest_friction =
+              problem.contact.constraints().friction_limit(
+                k, /*normal_impulse=*/1e100, /*dt=*/1.);
             point.given = {impulse.normal, impulse.tangential};
             if (before.size() > k && before[k].node == point.node)
               point.opened = before[k].opened;
@@ -131,7 +132,8 @@ namespace talus
               }
             point.gap =
               std::max(0.,
-                       problem.contact.gap_inside(grid, inside) + point.opened);
+                       problem.contact.constraints().gap_inside(grid, inside) +
+                         point.opened);
           }
         points_.push_back(point);
       }

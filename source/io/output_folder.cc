@@ -4,10 +4,9 @@
 #include <talus/io/output_folder.h>
 #include <talus/io/run_record.h>
 
+#include <cstdlib>
 #include <regex>
 #include <vector>
-
-#include <unistd.h>
 
 namespace talus
 {
@@ -55,6 +54,23 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// By making one that goes at once: permissions do not tell it of root, nor
+    /// of file systems that take no files, such as /proc.
+    bool
+    can_hold_folders(const fs::path &folder)
+    {
+      std::string name = (folder / ".talus-XXXXXX").string();
+      if (::mkdtemp(name.data()) == nullptr)
+        return false;
+      std::error_code error;
+      return fs::remove(name, error);
+    }
+  } // namespace
+
+
+
   // What is there of the path decides.
   void
   check_can_be_made(const fs::path &folder)
@@ -64,7 +80,7 @@ namespace talus
     while (there.has_relative_path() && !fs::exists(there, error))
       there = there.parent_path();
     const bool is_folder = fs::is_directory(there, error);
-    AssertThrow(is_folder && ::access(there.c_str(), W_OK | X_OK) == 0,
+    AssertThrow(is_folder && can_hold_folders(there),
                 ExcUser(
                   text("The output folder '",
                        folder.string(),

@@ -24,6 +24,7 @@ namespace talus
     name_         = name;
     communicator_ = communicator;
     writer_       = make_field_writer(format);
+    index_.clear();
     unsynced_.clear();
     if (beginning == Beginning::fresh)
       entries_.clear();
@@ -73,8 +74,24 @@ namespace talus
       name_ + "-" + Utilities::int_to_string(entries_.size(), 4);
     entries_.push_back(
       writer_->write(folder_, base, communicator_, cells, unsynced_));
-    if (is_first_rank(communicator_))
-      unsynced_.push_back(writer_->write_index(folder_, name_, entries_));
+    if (!is_first_rank(communicator_))
+      return;
+    index_ = writer_->write_index(folder_, name_, entries_);
+    unsynced_.push_back(index_);
+  }
+
+
+
+  std::vector<std::string>
+  FieldSeries::missing_files() const
+  {
+    std::vector<std::string> missing;
+    for (const IndexEntry &entry : entries_)
+      if (!std::filesystem::exists(folder_ / entry.file))
+        missing.push_back(entry.file);
+    if (!std::filesystem::exists(index_) && !index_.empty())
+      missing.push_back(index_.filename().string());
+    return missing;
   }
 
 

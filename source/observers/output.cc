@@ -310,6 +310,45 @@ namespace talus
 
 
 
+  /// At the end and not before: who removes files while the run goes on may
+  /// need the room for what is still to come.
+  template <int dim>
+  void
+  Output<dim>::check_complete(const State<dim> &state) const
+  {
+    std::vector<std::string> missing;
+    if (is_first_rank(state.communicator()) && !settings_.folder.empty())
+      {
+        for (const char *name : {"parameters.prm", "log.txt", "lock"})
+          if (!std::filesystem::exists(settings_.folder / name))
+            missing.push_back(name);
+        for (const Schedule *schedule : {&rows_, &fields_})
+          for (const auto &observer : schedule->observers)
+            if (observer->is_enabled(settings_))
+              for (const std::string &name : observer->missing_files())
+                missing.push_back(name);
+      }
+    const std::string sentence =
+      first_sentence(missing.empty() ?
+                       "" :
+                       text("The run is at its end, but of what it wrote into '",
+                            folder_,
+                            "' there is no '",
+                            missing.front(),
+                            "' any more",
+                            missing.size() == 1 ?
+                              "" :
+                              text(", nor are ",
+                                   missing.size() - 1,
+                                   " other files"),
+                            ": somebody has removed it. All else is complete. "
+                            "Put it back, or start anew with --overwrite."),
+                     state.communicator());
+    AssertThrow(sentence.empty(), ExcUser(sentence));
+  }
+
+
+
   template <int dim>
   void
   Output<dim>::sync()

@@ -226,6 +226,7 @@ namespace talus
         if (handle_request(request))
           return false;
       }
+    output_.check_complete(state_);
     log_.say(LogLevel::info,
              "A report of this run: talus-report " + output_.folder());
     return true;

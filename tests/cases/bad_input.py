@@ -438,7 +438,8 @@ class CommandLine(Case):
 
     def test_validate_computes_what_the_first_step_needs(self):
         for setting in ("Body force/Expression=1/0; 0",
-                        "Output/Folder=/dev/null/results"):
+                        "Output/Folder=/dev/null/results",
+                        "Output/Folder=/proc/results"):
             (self.folder / "bad.prm").write_text(GOOD)
             self.assert_refused(
                 self.run_talus("--validate", "--set", setting, "bad.prm"),

@@ -14,9 +14,11 @@ LONG = GOOD.replace("set End time = 0.01", "set End time = 1e6")
 
 
 class BadInputFolder(Case):
-    def start_long_run(self):
+    def start_long_run(self, *settings):
         (self.folder / "long.prm").write_text(LONG)
-        run = subprocess.Popen([TALUS, "--output", "results", "long.prm"],
+        options = [o for s in settings for o in ("--set", s)]
+        run = subprocess.Popen([TALUS, *options, "--output", "results",
+                                "long.prm"],
                                cwd=self.folder, stdout=subprocess.DEVNULL,
                                stderr=subprocess.PIPE, text=True)
         self.addCleanup(run.stderr.close)
@@ -88,6 +90,20 @@ class BadInputFolder(Case):
                          "--overwrite"):
                 self.assertIn(word, sentence)
             (self.results / "log.txt").unlink()
+
+    def test_other_results_removed_in_mid_run(self):
+        for name in ("log.txt", "parameters.prm", "lock", "points-0000.vtu",
+                     "grid-0000.h5"):
+            settings = ["End time=300", "Output/Field interval=1000"]
+            if name.endswith("h5"):
+                settings.append("Output/Format=hdf5")
+            run = self.start_long_run(*settings)
+            while not (self.results / name).exists():
+                time.sleep(0.01)
+            (self.results / name).unlink()
+            self.assertEqual(run.wait(60), 1, name)
+            self.assertIn(f"no '{name}' any more", run.stderr.read())
+            (self.results / "log.txt").unlink(missing_ok=True)
 
     def test_checkpoints_is_a_file(self):
         (self.results / "checkpoints").write_text("mine")

@@ -85,6 +85,19 @@ namespace talus
       return nodes_;
     }
 
+    /// Those of them on the faces of the mesh, where walls may be.
+    const std::vector<unsigned int> &
+    owned_nodes_on_faces() const
+    {
+      return owned_nodes_on_faces_;
+    }
+
+    const std::vector<unsigned int> &
+    nodes_on_faces() const
+    {
+      return nodes_on_faces_;
+    }
+
     /// Whether soil at a node feels an obstacle.
     bool
     is_contact_node(const unsigned int node) const
@@ -204,6 +217,7 @@ namespace talus
     std::vector<unsigned int>    listed_near_;
     std::vector<ContactFacet<dim>> owned_;
     std::vector<unsigned int>      owned_nodes_, nodes_;
+    std::vector<unsigned int>      owned_nodes_on_faces_, nodes_on_faces_;
     std::vector<NodeAndSurface>    nodes_and_obstacles_;
     std::vector<NodeInside>        nodes_inside_;
     std::vector<unsigned char>     is_contact_node_; ///< by node

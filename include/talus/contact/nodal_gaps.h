@@ -50,9 +50,10 @@ namespace talus
     void
     prepare(const Grid<dim> &grid, std::vector<Surface> surfaces);
 
-    /// Find the gaps of @p pairs, ghosts among them. @p nearness of a cell is not 0 if its points may reach
-    /// one of them; it is 2 for those at the surface, which are looked at before
-    /// those with 1. Collective.
+    /// Find the gaps of those of @p pairs that are ghosts or have mass. @p
+    /// nearness of a cell is not 0 if its points may reach one of them; it is 2
+    /// for those at the surface, which are looked at before those with 1.
+    /// Collective.
     void
     find(const State<dim>                  &state,
          const std::vector<NodeAndSurface> &pairs,
@@ -90,10 +91,11 @@ namespace talus
     void
     add_to_patch(const State<dim> &state, const Segment &segment);
 
-    std::vector<Surface>       surfaces_;
-    std::vector<double>        gaps_;     ///< by node and surface, m
-    std::vector<unsigned char> is_open_;  ///< by node, while they are found
-    std::vector<double>        of_point_; ///< one for each surface, m
+    std::vector<Surface>        surfaces_;
+    std::vector<double>         gaps_;     ///< by node and surface, m
+    std::vector<unsigned char>  is_open_;  ///< by node, while they are found
+    std::vector<double>         of_point_; ///< one for each surface, m
+    std::vector<NodeAndSurface> present_;  ///< of a step
     std::vector<Segment> later_;      ///< of the cells that are not the nearest
     double               closed_ = 0; ///< gaps this small are none, m
     NodalExchange<dim>   exchange_;

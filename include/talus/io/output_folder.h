@@ -14,7 +14,7 @@ namespace talus
 
 
   /// Throw ExcUser if the folder is not there and cannot be made, or cannot be
-  /// written. Makes nothing.
+  /// written. Leaves nothing there.
   void
   check_can_be_made(const std::filesystem::path &folder);
 

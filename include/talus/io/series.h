@@ -38,6 +38,11 @@ namespace talus
     void
     write(const OutputCells &cells);
 
+    /// Names of the files in the index, and of the index, that somebody has
+    /// removed. To be asked on the first rank.
+    std::vector<std::string>
+    missing_files() const;
+
     /// Bring all files that this rank wrote to the disk. Throws ExcUser if that
     /// fails.
     void
@@ -49,6 +54,7 @@ namespace talus
     MPI_Comm                           communicator_ = MPI_COMM_NULL;
     std::unique_ptr<FieldWriter>       writer_;
     std::vector<IndexEntry>            entries_;
+    std::filesystem::path              index_; ///< empty before write()
     std::vector<std::filesystem::path> unsynced_;
   };
 } // namespace talus

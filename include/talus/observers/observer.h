@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace talus
 {
@@ -83,6 +84,14 @@ namespace talus
                   const State<dim> & /*state*/) const
     {
       return "";
+    }
+
+    /// Names of the files written so far, by this run or the one that it goes
+    /// on with, that somebody has removed, on the first rank.
+    virtual std::vector<std::string>
+    missing_files() const
+    {
+      return {};
     }
 
     /// Bring all that was written to the disk.

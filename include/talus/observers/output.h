@@ -108,6 +108,11 @@ namespace talus
     void
     check_resumable(const State<dim> &state) const;
 
+    /// Throw ExcUser if somebody has removed files that begin() and the
+    /// observers wrote. Collective.
+    void
+    check_complete(const State<dim> &state) const;
+
     /// Bring all rows and fields written so far to the disk.
     void
     sync();

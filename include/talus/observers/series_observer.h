@@ -38,6 +38,12 @@ namespace talus
       series_.list_state("files of " + name_, list);
     }
 
+    std::vector<std::string>
+    missing_files() const override
+    {
+      return series_.missing_files();
+    }
+
     void
     sync() override
     {

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_contact_facet_constraints_h
+#define talus_contact_facet_constraints_h
+
+#include <talus/contact/contact_nodes.h>
+#include <talus/contact/facets.h>
+#include <talus/contact/nodal_gaps.h>
+#include <talus/state/state.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// A facet with the soil as it is: shares of its nodes in its velocity, and so
+  /// on.
+  template <int dim>
+  struct FacetConstraint
+  {
+    std::array<double, ContactFacet<dim>::n_nodes> share{};
+    bool   is_loaded   = false; ///< whether there is soil at its nodes
+    double normal_mass = 0;     ///< kg; 0 where walls hold all nodes
+    double mass        = 0;     ///< kg
+    double gap         = 0;     ///< m
+    double area        = 0;     ///< in contact, m^(dim-1)
+    /// Share of this step's normal impulse in the mean that limits friction.
+    double share_in_mean = 1;
+  };
+
+
+
+  /// Those of all facets of this rank: the mean velocity of the soil at the
+  /// contact point must not lead into the obstacle.
+  template <int dim>
+  class FacetConstraints
+  {
+  public:
+    FacetConstraints(const Obstacles<dim>    &obstacles,
+                     const Facets<dim>       &facets,
+                     const ContactNodes<dim> &nodes)
+      : obstacles_(obstacles)
+      , facets_(facets)
+      , nodes_(nodes)
+    {}
+
+    /// After each change of the mesh or its partition. There are none until
+    /// find().
+    void
+    prepare(const Grid<dim> &grid);
+
+    /// Find how near soil comes to the surfaces; before find(). Collective.
+    void
+    find_gaps(const State<dim> &state)
+    {
+      gaps_.find(state,
+                 facets_.nodes_and_obstacles(),
+                 facets_.nearness_of_cells());
+    }
+
+    /// Find those of Facets::owned() for soil as the nodes have it, whose
+    /// friction remembers earlier steps if it @p has_memory.
+    void
+    find(const State<dim> &state, bool has_memory);
+
+    /// Of Facets::owned(), as find() left them.
+    const std::vector<FacetConstraint<dim>> &
+    all() const
+    {
+      return constraints_;
+    }
+
+    const FacetConstraint<dim> &
+    operator[](const unsigned int facet) const
+    {
+      return constraints_[facet];
+    }
+
+    /// Numbers of the facets with soil at their nodes.
+    const std::vector<unsigned int> &
+    loaded() const
+    {
+      return loaded_;
+    }
+
+    /// Velocity of the soil at the contact point, m/s.
+    dealii::Tensor<1, dim>
+    velocity(unsigned int facet) const
+    {
+      return velocity(facets_.owned()[facet], constraints_[facet]);
+    }
+
+    /// Largest impulse along the facet in a step of @p dt, N s, for this
+    /// impulse along the normal.
+    double
+    friction_limit(unsigned int facet, double normal_impulse, double dt) const;
+
+    /// Room between such a node's soil and the obstacle, m.
+    double
+    gap_inside(const Grid<dim>                        &grid,
+               const typename Facets<dim>::NodeInside &inside) const
+    {
+      return gaps_.room(inside.node, inside.obstacle, grid.finest_size());
+    }
+
+  private:
+    std::vector<typename NodalGaps<dim>::Surface>
+    surfaces() const;
+    bool
+    find_shares(const ContactFacet<dim> &facet,
+                FacetConstraint<dim>    &constraint) const;
+    void
+    require_uniform(const Cell<dim>         &cell,
+                    const ContactFacet<dim> &facet) const;
+    void
+    find_masses(const ContactFacet<dim> &facet,
+                double                   cell_size,
+                FacetConstraint<dim>    &constraint) const;
+    double
+    share_in_mean(const State<dim>           &state,
+                  const ContactFacet<dim>    &facet,
+                  const FacetConstraint<dim> &constraint) const;
+    dealii::Tensor<1, dim>
+    velocity(const ContactFacet<dim>    &facet,
+             const FacetConstraint<dim> &constraint) const;
+
+    const Obstacles<dim>             &obstacles_;
+    const Facets<dim>                &facets_;
+    const ContactNodes<dim>          &nodes_;
+    NodalGaps<dim>                    gaps_; ///< the obstacles' surfaces
+    std::vector<FacetConstraint<dim>> constraints_;
+    std::vector<unsigned int>         loaded_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/contact/facet_constraints.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Of the memory of friction: it fades within so many steps, and within so much
+    // of a cell of slip. On a block that rings (2600 steps a second, h/c 2.5 steps)
+    // 8 are not enough, 16 to 64 do the same. Without the second, soil that slides
+    // a quarter as fast as its waves would be gone before friction has felt it.
+    constexpr double n_steps_of_memory = 32, slip_of_memory = 0.05;
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  FacetConstraints<dim>::prepare(const Grid<dim> &grid)
+  {
+    gaps_.prepare(grid, surfaces());
+    constraints_.clear();
+    loaded_.clear();
+  }
+
+
+
+  /// The support function of a box along the normal.
+  template <int dim>
+  std::vector<typename NodalGaps<dim>::Surface>
+  FacetConstraints<dim>::surfaces() const
+  {
+    std::vector<typename NodalGaps<dim>::Surface> result;
+    for (unsigned int k = 0; k < obstacles_.size(); ++k)
+      result.push_back([&obstacle = obstacles_[k]](const Point<dim>     &x,
+                                                   const Tensor<1, dim> &half) {
+        auto [gap, normal] = obstacle.distance_and_normal(x);
+        for (unsigned int d = 0; d < dim; ++d)
+          gap -= half[d] * std::abs(normal[d]);
+        return gap;
+      });
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  FacetConstraints<dim>::find(const State<dim> &state, const bool has_memory)
+  {
+    for (const unsigned int c : loaded_)
+      constraints_[c] = {};
+    loaded_.clear();
+    constraints_.resize(facets_.owned().size());
+    for (unsigned int c = 0; c < constraints_.size(); ++c)
+      {
+        const ContactFacet<dim> &facet      = facets_.owned()[c];
+        FacetConstraint<dim>    &constraint = constraints_[c];
+        if (!find_shares(facet, constraint))
+          continue;
+        loaded_.push_back(c);
+        const Cell<dim> &cell = state.grid.cells()[facet.cell];
+        require_uniform(cell, facet);
+        find_masses(facet, cell.size, constraint);
+        if (has_memory)
+          constraint.share_in_mean = share_in_mean(state, facet, constraint);
+      }
+  }
+
+
+
+  // Shares by filling as well as by shape functions: a node that hardly has soil
+  // must not decide how the soil at the facet moves. Shares by mass would shift
+  // the wall into the soil.
+  template <int dim>
+  bool
+  FacetConstraints<dim>::find_shares(const ContactFacet<dim> &facet,
+                                     FacetConstraint<dim>    &constraint) const
+  {
+    std::array<double, ContactFacet<dim>::n_nodes> share;
+    double                                         sum = 0;
+    for (unsigned int v = 0; v < share.size(); ++v)
+      {
+        share[v] = facet.shape_value[v] * nodes_.fill(facet.node[v]);
+        sum += share[v];
+      }
+    if (sum <= 0)
+      return false;
+    for (unsigned int v = 0; v < share.size(); ++v)
+      constraint.share[v] = share[v] / sum;
+    constraint.is_loaded = true;
+    constraint.area      = facet.area * sum;
+    return true;
+  }
+
+
+
+  template <int dim>
+  void
+  FacetConstraints<dim>::require_uniform(const Cell<dim>         &cell,
+                                         const ContactFacet<dim> &facet) const
+  {
+    AssertThrow(cell.uniform,
+                ExcPoint(text("Soil has come to the surface of the obstacle '",
+                              obstacles_[facet.obstacle].name(),
+                              "' at (",
+                              facet.centroid,
+                              ") m, where cells of different size meet, but "
+                              "contact needs cells of one size there. Let "
+                              "'Grid/Refinement boxes' cover the surface as "
+                              "far as soil may come, or leave more cells in "
+                              "'Mesh tracking' around the soil.")));
+  }
+
+
+
+  /// What the facet has to move, and how far it is from the soil.
+  template <int dim>
+  void
+  FacetConstraints<dim>::find_masses(const ContactFacet<dim> &facet,
+                                     const double             cell_size,
+                                     FacetConstraint<dim>    &constraint) const
+  {
+    double inverse_mass = 0, inverse_normal_mass = 0;
+    constraint.gap = NodalGaps<dim>::none;
+    for (unsigned int v = 0; v < facet.node.size(); ++v)
+      {
+        const unsigned int node  = facet.node[v];
+        const double       share = constraint.share[v];
+        if (share == 0)
+          continue;
+        const double inverse = share * share * nodes_.inverse_mass(node);
+        double       free    = 1.; // share of the normal that no wall holds
+        for (unsigned int d = 0; d < dim; ++d)
+          if (nodes_.is_held(node, d))
+            free -= facet.normal[d] * facet.normal[d];
+        inverse_mass += inverse;
+        inverse_normal_mass += free * inverse;
+        constraint.gap =
+          std::min(constraint.gap, gaps_.room(node, facet.obstacle, cell_size));
+      }
+    constraint.mass = 1. / inverse_mass;
+    constraint.normal_mass =
+      (inverse_normal_mass > 1e-6 * inverse_mass ? 1. / inverse_normal_mass
+                                                 : 0.);
+  }
+
+
+
+  // Where an elastic body may ring, Coulomb friction on a rigid surface has no
+  // steady sliding: the normal force and its friction feed the waves, the body
+  // chatters, slips by turns and is thrown up. What tames it is that friction does
+  // not follow the normal force at once, but within some slip or time (@cite
+  // cochard2000). It is impulses that are remembered, not pressures: then
+  // their sum is kept while soil slides from facet to facet, and with it the mean
+  // force.
+  template <int dim>
+  double
+  FacetConstraints<dim>::share_in_mean(
+    const State<dim>           &state,
+    const ContactFacet<dim>    &facet,
+    const FacetConstraint<dim> &constraint) const
+  {
+    const double         dt = state.time_step;
+    const Tensor<1, dim> u =
+      velocity(facet, constraint) -
+      obstacles_[facet.obstacle].velocity(state.time + 0.5 * dt);
+    const double slip = (u - (u * facet.normal) * facet.normal).norm() * dt;
+    return std::min(1.,
+                    1. / n_steps_of_memory +
+                      slip /
+                        (slip_of_memory * state.grid.cells()[facet.cell].size));
+  }
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  FacetConstraints<dim>::velocity(const ContactFacet<dim>    &facet,
+                                  const FacetConstraint<dim> &constraint) const
+  {
+    Tensor<1, dim> u;
+    for (unsigned int v = 0; v < facet.node.size(); ++v)
+      u += constraint.share[v] * nodes_.velocity(facet.node[v]);
+    return u;
+  }
+
+
+
+  template <int dim>
+  double
+  FacetConstraints<dim>::friction_limit(const unsigned int facet,
+                                        const double       normal_impulse,
+                                        const double       dt) const
+  {
+    const unsigned int obstacle = facets_.owned()[facet].obstacle;
+    const double largest_stress = facets_.owned()[facet].maximum_shear_stress;
+    const double friction       = obstacles_.friction_factor() *
+                            obstacles_[obstacle].friction_coefficient() *
+                            normal_impulse;
+    // Whatever share of it a trigger leaves.
+    if (std::isinf(largest_stress))
+      return friction;
+    return std::min(friction,
+                    obstacles_.shear_stress_factor() * largest_stress *
+                      constraints_[facet].area * dt);
+  }
+
+
+
+  template class FacetConstraints<2>;
+  template class FacetConstraints<3>;
+} // namespace talus
