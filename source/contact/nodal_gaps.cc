@@ -73,13 +73,13 @@ namespace talus
     /// Which entries of the patch of a uniform cell a box reaches: nodes that are
     /// nearer than a cell and the half length, along each axis.
     template <int dim>
-    class Reach
+    class PatchReach
     {
     public:
       /// @p half in cells.
-      Reach(const Cell<dim>      &cell,
-            const Point<dim>     &x,
-            const Tensor<1, dim> &half)
+      PatchReach(const Cell<dim>      &cell,
+                 const Point<dim>     &x,
+                 const Tensor<1, dim> &half)
       {
         for (unsigned int d = 0; d < dim; ++d)
           {
@@ -191,7 +191,7 @@ namespace talus
       {
         const Tensor<1, dim> half = half_lengths(state, cell, p);
         const Point<dim> x = load_place(state.points, state.points.position, p);
-        const Reach<dim> reaches(cell, x, half);
+        const PatchReach<dim> reaches(cell, x, half);
         if (std::none_of(open.begin(), open.begin() + n_open, reaches))
           continue;
         find_of_point(x, cell.size * half);

@@ -13,7 +13,7 @@ namespace talus
     // Boxes are halved until the distance is linear in them or they are small.
     // Over the size that was asked for: where they begin, where they end, and
     // how linear is linear.
-    constexpr double largest = 16., tolerance = 0.01;
+    constexpr double largest = 16., contour_tolerance = 0.01;
     template <int dim>
     constexpr double smallest = (dim == 2 ? 0.25 : 0.5);
 
@@ -110,7 +110,7 @@ namespace talus
           1.5 * 0.5 * box.lower.distance(box.upper))
         return;
       if (box.length(0) <= smallest<dim> * size ||
-          is_linear<dim>(box, distance, tolerance * size))
+          is_linear<dim>(box, distance, contour_tolerance * size))
         {
           add_elements<dim>(box, distance, elements);
           return;

@@ -229,7 +229,7 @@ namespace talus
                   facet_fields(contact_, state),
                   ItemsAt::cells,
                   dim == 2 ? CellShape::line : CellShape::quad);
-    for (unsigned int c = 0; c < contact_.constraints().size(); ++c)
+    for (unsigned int c = 0; c < contact_.constraints().all().size(); ++c)
       if (contact_.constraints()[c].is_loaded)
         {
           const ContactFacet<dim> &facet = contact_.facets().owned()[c];

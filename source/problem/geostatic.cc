@@ -65,13 +65,13 @@ namespace talus
     /// Bricks by columns of the width of the widest one, so that what lies above
     /// a brick is in its column or in those beside.
     template <int dim>
-    class Columns
+    class SoilColumns
     {
     public:
       // With columns as wide as the widest brick a sum goes over three (nine)
       // of them, and not over all bricks. Within a column bricks are sorted, so
       // that sums do not depend on the ranks that they came from.
-      explicit Columns(const std::vector<Brick<dim>> &bricks)
+      explicit SoilColumns(const std::vector<Brick<dim>> &bricks)
       {
         for (const auto &brick : bricks)
           for (unsigned int d = 0; d < dim; ++d)
@@ -164,8 +164,8 @@ namespace talus
       own.push_back(brick_of(points, p, weight_density));
     for (const auto &part : Utilities::MPI::all_gather(communicator, own))
       bricks.insert(bricks.end(), part.begin(), part.end());
-    const Columns<dim>  columns(bricks);
-    std::vector<double> result(points.size());
+    const SoilColumns<dim> columns(bricks);
+    std::vector<double>    result(points.size());
     for (unsigned int p = 0; p < points.size(); ++p)
       result[p] = columns.mass_above(own[p]);
     return result;
