@@ -38,6 +38,11 @@ namespace talus
     // each rank would ask the file system for each group and attribute.
     H5Pset_all_coll_metadata_ops(access, true);
     H5Pset_coll_metadata_write(access, true);
+    // Without blocks that are allocated ahead and not filled: MPI-IO writes into
+    // what is left of them whatever its buffers hold, so that the files of equal
+    // runs would differ.
+    H5Pset_meta_block_size(access, 0);
+    H5Pset_small_data_block_size(access, 0);
     // From this version on the metadata have checksums.
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
     return access;
