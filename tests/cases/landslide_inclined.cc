@@ -171,7 +171,7 @@ TEST(LandslideInclinedFine, ToRest)
 
 
 // Half of a slide 12 m wide, that spreads sideways, too: z = 0 is its middle.
-TEST(LandslideInclined, SpreadsAsOnTheFaceOfTheMeshIn3d)
+TEST(LandslideInclined3d, SpreadsAsOnTheFaceOfTheMesh)
 {
   const Table aligned = run<3>("landslide-3d.prm",
                                "landslide-aligned-3d",
