@@ -328,22 +328,19 @@ namespace talus
               for (const std::string &name : observer->missing_files())
                 missing.push_back(name);
       }
-    const std::string sentence =
-      first_sentence(missing.empty() ?
-                       "" :
-                       text("The run is at its end, but of what it wrote into '",
-                            folder_,
-                            "' there is no '",
-                            missing.front(),
-                            "' any more",
-                            missing.size() == 1 ?
-                              "" :
-                              text(", nor are ",
-                                   missing.size() - 1,
-                                   " other files"),
-                            ": somebody has removed it. All else is complete. "
-                            "Put it back, or start anew with --overwrite."),
-                     state.communicator());
+    std::string sentence;
+    if (!missing.empty())
+      sentence =
+        text("The run is at its end, but '",
+             folder_,
+             "' lacks '",
+             missing.front(),
+             "', which it wrote and somebody has removed",
+             (missing.size() > 1 ? text(" with ", missing.size() - 1, " more")
+                                 : ""),
+             ". All else is complete. Put back what is missing, or "
+             "start anew with --overwrite.");
+    sentence = first_sentence(sentence, state.communicator());
     AssertThrow(sentence.empty(), ExcUser(sentence));
   }
 

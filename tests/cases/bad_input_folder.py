@@ -103,7 +103,7 @@ class BadInputFolder(Case):
                 time.sleep(0.01)
             (self.results / name).unlink()
             self.assertEqual(run.wait(60), 1, name)
-            self.assertIn(f"no '{name}' any more", run.stderr.read())
+            self.assertIn(f"lacks '{name}'", run.stderr.read())
             shutil.rmtree(self.results)
 
     def test_checkpoints_is_a_file(self):
