@@ -33,6 +33,13 @@ add_custom_command(OUTPUT ${completion}
   COMMAND talus --completion > ${completion} DEPENDS talus VERBATIM)
 add_custom_target(manual ALL DEPENDS ${manual} ${completion})
 install(FILES ${manual} DESTINATION share/man/man1 COMPONENT program)
+# Those of the tools say what `--help` does, but need none of Python's modules.
+foreach(tool talus-report talus-study)
+  set(page ${CMAKE_BINARY_DIR}/${tool}.1.gz)
+  execute_process(COMMAND ${TALUS_GZIP} -9nc ${CMAKE_SOURCE_DIR}/doc/man/${tool}.1
+    OUTPUT_FILE ${page} COMMAND_ERROR_IS_FATAL ANY)
+  install(FILES ${page} DESTINATION share/man/man1 COMPONENT program)
+endforeach()
 install(FILES ${completion} RENAME talus
   DESTINATION share/bash-completion/completions COMPONENT program)
 

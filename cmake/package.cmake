@@ -58,7 +58,8 @@ set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${maintainer})
 set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
-# For talus-report and talus-study.
+# For talus-report and talus-study, with what they need besides.
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
   "python3-numpy, python3-matplotlib, python3-jinja2, python3-scipy")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
