@@ -2,8 +2,8 @@
 """What talus says to bad input: exit status 1 and one helpful line on stderr,
 with earlier results untouched.
 
-Usage: bad_input.py TALUS FOLDER [TestClass]. Exits with 77 if every test was
-skipped, which ctest shows.
+Usage: bad_input.py TALUS FOLDER [TestClass], with TALUS_LOADED in the environment.
+Exits with 77 if every test was skipped, which ctest shows.
 """
 
 import re

@@ -3,9 +3,10 @@
 
 import pathlib
 import shutil
-import subprocess
 import sys
 import unittest
+
+from loaded_program import LOADED
 
 TALUS = pathlib.Path(sys.argv[1]).resolve()
 FOLDER = pathlib.Path(sys.argv[2]).resolve()
@@ -65,8 +66,7 @@ class Case(unittest.TestCase):
             (self.results / name).write_text(content)
 
     def run_talus(self, *arguments):
-        return subprocess.run([TALUS, *map(str, arguments)], cwd=self.folder,
-                              capture_output=True, text=True, timeout=120)
+        return LOADED.run(arguments, self.folder)
 
     def run_file(self, content=GOOD, settings=(), output="results"):
         file = self.folder / "case.prm"

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """All parameter files of the project are valid, and doc/first-slope.md is true.
 
-Usage: parameter_files.py TALUS ROOT FOLDER SUITE
+Usage: parameter_files.py ROOT FOLDER SUITE, with TALUS_LOADED in the environment
 """
 
 import csv
@@ -9,19 +9,18 @@ import math
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
 import unittest
 
-TALUS = pathlib.Path(sys.argv[1]).resolve()
-ROOT = pathlib.Path(sys.argv[2]).resolve()
-FOLDER = pathlib.Path(sys.argv[3]).resolve()
+from loaded_program import LOADED
+
+ROOT = pathlib.Path(sys.argv[1]).resolve()
+FOLDER = pathlib.Path(sys.argv[2]).resolve()
 FIRST_SLOPE = ROOT / "prm" / "first-slope.prm"
 
 
 def run(*arguments):
-    return subprocess.run([TALUS, *map(str, arguments)], cwd=FOLDER,
-                          capture_output=True, text=True, timeout=600)
+    return LOADED.run(arguments, FOLDER)
 
 
 class ParameterFiles(unittest.TestCase):
@@ -82,4 +81,4 @@ class FirstSlope(unittest.TestCase):
 if __name__ == "__main__":
     shutil.rmtree(FOLDER, ignore_errors=True)
     FOLDER.mkdir(parents=True)
-    unittest.main(argv=[sys.argv[0], *sys.argv[4:]], verbosity=2)
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]], verbosity=2)

@@ -8,6 +8,8 @@ import subprocess
 import sys
 import unittest
 
+from loaded_program import LOADED
+
 TALUS = pathlib.Path(sys.argv[1]).resolve()
 PRM = pathlib.Path(sys.argv[2]).resolve()
 FOLDER = pathlib.Path(sys.argv[3]).resolve()
@@ -56,8 +58,10 @@ class Case(unittest.TestCase):
                 *options]
 
     def run_talus(self, name, settings=(), options=()):
-        return subprocess.run(self.command(name, settings, options),
-                              capture_output=True, text=True, timeout=300)
+        command = self.command(name, settings, options)
+        if not self.launcher:
+            return LOADED.run(command[1:])
+        return subprocess.run(command, capture_output=True, text=True, timeout=300)
 
     def start_talus(self, *arguments):
         return subprocess.Popen(self.command(*arguments), text=True,
