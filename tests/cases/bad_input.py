@@ -2,7 +2,7 @@
 """What talus says to bad input: exit status 1 and one helpful line on stderr,
 with earlier results untouched.
 
-Usage: bad_input.py TALUS FOLDER [TestClass], with TALUS_LOADED in the environment.
+Usage: bad_input.py TALUS FOLDER [TestClass], with TALUS_FORK_SERVER in the environment.
 Exits with 77 if every test was skipped, which ctest shows.
 """
 

@@ -6,7 +6,7 @@ import shutil
 import sys
 import unittest
 
-from loaded_program import LOADED
+from fork_server import run_forked
 
 TALUS = pathlib.Path(sys.argv[1]).resolve()
 FOLDER = pathlib.Path(sys.argv[2]).resolve()
@@ -66,7 +66,7 @@ class Case(unittest.TestCase):
             (self.results / name).write_text(content)
 
     def run_talus(self, *arguments):
-        return LOADED.run(arguments, self.folder)
+        return run_forked(arguments, self.folder, timeout=120)
 
     def run_file(self, content=GOOD, settings=(), output="results"):
         file = self.folder / "case.prm"

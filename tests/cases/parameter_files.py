@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """All parameter files of the project are valid, and doc/first-slope.md is true.
 
-Usage: parameter_files.py ROOT FOLDER SUITE, with TALUS_LOADED in the environment
+Usage: parameter_files.py ROOT FOLDER SUITE, with TALUS_FORK_SERVER in the environment
 """
 
 import csv
@@ -12,7 +12,7 @@ import shutil
 import sys
 import unittest
 
-from loaded_program import LOADED
+from fork_server import run_forked
 
 ROOT = pathlib.Path(sys.argv[1]).resolve()
 FOLDER = pathlib.Path(sys.argv[2]).resolve()
@@ -20,7 +20,7 @@ FIRST_SLOPE = ROOT / "prm" / "first-slope.prm"
 
 
 def run(*arguments):
-    return LOADED.run(arguments, FOLDER)
+    return run_forked(arguments, FOLDER, timeout=600)
 
 
 class ParameterFiles(unittest.TestCase):

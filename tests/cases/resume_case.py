@@ -8,7 +8,7 @@ import subprocess
 import sys
 import unittest
 
-from loaded_program import LOADED
+from fork_server import run_forked
 
 TALUS = pathlib.Path(sys.argv[1]).resolve()
 PRM = pathlib.Path(sys.argv[2]).resolve()
@@ -60,7 +60,7 @@ class Case(unittest.TestCase):
     def run_talus(self, name, settings=(), options=()):
         command = self.command(name, settings, options)
         if not self.launcher:
-            return LOADED.run(command[1:])
+            return run_forked(command[1:], timeout=300)
         return subprocess.run(command, capture_output=True, text=True, timeout=300)
 
     def start_talus(self, *arguments):

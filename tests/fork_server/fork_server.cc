@@ -16,18 +16,16 @@
 // but loads its libraries only once. deal.II brings two hundred of them, which
 // takes longer than most of what the tests of bad input ask for.
 //
-// A request comes on standard input: how many arguments there are, the folder to
-// run in, files for standard output and standard error, and the arguments, each
-// ended by a zero byte. The answer is a line with the exit status, or less than
-// zero the signal that ended the run.
+// A request comes on standard input: how many arguments there are, the time limit
+// in seconds, the folder to run in, files for standard output and standard error,
+// and the arguments, each ended by a zero byte. The answer is a line with the exit
+// status or, as a negative number, the signal that ended the run.
 
 namespace
 {
-  // Of a run, s.
-  constexpr unsigned int time_limit = 300;
-
   struct Request
   {
+    unsigned int             time_limit; // s
     std::string              folder, output, error;
     std::vector<std::string> arguments;
   };
@@ -51,7 +49,11 @@ namespace
     const std::string n_arguments = next_string();
     if (!std::cin)
       return false;
-    request = {next_string(), next_string(), next_string(), {"talus"}};
+    request.time_limit = std::stoi(next_string());
+    request.folder     = next_string();
+    request.output     = next_string();
+    request.error      = next_string();
+    request.arguments  = {"talus"};
     for (int i = std::stoi(n_arguments); i > 0; --i)
       request.arguments.push_back(next_string());
     return bool(std::cin);
@@ -89,7 +91,7 @@ namespace
     for (std::string &argument : request.arguments)
       argv.push_back(argument.data());
     argv.push_back(nullptr);
-    alarm(time_limit);
+    alarm(request.time_limit);
     std::exit(talus::run_program(argv.size() - 1, argv.data()));
   }
 } // namespace
@@ -108,11 +110,11 @@ main()
       int status = 0;
       if (child < 0 || waitpid(child, &status, 0) != child)
         {
-          std::perror("talus-loaded");
+          std::perror("talus-fork-server");
           return 1;
         }
-      std::cout << (WIFSIGNALED(status) ? -WTERMSIG(status) :
-                                          WEXITSTATUS(status))
+      std::cout << (WIFSIGNALED(status) ? -WTERMSIG(status)
+                                        : WEXITSTATUS(status))
                 << std::endl;
     }
 }
