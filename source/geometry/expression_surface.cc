@@ -29,6 +29,27 @@ namespace talus
         names += text(",unused_", n);
       return names;
     }
+
+
+
+    /// For tables that remember the last values at some numbers: a place in a
+    /// table of 2^15.
+    constexpr std::size_t n_remembered = 1u << 15;
+
+    template <std::size_t n>
+    std::size_t
+    place_in_table(const std::array<double, n> &numbers)
+    {
+      std::uint64_t hash = 0;
+      for (const double number : numbers)
+        {
+          std::uint64_t bits;
+          std::memcpy(&bits, &number, sizeof(bits));
+          hash = (hash ^ bits) * 0x9e3779b97f4a7c15ull; // golden ratio
+          hash ^= hash >> 32;
+        }
+      return hash % n_remembered;
+    }
   } // namespace
 
 
@@ -89,18 +110,9 @@ namespace talus
   typename ExpressionSurface<dim>::Value
   ExpressionSurface<dim>::at(const Point<dim> &x) const
   {
-    constexpr unsigned int n_bits = 15;
-    remembered_.resize(1u << n_bits);
-    const std::array<double, 2> plan = {{x[0], dim == 3 ? x[dim - 1] : 0.}};
-    std::uint64_t               hash = 0;
-    for (const double coordinate : plan)
-      {
-        std::uint64_t bits;
-        std::memcpy(&bits, &coordinate, sizeof(bits));
-        hash = (hash ^ bits) * 0x9e3779b97f4a7c15ull; // golden ratio
-        hash ^= hash >> 32;
-      }
-    Remembered &known = remembered_[hash % remembered_.size()];
+    remembered_.resize(n_remembered);
+    const std::array<double, 2> plan  = {{x[0], dim == 3 ? x[dim - 1] : 0.}};
+    Remembered                 &known = remembered_[place_in_table(plan)];
     if (known.plan != plan)
       known = {plan, find(x)};
     return known.value;
@@ -161,10 +173,28 @@ namespace talus
 
 
 
+  /// Boxes above each other have one centre in plan, and it takes eight heights
+  /// to know the change around it: a table remembers the last ones, too.
   template <int dim>
   double
   ExpressionSurface<dim>::largest_change(const Point<dim> &x,
                                          const double      distance) const
+  {
+    changes_.resize(n_remembered);
+    const std::array<double, 3> ball = {
+      {x[0], dim == 3 ? x[dim - 1] : 0., distance}};
+    RememberedChange &known = changes_[place_in_table(ball)];
+    if (known.ball != ball)
+      known = {ball, find_largest_change(x, distance)};
+    return known.change;
+  }
+
+
+
+  template <int dim>
+  double
+  ExpressionSurface<dim>::find_largest_change(const Point<dim> &x,
+                                              const double      distance) const
   {
     const Value here   = at(x);
     double      change = distance * here.slope.norm();

@@ -54,6 +54,8 @@ namespace talus
     height(const dealii::Point<dim> &x) const;
     Value
     find(const dealii::Point<dim> &x) const;
+    double
+    find_largest_change(const dealii::Point<dim> &x, double distance) const;
 
     /// A value that was found at a place of the plan.
     struct Remembered
@@ -63,9 +65,19 @@ namespace talus
       Value value{};
     };
 
-    std::vector<Named>              others_;
-    std::unique_ptr<Expression<3>>  expression_;
-    mutable std::vector<Remembered> remembered_; ///< by hash of the plan
+    /// The largest change that was found around a place of the plan.
+    struct RememberedChange
+    {
+      /// The place, and the distance from it.
+      std::array<double, 3> ball = {
+        {std::numeric_limits<double>::quiet_NaN(), 0., 0.}};
+      double change = 0.;
+    };
+
+    std::vector<Named>                    others_;
+    std::unique_ptr<Expression<3>>        expression_;
+    mutable std::vector<Remembered>       remembered_; ///< by hash of the plan
+    mutable std::vector<RememberedChange> changes_;    ///< by hash of the ball
   };
 } // namespace talus
 
