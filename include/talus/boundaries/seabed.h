@@ -107,7 +107,8 @@ namespace talus
     double
     maximum_shear_stress(const unsigned int node) const
     {
-      return cap_->number() ? *cap_->number() : cap_of_node_[node];
+      const auto &number = cap_->number();
+      return number ? *number : cap_of_node_[node];
     }
 
     double friction_factor_ = 1.;
