@@ -30,27 +30,30 @@ namespace talus
       return names;
     }
 
-
-
-    /// For tables that remember the last values at some numbers: a place in a
-    /// table of 2^15.
-    constexpr std::size_t n_remembered = 1u << 15;
-
-    template <std::size_t n>
-    std::size_t
-    place_in_table(const std::array<double, n> &numbers)
-    {
-      std::uint64_t hash = 0;
-      for (const double number : numbers)
-        {
-          std::uint64_t bits;
-          std::memcpy(&bits, &number, sizeof(bits));
-          hash = (hash ^ bits) * 0x9e3779b97f4a7c15ull; // golden ratio
-          hash ^= hash >> 32;
-        }
-      return hash % n_remembered;
-    }
   } // namespace
+
+
+
+  template <int dim>
+  template <std::size_t n, typename T>
+  template <typename Find>
+  const T &
+  ExpressionSurface<dim>::LastFound<n, T>::get(const Key &key, const Find &find)
+  {
+    entries_.resize(1u << 15);
+    std::uint64_t hash = 0;
+    for (const double number : key)
+      {
+        std::uint64_t bits;
+        std::memcpy(&bits, &number, sizeof(bits));
+        hash = (hash ^ bits) * 0x9e3779b97f4a7c15ull; // golden ratio
+        hash ^= hash >> 32;
+      }
+    Entry &entry = entries_[hash % entries_.size()];
+    if (entry.key != key)
+      entry = {key, find()};
+    return entry.found;
+  }
 
 
 
@@ -110,12 +113,8 @@ namespace talus
   typename ExpressionSurface<dim>::Value
   ExpressionSurface<dim>::at(const Point<dim> &x) const
   {
-    remembered_.resize(n_remembered);
-    const std::array<double, 2> plan  = {{x[0], dim == 3 ? x[dim - 1] : 0.}};
-    Remembered                 &known = remembered_[place_in_table(plan)];
-    if (known.plan != plan)
-      known = {plan, find(x)};
-    return known.value;
+    return values_.get({{x[0], dim == 3 ? x[dim - 1] : 0.}},
+                       [&] { return find(x); });
   }
 
 
@@ -180,13 +179,8 @@ namespace talus
   ExpressionSurface<dim>::largest_change(const Point<dim> &x,
                                          const double      distance) const
   {
-    changes_.resize(n_remembered);
-    const std::array<double, 3> ball = {
-      {x[0], dim == 3 ? x[dim - 1] : 0., distance}};
-    RememberedChange &known = changes_[place_in_table(ball)];
-    if (known.ball != ball)
-      known = {ball, find_largest_change(x, distance)};
-    return known.change;
+    return changes_.get({{x[0], dim == 3 ? x[dim - 1] : 0., distance}},
+                        [&] { return find_largest_change(x, distance); });
   }
 
 

@@ -57,27 +57,32 @@ namespace talus
     double
     find_largest_change(const dealii::Point<dim> &x, double distance) const;
 
-    /// A value that was found at a place of the plan.
-    struct Remembered
+    /// What was found last for some numbers, by their hash: a table of 2^15.
+    template <std::size_t n, typename T>
+    class LastFound
     {
-      std::array<double, 2> plan = {
-        {std::numeric_limits<double>::quiet_NaN(), 0.}};
-      Value value{};
+    public:
+      using Key = std::array<double, n>;
+
+      /// What find() returns for this key, if it is not known.
+      template <typename Find>
+      const T &
+      get(const Key &key, const Find &find);
+
+    private:
+      struct Entry
+      {
+        Key key = {{std::numeric_limits<double>::quiet_NaN()}};
+        T   found{};
+      };
+
+      std::vector<Entry> entries_;
     };
 
-    /// The largest change that was found around a place of the plan.
-    struct RememberedChange
-    {
-      /// The place, and the distance from it.
-      std::array<double, 3> ball = {
-        {std::numeric_limits<double>::quiet_NaN(), 0., 0.}};
-      double change = 0.;
-    };
-
-    std::vector<Named>                    others_;
-    std::unique_ptr<Expression<3>>        expression_;
-    mutable std::vector<Remembered>       remembered_; ///< by hash of the plan
-    mutable std::vector<RememberedChange> changes_;    ///< by hash of the ball
+    std::vector<Named>             others_;
+    std::unique_ptr<Expression<3>> expression_;
+    mutable LastFound<2, Value>    values_;  ///< by place in plan
+    mutable LastFound<3, double>   changes_; ///< by place in plan and distance
   };
 } // namespace talus
 
