@@ -21,7 +21,7 @@ namespace
   // Concave, with an acute corner.
   const Vertices corners = {{0., 0.}, {3., 0.}, {3., 2.5}, {1.2, 1.}, {0., 2.}};
   // A slope break, a trench and a run-out that rises a little.
-  const Vertices seabed = {
+  const Vertices seabed_vertices = {
     {-1., 2.}, {1., 1.}, {1.2, 0.2}, {2., 0.1}, {3., 0.4}};
 
 
@@ -87,7 +87,7 @@ namespace
     expect_distance(Ball<2>(Point<2>(1., 2.), 1.5));
     expect_distance(Ball<2>(Point<2>(1., 2.), 1.5, 0.7));
     expect_distance(Polygon("Vertices", corners));
-    expect_distance(OpenPolygon("Vertices", seabed));
+    expect_distance(OpenPolygon("Vertices", seabed_vertices));
   }
 
 
@@ -106,9 +106,10 @@ namespace
                           infinity));
     expect_distance(
       Prism(std::make_unique<Polygon>("Vertices", corners), 0., 3.));
-    expect_distance(Prism(std::make_unique<OpenPolygon>("Vertices", seabed),
-                          -infinity,
-                          infinity));
+    expect_distance(
+      Prism(std::make_unique<OpenPolygon>("Vertices", seabed_vertices),
+            -infinity,
+            infinity));
   }
 
 
@@ -185,6 +186,6 @@ namespace
     // Only where the ends go on.
     expect({{0., 0.}, {1., 1.}, {2., 1.}, {3., 0.}, {-5., -0.5}},
            "crosses itself");
-    EXPECT_EQ(error(seabed), "");
+    EXPECT_EQ(error(seabed_vertices), "");
   }
 } // namespace

@@ -27,7 +27,7 @@ namespace
   constexpr double a = 0.125, b = -0.5, c = 7.;
 
   double
-  plane(const double x, const double y)
+  value_of_plane(const double x, const double y)
   {
     return a * x + b * y + c;
   }
@@ -103,7 +103,8 @@ namespace
       for (int i = 0; i < 4; ++i)
         {
           std::ostringstream number;
-          number << plane(1000. + (i + 0.5) * 200., 2000. + (2.5 - r) * 100.);
+          number << value_of_plane(1000. + (i + 0.5) * 200.,
+                                   2000. + (2.5 - r) * 100.);
           std::string digits = number.str();
           if (const auto at = digits.find('.'); at != std::string::npos)
             digits[at] = point;
@@ -128,7 +129,7 @@ namespace
       for (unsigned int i = 0; i < raster.n_columns; ++i)
         result = std::max(result,
                           std::abs(raster.value(i, r) -
-                                   plane(raster.x(i), raster.y(r))));
+                                   value_of_plane(raster.x(i), raster.y(r))));
     return result;
   }
 
@@ -223,7 +224,7 @@ namespace
       std::vector<double> result;
       for (const double yi : y)
         for (const double xi : x)
-          result.push_back(pack(plane(xi, yi)));
+          result.push_back(pack(value_of_plane(xi, yi)));
       return result;
     }
 
@@ -361,7 +362,7 @@ TEST_F(RasterTest, NetcdfAsGmtWritesIt)
   EXPECT_EQ(raster.dx, 2.);
   EXPECT_EQ(raster.dy, 5.);
   EXPECT_TRUE(std::isnan(raster.value(1, 1)));
-  raster.values[5] = plane(raster.x(1), raster.y(1));
+  raster.values[5] = value_of_plane(raster.x(1), raster.y(1));
   EXPECT_LT(distance_from_plane(raster), 1e-12);
 }
 

@@ -11,9 +11,9 @@ namespace
 {
   using dealii::Point;
 
-  constexpr double density = 1500.;                        // kg/m^3
-  const double     modulus = 1e6 * 0.7 / (1.3 * 0.4);      // lambda + 2 mu, Pa
-  const double     c       = std::sqrt(modulus / density); // m/s
+  constexpr double rho     = 1500.;                    // kg/m^3
+  const double     modulus = 1e6 * 0.7 / (1.3 * 0.4);  // lambda + 2 mu, Pa
+  const double     c       = std::sqrt(modulus / rho); // m/s
 
 
 
@@ -41,7 +41,7 @@ namespace
     add(const Point<dim> &x, const Tensor<1, dim> &length)
     {
       const unsigned int p        = Statics<dim>::add(x, length);
-      points.data(points.mass)[p] = density; // of 1 m^dim
+      points.data(points.mass)[p] = rho; // of 1 m^dim
       return p;
     }
 
