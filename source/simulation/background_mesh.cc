@@ -130,12 +130,23 @@ namespace talus
 
 
 
-  /// All that depends on the mesh. Points stay on their rank.
-  /// The one place where all caches that follow from the mesh are made, so that
-  /// start, resumed run and change of the mesh cannot differ. Collective.
+  /// All that depends on the mesh. Points stay on their rank. Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::prepare()
+  {
+    prepare_cells();
+    prepare_nodes();
+  }
+
+
+
+  /// With these and prepare_nodes() all caches that follow from the mesh are
+  /// made, so that start, resumed run and change of the mesh cannot differ.
+  /// Collective.
+  template <int dim>
+  void
+  BackgroundMesh<dim>::prepare_cells()
   {
     // In cells. Through a free face a point leaves the mesh, which is an error.
     std::array<double, 2 * dim> may_lie_outside;
@@ -145,9 +156,19 @@ namespace talus
     relocation_.allow_outside(may_lie_outside);
 
     state_.grid.prepare();
+    relocation_.rebuild(state_.points, state_.grid);
+  }
+
+
+
+  /// Numbers of nodes change with the cells, so boundaries find theirs anew.
+  /// Collective.
+  template <int dim>
+  void
+  BackgroundMesh<dim>::prepare_nodes()
+  {
     state_.nodes.prepare(state_.grid);
     problem_.locate(state_.grid);
-    relocation_.rebuild(state_.points, state_.grid);
     activate_nodes();
     // Of the smallest cell, so that the same nodes carry motion at any level.
     state_.added_mass  = problem_.added_mass();
@@ -181,21 +202,30 @@ namespace talus
 
 
 
-  /// Cells and points travel together. Relocation gets the cells from those who
-  /// sent the points and need not search. Numbers of nodes change with the
-  /// cells, so boundaries find theirs anew. Collective.
+  /// Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::repartition()
   {
     if (Utilities::MPI::n_mpi_processes(state_.communicator()) == 1)
       return;
+    share_out();
+    prepare_nodes();
+  }
+
+
+
+  /// Cells and points travel together. Relocation gets the cells from those who
+  /// sent the points and need not search. Collective.
+  template <int dim>
+  void
+  BackgroundMesh<dim>::share_out()
+  {
+    if (Utilities::MPI::n_mpi_processes(state_.communicator()) == 1)
+      return;
     ++n_repartitions_;
     const auto cells = load_balance_.repartition(state_.grid, state_.points);
-    state_.nodes.prepare(state_.grid);
-    problem_.locate(state_.grid);
     relocation_.rebuild(state_.points, cells);
-    activate_nodes();
   }
 
 
@@ -220,8 +250,9 @@ namespace talus
       if (mesh_tracking_.adapt(state_.grid, occupied))
         {
           ++n_mesh_changes_;
-          prepare();
-          repartition();
+          prepare_cells();
+          share_out();
+          prepare_nodes();
         }
     if (load_balance_.is_due(state_.step, communicator) &&
         load_balance_.is_needed(state_.points, communicator))

@@ -249,17 +249,17 @@ namespace talus
                              const FacetContact<dim> &contact,
                              const unsigned int       c)
   {
-    const Cell<dim> &cell       = grid.cells()[c];
-    const auto       nodes      = cell.nodes();
-    bool             is_surface = false, is_near_obstacle = false;
-    for (const unsigned int node : nodes)
-      {
-        is_surface |= (fill(node) < half_filled);
-        is_near_obstacle |= !contact.obstacles().empty() &&
-                            contact.facets().is_contact_node(node);
-      }
-    if (!is_surface)
+    const Cell<dim> &cell  = grid.cells()[c];
+    const auto       nodes = cell.nodes();
+    if (std::none_of(nodes.begin(), nodes.end(), [&](const unsigned int node) {
+          return fill(node) < half_filled;
+        }))
       return;
+    const bool is_near_obstacle =
+      !contact.obstacles().empty() &&
+      std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) {
+        return contact.facets().is_contact_node(node);
+      });
     const Box<dim> box = cell.box();
     const bool     is_cut =
       is_near_obstacle && contact.facets().nearness_of_cells()[c] == 2;

@@ -114,6 +114,8 @@ namespace talus
   private:
     unsigned int
     flag_cells(const WantsFiner &wants_finer);
+    bool
+    can_join_cells();
 
     dealii::parallel::distributed::Triangulation<dim> triangulation_;
   };

@@ -19,9 +19,8 @@ namespace talus
   /// The mesh of a run over time: made, changed where the soil goes, shared out
   /// among the ranks; and the points in its cells.
   ///
-  /// Whatever changes the mesh ends in prepare(), whatever changes its
-  /// partition in the second half of that, so that start, resumed run and change
-  /// of the mesh go the same way.
+  /// Whatever changes the mesh or its partition ends in prepare_nodes(), so that
+  /// start, resumed run and change of the mesh go the same way.
   template <int dim>
   class BackgroundMesh
   {
@@ -82,6 +81,12 @@ namespace talus
   private:
     void
     prepare();
+    void
+    prepare_cells();
+    void
+    prepare_nodes();
+    void
+    share_out();
     void
     restore_partition(Hdf5InputFile &file);
     void
