@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace talus
 {
@@ -29,26 +30,25 @@ namespace talus
                        const std::vector<NodeAndSurface> &pairs,
                        const std::vector<unsigned char>  &nearness)
   {
-    const std::size_t n = surfaces_.size();
+    const std::size_t  n       = surfaces_.size();
+    const unsigned int n_owned = state.grid.n_owned_nodes();
     // Surfaces that are not beside an owned node count as closed there: nobody
     // asks for them, and they must not keep points busy. Of ghosts all are open,
     // since only the owner knows all surfaces beside a node, and all their
     // records travel.
     present_.clear();
     for (const NodeAndSurface &pair : pairs)
-      if (pair.node >= state.grid.n_owned_nodes() ||
-          state.nodes.mass(pair.node) > 0)
-        present_.push_back(pair);
-    for (const NodeAndSurface &pair : present_)
-      std::fill_n(gaps_.begin() + n * pair.node, n, -none);
-    for (const NodeAndSurface &pair : present_)
-      {
-        gaps_[n * pair.node + pair.surface] = none;
-        is_open_[pair.node]                 = 1;
-      }
-    std::fill(gaps_.begin() + n * state.grid.n_owned_nodes(),
-              gaps_.end(),
-              none);
+      if (pair.node >= n_owned || state.nodes.mass(pair.node) > 0)
+        {
+          if (!is_open_[pair.node])
+            {
+              std::fill_n(gaps_.begin() + n * pair.node, n, -none);
+              is_open_[pair.node] = 1;
+              present_.push_back(pair.node);
+            }
+          gaps_[n * pair.node + pair.surface] = none;
+        }
+    std::fill(gaps_.begin() + n * n_owned, gaps_.end(), none);
     closed_ = dead_band * state.grid.finest_size();
     // The nearest cells first: they close most nodes, and the points behind them
     // need not be looked at.
@@ -60,8 +60,8 @@ namespace talus
         later_.push_back(segment);
     for (const Segment &segment : later_)
       add_segment(state, segment);
-    for (const NodeAndSurface &pair : present_)
-      is_open_[pair.node] = 0;
+    for (const unsigned int node : present_)
+      is_open_[node] = 0;
     exchange_.minimum_to_owners(gaps_.data());
     exchange_.copy_to_ghosts(gaps_.data());
   }
@@ -70,37 +70,45 @@ namespace talus
 
   namespace
   {
-    /// Which entries of the patch of a uniform cell a box reaches: nodes that are
-    /// nearer than a cell and the half length, along each axis.
+    /// Entries of the patch of a cell, as bits.
+    using PatchEntries = std::uint64_t;
+
+
+
+    /// Those of a uniform cell that a box reaches: nodes that are nearer than a
+    /// cell and the half length, along each axis. @p half in cells.
     template <int dim>
-    class PatchReach
+    PatchEntries
+    entries_in_reach(const Cell<dim>      &cell,
+                     const Point<dim>     &x,
+                     const Tensor<1, dim> &half)
     {
-    public:
-      /// @p half in cells.
-      PatchReach(const Cell<dim>      &cell,
-                 const Point<dim>     &x,
-                 const Tensor<1, dim> &half)
-      {
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double at = (x[d] - cell.lower[d]) / cell.size;
-            for (int i = 0; i < 4; ++i)
-              bits_[d] |= (std::abs(at - (i - 1)) < 1. + half[d]) << i;
-          }
-      }
+      PatchEntries reached = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double       at = (x[d] - cell.lower[d]) / cell.size;
+          const PatchEntries below_this_axis = reached;
+          reached                            = 0;
+          for (int i = 0; i < 4; ++i)
+            if (std::abs(at - (i - 1)) < 1. + half[d])
+              reached |= below_this_axis << (i * power(4, d));
+        }
+      return reached;
+    }
 
-      bool
-      operator()(const unsigned int k) const
-      {
-        unsigned int all = 1;
-        for (unsigned int d = 0; d < dim; ++d)
-          all &= bits_[d] >> (k / power(4, d) % 4);
-        return all;
-      }
 
-    private:
-      std::array<unsigned int, dim> bits_{}; ///< by axis
-    };
+
+    /// Which nodes of the patch of a cell have an entry other than 0.
+    template <int dim>
+    PatchEntries
+    entries_with(const std::vector<unsigned char> &is_set,
+                 const Cell<dim>                  &cell)
+    {
+      PatchEntries result = 0;
+      for (unsigned int k = 0; k < cell.patch.size(); ++k)
+        result |= PatchEntries(is_set[cell.patch[k]]) << k;
+      return result;
+    }
   } // namespace
 
 
@@ -182,29 +190,22 @@ namespace talus
   NodalGaps<dim>::add_to_patch(const State<dim> &state, const Segment &segment)
   {
     const Cell<dim> &cell = state.grid.cells()[segment.cell];
-    std::array<unsigned int, power(4, dim)> open; // entries of the patch
-    unsigned int                            n_open = 0;
-    for (unsigned int k = 0; k < cell.patch.size(); ++k)
-      if (is_open_[cell.patch[k]])
-        open[n_open++] = k;
-    for (unsigned int p = segment.begin; p < segment.end && n_open > 0; ++p)
+    PatchEntries     open = entries_with(is_open_, cell);
+    for (unsigned int p = segment.begin; p < segment.end && open; ++p)
       {
         const Tensor<1, dim> half = half_lengths(state, cell, p);
         const Point<dim> x = load_place(state.points, state.points.position, p);
-        const PatchReach<dim> reaches(cell, x, half);
-        if (std::none_of(open.begin(), open.begin() + n_open, reaches))
+        PatchEntries     left = open & entries_in_reach(cell, x, half);
+        if (left == 0)
           continue;
         find_of_point(x, cell.size * half);
-        unsigned int n_left = 0;
-        for (unsigned int i = 0; i < n_open; ++i)
-          {
-            const unsigned int node = cell.patch[open[i]];
-            if (reaches(open[i]) && is_open_[node])
-              lower(node);
-            if (is_open_[node])
-              open[n_left++] = open[i];
-          }
-        n_open = n_left;
+        for (unsigned int k = 0; left != 0; ++k, left >>= 1)
+          if (left & 1)
+            {
+              lower(cell.patch[k]);
+              if (!is_open_[cell.patch[k]])
+                open &= ~(PatchEntries(1) << k);
+            }
       }
   }
 

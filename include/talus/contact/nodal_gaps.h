@@ -91,11 +91,11 @@ namespace talus
     void
     add_to_patch(const State<dim> &state, const Segment &segment);
 
-    std::vector<Surface>        surfaces_;
-    std::vector<double>         gaps_;     ///< by node and surface, m
-    std::vector<unsigned char>  is_open_;  ///< by node, while they are found
-    std::vector<double>         of_point_; ///< one for each surface, m
-    std::vector<NodeAndSurface> present_;  ///< of a step
+    std::vector<Surface>       surfaces_;
+    std::vector<double>        gaps_;     ///< by node and surface, m
+    std::vector<unsigned char> is_open_;  ///< by node, while they are found
+    std::vector<double>        of_point_; ///< one for each surface, m
+    std::vector<unsigned int>  present_;  ///< nodes of a step
     std::vector<Segment> later_;      ///< of the cells that are not the nearest
     double               closed_ = 0; ///< gaps this small are none, m
     NodalExchange<dim>   exchange_;
