@@ -107,7 +107,8 @@ namespace talus
 
   /// Of the cells that are flagged to be joined, some always stay: beside smaller
   /// ones, or without their siblings on this rank. Whether any rank can join any
-  /// is found in a quarter of the time that the attempt takes. Collective.
+  /// is found in a quarter of the time that the attempt takes. If so they are
+  /// flagged as before. Collective.
   template <int dim>
   bool
   Mesh<dim>::can_join_cells()
@@ -117,9 +118,13 @@ namespace talus
     triangulation_.prepare_coarsening_and_refinement();
     bool can = false;
     for (const auto &cell : triangulation_.active_cell_iterators())
-      can = can || (cell->is_locally_owned() && cell->coarsen_flag_set());
+      {
+        can = can || (cell->is_locally_owned() && cell->coarsen_flag_set());
+        // Of artificial cells it wants some to be divided.
+        cell->clear_refine_flag();
+        cell->clear_coarsen_flag();
+      }
     can = Utilities::MPI::logical_or(can, triangulation_.get_communicator());
-    // p4est shall see what was asked for.
     if (can)
       triangulation_.load_coarsen_flags(flags);
     return can;
