@@ -106,9 +106,9 @@ namespace talus
 
 
   /// Of the cells that are flagged to be joined, some always stay: beside smaller
-  /// ones, or without their siblings on this rank. Whether any rank can join any
-  /// is found in a quarter of the time that the attempt takes. If so they are
-  /// flagged as before. Collective.
+  /// ones, or without their siblings on this rank. Whether any rank can join any,
+  /// without the attempt, after which all cells would be copied from p4est. If so
+  /// they are flagged as before. Collective.
   template <int dim>
   bool
   Mesh<dim>::can_join_cells()
