@@ -207,25 +207,25 @@ namespace talus
   void
   BackgroundMesh<dim>::repartition()
   {
-    if (Utilities::MPI::n_mpi_processes(state_.communicator()) == 1)
-      return;
-    share_out();
-    prepare_nodes();
+    if (share_out())
+      prepare_nodes();
   }
 
 
 
   /// Cells and points travel together. Relocation gets the cells from those who
-  /// sent the points and need not search. Collective.
+  /// sent the points and need not search. Returns whether there is more than one
+  /// rank. Collective.
   template <int dim>
-  void
+  bool
   BackgroundMesh<dim>::share_out()
   {
     if (Utilities::MPI::n_mpi_processes(state_.communicator()) == 1)
-      return;
+      return false;
     ++n_repartitions_;
     const auto cells = load_balance_.repartition(state_.grid, state_.points);
     relocation_.rebuild(state_.points, cells);
+    return true;
   }
 
 

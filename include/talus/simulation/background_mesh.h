@@ -85,7 +85,7 @@ namespace talus
     prepare_cells();
     void
     prepare_nodes();
-    void
+    bool
     share_out();
     void
     restore_partition(Hdf5InputFile &file);
