@@ -222,18 +222,16 @@ namespace talus
 
   template <int dim>
   void
-  Boundaries<dim>::check_values(const NodalFields<dim> &nodes,
-                                const Grid<dim>        &grid,
-                                const double            t)
+  Boundaries<dim>::check_values(const Grid<dim> &grid, const double t)
   {
-    for (const unsigned int node : nodes.active_boundary_nodes())
-      {
-        const unsigned char faces = grid.faces_of_node(node);
-        constraints_at(faces, node, t);
-        for (const auto &condition : conditions_)
-          if (condition->acts_on(faces))
-            condition->traction(place_of(node), t);
-      }
+    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+      if (const unsigned char faces = grid.faces_of_node(node))
+        {
+          constraints_at(faces, node, t);
+          for (const auto &condition : conditions_)
+            if (condition->acts_on(faces))
+              condition->traction(place_of(node), t);
+        }
   }
 
 

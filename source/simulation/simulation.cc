@@ -75,7 +75,7 @@ namespace talus
     mesh_.repartition();
     // What would stop the first step stops here, where nothing is written yet.
     problem_.loading.update(state_.points, state_.time);
-    problem_.boundaries.check_values(state_.nodes, state_.grid, state_.time);
+    problem_.boundaries.check_values(state_.grid, state_.time);
     check_number_of_steps();
     output_.check_observers(state_);
   }

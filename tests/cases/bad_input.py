@@ -355,6 +355,11 @@ class BadInput(Case):
                          "Boundaries/Bottom velocity=log(-1); 0"],
                         "'Boundaries/Bottom velocity'", "nan")
 
+    def test_traction_on_a_face_without_soil_is_not_a_number(self):
+        self.refuse_set(["Boundaries/Top=traction",
+                         "Boundaries/Top traction=1/0; 0"],
+                        "'Boundaries/Top traction'", "inf", "finite number")
+
     def test_velocity_at_a_face_is_not_a_number(self):
         self.assert_refused(
             self.run_file(settings=[

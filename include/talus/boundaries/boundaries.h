@@ -104,12 +104,10 @@ namespace talus
     unsigned char
     constrained_components(unsigned char faces) const;
 
-    /// Throws ExcPoint if an expression has no finite value at the active nodes
-    /// of its face at time @p t, s.
+    /// Throws ExcPoint if an expression has no finite value at a node of its
+    /// face at time @p t, s, whether there is soil or not.
     void
-    check_values(const NodalFields<dim> &nodes,
-                 const Grid<dim>        &grid,
-                 double                  t);
+    check_values(const Grid<dim> &grid, double t);
 
     /// Add the tractions at time @p t, s, to the forces of the active nodes on
     /// the faces, before the momentum update. Nodes with less than
