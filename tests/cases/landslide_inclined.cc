@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 using namespace talus;
@@ -65,29 +66,61 @@ namespace
 
 
 
+  /// The largest part of the momentum along x and y that neither gravity brought,
+  /// along the slope that the axes of the mesh have, nor @p obstacles took, over
+  /// M g t.
+  double
+  unexplained_momentum(const Table                    &table,
+                       const Table                    &forces,
+                       const std::vector<std::string> &obstacles,
+                       const double                    slope = 0)
+  {
+    const double              a               = slope * M_PI / 180;
+    const double              gravity_along[] = {std::sin(a), -std::cos(a)};
+    const double              weight          = table["mass [kg]"][0] * 9.81;
+    const std::array<char, 2> names           = {{'x', 'y'}};
+    double                    worst           = 0;
+    for (unsigned int row = 1; row < table.n_rows(); ++row)
+      for (unsigned int d = 0; d < 2; ++d)
+        {
+          const double impulse = weight * table["time [s]"][row];
+          double       rest =
+            table["mass [kg]"][row] *
+              table[text("centre velocity ", names[d], " [m/s]")][row] -
+            impulse * gravity_along[d];
+          for (const std::string &obstacle : obstacles)
+            rest +=
+              forces[text(obstacle, " impulse ", names[d], " [N s]")][row];
+          worst = std::max(worst, std::abs(rest) / impulse);
+        }
+    return worst;
+  }
+
+
+
+  Table
+  forces_in(const std::string &folder)
+  {
+    return Table(std::filesystem::path(TALUS_RESULTS_DIR) / folder /
+                 "obstacles.csv");
+  }
+
+
+
   /// What the bed holds and what the soil has, to the last digits: the mass
   /// cut-off of nodes leaves a little.
   void
   expect_momentum_closed(Verification      &gates,
                          const Table       &table,
-                         const std::string &folder)
+                         const std::string &folder,
+                         const double       slope = 0)
   {
-    const Table  forces(std::filesystem::path(TALUS_RESULTS_DIR) / folder /
-                       "obstacles.csv");
-    const double weight = table["mass [kg]"][0] * 9.81;
-    double       worst = 0, below = 0;
-    for (unsigned int row = 1; row < table.n_rows(); ++row)
-      {
-        // Gravity is vertical: along x there is only the bed.
-        worst = std::max(worst,
-                         std::abs(table["momentum x [kg m/s]"][row] +
-                                  forces["bed impulse x [N s]"][row]) /
-                           (weight * table["time [s]"][row]));
-        below =
-          std::max(below, forces["bed share of mass below surface [-]"][row]);
-      }
+    const Table forces = forces_in(folder);
+    double      below  = 0;
+    for (const double share : forces["bed share of mass below surface [-]"])
+      below = std::max(below, share);
     gates.at_most("momentum that the bed does not account for / (M g t)",
-                  worst,
+                  unexplained_momentum(table, forces, {"bed"}, slope),
                   1e-6);
     gates.at_most("share of mass below the bed", below, 0.01);
   }
@@ -95,6 +128,15 @@ namespace
 
 
   const Overrides stretched_only = {"Splitting/Directions=stretched"};
+
+  /// Of the aligned slide: the face of the mesh is free, and an obstacle there.
+  const Overrides obstacle_on_face = {"Boundaries/Bottom=free",
+                                      "Obstacles/Names=bed",
+                                      "Obstacles/bed/Shape=half-plane",
+                                      "Obstacles/bed/Point=0,0",
+                                      "Obstacles/bed/Normal=0,1",
+                                      "Obstacles/bed/Friction coefficient=10",
+                                      "Obstacles/bed/Maximum shear stress=1e3"};
 } // namespace
 
 
@@ -110,6 +152,51 @@ TEST(LandslideInclined, RunsAsOnTheFaceOfTheMesh)
                      "the same on a face of the mesh");
   expect_same_slide(gates, inclined, aligned, 5, {{5, 0.005}, {10, 0.005}});
   expect_momentum_closed(gates, inclined, "landslide-inclined");
+
+  const Overrides clipped = {"Bodies/slide/Filling=clipped"};
+  Verification    on_face("Landslide on an obstacle on the face of the mesh, "
+                          "h = 0.4 m",
+                       "prm/landslide-quick.prm, the bed as half-plane",
+                       "the same with the face as seabed");
+  const Table     facets = run<2>("landslide-quick.prm",
+                              "landslide-on-facets",
+                              stretched_only + end + obstacle_on_face);
+  expect_same_slide(on_face, facets, aligned, 0, {{5, 0.0015}, {10, 0.0015}});
+  expect_momentum_closed(on_face, facets, "landslide-on-facets", 5);
+  on_face.near("front [m] at 10 s, on the seabed, trapezoid filled by clipping",
+               front(run<2>("landslide-quick.prm",
+                            "landslide-aligned-clipped",
+                            stretched_only + end + clipped),
+                     10,
+                     0),
+               front(aligned, 10, 0),
+               0.005);
+}
+
+
+
+// A pipe on the bed, so that two obstacles share nodes, near enough to the toe to
+// be hit. Nodes with less mass than the cut-off lose theirs: here none do.
+TEST(LandslideInclined, MomentumOfAllObstaclesCloses)
+{
+  const Table table  = run<2>(inclined_file,
+                             "landslide-with-pipe",
+                             {"End time=5",
+                               "Transfer/Mass cut-off=1e-12",
+                               "Obstacles/Names=bed, pipe",
+                               "Obstacles/pipe/Shape=ball",
+                               "Obstacles/pipe/Centre=54.843,-4.196",
+                               "Obstacles/pipe/Radius=0.6",
+                               "Obstacles/pipe/Maximum shear stress=500"});
+  const Table forces = forces_in("landslide-with-pipe");
+  EXPECT_GT(std::abs(forces["pipe impulse x [N s]"].back()), 100);
+  Verification gates("Landslide over a pipe on an inclined bed, mass cut-off "
+                     "1e-12",
+                     "prm/" + inclined_file + ", a pipe of 1.2 m at the toe",
+                     "balance of momentum");
+  gates.at_most("momentum that bed and pipe do not account for / (M g t)",
+                unexplained_momentum(table, forces, {"bed", "pipe"}),
+                1e-8);
 }
 
 
@@ -143,7 +230,20 @@ TEST(LandslideInclinedFull, ToRest)
                        "prm/" + inclined_file + " turned",
                        "the same on a face of the mesh");
     expect_same_slide(gates, inclined, aligned, 12, times);
+    expect_momentum_closed(gates, inclined, "landslide-inclined", -7);
   }
+  const Table  facets = run<2>("landslide-quick.prm",
+                              "landslide-on-facets",
+                              stretched_only + obstacle_on_face);
+  Verification gates("Landslide on an obstacle on the face of the mesh to rest",
+                     "prm/landslide-quick.prm, the bed as half-plane",
+                     "the same with the face as seabed");
+  expect_same_slide(
+    gates,
+    facets,
+    aligned,
+    0,
+    {{5, 0.0015}, {10, 0.0015}, {15, 0.0015}, {20, 0.0015}, {30, 0.0015}});
 }
 
 

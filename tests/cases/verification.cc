@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <set>
 #include <sstream>
 
 namespace talus::cases
@@ -51,6 +52,10 @@ namespace talus::cases
   {
     const auto *test = testing::UnitTest::GetInstance()->current_test_info();
     file_ = folder / (text(test->test_suite_name(), '.', test->name(), ".csv"));
+    // A test may have several tables: the first one begins the file.
+    static std::set<std::filesystem::path> begun;
+    if (!begun.insert(file_).second)
+      return;
     std::filesystem::create_directories(folder);
     std::ofstream(file_)
       << "case,run,source,quantity,talus,reference,gate,verdict,cause\n";
