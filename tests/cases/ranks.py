@@ -6,6 +6,7 @@ Usage: ranks.py TALUS FOLDER MPIEXEC PRM_FOLDER [TestClass].
 """
 
 import csv
+import pathlib
 import re
 import subprocess
 import sys
@@ -17,6 +18,7 @@ from bad_input_case import GOOD
 from ranks_case import Case, MPIEXEC, TALUS
 
 
+CASES = pathlib.Path(__file__).resolve().parent
 TERSE = ["Output/Write points=false", "Output/Write grid=false",
          "Output/Write obstacles=false"]
 TRACKING = ["Mesh tracking/Enabled=true", "Mesh tracking/Margin=6",
@@ -151,6 +153,41 @@ class Ranks(Runs):
         self.assert_same(self.run_on(2, settings, pipe, name="pipe-2"), alone)
         self.assert_same(self.forces("pipe-2"), self.forces("pipe-1"))
 
+    def test_obstacles_in_three_dimensions(self):
+        """A bed, and a boulder in it that the toe moves over."""
+        slide = CASES / "landslide-inclined-3d.prm"
+        settings = ["Grid/Cell size=1.6", "Grid/Upper corner=96,9.6,12.8",
+                    "End time=1", "Obstacles/Names=bed, boulder",
+                    "Obstacles/boulder/Shape=ball",
+                    "Obstacles/boulder/Centre=47,-4,2",
+                    "Obstacles/boulder/Radius=2"] + BALANCE + TERSE
+        alone = self.run_on(1, settings, slide)
+        forces = self.forces("ranks-1")
+        self.assertGreater(largest(forces["boulder force z [N]"]), 1000)
+        self.assert_same(self.run_on(3, settings, slide), alone)
+        self.assert_same(self.forces("ranks-3"), forces)
+
+    def test_static_stages_on_obstacles(self):
+        """On the terrain of a raster; what the bed bears and what the soil then
+        has, to what Newton's method leaves."""
+        slope = "slope-stability.prm"
+        settings = ["Stages=equilibrium, strength reduction",
+                    "Grid/Cell size=20", "Grid/Upper corner=2400,-188",
+                    "Materials/clay/Undrained shear strength=30e3"] + TERSE
+        alone = self.run_on(1, settings, slope)
+        factor = self.factor_of_safety("ranks-1")
+        self.assertGreater(factor, 1)
+        found = self.run_on(2, settings, slope)
+        self.assertEqual(self.factor_of_safety("ranks-2"), factor)
+        for name in ("elastic energy [J]", "plastic work [J]"):
+            self.assertLessEqual(abs(found[name][-1] - alone[name][-1]),
+                                 1e-6 * alone["elastic energy [J]"][-1], name)
+
+    def factor_of_safety(self, name):
+        log = (self.folder / name / "log.txt").read_text()
+        return float(re.search(r"The factor of safety is ([\d.]+)[:.]",
+                               log)[1])
+
     def test_three_dimensions(self):
         settings = ["Grid/Cell size=1.6", "Grid/Upper corner=280,8,6.4",
                     "Grid/Refinement boxes=20,0,-1; 45,1.5,3; 1",
@@ -283,6 +320,34 @@ class Graded(Runs):
         self.assertGreaterEqual(self.changes("ranks-4")[1], 2)
 
 
+class GradedObstacle(Runs):
+    """A bed through the mesh in small cells, the soil above it in large ones."""
+
+    slide = "landslide-inclined.prm"
+
+    def settings(self, box, end):
+        return ["Grid/Cell size=1.6", f"Grid/Refinement boxes={box}; 1",
+                f"End time={end}"] + TERSE
+
+    def test_graded(self):
+        settings = self.settings("-10,-8; 70,2.4", 2) + BALANCE
+        alone = self.run_on(1, settings, self.slide)
+        self.assertLess(largest(alone["energy remainder [J]"]),
+                        0.006 * alone["gravity work [J]"][-1])
+        self.assertEqual(set(alone["connected bodies"]), {1})
+        self.assert_same(self.run_on(4, settings, self.slide), alone)
+        self.assert_same(self.forces("ranks-4"), self.forces("ranks-1"))
+
+    def test_soil_comes_to_the_bed_where_sizes_meet(self):
+        for n_ranks in (1, 2):
+            result = self.start(f"ranks-{n_ranks}", n_ranks,
+                                self.settings("-10,-8; 52,2.4", 6), self.slide)
+            self.assertNotEqual(result.returncode, 0)
+            for words in ("surface of the obstacle 'bed' at (5", "different size",
+                          "'Grid/Refinement boxes'"):
+                self.assertIn(words, result.stderr)
+
+
 class FewCells(Runs):
     """A block of one or two cells on the seabed."""
 
@@ -309,7 +374,8 @@ class FewCells(Runs):
 
 
 if __name__ == "__main__":
-    names = sys.argv[5:] or ["Ranks", "Tracking", "Graded", "FewCells"]
+    names = sys.argv[5:] or ["Ranks", "Tracking", "Graded", "GradedObstacle",
+                             "FewCells"]
     suite = unittest.TestSuite(
         unittest.defaultTestLoader.loadTestsFromTestCase(globals()[name])
         for name in names)
