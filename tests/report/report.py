@@ -14,9 +14,12 @@ import time
 import unittest
 import xml.etree.ElementTree
 
+import numpy
+
 from tools_case import COARSE, ROOT, TALUS, Case, main, read_csv
 
 from talus_tools.errors import UserError
+from talus_tools.esri import read_grid
 from talus_tools.hdf5 import h5py
 from talus_tools.report.write import write_report
 
@@ -45,7 +48,7 @@ class Page:
         return [e.get("src") for e in self.sections[section].iter("img")]
 
 
-class Report(Case):
+class ReportCase(Case):
     def report(self, folder):
         path, _ = write_report(str(folder))
         self.assertEqual(path, str(folder / "report.html"))
@@ -57,6 +60,8 @@ class Report(Case):
             for source in page.pictures(section):
                 self.assertRegex(source, r"^data:image/(png|svg\+xml);base64,\w")
 
+
+class Report(ReportCase):
     def test_2d_run_has_the_numbers_of_its_tables(self):
         folder = self.slide("slope")
         page = self.report(folder)
@@ -136,9 +141,7 @@ class Report(Case):
         self.assertEqual(page.said("what-was-run").count("not known"), 0)
 
 
-class Interrupted(Case):
-    report = Report.report
-
+class Interrupted(ReportCase):
     def kill(self, name):
         """A run that was killed behind its first checkpoints."""
         folder = self.folder / name
@@ -190,9 +193,7 @@ class Interrupted(Case):
         self.assertIn("It was killed", self.report(folder).said("notices"))
 
 
-class Maps(Case):
-    report = Report.report
-
+class Maps(ReportCase):
     def write_grid(self, folder, name, values, columns=3):
         folder.mkdir(exist_ok=True)
         (folder / f"{name}.asc").write_text(
@@ -235,6 +236,71 @@ class Maps(Case):
         self.assertIn("maximum thickness 2.5 m x = 1 m", page.said("maps"))
         self.assertEqual(page.values["A speed [m/s]"], "3.5")
         self.assertIn("A 2 thickness 0 m 0 s never", page.said("stations"))
+
+
+class Slopes(ReportCase):
+    """From the raster to the report: prm/slope.prm and prm/slope-3d.prm on coarse cells."""
+
+    def run_slope(self, name, *settings):
+        return self.slide(name, "Output/Boxes as cells=false", *settings, file=f"{name}.prm")
+
+    def assert_mass(self, folder, mass_in_maps):
+        """That of the table to 0.1 %."""
+        mass = float(read_csv(folder / "statistics.csv")[-1]["mass [kg]"])
+        self.assertLess(abs(mass_in_maps - mass), 1e-3 * mass)
+
+    def lost_energy(self, folder, time):
+        """Over the work of gravity until then."""
+        row = next(row for row in read_csv(folder / "statistics.csv")
+                   if float(row["time [s]"]) >= time)
+        return float(row["energy remainder [J]"]) / float(row["gravity work [J]"])
+
+    def test_section(self):
+        folder = self.run_slope("slope", "Grid/Cell size=8", "End time=115",
+                                "Output/Field interval=20")
+        page = self.report(folder)
+        self.assert_has(page, "soil", "maps", "stations", "obstacles")
+        columns = read_csv(folder / "maps.csv")
+        width = float(columns[1]["x [m]"]) - float(columns[0]["x [m]"])
+        self.assert_mass(folder, sum(float(c["final mass [kg/m^2]"]) for c in columns) * width)
+        # What the impact then costs goes down with the size of the cells.
+        self.assertTrue(0 <= self.lost_energy(folder, 85) <= 0.005)
+
+        forces = read_csv(folder / "obstacles.csv")
+        least = min(float(row["structure force x [N]"]) for row in forces)
+        largest = max(float(row["structure force x [N]"]) for row in forces)
+        self.assertGreater(largest, 1e5)
+        self.assertGreaterEqual(least, 0)
+        stations = read_csv(folder / "stations.csv")
+        speed = max(float(row["structure depth-mean velocity x [m/s]"]) for row in stations)
+        self.assertGreater(speed, 5)
+        # The bed passes 4 kPa at most, and in the middle of the slide all of it. Its
+        # facets are inclined, so that a column has a little more bed than it is wide.
+        shear = [float(c["maximum bed shear [Pa]"]) for c in columns]
+        self.assertLess(max(shear), 1.05 * 4e3)
+        self.assertGreater(sorted(shear)[len(shear) // 2], 0.98 * 4e3)
+
+    def test_map(self):
+        folder = self.run_slope("slope-3d", "Grid/Cell size=20", "End time=40",
+                                "Output/Field interval=20")
+        page = self.report(folder)
+        self.assert_has(page, "soil", "maps", "stations", "lines", "obstacles")
+        self.assertGreaterEqual(len(page.pictures("maps")), 5)
+
+        grids = {file.stem: read_grid(file) for file in (folder / "maps").glob("*.asc")}
+        mass = grids["final-mass"]
+        self.assert_mass(folder, numpy.nansum(mass.values) * mass.dx * mass.dy)
+        self.assertTrue(0 <= self.lost_energy(folder, 39) <= 0.03)
+        self.assertTrue(mass.is_aligned_with(grids["ground"]))
+        thickness, final = grids["maximum-thickness"].values, grids["final-thickness"].values
+        self.assertTrue(numpy.all(thickness[final > 0] >= final[final > 0]))
+        shear = grids["maximum-bed-shear"].values
+        self.assertLess(numpy.nanmax(shear), 1.05 * 4e3)
+        self.assertGreater(numpy.nanmedian(shear[shear > 0]), 0.5 * 4e3)
+        # The canyon leads the slide down the slope, to the east.
+        east, _ = mass.place(*numpy.unravel_index(numpy.nanargmax(mass.values),
+                                                  mass.values.shape))
+        self.assertGreater(east, 513150)
 
 
 class Refused(Case):
