@@ -443,6 +443,7 @@ class CommandLine(Case):
 
     def test_validate_computes_what_the_first_step_needs(self):
         for setting in ("Body force/Expression=1/0; 0",
+                        "Splitting/Maximum number of points=15",
                         "Output/Folder=/dev/null/results",
                         "Output/Folder=/proc/results"):
             (self.folder / "bad.prm").write_text(GOOD)
