@@ -98,9 +98,10 @@ namespace talus
   write_file(const std::filesystem::path               &path,
              const std::function<void(std::ostream &)> &write)
   {
-    check_not_input(path);
     std::filesystem::path part = path;
     part += ".part";
+    check_not_input(path);
+    check_not_input(part);
     errno = 0;
     std::ofstream file(part, std::ios::binary);
     write(file);
