@@ -317,6 +317,15 @@ class BadInputFolder(Case):
             self.assert_refused(
                 self.run_talus("--set", "Ground motion/File=" + table,
                                "--output", "results", "case.prm"), words)
+        os.mkfifo(self.folder / "pipe.csv")
+        for table, words in (("holes.prm", "more than 100 MB"),
+                             ("pipe.csv", "'pipe.csv' cannot be read"),
+                             ("/dev/zero", "'/dev/zero' cannot be read")):
+            self.assert_refused(
+                self.run_talus("--set", "Materials/clay/Law=von Mises", "--set",
+                               "Materials/clay/Undrained shear strength=table "
+                               + table, "--output", "results", "case.prm"),
+                words)
         result = subprocess.run(
             ["bash", "-c", f"'{TALUS}' --output results <(cat /dev/zero)"],
             cwd=self.folder, capture_output=True, text=True, timeout=120)
