@@ -233,6 +233,8 @@ class BadInput(Case):
                 ("a=b", "'a=b'", "cannot be understood"),
                 ("a=", "'a='", "one value"),
                 ("a=b=1", "'a=b=1'", "one value"),
+                ("a=1,5", "'a=1,5'", "decimals with a point"),
+                ("a=2*x", "'a=2*x'", "cannot be understood", '"x"'),
                 ("a=1/0", "'a=1/0'", "inf", "finite")):
             self.refuse_set(["Constants=" + constants], "'Constants'", *words)
 
