@@ -230,6 +230,7 @@ namespace talus
     check_number_of_points();
     output_.check_observers(state_);
     output_.check_resumable(state_);
+    static_stages_.check_resumable(output_.folder());
   }
 
 

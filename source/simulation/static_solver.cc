@@ -37,6 +37,16 @@ namespace talus
 
 
 
+  template <int dim>
+  std::string
+  StaticSolver<dim>::cannot_resume(const std::filesystem::path &folder) const
+  {
+    return is_first_rank(state_.communicator()) ? table_.cannot_resume(folder)
+                                                : std::string();
+  }
+
+
+
   /// With all that acts at the time it is now.
   /// References to the state and the rest as they are now; loads at the state's
   /// time, which stands still.

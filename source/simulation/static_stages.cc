@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/simulation/static_stages.h>
 
@@ -31,6 +32,19 @@ namespace talus
   {
     if (stages_.have_static())
       solver_.begin(folder, beginning);
+  }
+
+
+
+  template <int dim>
+  void
+  StaticStages<dim>::check_resumable(const std::filesystem::path &folder) const
+  {
+    if (!stages_.have_static())
+      return;
+    const std::string sentence =
+      first_sentence(solver_.cannot_resume(folder), state_.communicator());
+    AssertThrow(sentence.empty(), ExcUser(sentence));
   }
 
 
