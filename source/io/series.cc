@@ -94,8 +94,9 @@ namespace talus
   {
     std::vector<std::string> missing;
     for (const IndexEntry &entry : entries_)
-      if (!std::filesystem::exists(folder_ / entry.file))
-        missing.push_back(entry.file);
+      for (const std::string &file : writer_->files_of(folder_, entry))
+        if (!std::filesystem::exists(folder_ / file))
+          missing.push_back(file);
     if (!std::filesystem::exists(index_) && !index_.empty())
       missing.push_back(index_.filename().string());
     return missing;
