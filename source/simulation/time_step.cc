@@ -329,6 +329,28 @@ namespace talus
 
 
 
+  void
+  check_time_goes_on(const double                        time,
+                     const double                        dt,
+                     const std::function<std::string()> &limited_by)
+  {
+    if (time + dt > time)
+      return;
+    AssertThrow(false,
+                ExcPoint(text("At t = ",
+                              time,
+                              " s the time step is only ",
+                              dt,
+                              " s, limited by ",
+                              limited_by(),
+                              ", so that time stands still. The simulation "
+                              "became unstable: lower 'Time step/CFL "
+                              "number', or look at that point in the last "
+                              "state.")));
+  }
+
+
+
   template class TimeStep<2>;
   template class TimeStep<3>;
 } // namespace talus
