@@ -346,7 +346,8 @@ namespace talus
   ExplicitScheme<dim>::description()
   {
     const double dt = stable_time_step();
-    return text("t = ",
+    return text(std::setprecision(6),
+                "t = ",
                 state_.time,
                 " s: the time step is ",
                 dt,

@@ -94,7 +94,8 @@ namespace talus
     const double dt      = scheme_.stable_time_step();
     const double n_steps = (end_time_ - state_.time) / dt;
     AssertThrow(n_steps <= 1e12,
-                ExcUser(text("The run would take ",
+                ExcUser(text(std::setprecision(6),
+                             "The run would take ",
                              n_steps,
                              " time steps of ",
                              dt,

@@ -160,7 +160,8 @@ namespace talus
       residuals +=
         text(residuals.empty() ? "" : ", ", std::setprecision(2), residual);
     log_.say(LogLevel::result,
-             text("  step ",
+             text(std::setprecision(6),
+                  "  step ",
                   note.step,
                   ", load ",
                   note.load,
@@ -183,7 +184,10 @@ namespace talus
   {
     return text("The stage 'equilibrium' found no balance ",
                 equilibrium_.load() > 0.
-                  ? text("beyond ", equilibrium_.load(), " of the load. ")
+                  ? text(std::setprecision(6),
+                         "beyond ",
+                         equilibrium_.load(),
+                         " of the load. ")
                   : text("with any share of the load that was tried. "),
                 equilibrium_.failure(),
                 ".");

@@ -309,6 +309,7 @@ namespace talus
                                    : "the thin box of point ",
                         points.data(points.id)[p],
                         " (wave speed ",
+                        std::setprecision(6),
                         material.wave_speed(points, p),
                         " m/s)");
         }

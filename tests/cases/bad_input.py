@@ -136,6 +136,8 @@ class BadInput(Case):
     def test_numbers_that_contradict_each_other(self):
         self.refuse_set(["Materials/clay/Submerged density=2000"],
                         "/Materials/clay", "2000", "1000", "at most")
+        self.refuse_set(["Materials/clay/Submerged density=1000.001"],
+                        "1000.001", "at most")
         self.refuse(
             "linear elastic", "von Mises\nend\nend\n"
             "set Stages = equilibrium, strength reduction\n"
