@@ -137,13 +137,17 @@ namespace talus
                                  "semicolons.")));
         const std::string expression =
           Utilities::trim(definition.substr(equals + 1));
-        AssertThrow(!expression.empty() && !has_assignment(expression),
+        AssertThrow(!expression.empty() && !has_assignment(expression) &&
+                      !has_loose_comma(expression),
                     ExcUser(text("'Constants' contains '",
                                  definition,
                                  "', where one value was expected behind "
-                                 "the first =.")));
+                                 "the first =; write decimals with a point and "
+                                 "separate constants by semicolons.")));
         FunctionParser<1> value(1);
-        value.initialize("x", expression, values);
+        // deal.II wants a variable, which must be none that a user may mean: x
+        // would be 0 without a word.
+        value.initialize("unused_variable", expression, values);
         // An expression without variables has one value; where it is asked for
         // does not matter.
         std::string  error  = parse_error(value);

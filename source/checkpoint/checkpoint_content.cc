@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 namespace talus
 {
@@ -273,14 +274,27 @@ namespace talus
 
 
 
-  /// All files but state.h5, sorted, as the order of a folder is nobody's
-  /// promise.
+  bool
+  is_mesh_file(const std::string &name)
+  {
+    static const std::set<std::string> endings = {
+      "", ".info", "_fixed.data", "_variable.data", "_triangulation.data"};
+    const std::string mesh = mesh_file_name;
+    return name.compare(0, mesh.size(), mesh) == 0 &&
+           endings.count(name.substr(mesh.size())) == 1;
+  }
+
+
+
+  /// Sorted, as the order of a folder is nobody's promise. What others put
+  /// there, as a user's notes or what a file system keeps of a file that was
+  /// removed while it was open, does not count.
   std::string
   mesh_checksums(const std::filesystem::path &checkpoint)
   {
     std::vector<std::filesystem::path> paths;
     for (const auto &entry : std::filesystem::directory_iterator(checkpoint))
-      if (entry.path().filename() != state_file_name)
+      if (is_mesh_file(entry.path().filename().string()))
         paths.push_back(entry.path());
     std::sort(paths.begin(), paths.end());
     std::string result;

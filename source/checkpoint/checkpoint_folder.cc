@@ -8,7 +8,6 @@
 #include <deal.II/base/utilities.h>
 
 #include <algorithm>
-#include <set>
 
 namespace talus
 {
@@ -36,12 +35,7 @@ namespace talus
     bool
     is_written_by_us(const std::string &name)
     {
-      static const std::set<std::string> endings = {
-        "", ".info", "_fixed.data", "_variable.data", "_triangulation.data"};
-      const std::string mesh = mesh_file_name;
-      return name == state_file_name ||
-             (name.compare(0, mesh.size(), mesh) == 0 &&
-              endings.count(name.substr(mesh.size())) == 1);
+      return name == state_file_name || is_mesh_file(name);
     }
 
 
@@ -122,6 +116,26 @@ namespace talus
           return error;
       if (content(path).empty())
         fs::remove(path, error);
+      return error;
+    }
+
+
+
+    /// Into a folder that is there, as others have files in it, and may not be
+    /// replaced. The state comes last: until then it is damaged, as one is that
+    /// is removed half.
+    std::error_code
+    move_files(const fs::path &from, const fs::path &to)
+    {
+      std::error_code       error;
+      std::vector<fs::path> files = content(from);
+      std::sort(files.begin(), files.end());
+      for (const fs::path &file : files)
+        if (fs::rename(file, to / file.filename(), error); error)
+          return error;
+      if (!sync_to_disk(to).empty())
+        return std::make_error_code(std::errc::io_error);
+      fs::remove(from, error);
       return error;
     }
 
@@ -253,9 +267,13 @@ namespace talus
   {
     // One of the same step is there if it was damaged and the run resumed from
     // the one before.
+    const fs::path  part  = temporary_path(checkpoint);
     std::error_code error = remove_checkpoint(checkpoint);
-    if (!error)
-      fs::rename(temporary_path(checkpoint), checkpoint, error);
+    std::error_code ignored;
+    if (!error && fs::is_directory(checkpoint, ignored))
+      error = move_files(part, checkpoint);
+    else if (!error)
+      fs::rename(part, checkpoint, error);
     if (error)
       return error.message();
     const fs::path    parent  = checkpoint.parent_path();

@@ -3,6 +3,9 @@
 #include <talus/base/errors.h>
 #include <talus/checkpoint/checkpoint_folder.h>
 #include <talus/checkpoint/damage.h>
+#include <talus/checkpoint/parameter_changes.h>
+
+#include <deal.II/base/utilities.h>
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +51,37 @@ namespace talus
         return text("it is of step ",
                     head.step,
                     ", where that of its name was expected");
+      return "";
+    }
+
+
+
+    /// The body of each point is the number of one. How many there are, only the
+    /// parameters tell.
+    std::string
+    fault_of_bodies(Hdf5InputFile &file)
+    {
+      const unsigned int n =
+        Utilities::MPI::n_mpi_processes(file.communicator());
+      const unsigned int rank =
+        Utilities::MPI::this_mpi_process(file.communicator());
+      const std::string   name     = "points/body";
+      const std::uint64_t n_points = file.shape(name).first;
+      const std::uint64_t first    = n_points * rank / n;
+      const std::uint64_t end      = n_points * (rank + 1) / n;
+      const auto          bodies   = file.read(name, first, end - first);
+      const std::string   names =
+        parameter_in(file.read_text("parameters"), "Bodies/Names");
+      if (!file.error().empty())
+        return file.error();
+      const double n_bodies = Utilities::split_string_list(names, ',').size();
+      for (const double body : bodies)
+        if (!(body >= 0. && body < n_bodies && body == std::floor(body)))
+          return text("a point is of body ",
+                      body,
+                      ", where there are ",
+                      n_bodies,
+                      ", counted from 0");
       return "";
     }
 
@@ -129,6 +163,9 @@ namespace talus
       error = fault_of(head, checkpoint);
     if (error.empty())
       error = fault_of_extents(file, head.n_ranks);
+    // Extents are told to all ranks alike, so that all of them come here.
+    if (error.empty())
+      error = fault_of_bodies(file);
     if (error.empty() && is_first_rank(file.communicator()) &&
         mesh_checksums(checkpoint) != saved)
       error = "the checksums of its mesh files do not match their content";

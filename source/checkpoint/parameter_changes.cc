@@ -121,6 +121,16 @@ namespace talus
 
 
 
+  std::string
+  parameter_in(const std::string &parameters, const std::string &path)
+  {
+    const Values values = read_parameters(parameters);
+    const auto   value  = values.find(path);
+    return value == values.end() ? "" : value->second;
+  }
+
+
+
   /// Over the names of both: a parameter that only one of them has differs,
   /// too. These come last: they follow from another one, as those of a law do
   /// from its name, and that is what the user has changed. What state depends on

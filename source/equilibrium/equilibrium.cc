@@ -172,7 +172,8 @@ namespace talus
     if (!is_settling())
       {
         const auto [largest, place] = newton_.equations().largest_imbalance();
-        failure_                    = text("After ",
+        failure_                    = text(std::setprecision(6),
+                        "After ",
                         n_settling_,
                         " steps without further load the force out of balance "
                                            "is ",

@@ -34,7 +34,8 @@ namespace talus
     double            largest;
     const std::string place = equations_.where_largest(residual_, largest);
     return {false,
-            text(reason,
+            text(std::setprecision(6),
+                 reason,
                  "; the largest residual force of a node is ",
                  largest,
                  " N, at ",
@@ -124,7 +125,8 @@ namespace talus
           {
             observe(iteration);
             return converged ? Outcome{true, ""}
-                             : failure(text("Newton's method has not converged "
+                             : failure(text(std::setprecision(6),
+                                            "Newton's method has not converged "
                                             "in ",
                                             i,
                                             " iterations: the residual is ",

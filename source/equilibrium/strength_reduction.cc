@@ -211,12 +211,14 @@ namespace talus
         ? " It is less than 1: the soil cannot stand with the strength it has."
         : "";
     if (upper_ == 0.)
-      return text("The factor of safety is more than ",
+      return text(std::setprecision(6),
+                  "The factor of safety is more than ",
                   lower_,
                   ", where 'Strength reduction/Largest factor' ends the "
                   "search.");
     if (lower_ == 0.)
       return text(
+        std::setprecision(6),
         "The factor of safety is less than ",
         upper_,
         smallest_ >= least_factor()
@@ -225,7 +227,8 @@ namespace talus
           : "; with more strength the soil would soften faster than it "
             "unloads.",
         cannot_stand);
-    return text("The factor of safety is ",
+    return text(std::setprecision(6),
+                "The factor of safety is ",
                 0.5 * (lower_ + upper_),
                 ": the soil stands with its strength divided by ",
                 lower_,

@@ -98,9 +98,10 @@ namespace talus
   write_file(const std::filesystem::path               &path,
              const std::function<void(std::ostream &)> &write)
   {
-    check_not_input(path);
     std::filesystem::path part = path;
     part += ".part";
+    check_not_input(path);
+    check_not_input(part);
     errno = 0;
     std::ofstream file(part, std::ios::binary);
     write(file);
@@ -192,6 +193,10 @@ namespace talus
     errno = 0;
     if (beginning == Beginning::resumed)
       {
+        // Asked before, for all tables, but it may have changed since; and what
+        // is too short would be filled up with zeros.
+        const std::string sentence = cannot_resume(path, names);
+        AssertThrow(sentence.empty(), ExcUser(sentence));
         // Rows written after the checkpoint are written once more.
         std::error_code error;
         std::filesystem::resize_file(path, n_bytes_, error);

@@ -69,6 +69,8 @@ namespace talus
     , is_first_rank_(is_first_rank(communicator))
     , options_(options)
   {
+    check_not_input(path);
+    check_not_input(part_);
     create();
   }
 

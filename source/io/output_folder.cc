@@ -24,8 +24,8 @@ namespace talus
       "maps/(ground|erosion|thickness-at-start|final-(thickness|mass)|"
       "(time-of-)?maximum-(thickness|speed|momentum-flux|bed-shear)|"
       "arrival-time-[-+.0-9e]*-m)\\.(asc|tif)|"
-      "(points|grid|facets|obstacles|mechanism|last-state)([-.][-.0-9]*)?"
-      "\\.(vtu|pvtu|pvd|h5|xdmf)");
+      "(points|grid|facets|obstacles|mechanism|no-equilibrium|last-state)"
+      "([-.][-.0-9]*)?\\.(vtu|pvtu|pvd|h5|xdmf)");
     return std::regex_match(file_name, names);
   }
 
@@ -33,9 +33,19 @@ namespace talus
 
   namespace
   {
-    /// The files in a folder that bear such names.
+    bool
+    has_ending(const std::string &name, const std::string &ending)
+    {
+      return name.size() >= ending.size() &&
+             name.compare(name.size() - ending.size(), ending.size(), ending) ==
+               0;
+    }
+
+
+
+    /// The files in a folder that bear such names, with @p ending behind.
     std::vector<fs::path>
-    outputs_in(const fs::path &folder)
+    outputs_in(const fs::path &folder, const std::string &ending = "")
     {
       std::vector<fs::path> result;
       for (const std::string within : {"", "maps/"})
@@ -44,8 +54,10 @@ namespace talus
           for (fs::directory_iterator entry(folder / within, error), end;
                !error && entry != end;
                entry.increment(error))
-            if (entry->is_regular_file() &&
-                is_output_name(within + entry->path().filename().string()))
+            if (const std::string name = entry->path().filename().string();
+                entry->is_regular_file() && has_ending(name, ending) &&
+                is_output_name(within +
+                               name.substr(0, name.size() - ending.size())))
               result.push_back(entry->path());
         }
       return result;
@@ -96,8 +108,10 @@ namespace talus
   void
   check_no_foreign_file(const fs::path &folder)
   {
-    for (const fs::path &path : outputs_in(folder))
-      check_not_input(path);
+    // write_file() makes the file under another name first.
+    for (const std::string ending : {"", ".part"})
+      for (const fs::path &path : outputs_in(folder, ending))
+        check_not_input(path);
     const fs::path record = folder / "parameters.prm";
     AssertThrow(!fs::exists(record) || is_run_record(record),
                 ExcUser(text("The output folder '",

@@ -45,16 +45,23 @@ namespace talus
         out << entry.time << ' ' << entry.file << '\n' << entry.description;
       return out.str();
     };
-    const auto set = [this](const std::string &text) {
+    const auto set = [this, name](const std::string &text) {
       entries_.clear();
       std::istringstream in(text);
       for (std::string line; std::getline(in, line);)
-        if (line[0] == ' ')
+        if (line[0] == ' ' && !entries_.empty())
           entries_.back().description += line + '\n';
         else
           {
-            IndexEntry entry;
-            std::istringstream(line) >> entry.time >> entry.file;
+            IndexEntry         entry;
+            std::istringstream words(line);
+            words >> entry.time >> entry.file;
+            AssertThrow(line[0] != ' ' && words,
+                        ExcUser("The list '" + name +
+                                "' of the checkpoint has '" + line +
+                                "' where the time and the name of a file were "
+                                "expected. Remove this checkpoint so that the "
+                                "one before it is used."));
             entries_.push_back(entry);
           }
     };
@@ -87,8 +94,9 @@ namespace talus
   {
     std::vector<std::string> missing;
     for (const IndexEntry &entry : entries_)
-      if (!std::filesystem::exists(folder_ / entry.file))
-        missing.push_back(entry.file);
+      for (const std::string &file : writer_->files_of(folder_, entry))
+        if (!std::filesystem::exists(folder_ / file))
+          missing.push_back(file);
     if (!std::filesystem::exists(index_) && !index_.empty())
       missing.push_back(index_.filename().string());
     return missing;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <fstream>
 #include <iomanip>
 
 namespace talus
@@ -204,6 +205,27 @@ namespace talus
       write(base + ".pvtu",
             [&](std::ostream &out) { write_pvtu(out, cells, pieces); });
     return {cells.time, base + ".pvtu", ""};
+  }
+
+
+
+  /// The pieces from the file that names them, as write_pvtu() has written it:
+  /// ranks without cells had none.
+  std::vector<std::string>
+  VtuWriter::files_of(const std::filesystem::path &folder,
+                      const IndexEntry            &entry) const
+  {
+    std::vector<std::string> files = {entry.file};
+    std::ifstream            pvtu;
+    if (std::filesystem::path(entry.file).extension() == ".pvtu")
+      pvtu.open(folder / entry.file);
+    const std::string begin = "<Piece Source=\"";
+    for (std::string line; std::getline(pvtu, line);)
+      if (line.rfind(begin, 0) == 0)
+        files.push_back(
+          line.substr(begin.size(),
+                      line.find('"', begin.size()) - begin.size()));
+    return files;
   }
 
 

@@ -174,6 +174,7 @@ namespace talus
        "95 %"},
       cell_size,
       text(
+        std::setprecision(6),
         "keep `Plastic shear strain to remould` times the cell size at ",
         strain_to_remould_ * cell_size,
         " m, ",

@@ -16,14 +16,16 @@ namespace talus
                   const std::string &advice)
   {
     const auto numbers = [&](const double h) {
-      return text(softening.strain * h,
+      return text(std::setprecision(6),
+                  softening.strain * h,
                   " m and ",
                   softening.work * h,
                   " J/m^2 on cells of ",
                   h,
                   " m");
     };
-    return text("The material of section ",
+    return text(std::setprecision(6),
+                "The material of section ",
                 softening.section,
                 " softens, and a shear band settles in about one row of cells, "
                 "so the results depend on the cell size: the displacement "

@@ -132,7 +132,8 @@ namespace talus
     return shear_band_note(
       {this->section(), strain, lost * strain / 2., "all"},
       cell_size,
-      text("keep `Hardening modulus` over the cell size at ",
+      text(std::setprecision(6),
+           "keep `Hardening modulus` over the cell size at ",
            hardening_ / cell_size,
            " Pa/m, or take the law Bingham or Herschel-Bulkley, whose "
            "viscosity gives the band a width of its own."));

@@ -126,7 +126,11 @@ namespace talus
     for (const Schedule *schedule : {&rows_, &fields_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings_))
-          observer->check(state);
+          {
+            observer->check(state);
+            if (const std::string name = observer->subfolder(); !name.empty())
+              check_can_be_made(folder_ + "/" + name);
+          }
   }
 
 

@@ -275,7 +275,8 @@ namespace talus
       const double lost = uncut - left;
       if (lost <= 1e-9 * uncut)
         return "";
-      return text("The obstacles take ",
+      return text(std::setprecision(6),
+                  "The obstacles take ",
                   lost,
                   dim == 2 ? " m^2" : " m^3",
                   " of the body '",

@@ -272,6 +272,7 @@ namespace talus
                   "' bears at ",
                   n_points,
                   " of its points: the shear stress is up to ",
+                  std::setprecision(6),
                   ratio,
                   " times the strength. There it is returned to the strength "
                   "in the first steps, and the body starts to move. A slope "

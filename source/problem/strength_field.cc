@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
-#include <talus/io/checksum.h>
 #include <talus/problem/mudline.h>
 #include <talus/problem/strength_field.h>
 #include <talus/problem/time_table.h>
@@ -14,6 +13,18 @@ namespace talus
 
   namespace
   {
+    /// The table in @p file, checked: what is no table, or has no end, is found
+    /// before a run that is resumed asks for its checksum.
+    TimeTable
+    strength_table(const std::filesystem::path &file)
+    {
+      return {file,
+              {"undrained shear strength [Pa]"},
+              std::make_pair(std::string("depth"), std::string("m"))};
+    }
+
+
+
     /// The strength of one material as a function of place and depth.
     template <int dim>
     class StrengthField
@@ -44,10 +55,7 @@ namespace talus
       : number_(strength.number())
     {
       if (const std::string table = strength.table(); !table.empty())
-        table_.emplace(folder / table,
-                       std::vector<std::string>{
-                         "undrained shear strength [Pa]"},
-                       std::make_pair(std::string("depth"), std::string("m")));
+        table_ = strength_table(folder / table);
       else if (!number_)
         expression_ =
           std::make_unique<Expression<dim>>(path,
@@ -176,7 +184,7 @@ namespace talus
             tables[name]              = {"strength of " + name,
                                          "table",
                                          folder / table,
-                                         text(checksum_of_file(folder / table))};
+                                         strength_table(folder / table).checksum()};
           }
     std::vector<InputFile> result;
     for (const auto &[name, table] : tables)

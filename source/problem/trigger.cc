@@ -171,7 +171,9 @@ namespace talus
                            // Without a region everywhere.
                            region_.empty() ? "1" : region_,
                            1,
-                           constants);
+                           constants,
+                           // Points are chosen once, at t = 0.
+                           dim == 2 ? "x,y,unused_t" : "x,y,z,unused_t");
     double          n_weakened = 0;
     for (unsigned int p = 0; p < points.size(); ++p)
       {

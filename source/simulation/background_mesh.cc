@@ -350,7 +350,8 @@ namespace talus
                        state_.grid.n_global_cells(),
                        " cells.");
     if (n_ranks > 1)
-      sentence += text(" The largest share of points of the ",
+      sentence += text(std::setprecision(6),
+                       " The largest share of points of the ",
                        n_ranks,
                        " ranks is ",
                        LoadBalance<dim>::imbalance(state_.points, communicator),

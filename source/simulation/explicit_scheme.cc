@@ -199,6 +199,14 @@ namespace talus
                        state_.communicator());
     splitter_.check_total(plan.n_points);
     state_.time_step = std::min(plan.time_step, end_time - state_.time);
+    // All ranks have the same step, so that all or none of them ask for what
+    // limits it.
+    check_time_goes_on(state_.time, state_.time_step, [this]() {
+      return time_step_.limited_by(state_.points,
+                                   state_.grid,
+                                   problem_.materials,
+                                   transfer_.box_shape());
+    });
     return plan.request;
   }
 
@@ -338,7 +346,8 @@ namespace talus
   ExplicitScheme<dim>::description()
   {
     const double dt = stable_time_step();
-    return text("t = ",
+    return text(std::setprecision(6),
+                "t = ",
                 state_.time,
                 " s: the time step is ",
                 dt,

@@ -3,20 +3,33 @@
 
 namespace talus
 {
+  namespace
+  {
+    const std::vector<std::string> newton_columns = {"stage",
+                                                     "strength factor [-]",
+                                                     "load step",
+                                                     "load [-]",
+                                                     "iteration",
+                                                     "residual [-]",
+                                                     "step length [-]",
+                                                     "linear iterations"};
+  }
+
+
+
   void
   NewtonTable::begin(const std::filesystem::path &folder,
                      const Beginning              beginning)
   {
-    file_.open(folder / file_name,
-               {"stage",
-                "strength factor [-]",
-                "load step",
-                "load [-]",
-                "iteration",
-                "residual [-]",
-                "step length [-]",
-                "linear iterations"},
-               beginning);
+    file_.open(folder / file_name, newton_columns, beginning);
+  }
+
+
+
+  std::string
+  NewtonTable::cannot_resume(const std::filesystem::path &folder) const
+  {
+    return file_.cannot_resume(folder / file_name, newton_columns);
   }
 
 

@@ -77,6 +77,7 @@ namespace talus
     problem_.loading.update(state_.points, state_.time);
     problem_.boundaries.check_values(state_.grid, state_.time);
     check_number_of_steps();
+    check_number_of_points();
     output_.check_observers(state_);
   }
 
@@ -93,7 +94,8 @@ namespace talus
     const double dt      = scheme_.stable_time_step();
     const double n_steps = (end_time_ - state_.time) / dt;
     AssertThrow(n_steps <= 1e12,
-                ExcUser(text("The run would take ",
+                ExcUser(text(std::setprecision(6),
+                             "The run would take ",
                              n_steps,
                              " time steps of ",
                              dt,
@@ -102,6 +104,28 @@ namespace talus
                              " s, which cannot end. Check the units of "
                              "stiffness, density, cell size, velocities and "
                              "'End time', and 'Time step/Maximum'.")));
+  }
+
+
+
+  /// The splitter would say so in the first step, when the results of an earlier
+  /// run are gone. Collective.
+  template <int dim>
+  void
+  Simulation<dim>::check_number_of_points() const
+  {
+    const double n_points =
+      Utilities::MPI::sum(1. * state_.points.size(), state_.communicator());
+    const double most = scheme_.splitter().maximum_number_of_points();
+    AssertThrow(!static_stages_.stages().contain(Stage::dynamics) ||
+                  n_points <= most,
+                ExcUser(text("There are ",
+                             n_points,
+                             " points, more than 'Splitting/Maximum number of "
+                             "points' = ",
+                             most,
+                             ". Allow more points, or make fewer: by larger "
+                             "cells or fewer points per cell.")));
   }
 
 
@@ -202,8 +226,12 @@ namespace talus
                              "' is at t = ",
                              state_.time,
                              " s. Give a later 'End time'.")));
+    // The end and the limit may be others than those of the run before.
+    check_number_of_steps();
+    check_number_of_points();
     output_.check_observers(state_);
     output_.check_resumable(state_);
+    static_stages_.check_resumable(output_.folder());
   }
 
 

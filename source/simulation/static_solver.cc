@@ -37,6 +37,16 @@ namespace talus
 
 
 
+  template <int dim>
+  std::string
+  StaticSolver<dim>::cannot_resume(const std::filesystem::path &folder) const
+  {
+    return is_first_rank(state_.communicator()) ? table_.cannot_resume(folder)
+                                                : std::string();
+  }
+
+
+
   /// With all that acts at the time it is now.
   /// References to the state and the rest as they are now; loads at the state's
   /// time, which stands still.
@@ -150,7 +160,8 @@ namespace talus
       residuals +=
         text(residuals.empty() ? "" : ", ", std::setprecision(2), residual);
     log_.say(LogLevel::result,
-             text("  step ",
+             text(std::setprecision(6),
+                  "  step ",
                   note.step,
                   ", load ",
                   note.load,
@@ -173,7 +184,10 @@ namespace talus
   {
     return text("The stage 'equilibrium' found no balance ",
                 equilibrium_.load() > 0.
-                  ? text("beyond ", equilibrium_.load(), " of the load. ")
+                  ? text(std::setprecision(6),
+                         "beyond ",
+                         equilibrium_.load(),
+                         " of the load. ")
                   : text("with any share of the load that was tried. "),
                 equilibrium_.failure(),
                 ".");

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/simulation/static_stages.h>
 
@@ -31,6 +32,19 @@ namespace talus
   {
     if (stages_.have_static())
       solver_.begin(folder, beginning);
+  }
+
+
+
+  template <int dim>
+  void
+  StaticStages<dim>::check_resumable(const std::filesystem::path &folder) const
+  {
+    if (!stages_.have_static())
+      return;
+    const std::string sentence =
+      first_sentence(solver_.cannot_resume(folder), state_.communicator());
+    AssertThrow(sentence.empty(), ExcUser(sentence));
   }
 
 
@@ -117,7 +131,8 @@ namespace talus
     const auto [largest, place] =
       equilibrium().newton().equations().largest_imbalance();
     log_.say(LogLevel::result,
-             text("Equilibrium was found in ",
+             text(std::setprecision(6),
+                  "Equilibrium was found in ",
                   equilibrium().n_steps(),
                   " steps with ",
                   equilibrium().newton().n_unknowns(),
@@ -215,7 +230,8 @@ namespace talus
           solver_.find(measure_of_stronger_soil(), label(factor));
         strength_reduction_.record(factor, stands);
         log_.say(LogLevel::result,
-                 text("  strength x ",
+                 text(std::setprecision(6),
+                      "  strength x ",
                       1. / factor,
                       stands ? ": stands"
                              : ": fails. " + equilibrium().failure()));
@@ -247,12 +263,15 @@ namespace talus
         const double factor = strength_reduction_.next();
         const bool   stands = stands_with(factor);
         strength_reduction_.record(factor, stands);
-        log_.say(LogLevel::result,
-                 stands ? text("  strength / ", factor, ": stands")
-                        : text("  strength / ",
-                               factor,
-                               ": fails. ",
-                               equilibrium().failure()));
+        log_.say(
+          LogLevel::result,
+          stands
+            ? text(std::setprecision(6), "  strength / ", factor, ": stands")
+            : text(std::setprecision(6),
+                   "  strength / ",
+                   factor,
+                   ": fails. ",
+                   equilibrium().failure()));
         if (stands)
           state = solver_.save();
         else // of all that fail the last one has the smallest factor
@@ -310,6 +329,7 @@ namespace talus
     AssertThrow(
       standing_factor_ == 1. || !stages_.contain(Stage::dynamics),
       ExcUser(text(
+        std::setprecision(6),
         "The stage 'equilibrium' found no balance with the strength that the "
         "soil has, only with ",
         1. / standing_factor_,

@@ -309,6 +309,7 @@ namespace talus
                                    : "the thin box of point ",
                         points.data(points.id)[p],
                         " (wave speed ",
+                        std::setprecision(6),
                         material.wave_speed(points, p),
                         " m/s)");
         }
@@ -325,6 +326,28 @@ namespace talus
     if (maximum_ > 0 && 1. / std::sqrt(largest) > maximum_)
       return "'Time step/Maximum'";
     return reason;
+  }
+
+
+
+  void
+  check_time_goes_on(const double                        time,
+                     const double                        dt,
+                     const std::function<std::string()> &limited_by)
+  {
+    if (time + dt > time)
+      return;
+    AssertThrow(false,
+                ExcPoint(text("At t = ",
+                              time,
+                              " s the time step is only ",
+                              dt,
+                              " s, limited by ",
+                              limited_by(),
+                              ", so that time stands still. The simulation "
+                              "became unstable: lower 'Time step/CFL "
+                              "number', or look at that point in the last "
+                              "state.")));
   }
 
 

@@ -136,6 +136,8 @@ class BadInput(Case):
     def test_numbers_that_contradict_each_other(self):
         self.refuse_set(["Materials/clay/Submerged density=2000"],
                         "/Materials/clay", "2000", "1000", "at most")
+        self.refuse_set(["Materials/clay/Submerged density=1000.001"],
+                        "1000.001", "at most")
         self.refuse(
             "linear elastic", "von Mises\nend\nend\n"
             "set Stages = equilibrium, strength reduction\n"
@@ -233,6 +235,8 @@ class BadInput(Case):
                 ("a=b", "'a=b'", "cannot be understood"),
                 ("a=", "'a='", "one value"),
                 ("a=b=1", "'a=b=1'", "one value"),
+                ("a=1,5", "'a=1,5'", "decimals with a point"),
+                ("a=2*x", "'a=2*x'", "cannot be understood", '"x"'),
                 ("a=1/0", "'a=1/0'", "inf", "finite")):
             self.refuse_set(["Constants=" + constants], "'Constants'", *words)
 
@@ -443,6 +447,7 @@ class CommandLine(Case):
 
     def test_validate_computes_what_the_first_step_needs(self):
         for setting in ("Body force/Expression=1/0; 0",
+                        "Splitting/Maximum number of points=15",
                         "Output/Folder=/dev/null/results",
                         "Output/Folder=/proc/results"):
             (self.folder / "bad.prm").write_text(GOOD)

@@ -113,6 +113,21 @@ class BadInputFolder(Case):
                             "not a folder", "--output")
         self.assert_untouched()
 
+    def test_maps_is_a_file(self):
+        """In the way of the rasters of 3-D only, and if they are wanted."""
+        solid = "set Dimension = 3\n" + GOOD
+        for flat in ("0, 0", "4, 4", "1, 0", "3, 2"):
+            solid = solid.replace(flat + "\n", flat + ", " + flat[0] + "\n")
+        (self.results / "maps").write_text("mine")
+        self.earlier["maps"] = "mine"
+        self.assert_refused(self.run_file(solid, ["Maps/Write=true"]),
+                            "results/maps", "not a folder", "--output")
+        self.assert_untouched()
+        for content, settings in ((solid, []), (GOOD, ["Maps/Write=true"])):
+            result = self.run_file(content, settings)
+            self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertEqual((self.results / "maps").read_text(), "mine")
+
     # Files of the user
 
     def test_parameters_of_the_user(self):
@@ -135,6 +150,17 @@ class BadInputFolder(Case):
             "statistics.csv", "which it reads", "--output")
         self.assert_untouched()
 
+    def test_ground_motion_with_the_name_of_a_file_that_is_being_written(self):
+        table = "time [s],gravity factor [-]\n0,1\n1,1\n"
+        for name in ("parameters.prm.part", "points-0000.vtu.part",
+                     "points-0000.h5.part"):
+            (self.results / name).write_text(table)
+            self.earlier[name] = table
+            self.assert_refused(
+                self.run_file(settings=[f"Ground motion/File=results/{name}"]),
+                name, "which it reads", "--output")
+            self.assert_untouched()
+
     def test_record_of_an_earlier_run_is_a_parameter_file(self):
         self.assertEqual(self.run_file().returncode, 0)
         first = (self.results / "statistics.csv").read_text()
@@ -147,7 +173,9 @@ class BadInputFolder(Case):
     def test_what_an_earlier_run_left_goes(self):
         stale = ["points-0000.vtu", "points-0007.0.vtu", "points.pvd",
                  "grid-0000.pvtu", "last-state.vtu", "last-state.3.vtu",
-                 "mechanism.pvd", "newton.csv", "obstacles.csv", "points.xdmf"]
+                 "mechanism.pvd", "newton.csv", "obstacles.csv", "points.xdmf",
+                 "no-equilibrium.pvd", "no-equilibrium-0001.vtu",
+                 "no-equilibrium-0000.h5"]
         foreign = ["points.txt", "notes.csv", "points-of-mine.vtu", "data.part",
                    "my-statistics.csv"]
         for name in stale + foreign:
@@ -289,6 +317,15 @@ class BadInputFolder(Case):
             self.assert_refused(
                 self.run_talus("--set", "Ground motion/File=" + table,
                                "--output", "results", "case.prm"), words)
+        os.mkfifo(self.folder / "pipe.csv")
+        for table, words in (("holes.prm", "more than 100 MB"),
+                             ("pipe.csv", "'pipe.csv' cannot be read"),
+                             ("/dev/zero", "'/dev/zero' cannot be read")):
+            self.assert_refused(
+                self.run_talus("--set", "Materials/clay/Law=von Mises", "--set",
+                               "Materials/clay/Undrained shear strength=table "
+                               + table, "--output", "results", "case.prm"),
+                words)
         result = subprocess.run(
             ["bash", "-c", f"'{TALUS}' --output results <(cat /dev/zero)"],
             cwd=self.folder, capture_output=True, text=True, timeout=120)

@@ -31,6 +31,8 @@ class BadInputMotion(Case):
                 ([weaker, "Region=y; x"], "'Trigger/Region'", "1 are needed"),
                 ([weaker, "Region=1,2,3"], "'Trigger/Region' = '1,2,3'",
                  "comma outside of a function's arguments"),
+                ([weaker, "Region=1-t"], "'Trigger/Region' = '1-t'",
+                 "cannot be understood", "in x, y, pi"),
                 ([weaker, "Region=sqrt(y-1)"], "'Trigger/Region'", "nan",
                  "finite number"),
                 ([weaker, "Region=-y"], "'Trigger/Region' = '-y'",

@@ -125,7 +125,7 @@ class BadInputTerrain(Case):
                 (maps + ["Maps/Smallest thickness=1e300"],
                  "'Maps/Smallest thickness'", "cannot reach"),
                 (["Stations/Lines=a: 1; 2", "Stations/Width=1e-8"],
-                 "'Stations/Lines'", "1e+08 places", "'Stations/Width'"),
+                 "'Stations/Lines'", "100000000 places", "'Stations/Width'"),
                 (station + ["Stations/Width=1e300"], "'Stations/Width' is 1e+300"),
                 (station + ["Stations/Width=1e-300"], "'Stations/Width' is 1e-300"),
                 (station + ["Stations/Drag coefficient=1e300"],

@@ -320,6 +320,23 @@ class StagesAndResume(KillAndResume):
             self.assertNotIn("nothing left to do", result.stdout)
             self.assert_as_undisturbed("run")
 
+    def test_newton_table_cut_or_missing(self):
+        """Nothing is put into the gap, and other tables stay as they are."""
+        self.assert_ends(self.run_talus("run", ["Stages=equilibrium"]))
+        table = self.folder / "run" / "newton.csv"
+        whole = table.read_text()
+        table.write_text(whole[:-10])
+        for words in (f"only {len(whole) - 10} bytes", "cannot be read"):
+            before = self.content("run", [])
+            result = self.run_talus("run", ["Stages=equilibrium, dynamics"],
+                                    ["--resume"])
+            self.assertEqual(result.returncode, 1, result)
+            self.assertIn("newton.csv', which the run is to go on with, ",
+                          result.stderr)
+            self.assertIn(words, result.stderr)
+            self.assertEqual(self.content("run", []), before)
+            table.unlink(missing_ok=True)
+
     def test_other_stages(self):
         """Only dynamics can be added."""
         self.assert_ends(self.run_talus("run", ["Stages=equilibrium"]))

@@ -169,6 +169,24 @@ class ResumeRefused(Case):
         self.refuse(["End time=0.1"], "end time is 0.1 s", "t = 0.2 s",
                     "'End time'")
 
+    def test_run_without_end(self):
+        """The end may change, and is looked at again."""
+        self.refuse(["End time=1e30"], "time steps", "cannot end", "units")
+
+    def test_fewer_points_allowed(self):
+        self.refuse(["Splitting/Maximum number of points=10"],
+                    "'Splitting/Maximum number of points' = 10", "Allow more")
+
+    def test_files_of_others_in_checkpoints(self):
+        """They are no damage; the mesh has no less to be what it was."""
+        newest = self.checkpoints("run")[-1]
+        for name in ("notes.txt", ".nfs0001", ".mesh.shfp.1.2"):
+            (newest / name).write_text("mine")
+        self.assert_ends(self.run_talus("run", ["End time=0.3"], ["--resume"]))
+        log = (self.folder / "run" / "log.txt").read_text()
+        self.assertIn(f", from '{newest}'", log)
+        self.assertEqual((newest / "notes.txt").read_text(), "mine")
+
     def test_statistics_missing(self):
         (self.folder / "run" / "statistics.csv").unlink()
         self.before = self.content("run", [])

@@ -55,6 +55,13 @@ namespace talus
                  BoxRule                    rule,
                  std::vector<unsigned int> &points_out_of_cell);
 
+    /// The most points that there may be, over all ranks.
+    unsigned int
+    maximum_number_of_points() const
+    {
+      return maximum_points_;
+    }
+
     /// Throw ExcPoint if there are more points than allowed, over all ranks.
     void
     check_total(double n_points) const;

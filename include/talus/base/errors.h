@@ -4,6 +4,7 @@
 
 #include <deal.II/base/exceptions.h>
 
+#include <iomanip>
 #include <sstream>
 #include <string>
 
@@ -20,12 +21,16 @@ namespace talus
 
 
 
-  /// Stream the arguments into one string: text("h = ", h, " m").
+  /// Stream the arguments into one string: text("h = ", h, " m"). With ten
+  /// digits, so that numbers that differ look different, and places in UTM
+  /// coordinates are told to the millimetre; a sentence that wants fewer of a
+  /// computed number says std::setprecision.
   template <typename... Arguments>
   std::string
   text(const Arguments &...arguments)
   {
     std::ostringstream out;
+    out.precision(10);
     (out << ... << arguments);
     return out.str();
   }

@@ -77,6 +77,10 @@ namespace talus
 
 
 
+  /// Whether deal.II gives a file of the mesh this name.
+  bool
+  is_mesh_file(const std::string &name);
+
   /// Names and checksums of the mesh files in a checkpoint, one per line; to be
   /// called on one rank.
   std::string

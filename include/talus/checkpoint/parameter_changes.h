@@ -6,6 +6,11 @@
 
 namespace talus
 {
+  /// The value of the parameter "Section/Subsection/Entry" in a text in the
+  /// language of parameter files, as a run has written it; empty without one.
+  std::string
+  parameter_in(const std::string &parameters, const std::string &path);
+
   /// Compare the parameters of a checkpoint with those of the run that is to go
   /// on from it, both in the language of parameter files. Throws ExcUser,
   /// naming the first one that differs, unless all that differ are harmless: the

@@ -41,6 +41,15 @@ namespace talus
           const OutputCells                  &cells,
           std::vector<std::filesystem::path> &unsynced) const = 0;
 
+    /// The names of all files in @p folder that an output consists of, as far
+    /// as those that are there tell.
+    virtual std::vector<std::string>
+    files_of(const std::filesystem::path & /*folder*/,
+             const IndexEntry &entry) const
+    {
+      return {entry.file};
+    }
+
     /// Write the file NAME.* that gives ParaView the times of these outputs,
     /// all in @p folder, and return its path; for one rank. Throws ExcUser if
     /// that fails.

@@ -24,6 +24,10 @@ namespace talus
           const OutputCells                  &cells,
           std::vector<std::filesystem::path> &unsynced) const override;
 
+    std::vector<std::string>
+    files_of(const std::filesystem::path &folder,
+             const IndexEntry            &entry) const override;
+
     std::filesystem::path
     write_index(const std::filesystem::path   &folder,
                 const std::string             &name,

@@ -27,6 +27,13 @@ namespace talus
     void
     check(const State<dim> &state) const override;
 
+    /// For the rasters; in 2-D there are none.
+    std::string
+    subfolder() const override
+    {
+      return dim == 3 ? folder_name : "";
+    }
+
     static constexpr const char *table_name   = "maps.csv";
     static constexpr const char *surface_name = "maps.vtu";
     static constexpr const char *folder_name  = "maps";

@@ -46,6 +46,14 @@ namespace talus
       return true;
     }
 
+    /// Name of the folder in the output folder that it makes for its files;
+    /// empty if it makes none.
+    virtual std::string
+    subfolder() const
+    {
+      return "";
+    }
+
     /// Throw ExcUser if its parameters cannot be followed; nothing is written
     /// yet. To be called when the mesh is there.
     virtual void

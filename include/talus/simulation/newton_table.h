@@ -14,6 +14,10 @@ namespace talus
     void
     begin(const std::filesystem::path &folder, Beginning beginning);
 
+    /// Why a run cannot go on with the table, see CsvFile.
+    std::string
+    cannot_resume(const std::filesystem::path &folder) const;
+
     void
     add(unsigned int stage, double factor, const EquilibriumProgress &progress);
 

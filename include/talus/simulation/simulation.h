@@ -103,6 +103,8 @@ namespace talus
     void
     check_number_of_steps();
     void
+    check_number_of_points() const;
+    void
     begin_run();
     void
     begin_files();

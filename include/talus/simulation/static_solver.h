@@ -32,6 +32,11 @@ namespace talus
     void
     begin(const std::filesystem::path &folder, Beginning beginning);
 
+    /// Why newton.csv cannot be gone on with; empty on other ranks than the
+    /// first.
+    std::string
+    cannot_resume(const std::filesystem::path &folder) const;
+
     /// What is told of a search: the number of its stage and the factor that
     /// strengths are divided by.
     struct Label

@@ -41,6 +41,11 @@ namespace talus
     void
     begin(const std::filesystem::path &folder, Beginning beginning);
 
+    /// Throw ExcUser if their files are not as the checkpoint left them, before
+    /// any file is cut. Collective.
+    void
+    check_resumable(const std::filesystem::path &folder) const;
+
     /// Do the next stage, which is one of these. Collective.
     void
     run_next();

@@ -8,6 +8,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <functional>
 #include <string>
 
 namespace talus
@@ -93,6 +94,16 @@ namespace talus
     std::vector<double> wave_modulus_;
     std::vector<double> inverse_cell_size_;
   };
+
+
+
+  /// Throw ExcPoint if @p time + @p dt is not later than @p time, s, as with a
+  /// step that is lost in round-off: the run would go on for ever. Only then
+  /// what limits the step is asked for.
+  void
+  check_time_goes_on(double                              time,
+                     double                              dt,
+                     const std::function<std::string()> &limited_by);
 } // namespace talus
 
 #endif

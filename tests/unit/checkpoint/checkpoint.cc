@@ -59,6 +59,10 @@ namespace
 
   // ------------------------------------------------------------- checkpoints
 
+  const std::string parameters = "subsection Bodies\n  set Names = soil\nend\n";
+
+
+
   class CheckpointTest : public ObserversTest
   {
   protected:
@@ -89,7 +93,7 @@ namespace
       std::vector<double> weights(scene.grid.n_owned_cells(), 1.);
       weights[5] = 5.;
       return checkpoint->write(
-        {scene.points, weights, state, "set A = 1\n", step, 0.1 * step, 1.},
+        {scene.points, weights, state, parameters, step, 0.1 * step, 1.},
         scene.grid);
     }
 
@@ -151,7 +155,7 @@ namespace
     load_state(file, state);
     EXPECT_EQ(answer, 42.);
     EXPECT_EQ(words, "so\nmany");
-    EXPECT_EQ(file.read_text("parameters"), "set A = 1\n");
+    EXPECT_EQ(file.read_text("parameters"), parameters);
 
     // A law with another internal variable cannot go on from it.
     Points<2> others;
@@ -223,6 +227,26 @@ namespace
     EXPECT_NE(sentence.find("no other one"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find("mesh"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find(previous.string()), std::string::npos) << sentence;
+  }
+
+
+
+  // A user's notes, and what NFS keeps of a file that was removed.
+  TEST_F(CheckpointTest, FilesOfOthersAreNoDamage)
+  {
+    const fs::path previous = write(1);
+    const fs::path newest   = write(2);
+    for (const std::string name : {"notes.txt", ".nfs0001"})
+      std::ofstream(newest / name) << "of others\n";
+    EXPECT_EQ(find().path, newest);
+    fs::remove(newest / "mesh.info");
+    EXPECT_EQ(find().path, previous);
+
+    // The run comes to the same step again.
+    checkpoint->begin(folder, MPI_COMM_WORLD, previous);
+    EXPECT_EQ(write(2), newest);
+    EXPECT_EQ(find().path, newest);
+    EXPECT_TRUE(fs::exists(newest / "notes.txt"));
   }
 
 

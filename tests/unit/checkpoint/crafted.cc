@@ -230,6 +230,10 @@ namespace
            counts[0] = value;
            replace_list(file, "cells/points", counts);
          }});
+    for (const double value : {-1., 0.5, 1., 1e9, inf, std::nan("")})
+      crafts.push_back({text("body ", value), [=](const hid_t file) {
+                          replace_list(file, "points/body", {0., value, 0.});
+                        }});
     for (const double value : {-1., inf, std::nan("")})
       crafts.push_back(
         {text("weight ", value), [=](const hid_t file) {
@@ -302,7 +306,7 @@ namespace
       return checkpoint->write({scene.points,
                                 std::vector<double>(32, 1.),
                                 state,
-                                "set A = 1\n",
+                                "subsection Bodies\n set Names = soil\nend\n",
                                 step,
                                 0.1 * step,
                                 1.},

@@ -67,7 +67,8 @@ namespace
         // At last the upper end once more, if it failed from farther below.
         EXPECT_LE(reduction.tried.size(), 13u + 14u + 1u);
         EXPECT_TRUE(contains(reduction.result(),
-                             text("The factor of safety is ",
+                             text(std::setprecision(6),
+                                  "The factor of safety is ",
                                   0.5 * (reduction.lower() + reduction.upper()),
                                   ": the soil stands with its strength divided "
                                   "by ",

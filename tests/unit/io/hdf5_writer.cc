@@ -400,6 +400,13 @@ namespace
     output.write(s);
     const auto expected = lines("points.xdmf");
 
+    // As no run has written it.
+    for (const std::string broken : {" <A/>\n", "0\n", "\n", "x p.h5\n"})
+      EXPECT_NE(sentence_thrown_by([&]() {
+                  after.texts().at(0).set(broken);
+                }).find("'files of points'"),
+                std::string::npos)
+        << broken;
     after.texts().at(0).set(state);
     EXPECT_EQ(after.texts().at(0).get(), state);
     resumed.begin({folder, "hdf5", false}, s, Beginning::resumed);

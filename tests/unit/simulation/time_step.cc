@@ -173,6 +173,18 @@ namespace
 
 
 
+  TEST(TimeStep, LostInRoundOffIsNamed)
+  {
+    const auto reason = []() { return "'Time step/Maximum'"; };
+    EXPECT_NO_THROW(check_time_goes_on(1e3, 1e-12, reason));
+    EXPECT_TRUE(contains(message_of<ExcPoint>(
+                           [&] { check_time_goes_on(1e3, 1e-14, reason); }),
+                         "limited by 'Time step/Maximum', so that time stands "
+                         "still"));
+  }
+
+
+
   /// The step that one point allows, box of 0.3 m in cells of 1 m, over the time
   /// in which a wave crosses a cell.
   double
