@@ -335,9 +335,7 @@ namespace talus
                      const double                        dt,
                      const std::function<std::string()> &limited_by)
   {
-    if (time + dt > time)
-      return;
-    AssertThrow(false,
+    AssertThrow(time + dt > time,
                 ExcPoint(text("At t = ",
                               time,
                               " s the time step is only ",

@@ -63,6 +63,26 @@ TEST(LandslideFourWay, ToRestAndAgainstItsVariants)
                 "front x [m]",
                 all_times,
                 0.003);
+
+  const Table merged =
+    run<2>(file, "landslide-four-way-merged", {"Splitting/Merge=true"});
+  gates.at_most("with merging: points at rest / at the start",
+                merged["points"].back() / merged["points"].front(),
+                2.);
+  expect_within(gates,
+                "four-way with merging against stretched splitting",
+                merged,
+                stretched,
+                "front x [m]",
+                all_times,
+                0.003);
+  gates.falls_short(
+    "with merging: front x [m], difference to 30 s",
+    relative_difference(merged, four_way, "front x [m]", 30.),
+    0.003,
+    {0.006,
+     "merging brings the front to that of stretched splitting, from which that "
+     "of four-way splitting differs by as much"});
 }
 
 
