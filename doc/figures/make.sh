@@ -5,8 +5,9 @@
 #   doc/figures/make.sh [TALUS [SCRATCH]]
 #
 # TALUS is the program (default build/release/talus), SCRATCH the folder for
-# the results (default build/figures, about 200 MB). Takes some minutes. A case
-# whose folder is there is not run again: remove the folder to repeat it.
+# the results (default build/figures, about 1 GB). Takes half an hour, most of it
+# the slope in 3-D. A case whose folder is there is not run again: remove the
+# folder to repeat it.
 #
 # Needs Debian's package python3-matplotlib.
 set -eu
@@ -39,6 +40,8 @@ for stress in 0 1e3; do
       --set "Obstacles/pipe/Maximum shear stress=$stress" \
       --set "Output/Boxes as cells=true" --set "Output/Field interval=10"
 done
+run slope prm/slope.prm
+run slope-3d prm/slope-3d.prm
 run first-slope prm/first-slope.prm --set "Output/Boxes as cells=true" \
     --set "Output/Field interval=5"
 run bar prm/bar.prm --set "Output/Boxes as cells=true" \
@@ -63,6 +66,7 @@ draw bar $here/bar.png $scratch/bar $scratch/bar-unsplit
 draw landslide $scratch/landslide $here/landslide.png
 draw landslide $scratch/first-slope $here/first-slope.png
 draw pipeline $here/pipeline.png $scratch/pipeline
+draw slope $here/slope.png $scratch/slope-3d $scratch/slope
 draw pipe_flow $here/pipe-flow.png \
           $scratch/pipe-0=smooth $scratch/pipe-1e3=rough
 draw toe $here/toe.png $scratch/landslide-unsplit \
