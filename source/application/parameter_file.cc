@@ -11,7 +11,10 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
+#include <regex>
 #include <sstream>
 
 namespace talus
@@ -275,12 +278,72 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// No quantity in SI units comes near, and products of several such numbers
+    /// are no infinities.
+    constexpr double largest_number = 1e30;
+
+
+
+    /// Throw ExcUser if the value of an entry is a number that is too large, or
+    /// one of a list.
+    void
+    check_size(const std::string &path, const std::string &value)
+    {
+      static const std::regex separators("[,;|:]");
+      std::istringstream      words(std::regex_replace(value, separators, " "));
+      for (std::string word; words >> word;)
+        {
+          char        *end    = nullptr;
+          const double number = std::strtod(word.c_str(), &end);
+          // Not "inf", which some entries have for no limit.
+          const bool is_number =
+            *end == '\0' && word.find_first_of("0123456789") != word.npos;
+          AssertThrow(!is_number || std::abs(number) <= largest_number,
+                      ExcUser(text("'",
+                                   path,
+                                   "' is '",
+                                   value,
+                                   "', which is larger than any quantity in SI "
+                                   "units: at most ",
+                                   largest_number,
+                                   " was expected. Correct the value, or leave "
+                                   "it out if there is to be no limit.")));
+        }
+    }
+
+
+
+    /// All entries, by the file that they would make: what is declared knows its
+    /// place only there.
+    void
+    check_sizes(const ParameterHandler &prm)
+    {
+      std::istringstream       lines(parameters_as_text(prm));
+      std::vector<std::string> path;
+      static const std::regex  section(" *subsection (.*)"), end(" *end"),
+        entry(" *set (.*?) *= ?(.*)");
+      std::smatch part;
+      for (std::string line; std::getline(lines, line);)
+        if (std::regex_match(line, part, section))
+          path.push_back(part[1].str() + '/');
+        else if (std::regex_match(line, end))
+          path.pop_back();
+        else if (std::regex_match(line, part, entry) && part[1] != "Title")
+          check_size(boost::algorithm::join(path, "") + part[1].str(), part[2]);
+    }
+  } // namespace
+
+
+
   /// An entry that nobody declared is an error here: it is mostly misspelt.
   void
   ParameterFile::parse() const
   {
     ParameterAcceptor::declare_all_parameters();
     parse_into(ParameterAcceptor::prm, /*skip_undefined=*/false);
+    check_sizes(ParameterAcceptor::prm);
     ParameterAcceptor::parse_all_parameters();
   }
 } // namespace talus

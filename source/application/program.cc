@@ -94,6 +94,7 @@ namespace
       simulation.set_up();
     if (command_line.validate)
       {
+        simulation.check_output_folder();
         if (is_first_rank(MPI_COMM_WORLD))
           std::cout << command_line.parameter_file << " is valid." << std::endl;
         return 0;

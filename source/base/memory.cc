@@ -21,19 +21,34 @@ namespace talus
       file >> pages;
       return pages * sysconf(_SC_PAGESIZE);
     }
+
+
+
+    unsigned int
+    n_ranks_on_this_machine(const MPI_Comm communicator)
+    {
+      MPI_Comm machine;
+      int      n_ranks = 1;
+      MPI_Comm_split_type(
+        communicator, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+      MPI_Comm_size(machine, &n_ranks);
+      MPI_Comm_free(&machine);
+      return n_ranks;
+    }
   } // namespace
 
 
 
   // A limit on addresses counts all of them: the libraries alone take 0.5 GB.
   double
-  largest_memory()
+  memory_per_rank(const MPI_Comm communicator)
   {
-    double largest = 1. * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE);
+    double largest = 1. * sysconf(_SC_PHYS_PAGES) * sysconf(_SC_PAGESIZE) /
+                     n_ranks_on_this_machine(communicator);
     rlimit limit;
     if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
       largest =
         std::min(largest, std::max(0., limit.rlim_cur - taken_addresses()));
-    return largest;
+    return dealii::Utilities::MPI::min(largest, communicator);
   }
 } // namespace talus

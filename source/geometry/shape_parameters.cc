@@ -159,12 +159,6 @@ namespace talus
         return make_over(std::move(base), domain);
       }
     check_radii();
-    AssertThrow(std::isfinite(centre_.norm()),
-                ExcUser(text(path("Centre"),
-                             " = (",
-                             centre_,
-                             ") m is too far away to compute distances from "
-                             "it. Correct it.")));
     if (shape_ == "ball")
       return std::make_unique<Ball<dim>>(centre_, radius_, inner_radius_);
     return make_over(std::make_unique<Ball<2>>(Point<2>(centre_[0], centre_[1]),
@@ -232,7 +226,7 @@ namespace talus
   std::unique_ptr<Shape<dim>>
   ShapeParameters<dim>::make_half_space() const
   {
-    AssertThrow(normal_.norm() > 0. && std::isfinite(normal_.norm()),
+    AssertThrow(normal_.norm() > 0.,
                 ExcUser(text(path("Normal"),
                              " = (",
                              normal_,

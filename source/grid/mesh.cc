@@ -64,20 +64,19 @@ namespace talus
 
 
 
-  /// Returns what any rank flagged cells for: 1 to be divided, 2 joined, 3
-  /// both. Whether a cell is to be divided or joined follows from what lies in
+  /// Returns how many cells of all ranks are flagged to be divided, and how
+  /// many to be joined. Whether a cell is to be divided or joined follows from what lies in
   /// it now, not from its history: a cell is joined with its siblings if what
   /// contains them all asks for nothing. So two runs that come to the same soil
   /// have the same mesh.
   template <int dim>
-  unsigned int
+  std::array<double, 2>
   Mesh<dim>::flag_cells(const WantsFiner &wants_finer)
   {
     const auto wants = [&](const Lattice &place, const unsigned int level) {
       return this->box_wants_finer(place, level) || wants_finer(place, level);
     };
-    const MPI_Comm communicator = triangulation_.get_communicator();
-    unsigned int   flags        = 0;
+    std::array<double, 2> n_flagged{};
     for (const auto &cell : triangulation_.active_cell_iterators())
       if (cell->is_locally_owned())
         {
@@ -86,7 +85,7 @@ namespace talus
           if (wants(place, level))
             {
               cell->set_refine_flag();
-              flags |= 1;
+              ++n_flagged[0];
             }
           else if (level > 0)
             {
@@ -95,12 +94,14 @@ namespace talus
               if (!wants(place, level - 1))
                 {
                   cell->set_coarsen_flag();
-                  flags |= 2;
+                  ++n_flagged[1];
                 }
             }
         }
-    return (Utilities::MPI::max(flags & 1, communicator) |
-            Utilities::MPI::max(flags & 2, communicator));
+    const ArrayView<const double> own(n_flagged);
+    const ArrayView<double>       sums(n_flagged);
+    Utilities::MPI::sum(own, triangulation_.get_communicator(), sums);
+    return n_flagged;
   }
 
 
@@ -144,12 +145,16 @@ namespace talus
     while (true)
       {
         const auto n_before = triangulation_.n_global_active_cells();
-        const auto flags    = flag_cells(wants_finer);
-        if (flags == 0 || (!(flags & 1) && !can_join_cells()))
+        const auto [n_divided, n_joined] = flag_cells(wants_finer);
+        if (n_divided == 0 && (n_joined == 0 || !can_join_cells()))
           return changed;
+        this->check_memory(n_before +
+                           (GeometryInfo<dim>::max_children_per_cell - 1.) *
+                             n_divided);
         triangulation_.execute_coarsening_and_refinement();
         // deal.II knows its neighbourhood, p4est the whole mesh.
-        if (!(flags & 1) && n_before == triangulation_.n_global_active_cells())
+        if (n_divided == 0 &&
+            n_before == triangulation_.n_global_active_cells())
           return changed;
         changed = true;
         // Only before there are points, which would be left behind on the rank

@@ -246,7 +246,9 @@ namespace talus
                            const bool                       grow,
                            const std::array<bool, dim>     &periodic)
   {
-    domain_ = {lower_corner_, upper_corner_};
+    domain_          = {lower_corner_, upper_corner_};
+    grows_           = grow;
+    memory_per_rank_ = memory_per_rank(MPI_COMM_WORLD);
     for (unsigned int d = 0; d < dim; ++d)
       fit_axis(d, may_move[2 * d + 1], 1);
     domain_before_growth_ = domain_;
@@ -273,7 +275,7 @@ namespace talus
         n_cells *= 1. * n_cells_per_axis_[d] * (1u << initial_refinement_);
       }
     // With mesh tracking the mesh of small cells never exists as a whole.
-    check_memory(grow ? n_trees : n_cells, grow);
+    check_memory(grow ? n_trees : n_cells);
     tree_size_   = cell_size_ * (1u << level);
     base_level_  = level + initial_refinement_;
     periodicity_ = Periodicity<dim>(periodic, domain_);
@@ -288,24 +290,26 @@ namespace talus
   /// run may add: what is refused here cannot work.
   template <int dim>
   void
-  MeshLayout<dim>::check_memory(const double n_cells, const bool grow) const
+  MeshLayout<dim>::check_memory(const double n_cells) const
   {
     constexpr double bytes_per_cell = (dim == 2 ? 720. : 1470.);
     const double     bytes          = n_cells * bytes_per_cell /
                          Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    AssertThrow(n_cells < 4e8 && bytes < largest_memory(),
-                ExcUser(text("The mesh would have ",
-                             n_cells,
-                             " cells, which take some ",
-                             bytes / 1e9,
-                             " GB of memory on each rank, where ",
-                             largest_memory() / 1e9,
-                             " GB are to be had, and 4e8 cells are the most. "
-                             "Choose a larger Grid/Cell size than ",
-                             cell_size_,
-                             " m, a smaller box",
-                             grow ? ", a larger Grid/Coarsest level" : "",
-                             ", or more ranks on more machines.")));
+    AssertThrow(n_cells < 4e8 && bytes < memory_per_rank_,
+                ExcUser(
+                  text("The mesh would have ",
+                       n_cells,
+                       " cells, which take some ",
+                       bytes / 1e9,
+                       " GB of memory on each rank, where ",
+                       memory_per_rank_ / 1e9,
+                       " GB are to be had, and 4e8 cells are the most. "
+                       "Choose a larger Grid/Cell size than ",
+                       cell_size_,
+                       " m, a smaller box",
+                       boxes_.empty() ? "" : ", fewer Grid/Refinement boxes",
+                       grows_ ? ", a larger Grid/Coarsest level" : "",
+                       ", or more ranks on more machines.")));
   }
 
 

@@ -111,6 +111,21 @@ namespace talus
 
 
 
+  void
+  check_no_foreign_lock(const std::filesystem::path &folder)
+  {
+    const std::filesystem::path path = folder / "lock";
+    const int                   file =
+      ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+    const bool is_foreign =
+      file < 0 ? errno == ELOOP : !is_ours(content_of(file));
+    if (file >= 0)
+      ::close(file);
+    AssertThrow(!is_foreign, ExcUser(foreign_lock(path)));
+  }
+
+
+
   // flock() and not fcntl(): the lock goes with the open file, and not with
   // whatever else in the program opens and closes a file of that name. The file
   // stays when the run has ended: who removed it could remove that of a run

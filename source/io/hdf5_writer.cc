@@ -170,7 +170,7 @@ namespace talus
                           const std::string             &name,
                           const std::vector<IndexEntry> &entries) const
   {
-    const std::filesystem::path path = folder / (name + ".xdmf");
+    const std::filesystem::path path = folder / index_name(name);
     write_file(path, [&](std::ostream &out) {
       out << "<?xml version=\"1.0\"?>\n"
              "<Xdmf Version=\"2.0\">\n"

@@ -117,7 +117,8 @@ namespace talus
                 ExcUser(text("The output folder '",
                              folder.string(),
                              "' holds a file 'parameters.prm' that no run has "
-                             "written, and this one would write over it. Move "
+                             "written or somebody has changed, and this run "
+                             "would write over it. Move "
                              "it, or choose another folder with Output/Folder "
                              "or --output.")));
   }
@@ -142,22 +143,44 @@ namespace talus
 
 
 
+  namespace
+  {
+    void
+    remove_result(const fs::path &path)
+    {
+      std::error_code error;
+      fs::remove(path, error);
+      AssertThrow(!error,
+                  ExcUser(text("The file '",
+                               path.string(),
+                               "' of an earlier run could not be removed (",
+                               error.message(),
+                               "). Remove it, or choose another folder "
+                               "with Output/Folder or --output.")));
+    }
+  } // namespace
+
+
+
   void
   remove_earlier_results(const fs::path &folder)
   {
     const fs::path record = folder / "parameters.prm";
+    for (const std::string ending : {"", ".part"})
+      for (const fs::path &path : outputs_in(folder, ending))
+        if (path != record)
+          remove_result(path);
+  }
+
+
+
+  void
+  remove_remains(const fs::path &folder)
+  {
+    for (const fs::path &path : outputs_in(folder, ".part"))
+      remove_result(path);
     for (const fs::path &path : outputs_in(folder))
-      if (path != record)
-        {
-          std::error_code error;
-          fs::remove(path, error);
-          AssertThrow(!error,
-                      ExcUser(text("The file '",
-                                   path.string(),
-                                   "' of an earlier run could not be removed (",
-                                   error.message(),
-                                   "). Remove it, or choose another folder "
-                                   "with Output/Folder or --output.")));
-        }
+      if (path.filename().string().rfind("last-state", 0) == 0)
+        remove_result(path);
   }
 } // namespace talus

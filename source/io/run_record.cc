@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/io/checksum.h>
 #include <talus/io/files.h>
 #include <talus/io/run_record.h>
 #include <talus/version.h>
@@ -18,7 +19,13 @@ namespace talus
   {
     const std::string first_line =
       "# The parameters of this run as they were understood by";
-  }
+
+
+
+    /// How the last line of a record begins, which tells whether somebody has
+    /// changed what stands before it.
+    const std::string last_line = "# CRC-32 of all before this line: ";
+  } // namespace
 
 
 
@@ -79,21 +86,32 @@ namespace talus
   write_run_record(const std::filesystem::path &path,
                    const ParameterHandler      &parameters)
   {
+    const std::string record = text(
+      first_line, '\n', versions("#   "), '\n', parameters_as_text(parameters));
     write_file(path, [&](std::ostream &out) {
-      out << first_line << '\n'
-          << versions("#   ") << '\n'
-          << parameters_as_text(parameters);
+      out << record << last_line << checksum(record) << '\n';
     });
   }
 
 
 
+  // What somebody has changed is theirs. Records of before there was a last line
+  // are taken as they are. A pipe would have to be read a second time.
   bool
   is_run_record(const std::filesystem::path &path)
   {
-    std::ifstream file(path);
-    std::string   line;
-    std::getline(file, line);
-    return line == first_line;
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored))
+      return false;
+    std::ifstream      file(path);
+    std::ostringstream content;
+    content << file.rdbuf();
+    const std::string record = content.str();
+    if (record.compare(0, first_line.size() + 1, first_line + '\n') != 0)
+      return false;
+    const std::size_t last = record.rfind(last_line);
+    return last == std::string::npos ||
+           record.substr(last) ==
+             text(last_line, checksum(record.substr(0, last)), '\n');
   }
 } // namespace talus

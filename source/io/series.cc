@@ -24,7 +24,6 @@ namespace talus
     name_         = name;
     communicator_ = communicator;
     writer_       = make_field_writer(format);
-    index_.clear();
     unsynced_.clear();
     if (beginning == Beginning::fresh)
       entries_.clear();
@@ -83,22 +82,26 @@ namespace talus
       writer_->write(folder_, base, communicator_, cells, unsynced_));
     if (!is_first_rank(communicator_))
       return;
-    index_ = writer_->write_index(folder_, name_, entries_);
-    unsynced_.push_back(index_);
+    unsynced_.push_back(writer_->write_index(folder_, name_, entries_));
   }
 
 
 
   std::vector<std::string>
-  FieldSeries::missing_files() const
+  FieldSeries::missing_files(const std::filesystem::path &folder,
+                             const std::string           &name,
+                             const std::string           &format) const
   {
-    std::vector<std::string> missing;
+    if (entries_.empty())
+      return {};
+    const auto               writer = make_field_writer(format);
+    std::vector<std::string> names{writer->index_name(name)}, missing;
     for (const IndexEntry &entry : entries_)
-      for (const std::string &file : writer_->files_of(folder_, entry))
-        if (!std::filesystem::exists(folder_ / file))
-          missing.push_back(file);
-    if (!std::filesystem::exists(index_) && !index_.empty())
-      missing.push_back(index_.filename().string());
+      for (const std::string &file : writer->files_of(folder, entry))
+        names.push_back(file);
+    for (const std::string &file : names)
+      if (!std::filesystem::exists(folder / file))
+        missing.push_back(file);
     return missing;
   }
 

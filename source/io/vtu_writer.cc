@@ -237,7 +237,7 @@ namespace talus
                          const std::string             &name,
                          const std::vector<IndexEntry> &entries) const
   {
-    const std::filesystem::path path = folder / (name + ".pvd");
+    const std::filesystem::path path = folder / index_name(name);
     write_file(path, [&](std::ostream &out) {
       out << "<?xml version=\"1.0\"?>\n"
              "<VTKFile type=\"Collection\" version=\"0.1\">\n"

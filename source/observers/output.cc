@@ -135,6 +135,22 @@ namespace talus
 
 
 
+  template <int dim>
+  void
+  Output<dim>::check_folder(const MPI_Comm  communicator,
+                            const Beginning beginning) const
+  {
+    if (!is_first_rank(communicator))
+      return;
+    check_no_foreign_lock(folder_);
+    check_no_foreign_file(folder_);
+    if (beginning == Beginning::fresh &&
+        !is_run_record(std::filesystem::path(folder_) / "parameters.prm"))
+      check_no_results_without_a_run(folder_);
+  }
+
+
+
   /// The first rank makes the folder before anyone opens a file in it, hence
   /// the barrier. parameters.prm comes first: write_file() replaces it only on
   /// success, so a folder that cannot be written stops the run before the
@@ -149,16 +165,16 @@ namespace talus
     if (is_first_rank(communicator))
       {
         make_folder(folder_);
-        check_no_foreign_file(folder_);
+        check_folder(communicator, beginning);
         const std::filesystem::path record =
           std::filesystem::path(folder_) / "parameters.prm";
         const bool had_a_run = is_run_record(record);
-        if (!had_a_run && beginning == Beginning::fresh)
-          check_no_results_without_a_run(folder_);
         // First, as it shows whether the folder can be written and replaces
         // an earlier file only on success.
         write_run_record(record, this->prm);
-        if (had_a_run && beginning == Beginning::fresh)
+        if (beginning == Beginning::resumed)
+          remove_remains(folder_);
+        else if (had_a_run)
           remove_earlier_results(folder_);
       }
     log_.open(folder_, beginning);
@@ -314,38 +330,52 @@ namespace talus
 
 
 
+  template <int dim>
+  std::string
+  Output<dim>::missing_files(const MPI_Comm communicator) const
+  {
+    if (!is_first_rank(communicator))
+      return "";
+    OutputSettings settings = settings_;
+    settings.folder         = folder_;
+    std::vector<std::string> missing;
+    for (const char *name : {"parameters.prm", "log.txt", "lock"})
+      if (!std::filesystem::exists(settings.folder / name))
+        missing.push_back(name);
+    for (const Schedule *schedule : {&rows_, &fields_})
+      for (const auto &observer : schedule->observers)
+        if (observer->is_enabled(settings))
+          for (const std::string &name : observer->missing_files(settings))
+            missing.push_back(name);
+    if (missing.empty())
+      return "";
+    return text("'",
+                missing.front(),
+                "'",
+                missing.size() > 1 ? text(" with ", missing.size() - 1, " more")
+                                   : "");
+  }
+
+
+
   /// At the end and not before: who removes files while the run goes on may
   /// need the room for what is still to come.
   template <int dim>
   void
-  Output<dim>::check_complete(const State<dim> &state) const
+  Output<dim>::check_complete(const MPI_Comm communicator) const
   {
-    std::vector<std::string> missing;
-    if (is_first_rank(state.communicator()) && !settings_.folder.empty())
-      {
-        for (const char *name : {"parameters.prm", "log.txt", "lock"})
-          if (!std::filesystem::exists(settings_.folder / name))
-            missing.push_back(name);
-        for (const Schedule *schedule : {&rows_, &fields_})
-          for (const auto &observer : schedule->observers)
-            if (observer->is_enabled(settings_))
-              for (const std::string &name : observer->missing_files())
-                missing.push_back(name);
-      }
-    std::string sentence;
-    if (!missing.empty())
-      sentence =
-        text("The run is at its end, but '",
-             folder_,
-             "' lacks '",
-             missing.front(),
-             "', which it wrote and somebody has removed",
-             (missing.size() > 1 ? text(" with ", missing.size() - 1, " more")
-                                 : ""),
-             ". All else is complete. Put back what is missing, or "
-             "start anew with --overwrite.");
-    sentence = first_sentence(sentence, state.communicator());
-    AssertThrow(sentence.empty(), ExcUser(sentence));
+    const std::string missing = missing_files(communicator);
+    const std::string sentence =
+      missing.empty() ? ""
+                      : text("The run is at its end, but '",
+                             folder_,
+                             "' lacks ",
+                             missing,
+                             ", which it wrote and somebody has removed. All "
+                             "else is complete. Put back what is missing, or "
+                             "start anew with --overwrite.");
+    const std::string first = first_sentence(sentence, communicator);
+    AssertThrow(first.empty(), ExcUser(first));
   }
 
 

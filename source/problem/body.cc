@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/base/memory.h>
 #include <talus/geometry/analytic_shapes.h>
 #include <talus/problem/body.h>
 
@@ -289,6 +290,40 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Before memory runs out the user is told. What a point takes was measured
+    /// (doc/cluster.md); the mesh is not counted, and points may be more in the
+    /// end: what is refused here cannot work. Collective.
+    template <int dim>
+    void
+    check_memory(const std::size_t  n_points_of_rank,
+                 const std::string &body,
+                 const MPI_Comm     communicator)
+    {
+      constexpr double bytes_per_point = (dim == 2 ? 260. : 530.);
+      const double     n_points =
+        Utilities::MPI::sum(1. * n_points_of_rank, communicator);
+      const double bytes = n_points * bytes_per_point /
+                           Utilities::MPI::n_mpi_processes(communicator);
+      const double most = memory_per_rank(communicator);
+      AssertThrow(bytes < most,
+                  ExcUser(text("With the body '",
+                               body,
+                               "' there would be ",
+                               n_points,
+                               " points, which take some ",
+                               bytes / 1e9,
+                               " GB of memory on each rank, where ",
+                               most / 1e9,
+                               " GB are to be had. Lower 'Points per cell and "
+                               "axis', choose a larger 'Grid/Cell size', or "
+                               "take more ranks on more machines.")));
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::string
   Body<dim>::create_points(const Grid<dim>   &grid,
@@ -298,6 +333,9 @@ namespace talus
                            const Solids      &solids) const
   {
     const Places places = places_of_points(grid, solids, points);
+    check_memory<dim>(points.size() + places.points.size(),
+                      name_,
+                      grid.communicator());
     for (const NewPoint<dim> &place : places.points)
       add_point(points, index, place, density);
     // A rank may well have none, but one of them must have some.

@@ -254,7 +254,7 @@ namespace talus
         if (handle_request(request))
           return false;
       }
-    output_.check_complete(state_);
+    output_.check_complete(state_.communicator());
     log_.say(LogLevel::info,
              "A report of this run: talus-report " + output_.folder());
     return true;
@@ -319,7 +319,7 @@ namespace talus
   void
   Simulation<dim>::begin_run()
   {
-    const bool is_resumed = !resumed_from_.path.empty();
+    const bool is_resumed = beginning() == Beginning::resumed;
     output_.lock_folder(state_.communicator());
     if (is_resumed && is_finished())
       {
@@ -348,6 +348,27 @@ namespace talus
 
 
 
+  template <int dim>
+  Beginning
+  Simulation<dim>::beginning() const
+  {
+    return resumed_from_.path.empty() ? Beginning::fresh : Beginning::resumed;
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::check_output_folder() const
+  {
+    if (beginning() == Beginning::fresh)
+      checkpoint_.check_nothing_is_lost(output_.folder(),
+                                        state_.communicator());
+    output_.check_folder(state_.communicator(), beginning());
+  }
+
+
+
   /// The question whether results would be lost comes before the first file is
   /// opened. Checkpoints of an earlier run go last, when the new files are
   /// there.
@@ -355,14 +376,9 @@ namespace talus
   void
   Simulation<dim>::begin_files()
   {
-    const bool      is_resumed = !resumed_from_.path.empty();
-    const Beginning beginning =
-      is_resumed ? Beginning::resumed : Beginning::fresh;
-    if (!is_resumed)
-      checkpoint_.check_nothing_is_lost(output_.folder(),
-                                        state_.communicator());
-    output_.begin(state_, end_time_, beginning);
-    static_stages_.begin(output_.folder(), beginning);
+    check_output_folder();
+    output_.begin(state_, end_time_, beginning());
+    static_stages_.begin(output_.folder(), beginning());
     checkpoint_.begin(output_.folder(),
                       state_.communicator(),
                       resumed_from_.path);
@@ -398,7 +414,8 @@ namespace talus
 
 
   /// Which checkpoints were passed over since they are damaged, where the run
-  /// goes on, and whether another program wrote it: then the result may differ.
+  /// goes on, which results are missing, and whether another program wrote it:
+  /// then the result may differ.
   template <int dim>
   void
   Simulation<dim>::note_resume()
@@ -407,6 +424,18 @@ namespace talus
     for (const std::string &error : resumed_from_.errors)
       log_.say(LogLevel::result,
                error + " The run goes on from the one before.");
+    if (const std::string missing =
+          output_.missing_files(state_.communicator());
+        !missing.empty())
+      log_.say(
+        LogLevel::result,
+        text("The folder '",
+             output_.folder(),
+             "' lacks ",
+             missing,
+             ", which the run wrote before and somebody has removed. The "
+             "run goes on, and ends with an error unless what is missing "
+             "is put back."));
     std::string sentence = text("Resumed at t = ",
                                 state_.time,
                                 " s, step ",

@@ -17,7 +17,7 @@ from bad_input_folder import BadInputFolder
 from bad_input_motion import BadInputMotion
 from bad_input_stages import BadInputStages
 from bad_input_terrain import BadInputTerrain
-from bad_input_values import BadInputValues
+from bad_input_values import FULL, BadInputValues
 
 
 class BadInput(Case):
@@ -146,10 +146,32 @@ class BadInput(Case):
             "subsection Materials\n subsection clay",
             "'Strength reduction/Smallest factor' is 5", "2", "Exchange")
 
+    def test_numbers_beyond_all_units(self):
+        ball = "Bodies/block/Shape=ball"
+        for path, *settings in (
+                ("Materials/clay/Density",),
+                ("Gravity/Magnitude",),
+                ("Bodies/block/K0",),
+                ("Bodies/block/Radius", ball),
+                ("Boundaries/Seabed/Friction coefficient",),
+                ("Ground motion/Factor",),
+                ("Splitting/Threshold",),
+                ("Output/Field interval",)):
+            with self.subTest(path):
+                self.assert_refused(
+                    self.run_file(FULL, [*settings, f"{path}=1e300"]),
+                    path, "1e300", "1e+30")
+        self.assert_refused(
+            self.run_file(FULL, ["Obstacles/pipe/Centre=3.5,-1.1e30"]),
+            "'Obstacles/pipe/Centre'", "-1.1e30", "1e+30")
+        self.assert_untouched()
+        result = self.run_file(FULL, ["Output/Field interval=1e30", "Title=at 1e300 m"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+
     def test_run_without_end(self):
-        for setting in ("Materials/clay/Young's modulus=1e300",
-                        "Time step/Maximum=1e-100", "End time=1e30"):
-            self.refuse_set([setting], "time steps", "cannot end", "units")
+        for settings in (["Materials/clay/Young's modulus=1e29", "End time=10"],
+                         ["Time step/Maximum=1e-100"], ["End time=1e30"]):
+            self.refuse_set(settings, "time steps", "cannot end", "units")
 
     # Bodies and mesh
 
@@ -247,10 +269,29 @@ class BadInput(Case):
         # 2.5e7 cells, of which a shell allows a quarter.
         self.assert_refused(self.run_limited(4000000, "8e-4"), *words)
 
-    def run_limited(self, kilobytes, cell_size):
+    def test_small_cells_that_do_not_fit(self):
+        """10^6 times as many as of the others."""
+        (self.folder / "case.prm").write_text(GOOD)
+        for setting in ("Grid/Refinement boxes=0,0;4,4;10",
+                        "Grid/Refinement boxes=0,0;1,1;1|0,0;4,4;10"):
+            self.assert_refused(self.run_limited(1200000, "1", setting),
+                                "The mesh would have", "GB are to be had",
+                                "Grid/Refinement boxes")
+
+    def test_points_that_do_not_fit(self):
+        """Of 2.5e6 points, for which there are 0.5 GB."""
+        (self.folder / "case.prm").write_text(GOOD)
+        self.assert_refused(
+            self.run_limited(1100000, "0.02",
+                             "Bodies/block/Points per cell and axis=16"),
+            "With the body 'block' there would be 2560000 points",
+            "some 0.6656 GB", "GB are to be had", "'Points per cell and axis'")
+
+    def run_limited(self, kilobytes, cell_size, *settings):
+        options = [o for s in settings for o in ("--set", s)]
         return subprocess.run(
             ["bash", "-c", f'ulimit -v {kilobytes}; exec "$@"', "bash", TALUS,
-             "--set", "Grid/Cell size=" + cell_size, "--validate",
+             "--set", "Grid/Cell size=" + cell_size, *options, "--validate",
              self.folder / "case.prm"],
             capture_output=True, text=True, timeout=120)
 

@@ -168,7 +168,96 @@ class BadInputFolder(Case):
         self.assertEqual(result.returncode, 0, result.stderr)
         self.assertEqual((self.results / "statistics.csv").read_text(), first)
 
+    def test_record_that_was_changed_by_hand(self):
+        self.assertEqual(self.run_file().returncode, 0)
+        record = self.results / "parameters.prm"
+        mine = record.read_text().replace("\nset End time", "\n# mine\nset End time")
+        record.write_text(mine)
+        self.assert_refused(self.run_file(), "parameters.prm",
+                            "somebody has changed", "--output")
+        self.assert_refused(self.run_talus("--output", "results",
+                                           "results/parameters.prm"),
+                            "results/parameters.prm", "which it reads")
+        self.assertEqual(record.read_text(), mine)
+
+    def test_validate_looks_at_the_folder(self):
+        validate = ["--validate", "--output", "results"]
+        (self.folder / "case.prm").write_text(GOOD)
+        result = self.run_talus(*validate, "case.prm")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        self.assertFalse((self.results / "lock").exists())
+        table = "time [s],gravity factor [-]\n0,1\n1,1\n"
+        for name, content, settings, words in (
+                ("lock", "mine", [], "no run has written"),
+                ("statistics.csv", table,
+                 ["--set", "Ground motion/File=results/statistics.csv"],
+                 "which it reads"),
+                ("parameters.prm", GOOD, [], "no run has written"),
+                ("parameters.prm", None, [], "may be yours")):
+            before = self.earlier.get(name)
+            path = self.results / name
+            if content is None:
+                path.unlink()
+            else:
+                path.write_text(content)
+            self.assert_refused(self.run_talus(*settings, *validate, "case.prm"),
+                                name if content else "statistics.csv", words)
+            if before is None:
+                path.unlink()
+            else:
+                path.write_text(before)
+            self.assert_untouched()
+
+    def test_validate_knows_an_unfinished_run(self):
+        run = self.start_long_run()
+        run.send_signal(signal.SIGUSR1)
+        self.assertEqual(run.wait(), 75)
+        for options in ([], ["--overwrite"], ["--resume"]):
+            result = self.run_talus("--validate", "--output", "results",
+                                    *options, "long.prm")
+            if options:
+                self.assertEqual(result.returncode, 0, result.stderr)
+            else:
+                self.assert_refused(result, "--resume", "--overwrite")
+
     # Files of an earlier run
+
+    def resume(self, end_time):
+        return self.run_talus(
+            "--set", f"End time={end_time}", "--set", "Checkpoint/At the end=true",
+            *(["--resume"] if end_time > 0.1 else []), "--output", "results",
+            "case.prm")
+
+    def test_remains_of_a_killed_run_go(self):
+        (self.folder / "case.prm").write_text(GOOD)
+        self.assertEqual(self.resume(0.1).returncode, 0)
+        stale = ["last-state.vtu", "last-state.3.vtu", "points-0001.vtu.part",
+                 "statistics.csv.part"]
+        foreign = ["data.part", "last-state.txt"]
+        for end_time in (0.2, 0.1):
+            for name in stale + foreign:
+                (self.results / name).write_text("mine")
+            result = self.resume(end_time)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            found = [f.name for f in self.results.iterdir()]
+            self.assertEqual(set(found) & set(stale + foreign), set(foreign))
+
+    def test_results_that_are_missing_at_resume(self):
+        (self.folder / "case.prm").write_text(GOOD)
+        for name in ("points-0000.vtu", "grid.pvd"):
+            self.assertEqual(self.resume(0.1).returncode, 0)
+            (self.results / name).unlink()
+            # There is nothing left to do.
+            result = self.run_talus("--resume", "--set", "End time=0.1",
+                                    "--set", "Checkpoint/At the end=true",
+                                    "--output", "results", "case.prm")
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(f"lacks '{name}'", result.stderr)
+            result = self.resume(0.2)
+            self.assertIn(f"lacks '{name}'",
+                          (self.results / "log.txt").read_text())
+            # An index is written anew.
+            self.assertEqual(result.returncode, int(name.endswith("vtu")))
 
     def test_what_an_earlier_run_left_goes(self):
         stale = ["points-0000.vtu", "points-0007.0.vtu", "points.pvd",

@@ -117,36 +117,36 @@ class BadInputTerrain(Case):
     def test_numbers_out_of_any_range(self):
         station, maps = ["Stations/Points=a: 2"], ["Maps/Write=true"]
         for settings, *words in (
-                (maps + ["Maps/Cell size=1e300"], "'Maps/Cell size' is 1e+300",
+                (maps + ["Maps/Cell size=1e29"], "'Maps/Cell size' is 1e+29",
                  "4 m of the mesh"),
                 (maps + ["Maps/Arrival thresholds=1, 5"],
                  "'Maps/Arrival thresholds' is 5", "4 m high"),
                 (maps + ["Maps/Arrival thresholds=1, 0.5, 1"], "1 m twice"),
-                (maps + ["Maps/Smallest thickness=1e300"],
+                (maps + ["Maps/Smallest thickness=1e29"],
                  "'Maps/Smallest thickness'", "cannot reach"),
                 (["Stations/Lines=a: 1; 2", "Stations/Width=1e-8"],
                  "'Stations/Lines'", "100000000 places", "'Stations/Width'"),
-                (station + ["Stations/Width=1e300"], "'Stations/Width' is 1e+300"),
+                (station + ["Stations/Width=1e29"], "'Stations/Width' is 1e+29"),
                 (station + ["Stations/Width=1e-300"], "'Stations/Width' is 1e-300"),
-                (station + ["Stations/Drag coefficient=1e300"],
+                (station + ["Stations/Drag coefficient=1e29"],
                  "'Drag coefficient'", "from 0 to 1000"),
-                (station + ["Stations/Bearing factor=1e300"],
+                (station + ["Stations/Bearing factor=1e29"],
                  "'Bearing factor'", "from 0 to 1000"),
-                (["Water/Added mass coefficient=1e300"],
+                (["Water/Added mass coefficient=1e29"],
                  "'Added mass coefficient'", "from 0 to 1000"),
-                (["Water/Density=1e300"], "'Density'", "to 100000"),
-                (["Grid/Origin=1e300,0,0"], "'Origin'", "1e+09"),
-                (self.FILE + ["Surfaces/bed/Section=0,0; 1e300,0"],
-                 "'1e300,0'", "at most 1e9 m")):
+                (["Water/Density=1e29"], "'Density'", "to 100000"),
+                (["Grid/Origin=1e29,0,0"], "'Origin'", "1e+09"),
+                (self.FILE + ["Surfaces/bed/Section=0,0; 1e29,0"],
+                 "'1e29,0'", "at most 1e9 m")):
             with self.subTest(settings):
                 self.refuse_set(settings, *words)
         obstacle = ["Obstacles/Names=pipe", "Obstacles/pipe/Shape=ball",
                     "Obstacles/pipe/Centre=3.5,3.5",
                     "Obstacles/pipe/Radius=0.25"]
         for setting, *words in (
-                ("Velocity=1e300;0", "'Obstacles/pipe/Velocity'", "t = 0 s"),
-                ("Centre=1e300,0", "'Obstacles/pipe/Centre'", "too far"),
-                ("Normal=1e300,1e300", "'Obstacles/pipe/Normal'",
+                ("Velocity=1e29;0", "'Obstacles/pipe/Velocity'", "t = 0 s"),
+                ("Centre=1e300,0", "'Obstacles/pipe/Centre'", "1e+30"),
+                ("Normal=0,0", "'Obstacles/pipe/Normal'",
                  "no direction")):
             with self.subTest(setting):
                 self.refuse_set(obstacle + ["Obstacles/pipe/" + setting]

@@ -220,6 +220,17 @@ class Ranks(Runs):
             self.assertIn("'Splitting/Maximum number of points' = 40",
                           result.stderr)
 
+    def test_memory_is_that_of_all_ranks_of_a_machine(self):
+        most = []
+        for n_ranks in (1, 2):
+            result = self.start("big", n_ranks, ["Grid/Cell size=1e-5"],
+                                "landslide-quick.prm")
+            self.assertEqual(result.returncode, 1)
+            found = re.search(r"on each rank, where (\S+) GB", result.stderr)
+            self.assertTrue(found, result.stderr)
+            most.append(float(found.group(1)))
+        self.assertAlmostEqual(most[0] / most[1], 2., delta=1e-5)
+
     def test_folder_of_another_run(self):
         """Which has several ranks; the second one has several, and one."""
         (self.folder / "case.prm").write_text(GOOD)

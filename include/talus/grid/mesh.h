@@ -112,7 +112,7 @@ namespace talus
     explicit Mesh(MPI_Comm communicator);
 
   private:
-    unsigned int
+    std::array<double, 2>
     flag_cells(const WantsFiner &wants_finer);
     bool
     can_join_cells();

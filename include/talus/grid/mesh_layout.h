@@ -112,13 +112,15 @@ namespace talus
     bool
     box_wants_finer(const Lattice &place, unsigned int level) const;
 
+    /// Throw ExcUser if the ranks together cannot hold so many cells.
+    void
+    check_memory(double n_cells) const;
+
   private:
     void
     check_lattice(unsigned int level) const;
     void
     fit_axis(unsigned int d, bool may_move, unsigned int factor);
-    void
-    check_memory(double n_cells, bool grow) const;
     unsigned int
     level_of_trees(const std::array<bool, 2 * dim> &may_move, bool grow) const;
 
@@ -134,8 +136,10 @@ namespace talus
     Box<dim>                        domain_before_growth_;
     std::string                     adjustment_;
     std::array<unsigned int, dim>   n_cells_per_axis_;
-    double                          tree_size_  = 0;
-    unsigned int                    base_level_ = 0;
+    double                          tree_size_       = 0;
+    unsigned int                    base_level_      = 0;
+    bool                            grows_           = false;
+    double                          memory_per_rank_ = 0; // bytes
     std::vector<RefinementBox<dim>> boxes_;
     Periodicity<dim>                periodicity_;
   };

@@ -50,6 +50,10 @@ namespace talus
       return {entry.file};
     }
 
+    /// The name of the file that write_index() writes for this series.
+    virtual std::string
+    index_name(const std::string &name) const = 0;
+
     /// Write the file NAME.* that gives ParaView the times of these outputs,
     /// all in @p folder, and return its path; for one rank. Throws ExcUser if
     /// that fails.

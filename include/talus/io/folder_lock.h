@@ -29,6 +29,13 @@ namespace talus
   private:
     int file_ = -1; ///< descriptor, on the first rank
   };
+
+
+
+  /// Throw ExcUser if the folder holds a `lock` that no run has written. For the
+  /// first rank.
+  void
+  check_no_foreign_lock(const std::filesystem::path &folder);
 } // namespace talus
 
 #endif

@@ -28,6 +28,12 @@ namespace talus
           const OutputCells                  &cells,
           std::vector<std::filesystem::path> &unsynced) const override;
 
+    std::string
+    index_name(const std::string &name) const override
+    {
+      return name + ".xdmf";
+    }
+
     /// Files that are no longer there are left out.
     std::filesystem::path
     write_index(const std::filesystem::path   &folder,

@@ -40,6 +40,14 @@ namespace talus
   /// touched. For the first rank.
   void
   remove_earlier_results(const std::filesystem::path &folder);
+
+
+
+  /// Remove what a run that was killed or failed left beside its results: files
+  /// that it was about to write, NAME.part, and the last state before an error,
+  /// which is not that of the run that goes on. For the first rank.
+  void
+  remove_remains(const std::filesystem::path &folder);
 } // namespace talus
 
 #endif

@@ -31,7 +31,7 @@ namespace talus
 
 
 
-  /// Whether @p path is such a record.
+  /// Whether @p path is such a record, unchanged.
   bool
   is_run_record(const std::filesystem::path &path);
 } // namespace talus

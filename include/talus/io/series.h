@@ -39,9 +39,12 @@ namespace talus
     write(const OutputCells &cells);
 
     /// Names of the files in the index, and of the index, that somebody has
-    /// removed. To be asked on the first rank.
+    /// removed from the folder; also before begin(). To be asked on the first
+    /// rank.
     std::vector<std::string>
-    missing_files() const;
+    missing_files(const std::filesystem::path &folder,
+                  const std::string           &name,
+                  const std::string           &format) const;
 
     /// Bring all files that this rank wrote to the disk. Throws ExcUser if that
     /// fails.
@@ -54,7 +57,6 @@ namespace talus
     MPI_Comm                           communicator_ = MPI_COMM_NULL;
     std::unique_ptr<FieldWriter>       writer_;
     std::vector<IndexEntry>            entries_;
-    std::filesystem::path              index_; ///< empty before write()
     std::vector<std::filesystem::path> unsynced_;
   };
 } // namespace talus

@@ -28,6 +28,12 @@ namespace talus
     files_of(const std::filesystem::path &folder,
              const IndexEntry            &entry) const override;
 
+    std::string
+    index_name(const std::string &name) const override
+    {
+      return name + ".pvd";
+    }
+
     std::filesystem::path
     write_index(const std::filesystem::path   &folder,
                 const std::string             &name,

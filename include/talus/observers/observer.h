@@ -95,9 +95,9 @@ namespace talus
     }
 
     /// Names of the files written so far, by this run or the one that it goes
-    /// on with, that somebody has removed, on the first rank.
+    /// on with, that somebody has removed, on the first rank. Also before begin().
     virtual std::vector<std::string>
-    missing_files() const
+    missing_files(const OutputSettings & /*settings*/) const
     {
       return {};
     }

@@ -86,6 +86,11 @@ namespace talus
       lock_.acquire(folder_, communicator);
     }
 
+    /// Throw ExcUser if the folder holds what this run would write over and must
+    /// not: files of the user, or what it reads. Changes nothing; of the ranks
+    /// only the first one looks.
+    void
+    check_folder(MPI_Comm communicator, Beginning beginning) const;
 
     /// Make the folder, write the parameters and begin all files of a run to
     /// @p end_time, s; in a resumed run go on with them. Throws ExcUser if the
@@ -108,10 +113,14 @@ namespace talus
     void
     check_resumable(const State<dim> &state) const;
 
-    /// Throw ExcUser if somebody has removed files that begin() and the
-    /// observers wrote. Collective.
+    /// Of the files of the run those that somebody has removed, in words: 'a'
+    /// with 2 more. Empty if there are none, and on all ranks but the first.
+    std::string
+    missing_files(MPI_Comm communicator) const;
+
+    /// Throw ExcUser if files are missing. Collective.
     void
-    check_complete(const State<dim> &state) const;
+    check_complete(MPI_Comm communicator) const;
 
     /// Bring all rows and fields written so far to the disk.
     void

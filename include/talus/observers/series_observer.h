@@ -39,9 +39,9 @@ namespace talus
     }
 
     std::vector<std::string>
-    missing_files() const override
+    missing_files(const OutputSettings &settings) const override
     {
-      return series_.missing_files();
+      return series_.missing_files(settings.folder, name_, settings.format);
     }
 
     void

@@ -45,6 +45,11 @@ namespace talus
       checkpoint_.allow_overwriting();
     }
 
+    /// Throw ExcUser if run() would refuse to write into the output folder as it
+    /// is, unless another run is under way there. Writes nothing. Collective.
+    void
+    check_output_folder() const;
+
     /// From the start, or the checkpoint, to the end time, with output. Returns
     /// false if the run was stopped before that, by a signal or by its limit of
     /// wall time; then resume() can go on.
@@ -104,6 +109,8 @@ namespace talus
     check_number_of_steps();
     void
     check_number_of_points() const;
+    Beginning
+    beginning() const;
     void
     begin_run();
     void

@@ -1,0 +1,79 @@
+#!/bin/sh
+# SPDX-License-Identifier: LGPL-2.1-or-later
+# What README promises a newcomer, on a Debian with nothing installed: a chroot made
+# by mmdebstrap. As root; the folder is kept, so that a second time takes minutes.
+#
+# Usage: tests/bare-debian.sh SUITE FOLDER WHAT [PATTERN]
+#   SUITE    bookworm (Debian 12) or trixie (Debian 13)
+#   WHAT     first    README's first command, with the seconds at each of its steps
+#            second   README's second command
+#            unit     the unit tests, or those that ctest's PATTERN fits
+#            package  builds the .deb, installs it in another such chroot,
+#                     FOLDER.package, and runs the slide with it
+set -eu
+usage="Usage: tests/bare-debian.sh bookworm|trixie FOLDER first|second|unit|package [PATTERN]"
+suite=${1:?"$usage"}
+folder=${2:?"$usage"}
+what=${3:?"$usage"}
+pattern=${4:-^unit/}
+root=$(cd "$(dirname "$0")/.." && pwd)
+first=$(sed -n '/^```sh/,/^```/{/^```$/q; /^```/d; s/sudo //g; p}' "$root/README.md")
+second=$(sed -n '/^cmake --workflow --preset debug/p' "$root/README.md")
+install=$(echo "$first" | sed '/&&$/q' | sed 's/&&$//')
+
+# Without /proc deal.II 9.6 loops for ever when it asks for its memory; without /sys
+# MPI complains.
+mounted=
+trap 'for folder in $mounted; do
+  umount -l "$folder/proc" "$folder/dev" "$folder/sys"; done' EXIT
+make_bare() {
+  test -e "$1/etc" || mmdebstrap --variant=minbase "$suite" "$1"
+  mounted="$mounted $1"
+  mount -t proc proc "$1/proc"
+  mount -t sysfs sysfs "$1/sys"
+  mount --rbind /dev "$1/dev"
+  mount --make-rslave "$1/dev"
+}
+
+# Each command is printed with the seconds since the start of the first.
+run_in() {
+  chroot "$1" env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
+    DEBIAN_FRONTEND=noninteractive PS4='+ $SECONDS s: ' \
+    bash -ec "cd /talus; set -x; $2"
+}
+
+make_bare "$folder"
+mkdir -p "$folder/talus"
+tar -C "$root" --exclude=./build --exclude=./output --exclude=./.git -cf - . |
+  tar -C "$folder/talus" -xf -
+case $what in
+  first)
+    run_in "$folder" "$first
+      : the end" ;;
+  second)
+    run_in "$folder" "$install
+      $second" ;;
+  unit)
+    run_in "$folder" "$install
+      cmake --preset release
+      cmake --build --preset release --target talus talus-unit talus-width
+      ctest --test-dir build/release -R '$pattern' --output-on-failure" ;;
+  package)
+    run_in "$folder" "$install
+      apt-get install -y --no-install-recommends file dpkg-dev
+      cmake --preset dist
+      cmake --build --preset dist
+      cd build/dist
+      cpack"
+    make_bare "$folder.package"
+    mkdir -p "$folder.package/talus"
+    cp "$folder"/talus/build/dist/talus_*.deb "$folder.package/talus"
+    run_in "$folder.package" "apt-get update
+      apt-get install -y --no-install-recommends ./talus_*.deb
+      talus --version
+      talus /usr/share/talus/prm/landslide-quick.prm
+      tail -n 1 output/landslide-quick/statistics.csv" ;;
+  *)
+    echo "$usage" >&2
+    exit 2 ;;
+esac
