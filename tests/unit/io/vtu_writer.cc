@@ -406,19 +406,20 @@ namespace
   /// Ranks without cells have none.
   TEST_F(VtuTest, PiecesOfAllRanksAreMissed)
   {
-    Scene<2>        s("0, 0", "8, 4");
     StateList       state;
     PointsOutput<2> output;
     output.list_state(state);
     state.texts().at(0).set("0 points-0000.pvtu\n1 points-0001.pvtu\n");
-    output.begin({folder, "vtu", false}, s, Beginning::resumed);
+    std::ofstream(folder / "points.pvd") << "there";
     std::ofstream(folder / "points-0000.pvtu")
       << "<PUnstructuredGrid>\n<Piece Source=\"points-0000.0.vtu\"/>\n"
          "<Piece Source=\"points-0000.2.vtu\"/>\n</PUnstructuredGrid>\n";
     std::ofstream(folder / "points-0000.0.vtu") << "there";
-    EXPECT_EQ(output.missing_files(),
+    EXPECT_EQ(output.missing_files({folder, "vtu"}),
               std::vector<std::string>(
                 {"points-0000.2.vtu", "points-0001.pvtu"}));
+    fs::remove(folder / "points.pvd");
+    EXPECT_EQ(output.missing_files({folder, "vtu"}).front(), "points.pvd");
   }
 
 
