@@ -38,8 +38,8 @@ make_bare() {
 # Each command is printed with the seconds since the start of the first.
 run_in() {
   chroot "$1" env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 \
-    DEBIAN_FRONTEND=noninteractive PS4='+ $SECONDS s: ' \
-    bash -ec "cd /talus; set -x; $2"
+    DEBIAN_FRONTEND=noninteractive \
+    bash -ec "PS4='+ \$SECONDS s: '; cd /talus; set -x; $2"
 }
 
 make_bare "$folder"
@@ -64,14 +64,16 @@ case $what in
       cmake --preset dist
       cmake --build --preset dist
       cd build/dist
+      rm -f talus_*.deb
       cpack"
     make_bare "$folder.package"
     mkdir -p "$folder.package/talus"
+    rm -f "$folder.package"/talus/talus_*.deb
     cp "$folder"/talus/build/dist/talus_*.deb "$folder.package/talus"
     run_in "$folder.package" "apt-get update
       apt-get install -y --no-install-recommends ./talus_*.deb
       talus --version
-      talus /usr/share/talus/prm/landslide-quick.prm
+      talus /usr/share/talus/prm/landslide-quick.prm --set Splitting/Directions=stretched
       tail -n 1 output/landslide-quick/statistics.csv" ;;
   *)
     echo "$usage" >&2

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/application/message.h>
 #include <talus/application/parameter_file.h>
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
 #include <talus/io/run_record.h>
@@ -14,7 +16,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <regex>
 #include <sstream>
 
 namespace talus
@@ -107,6 +108,28 @@ namespace talus
 
 
 
+    /// The first rank reads and tells the others: of a pipe each would get a part,
+    /// and wait for the rest. So does what went wrong. Collective.
+    std::string
+    read_by_first_rank(const std::string &name)
+    {
+      std::string content, error;
+      if (is_first_rank(MPI_COMM_WORLD))
+        try
+          {
+            content = read_parameter_file(name, Pipes::read);
+          }
+        catch (const ExcUser &exception)
+          {
+            error = message(exception);
+          }
+      error = first_sentence(error, MPI_COMM_WORLD);
+      AssertThrow(error.empty(), ExcUser(error));
+      return Utilities::MPI::broadcast(MPI_COMM_WORLD, content);
+    }
+
+
+
     /// The lines as deal.II takes them: a backslash at the end of one joins it to
     /// the next.
     std::vector<std::string>
@@ -193,7 +216,7 @@ namespace talus
   ParameterFile::ParameterFile(const std::string              &file_name,
                                const std::vector<std::string> &overrides)
     : file_name_(file_name)
-    , content_(read_parameter_file(file_name, Pipes::read))
+    , content_(read_by_first_rank(file_name))
     , overrides_(overrides)
   {
     if (!is_run_record(file_name_))
@@ -289,10 +312,12 @@ namespace talus
     /// Throw ExcUser if the value of an entry is a number that is too large, or
     /// one of a list.
     void
-    check_size(const std::string &path, const std::string &value)
+    check_size(const std::string &path, std::string value)
     {
-      static const std::regex separators("[,;|:]");
-      std::istringstream      words(std::regex_replace(value, separators, " "));
+      for (char &c : value)
+        if (c == ',' || c == ';' || c == '|')
+          c = ' ';
+      std::istringstream words(value);
       for (std::string word; words >> word;)
         {
           char        *end    = nullptr;
@@ -303,8 +328,8 @@ namespace talus
           AssertThrow(!is_number || std::abs(number) <= largest_number,
                       ExcUser(text("'",
                                    path,
-                                   "' is '",
-                                   value,
+                                   "' has '",
+                                   word,
                                    "', which is larger than any quantity in SI "
                                    "units: at most ",
                                    largest_number,
@@ -315,23 +340,61 @@ namespace talus
 
 
 
+    /// Whether the value is a name or a text, which may look like a number, as
+    /// the folder 57e1234 does.
+    bool
+    is_text(const std::string &entry)
+    {
+      for (const std::string name : {"Title",
+                                     "Folder",
+                                     "File",
+                                     "Names",
+                                     "Material",
+                                     "Surface",
+                                     "Constants"})
+        if (entry == name)
+          return true;
+      return false;
+    }
+
+
+
+    std::string
+    trim(const std::string &line)
+    {
+      const std::size_t first = line.find_first_not_of(' ');
+      return first == line.npos
+               ? ""
+               : line.substr(first, line.find_last_not_of(' ') + 1 - first);
+    }
+
+
+
     /// All entries, by the file that they would make: what is declared knows its
-    /// place only there.
+    /// place only there. Without std::regex, which takes stack by the character.
     void
     check_sizes(const ParameterHandler &prm)
     {
       std::istringstream       lines(parameters_as_text(prm));
       std::vector<std::string> path;
-      static const std::regex  section(" *subsection (.*)"), end(" *end"),
-        entry(" *set (.*?) *= ?(.*)");
-      std::smatch part;
+      const std::string        section = "subsection ", entry = "set ";
       for (std::string line; std::getline(lines, line);)
-        if (std::regex_match(line, part, section))
-          path.push_back(part[1].str() + '/');
-        else if (std::regex_match(line, end))
-          path.pop_back();
-        else if (std::regex_match(line, part, entry) && part[1] != "Title")
-          check_size(boost::algorithm::join(path, "") + part[1].str(), part[2]);
+        {
+          line = trim(line);
+          if (line.rfind(section, 0) == 0)
+            path.push_back(line.substr(section.size()) + '/');
+          else if (line == "end")
+            path.pop_back();
+          else if (line.rfind(entry, 0) == 0)
+            {
+              const std::size_t equals = line.find('=');
+              const std::string name =
+                trim(line.substr(entry.size(), equals - entry.size()));
+              if (!is_text(name))
+                check_size(boost::algorithm::join(path, "") + name,
+                           line.substr(equals + 1));
+            }
+        }
     }
   } // namespace
 

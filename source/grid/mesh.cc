@@ -148,9 +148,10 @@ namespace talus
         const auto [n_divided, n_joined] = flag_cells(wants_finer);
         if (n_divided == 0 && (n_joined == 0 || !can_join_cells()))
           return changed;
-        this->check_memory(n_before +
-                           (GeometryInfo<dim>::max_children_per_cell - 1.) *
-                             n_divided);
+        if (n_divided > 0)
+          this->check_memory(n_before +
+                             (GeometryInfo<dim>::max_children_per_cell - 1.) *
+                               n_divided);
         triangulation_.execute_coarsening_and_refinement();
         // deal.II knows its neighbourhood, p4est the whole mesh.
         if (n_divided == 0 &&

@@ -248,7 +248,7 @@ namespace talus
   {
     domain_          = {lower_corner_, upper_corner_};
     grows_           = grow;
-    memory_per_rank_ = memory_per_rank(MPI_COMM_WORLD);
+    memory_per_rank_ = talus::memory_per_rank(MPI_COMM_WORLD);
     for (unsigned int d = 0; d < dim; ++d)
       fit_axis(d, may_move[2 * d + 1], 1);
     domain_before_growth_ = domain_;

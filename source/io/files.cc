@@ -56,19 +56,29 @@ namespace talus
 
 
   // By what the file is, not by its name: there may be links.
-  void
-  check_not_input(const std::filesystem::path &path)
+  std::string
+  clash_with_input(const std::filesystem::path &path)
   {
     std::error_code ignored;
     for (const std::filesystem::path &input : inputs())
-      AssertThrow(!std::filesystem::equivalent(path, input, ignored),
-                  ExcUser(text("The run would write '",
-                               path.string(),
-                               "', but that is '",
-                               input.string(),
-                               "', which it reads. Choose another folder with "
-                               "Output/Folder or --output, or give the input "
-                               "another name.")));
+      if (std::filesystem::equivalent(path, input, ignored))
+        return text("The run would write '",
+                    path.string(),
+                    "', but that is '",
+                    input.string(),
+                    "', which it reads. Choose another folder with "
+                    "Output/Folder or --output, or give the input another "
+                    "name.");
+    return "";
+  }
+
+
+
+  void
+  check_not_input(const std::filesystem::path &path)
+  {
+    const std::string clash = clash_with_input(path);
+    AssertThrow(clash.empty(), ExcUser(clash));
   }
 
 

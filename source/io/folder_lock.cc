@@ -10,6 +10,7 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace talus
@@ -60,7 +61,7 @@ namespace talus
 
 
     std::string
-    foreign_lock(const std::filesystem::path &path)
+    lock_of_others(const std::filesystem::path &path)
     {
       return text(
         "The output folder '",
@@ -93,12 +94,12 @@ namespace talus
       file =
         ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
       if (file < 0)
-        return errno == ELOOP ? foreign_lock(path)
+        return errno == ELOOP ? lock_of_others(path)
                               : talus::failed_write(path, std::strerror(errno));
       if (::flock(file, LOCK_EX | LOCK_NB) != 0)
         return errno == EWOULDBLOCK ? other_run(path, content_of(file)) : "";
       if (!is_ours(content_of(file)))
-        return foreign_lock(path);
+        return lock_of_others(path);
       // The lock is what counts. The content only tells who has it, and may be
       // missing, as on a full disk.
       const std::string           content = process_on_host();
@@ -111,17 +112,22 @@ namespace talus
 
 
 
-  void
-  check_no_foreign_lock(const std::filesystem::path &folder)
+  // Neither a link, which open() refuses, nor a folder is of a run. Without
+  // O_NONBLOCK it would wait for who writes into a pipe.
+  std::string
+  foreign_lock(const std::filesystem::path &folder)
   {
     const std::filesystem::path path = folder / "lock";
     const int                   file =
       ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
-    const bool is_foreign =
-      file < 0 ? errno == ELOOP : !is_ours(content_of(file));
-    if (file >= 0)
-      ::close(file);
-    AssertThrow(!is_foreign, ExcUser(foreign_lock(path)));
+    if (file < 0)
+      return errno == ENOENT ? "" : lock_of_others(path);
+    struct stat status;
+    const bool  is_foreign = ::fstat(file, &status) != 0 ||
+                            !S_ISREG(status.st_mode) ||
+                            !is_ours(content_of(file));
+    ::close(file);
+    return is_foreign ? lock_of_others(path) : "";
   }
 
 

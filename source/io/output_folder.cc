@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
+#include <talus/io/folder_lock.h>
 #include <talus/io/output_folder.h>
 #include <talus/io/run_record.h>
 
@@ -105,40 +106,65 @@ namespace talus
 
 
 
-  void
-  check_no_foreign_file(const fs::path &folder)
+  namespace
   {
+    std::string
+    foreign_record(const fs::path &record, const Beginning beginning)
+    {
+      const bool is_there =
+        fs::symlink_status(record).type() != fs::file_type::not_found;
+      if (!is_there || is_run_record(record))
+        return "";
+      return text(
+        "The output folder '",
+        record.parent_path().string(),
+        "' holds a file 'parameters.prm' that no run has written or "
+        "somebody has changed, and this run would write over it. Move "
+        "it",
+        beginning == Beginning::resumed
+          ? ", and go on with it or another parameter file."
+          : ", or choose another folder with Output/Folder or "
+            "--output.");
+    }
+
+
+
+    /// Where no run has left its record: nobody knows whose results they are.
+    std::string
+    results_without_a_run(const fs::path &folder)
+    {
+      const std::vector<fs::path> found = outputs_in(folder);
+      if (found.empty())
+        return "";
+      return text("The output folder '",
+                  folder.string(),
+                  "' holds '",
+                  found.front().string(),
+                  "', which is named as the output of a run, but no "
+                  "'parameters.prm' of one, so that it may be yours. Move it, "
+                  "or choose another folder with Output/Folder or --output.");
+    }
+  } // namespace
+
+
+
+  std::string
+  foreign_file(const fs::path &folder, const Beginning beginning)
+  {
+    if (const std::string sentence = foreign_lock(folder); !sentence.empty())
+      return sentence;
     // write_file() makes the file under another name first.
     for (const std::string ending : {"", ".part"})
       for (const fs::path &path : outputs_in(folder, ending))
-        check_not_input(path);
-    const fs::path record = folder / "parameters.prm";
-    AssertThrow(!fs::exists(record) || is_run_record(record),
-                ExcUser(text("The output folder '",
-                             folder.string(),
-                             "' holds a file 'parameters.prm' that no run has "
-                             "written or somebody has changed, and this run "
-                             "would write over it. Move "
-                             "it, or choose another folder with Output/Folder "
-                             "or --output.")));
-  }
-
-
-
-  void
-  check_no_results_without_a_run(const fs::path &folder)
-  {
-    const std::vector<fs::path> found = outputs_in(folder);
-    AssertThrow(found.empty(),
-                ExcUser(
-                  text("The output folder '",
-                       folder.string(),
-                       "' holds '",
-                       found.empty() ? "" : found.front().string(),
-                       "', which is named as the output of a run, but no "
-                       "'parameters.prm' of one, so that it may be yours. "
-                       "Move it, or choose another folder with "
-                       "Output/Folder or --output.")));
+        if (const std::string sentence = clash_with_input(path);
+            !sentence.empty())
+          return sentence;
+    const fs::path    record   = folder / "parameters.prm";
+    const std::string sentence = foreign_record(record, beginning);
+    return sentence.empty() && beginning == Beginning::fresh &&
+               !is_run_record(record)
+             ? results_without_a_run(folder)
+             : sentence;
   }
 
 

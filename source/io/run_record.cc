@@ -17,8 +17,13 @@ namespace talus
 
   namespace
   {
-    const std::string first_line =
+    /// Of records without a checksum, as they were before.
+    const std::string old_first_line =
       "# The parameters of this run as they were understood by";
+
+    const std::string first_line =
+      "# The parameters of this run (with a checksum, last line) as they were "
+      "understood by";
 
 
 
@@ -95,8 +100,8 @@ namespace talus
 
 
 
-  // What somebody has changed is theirs. Records of before there was a last line
-  // are taken as they are. A pipe would have to be read a second time.
+  // What somebody has changed is theirs. A pipe would have to be read a second
+  // time.
   bool
   is_run_record(const std::filesystem::path &path)
   {
@@ -106,12 +111,14 @@ namespace talus
     std::ifstream      file(path);
     std::ostringstream content;
     content << file.rdbuf();
-    const std::string record = content.str();
-    if (record.compare(0, first_line.size() + 1, first_line + '\n') != 0)
-      return false;
+    const std::string record      = content.str();
+    const auto        begins_with = [&](const std::string &line) {
+      return record.compare(0, line.size() + 1, line + '\n') == 0;
+    };
     const std::size_t last = record.rfind(last_line);
-    return last == std::string::npos ||
-           record.substr(last) ==
-             text(last_line, checksum(record.substr(0, last)), '\n');
+    return begins_with(old_first_line) ||
+           (begins_with(first_line) && last != record.npos &&
+            record.substr(last) ==
+              text(last_line, checksum(record.substr(0, last)), '\n'));
   }
 } // namespace talus

@@ -140,13 +140,12 @@ namespace talus
   Output<dim>::check_folder(const MPI_Comm  communicator,
                             const Beginning beginning) const
   {
-    if (!is_first_rank(communicator))
-      return;
-    check_no_foreign_lock(folder_);
-    check_no_foreign_file(folder_);
-    if (beginning == Beginning::fresh &&
-        !is_run_record(std::filesystem::path(folder_) / "parameters.prm"))
-      check_no_results_without_a_run(folder_);
+    const std::string sentence =
+      first_sentence(is_first_rank(communicator)
+                       ? foreign_file(folder_, beginning)
+                       : "",
+                     communicator);
+    AssertThrow(sentence.empty(), ExcUser(sentence));
   }
 
 
@@ -165,7 +164,6 @@ namespace talus
     if (is_first_rank(communicator))
       {
         make_folder(folder_);
-        check_folder(communicator, beginning);
         const std::filesystem::path record =
           std::filesystem::path(folder_) / "parameters.prm";
         const bool had_a_run = is_run_record(record);

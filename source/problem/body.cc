@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
-#include <talus/base/memory.h>
 #include <talus/geometry/analytic_shapes.h>
 #include <talus/problem/body.h>
 
@@ -292,22 +291,19 @@ namespace talus
 
   namespace
   {
-    /// Before memory runs out the user is told. What a point takes was measured
-    /// (doc/cluster.md); the mesh is not counted, and points may be more in the
-    /// end: what is refused here cannot work. Collective.
+    /// Before memory runs out the user is told; points may be more in the end,
+    /// and the mesh is not counted: what is refused here cannot work. Collective.
     template <int dim>
     void
-    check_memory(const std::size_t  n_points_of_rank,
-                 const std::string &body,
-                 const MPI_Comm     communicator)
+    check_memory(const Grid<dim>   &grid,
+                 const std::size_t  n_points_of_rank,
+                 const std::string &body)
     {
-      constexpr double bytes_per_point = (dim == 2 ? 260. : 530.);
-      const double     n_points =
-        Utilities::MPI::sum(1. * n_points_of_rank, communicator);
-      const double bytes = n_points * bytes_per_point /
-                           Utilities::MPI::n_mpi_processes(communicator);
-      const double most = memory_per_rank(communicator);
-      AssertThrow(bytes < most,
+      const double n_points =
+        Utilities::MPI::sum(1. * n_points_of_rank, grid.communicator());
+      const double bytes = n_points * bytes_per_point<dim> /
+                           Utilities::MPI::n_mpi_processes(grid.communicator());
+      AssertThrow(bytes < grid.memory_per_rank(),
                   ExcUser(text("With the body '",
                                body,
                                "' there would be ",
@@ -315,10 +311,9 @@ namespace talus
                                " points, which take some ",
                                bytes / 1e9,
                                " GB of memory on each rank, where ",
-                               most / 1e9,
-                               " GB are to be had. Lower 'Points per cell and "
-                               "axis', choose a larger 'Grid/Cell size', or "
-                               "take more ranks on more machines.")));
+                               grid.memory_per_rank() / 1e9,
+                               " GB are to be had. ",
+                               fewer_points_advice)));
     }
   } // namespace
 
@@ -333,9 +328,7 @@ namespace talus
                            const Solids      &solids) const
   {
     const Places places = places_of_points(grid, solids, points);
-    check_memory<dim>(points.size() + places.points.size(),
-                      name_,
-                      grid.communicator());
+    check_memory(grid, points.size() + places.points.size(), name_);
     for (const NewPoint<dim> &place : places.points)
       add_point(points, index, place, density);
     // A rank may well have none, but one of them must have some.

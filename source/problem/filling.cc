@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
 #include <talus/problem/filling.h>
 
 #include <deal.II/base/mpi.h>
@@ -77,6 +78,29 @@ namespace talus
         }
       return centres;
     }
+
+
+
+    /// The places of points are some tenth of what the points will take, but to
+    /// collect them may take all memory, too. All ranks together have at least
+    /// that of this machine.
+    template <int dim>
+    void
+    check_memory(const Grid<dim>  &grid,
+                 const std::size_t n_points,
+                 const double      bytes_per_place)
+    {
+      const double memory =
+        grid.memory_per_rank() *
+        Utilities::MPI::n_mpi_processes(grid.communicator());
+      AssertThrow(n_points * bytes_per_place < memory,
+                  ExcUser(text("There would be more than ",
+                               n_points,
+                               " points, which take more than the ",
+                               memory / 1e9,
+                               " GB of memory that are to be had. ",
+                               fewer_points_advice)));
+    }
   } // namespace
 
 
@@ -94,9 +118,13 @@ namespace talus
     std::vector<NewPoint<dim>> result;
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
       if (const Cell<dim> &cell = grid.cells()[c]; overlap(cell, bounds))
-        for (const Point<dim> &x : lattice_of<dim>(cell, n))
-          if (region.contains(x))
-            result.push_back({x, lattice_lengths<dim>(cell, n)});
+        {
+          for (const Point<dim> &x : lattice_of<dim>(cell, n))
+            if (region.contains(x))
+              result.push_back({x, lattice_lengths<dim>(cell, n)});
+          // In the run a point takes more than five times that.
+          check_memory(grid, result.size(), 5. * sizeof(NewPoint<dim>));
+        }
     return result;
   }
 
@@ -170,12 +198,16 @@ namespace talus
       : grid_(grid)
       , n_(n)
     {
+      std::size_t n_boxes = 0;
       for (unsigned int c = 0; c < grid.cells().size(); ++c)
         {
           const Cell<dim> &cell = grid.cells()[c];
           if (!overlap(cell, bounds))
             continue;
           Parts parts = parts_of_cell(cell, region);
+          n_boxes += parts.size();
+          // There are two copies.
+          check_memory(grid, n_boxes, 2. * sizeof(PartInside<dim>));
           if (!parts.empty())
             parts_.emplace(c, std::move(parts));
         }

@@ -361,6 +361,12 @@ namespace talus
   void
   Simulation<dim>::check_output_folder() const
   {
+    // Which is left as it is.
+    if (beginning() == Beginning::resumed && is_finished())
+      {
+        output_.check_complete(state_.communicator());
+        return;
+      }
     if (beginning() == Beginning::fresh)
       checkpoint_.check_nothing_is_lost(output_.folder(),
                                         state_.communicator());

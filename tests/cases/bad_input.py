@@ -160,12 +160,18 @@ class BadInput(Case):
             with self.subTest(path):
                 self.assert_refused(
                     self.run_file(FULL, [*settings, f"{path}=1e300"]),
-                    path, "1e300", "1e+30")
+                    path, "'1e300'", "1e+30")
         self.assert_refused(
             self.run_file(FULL, ["Obstacles/pipe/Centre=3.5,-1.1e30"]),
             "'Obstacles/pipe/Centre'", "-1.1e30", "1e+30")
         self.assert_untouched()
-        result = self.run_file(FULL, ["Output/Field interval=1e30", "Title=at 1e300 m"])
+        result = self.run_file(FULL, ["Output/Field interval=1e30",
+                                      "Title=at 1e300 m"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+        # What looks like a number and is none, and what is long.
+        result = self.run_file(
+            GOOD.replace("clay", "2e35") + f"set Title = {'long ' * 200000}\n"
+            "subsection Output\n  set Folder = 57e1234\nend\n")
         self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_run_without_end(self):
@@ -272,11 +278,18 @@ class BadInput(Case):
     def test_small_cells_that_do_not_fit(self):
         """10^6 times as many as of the others."""
         (self.folder / "case.prm").write_text(GOOD)
-        for setting in ("Grid/Refinement boxes=0,0;4,4;10",
-                        "Grid/Refinement boxes=0,0;1,1;1|0,0;4,4;10"):
-            self.assert_refused(self.run_limited(1200000, "1", setting),
+        for kilobytes, size, settings, advice in (
+                (1200000, "1", ["Grid/Refinement boxes=0,0;4,4;10"],
+                 "Grid/Refinement boxes"),
+                (1200000, "1",
+                 ["Grid/Refinement boxes=0,0;1,1;1|0,0;4,4;10"],
+                 "Grid/Refinement boxes"),
+                (900000, "0.002",
+                 ["Mesh tracking/Enabled=true", "Grid/Coarsest level=6"],
+                 "Grid/Coarsest level")):
+            self.assert_refused(self.run_limited(kilobytes, size, *settings),
                                 "The mesh would have", "GB are to be had",
-                                "Grid/Refinement boxes")
+                                advice)
 
     def test_points_that_do_not_fit(self):
         """Of 2.5e6 points, for which there are 0.5 GB."""
@@ -286,6 +299,31 @@ class BadInput(Case):
                              "Bodies/block/Points per cell and axis=16"),
             "With the body 'block' there would be 2560000 points",
             "some 0.6656 GB", "GB are to be had", "'Points per cell and axis'")
+        # Their places alone are too much.
+        for filling in ("centres", "clipped"):
+            self.assert_refused(
+                self.run_limited(1100000, "0.01", "Bodies/block/Points per cell "
+                                 "and axis=16", f"Bodies/block/Filling={filling}"),
+                "There would be more than", "GB of memory that are to be had",
+                "'Points per cell and axis'")
+
+    def test_points_of_two_bodies_that_fit(self):
+        """10^6 points, 0.26 GB: what the first body has taken of 0.4 GB is not
+        missing for the second."""
+        (self.folder / "case.prm").write_text(
+            GOOD.replace("Names = block", "Names = block, b2").replace(
+                "  subsection block", """\
+  subsection b2
+    set Shape        = box
+    set Lower corner = 1, 2
+    set Upper corner = 3, 3
+    set Material     = clay
+    set Points per cell and axis = 2
+  end
+  subsection block"""))
+        result = self.run_limited(1200000, "0.02",
+                                  "Bodies/block/Points per cell and axis=10")
+        self.assertEqual(result.returncode, 0, result.stderr)
 
     def run_limited(self, kilobytes, cell_size, *settings):
         options = [o for s in settings for o in ("--set", s)]

@@ -171,14 +171,31 @@ class BadInputFolder(Case):
     def test_record_that_was_changed_by_hand(self):
         self.assertEqual(self.run_file().returncode, 0)
         record = self.results / "parameters.prm"
-        mine = record.read_text().replace("\nset End time", "\n# mine\nset End time")
-        record.write_text(mine)
-        self.assert_refused(self.run_file(), "parameters.prm",
-                            "somebody has changed", "--output")
-        self.assert_refused(self.run_talus("--output", "results",
-                                           "results/parameters.prm"),
-                            "results/parameters.prm", "which it reads")
-        self.assertEqual(record.read_text(), mine)
+        written = record.read_text()
+        changed = written.replace("\nset End time", "\n# mine\nset End time")
+        self.assertNotEqual(changed, written)
+        for mine in (changed, written + "# mine\n",
+                     # Without the line that has the checksum.
+                     changed[:changed[:-1].rfind("\n") + 1],
+                     written[:written[:-1].rfind("\n") + 1]):
+            record.write_text(mine)
+            self.assert_refused(self.run_file(), "parameters.prm",
+                                "somebody has changed", "--output")
+            self.assert_refused(self.run_talus("--output", "results",
+                                               "results/parameters.prm"),
+                                "results/parameters.prm", "which it reads")
+            self.assertEqual(record.read_text(), mine)
+
+    def test_record_that_was_changed_is_in_the_way_of_resuming(self):
+        (self.folder / "case.prm").write_text(GOOD)
+        self.assertEqual(self.resume(0.1).returncode, 0)
+        record = self.results / "parameters.prm"
+        record.write_text(record.read_text() + "# mine\n")
+        result = self.resume(0.2)
+        self.assert_refused(result, "somebody has changed", "go on with it")
+        self.assertNotIn("--output", result.stderr)
+        record.rename(self.folder / "case.prm")
+        self.assertEqual(self.resume(0.2).returncode, 0)
 
     def test_validate_looks_at_the_folder(self):
         validate = ["--validate", "--output", "results"]
@@ -200,13 +217,28 @@ class BadInputFolder(Case):
                 path.unlink()
             else:
                 path.write_text(content)
-            self.assert_refused(self.run_talus(*settings, *validate, "case.prm"),
-                                name if content else "statistics.csv", words)
+            for options in (validate, validate[1:]):
+                self.assert_refused(
+                    self.run_talus(*settings, *options, "case.prm"),
+                    name if content else "statistics.csv", words)
             if before is None:
                 path.unlink()
             else:
                 path.write_text(before)
             self.assert_untouched()
+        (self.results / "lock").unlink(missing_ok=True)
+        (self.results / "lock").mkdir()
+        for options in (validate, validate[1:]):
+            self.assert_refused(self.run_talus(*options, "case.prm"), "lock")
+        (self.results / "lock").rmdir()
+        record = self.results / "parameters.prm"
+        record.unlink()
+        record.symlink_to("nowhere")
+        (self.results / "statistics.csv").unlink()
+        for options in (validate, validate[1:]):
+            self.assert_refused(self.run_talus(*options, "case.prm"),
+                                "parameters.prm", "no run has written")
+        self.assertTrue(record.is_symlink())
 
     def test_validate_knows_an_unfinished_run(self):
         run = self.start_long_run()
@@ -248,11 +280,13 @@ class BadInputFolder(Case):
             self.assertEqual(self.resume(0.1).returncode, 0)
             (self.results / name).unlink()
             # There is nothing left to do.
-            result = self.run_talus("--resume", "--set", "End time=0.1",
-                                    "--set", "Checkpoint/At the end=true",
-                                    "--output", "results", "case.prm")
-            self.assertEqual(result.returncode, 1)
-            self.assertIn(f"lacks '{name}'", result.stderr)
+            for validate in ([], ["--validate"]):
+                result = self.run_talus("--resume", "--set", "End time=0.1",
+                                        "--set", "Checkpoint/At the end=true",
+                                        *validate, "--output", "results",
+                                        "case.prm")
+                self.assertEqual(result.returncode, 1)
+                self.assertIn(f"lacks '{name}'", result.stderr)
             result = self.resume(0.2)
             self.assertIn(f"lacks '{name}'",
                           (self.results / "log.txt").read_text())

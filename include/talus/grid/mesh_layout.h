@@ -80,6 +80,13 @@ namespace talus
       return tree_size_ / (1u << level);
     }
 
+    /// See memory_per_rank(), before there was a mesh; bytes.
+    double
+    memory_per_rank() const
+    {
+      return memory_per_rank_;
+    }
+
     /// Number of cells of this level along each axis of the mesh.
     Lattice
     extent_of_lattice(unsigned int level) const;

@@ -35,7 +35,14 @@ namespace talus
 
 
 
-  /// Throw ExcUser if @p path is such a file, under whatever name.
+  /// Why @p path cannot be written, a sentence, if it is such a file, under
+  /// whatever name; else empty.
+  std::string
+  clash_with_input(const std::filesystem::path &path);
+
+
+
+  /// Throw ExcUser if @p path is such a file.
   void
   check_not_input(const std::filesystem::path &path);
 

@@ -32,10 +32,10 @@ namespace talus
 
 
 
-  /// Throw ExcUser if the folder holds a `lock` that no run has written. For the
-  /// first rank.
-  void
-  check_no_foreign_lock(const std::filesystem::path &folder);
+  /// Why a run must not write into the folder, a sentence, if it holds a `lock`
+  /// that no run has written; else empty. For the first rank.
+  std::string
+  foreign_lock(const std::filesystem::path &folder);
 } // namespace talus
 
 #endif

@@ -2,6 +2,8 @@
 #ifndef talus_io_output_folder_h
 #define talus_io_output_folder_h
 
+#include <talus/io/files.h>
+
 #include <filesystem>
 #include <string>
 
@@ -20,18 +22,12 @@ namespace talus
 
 
 
-  /// Throw ExcUser if the folder holds files that a run would write over but
-  /// that are not of a run: what this one reads (see protect_input()), or a
-  /// parameters.prm of the user. For the first rank.
-  void
-  check_no_foreign_file(const std::filesystem::path &folder);
-
-
-
-  /// Throw ExcUser if the folder, in which no run has left a parameters.prm, holds
-  /// files named as those of a run: nobody knows whose they are. For the first rank.
-  void
-  check_no_results_without_a_run(const std::filesystem::path &folder);
+  /// Why a run must not write into the folder, a sentence: it holds files that
+  /// would be written over but are not of a run, be it what this one reads (see
+  /// protect_input()) or files of the user. Empty if there is no reason. For the
+  /// first rank.
+  std::string
+  foreign_file(const std::filesystem::path &folder, Beginning beginning);
 
 
 

@@ -87,8 +87,7 @@ namespace talus
     }
 
     /// Throw ExcUser if the folder holds what this run would write over and must
-    /// not: files of the user, or what it reads. Changes nothing; of the ranks
-    /// only the first one looks.
+    /// not: files of the user, or what it reads. Changes nothing. Collective.
     void
     check_folder(MPI_Comm communicator, Beginning beginning) const;
 
