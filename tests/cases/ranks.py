@@ -238,12 +238,12 @@ class Ranks(Runs):
         os.mkfifo(pipe)
         for content, status in (((PRM / "landslide-quick.prm").read_text(), 0),
                                 ("no parameters\n", 1)):
-            writer = threading.Thread(target=pipe.write_text, args=[content])
-            writer.start()
+            # It waits for a reader, and without one must not keep the test.
+            threading.Thread(target=pipe.write_text, args=[content],
+                             daemon=True).start()
             result = subprocess.run(
                 [MPIEXEC, "-n", "2", TALUS, "--validate", pipe],
                 cwd=self.folder, capture_output=True, text=True, timeout=60)
-            writer.join()
             self.assertEqual(result.returncode, status, result.stderr)
 
     def test_folder_of_another_run(self):
