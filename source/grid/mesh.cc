@@ -65,10 +65,10 @@ namespace talus
 
 
   /// Returns how many cells of all ranks are flagged to be divided, and how
-  /// many to be joined. Whether a cell is to be divided or joined follows from what lies in
-  /// it now, not from its history: a cell is joined with its siblings if what
-  /// contains them all asks for nothing. So two runs that come to the same soil
-  /// have the same mesh.
+  /// many to be joined. Whether a cell is to be divided or joined follows from
+  /// what lies in it now, not from its history: a cell is joined with its
+  /// siblings if what contains them all asks for nothing. So two runs that come
+  /// to the same soil have the same mesh.
   template <int dim>
   std::array<double, 2>
   Mesh<dim>::flag_cells(const WantsFiner &wants_finer)
