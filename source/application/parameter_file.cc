@@ -359,17 +359,6 @@ namespace talus
 
 
 
-    std::string
-    trim(const std::string &line)
-    {
-      const std::size_t first = line.find_first_not_of(' ');
-      return first == line.npos
-               ? ""
-               : line.substr(first, line.find_last_not_of(' ') + 1 - first);
-    }
-
-
-
     /// All entries, by the file that they would make: what is declared knows its
     /// place only there. Without std::regex, which takes stack by the character.
     void
@@ -380,7 +369,7 @@ namespace talus
       const std::string        section = "subsection ", entry = "set ";
       for (std::string line; std::getline(lines, line);)
         {
-          line = trim(line);
+          line = Utilities::trim(line);
           if (line.rfind(section, 0) == 0)
             path.push_back(line.substr(section.size()) + '/');
           else if (line == "end")
@@ -388,8 +377,8 @@ namespace talus
           else if (line.rfind(entry, 0) == 0)
             {
               const std::size_t equals = line.find('=');
-              const std::string name =
-                trim(line.substr(entry.size(), equals - entry.size()));
+              const std::string name   = Utilities::trim(
+                line.substr(entry.size(), equals - entry.size()));
               if (!is_text(name))
                 check_size(boost::algorithm::join(path, "") + name,
                            line.substr(equals + 1));
