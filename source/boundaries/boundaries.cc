@@ -98,13 +98,13 @@ namespace talus
                       return condition->depends_on_place();
                     }))
       places_ = places_of_owned_nodes(grid);
+    unsigned char seabed_faces = 0;
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      seabed_faces |= is_seabed(face) << face;
+    seabed_.prepare_nodes(grid, seabed_faces);
     if (has_seabed() && seabed_.depends_on_place())
       seabed_.locate(places_, [&](const unsigned int node) {
-        return std::any_of(
-          conditions_.begin(), conditions_.end(), [&](const auto &condition) {
-            return condition->is_one_sided() &&
-                   condition->acts_on(grid.faces_of_node(node));
-          });
+        return grid.faces_of_node(node) & seabed_faces;
       });
   }
 
@@ -261,8 +261,10 @@ namespace talus
               condition.has_traction() &&
               condition.acts_on(grid.faces_of_node(node)))
             {
+              const unsigned int   face = condition.face();
               const Tensor<1, dim> force =
-                contact_area(nodes, grid, condition.face(), node) *
+                grid.face_share(face, node).area *
+                volume_fraction_at_face(nodes, grid, face, node) *
                 condition.traction(place_of(node), t);
               nodes.add_force(node, force);
               loaded_.push_back({node, c, force});
@@ -295,7 +297,7 @@ namespace talus
     Tensor<1, dim> wall = constraints.impose(nodes, node);
     Tensor<1, dim> contact, friction;
     for (unsigned int c = 0; c < conditions_.size(); ++c)
-      if (const BoundaryCondition<dim> &condition = *conditions_[c];
+      if (BoundaryCondition<dim> &condition = *conditions_[c];
           condition.is_one_sided() && condition.acts_on(faces))
         {
           const double gap =
@@ -320,11 +322,12 @@ namespace talus
     if (reactions_.is_enabled())
       for (unsigned int c = 0; c < conditions_.size(); ++c)
         if (const auto &[normal, tangential] = of_condition[c];
-            normal.norm_square() > 0)
+            normal.norm_square() + tangential.norm_square() > 0)
           {
             reactions_.add(c, place_of(node), normal, tangential, v);
             reactions_.add_area(
-              c, contact_area(nodes, grid, conditions_[c]->face(), node));
+              c,
+              seabed_.contact_area(nodes, grid, conditions_[c]->face(), node));
           }
   }
 
@@ -342,6 +345,7 @@ namespace talus
   {
     Works<dim> work;
     bed_friction_.clear();
+    seabed_.begin_step();
     for (const unsigned int node : nodes.active_boundary_nodes())
       if (nodes.mass(node) > mass_cutoff)
         apply_to_node(nodes, grid, node, t, dt, work);
@@ -524,6 +528,17 @@ namespace talus
     for (const auto &condition : conditions_)
       names.push_back(face_names[condition->face()]);
     reactions_.prepare(names, writes_forces_);
+  }
+
+
+
+  template <int dim>
+  void
+  Boundaries<dim>::list_state(StateList &list)
+  {
+    reactions_.list_state(list);
+    if (has_seabed())
+      seabed_.list_state(list);
   }
 
 

@@ -11,12 +11,8 @@ namespace talus
   template <int dim>
   Seabed<dim>::Seabed()
     : ParameterAcceptor("/Boundaries/Seabed")
+    , friction_("/Boundaries/Seabed")
   {
-    add_parameter("Friction coefficient",
-                  friction_coefficient_,
-                  "Coulomb friction coefficient mu of soil on the seabed [-].",
-                  this->prm,
-                  Patterns::Double(0.));
     add_parameter(
       "Maximum shear stress",
       maximum_shear_stress_text_,
@@ -39,6 +35,7 @@ namespace talus
   void
   Seabed<dim>::prepare(const Constants &constants)
   {
+    friction_.check();
     cap_ = std::make_unique<ShearStressCap<dim>>(
       "'Boundaries/Seabed/Maximum shear stress'",
       maximum_shear_stress_text_,
@@ -61,17 +58,31 @@ namespace talus
 
 
 
+  template <int dim>
+  double
+  Seabed<dim>::contact_area(const NodalFields<dim> &nodes,
+                            const Grid<dim>        &grid,
+                            const unsigned int      face,
+                            const unsigned int      node) const
+  {
+    const double area = grid.face_share(face, node).area;
+    const double f    = volume_fraction_at_face(nodes, grid, face, node);
+    return area *
+           share_in_contact(std::min(1., covered_area_(face, node) / area), f);
+  }
+
+
+
   // The trial velocity is that of the momentum update, without the seabed. A
   // plastic impact along the normal: the impulse m v_n stops the node, N = m
-  // v_n/dt is the force that takes. Friction follows from this N and is at most
-  // what stops the node, so it never drives it back, at rest it bears the load,
-  // and no stiffness of a penalty limits the step. Nothing pulls: a node that
-  // moves away is free, and so soil can lift off.
+  // v_n/dt is the force of the impact. Friction is at most what stops the node,
+  // so friction never drives it back, at rest it bears the load, and no
+  // stiffness of a penalty limits the step. Nothing pulls: a node that moves
+  // away is free along the normal, and so soil can lift off.
   //
-  // The shear stress is capped per area in contact, and this area follows how
-  // far soil fills the cells at the node (contact_area()): with the whole share
-  // of the face a few points at the front would be held as firmly as a full
-  // layer.
+  // A node that shakes would have no friction in every step in which it moves
+  // away, and a body at rest would creep: so friction follows the mean normal
+  // force, also in these steps.
   template <int dim>
   std::pair<Tensor<1, dim>, Tensor<1, dim>>
   Seabed<dim>::apply(NodalFields<dim>  &nodes,
@@ -79,35 +90,44 @@ namespace talus
                      const unsigned int face,
                      const unsigned int node,
                      const double       dt,
-                     const double       gap) const
+                     const double       gap)
   {
     const unsigned int   axis     = face / 2;
     const double         outwards = (face % 2 == 0 ? -1. : 1.);
     const Tensor<1, dim> trial    = nodes.velocity(node);
-    const double         v_n      = outwards * trial[axis] - gap / dt;
-    if (v_n <= 0)
+    const double         mass     = nodes.mass(node);
+    // Along the normal, beyond what closes the gap.
+    const double v_n = outwards * trial[axis] - gap / dt;
+    if (gap > 0 && v_n <= 0)
       return {};
 
-    const double mass         = nodes.mass(node);
-    const double normal_force = mass * v_n / dt;
-
-    // In 3-D the friction acts against the direction of sliding, whatever it
-    // is.
-    Tensor<1, dim> v_t = trial;
-    v_t[axis]          = 0;
-    const double speed = v_t.norm();
+    Tensor<1, dim> v_t     = trial;
+    v_t[axis]              = 0;
+    const double speed     = v_t.norm();
+    const auto  &share     = grid.face_share(face, node);
+    const double cell_size = 2. * share.volume / share.area;
+    const double normal    = mass * std::max(0., v_n);
+    const double mean_normal_force =
+      memory_.update(face,
+                     node,
+                     normal / dt,
+                     InterfaceFriction::averaging_weight(speed * dt,
+                                                         cell_size));
+    const double area = contact_area(nodes, grid, face, node);
+    area_in_contact_ += area;
     const double friction =
-      std::min(mass * speed / dt,
-               largest_friction(node,
-                                normal_force,
-                                contact_area(nodes, grid, face, node)));
+      friction_.impulse(mass * speed,
+                        mass,
+                        largest_friction(node, mean_normal_force, area),
+                        area,
+                        dt);
 
     Tensor<1, dim> normal_impulse;
-    normal_impulse[axis] = -outwards * mass * v_n;
+    normal_impulse[axis] = -outwards * normal;
     Tensor<1, dim> tangential_impulse;
     // Without motion along the face there is no direction to act against.
     if (speed > 0)
-      tangential_impulse = (-friction * dt / speed) * v_t;
+      tangential_impulse = (-friction / speed) * v_t;
     nodes.set_velocity(node,
                        trial + (normal_impulse + tangential_impulse) / mass);
     return {normal_impulse, tangential_impulse};

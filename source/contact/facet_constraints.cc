@@ -1,30 +1,20 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/boundaries/contact_area.h>
 #include <talus/contact/facet_constraints.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace talus
 {
   using namespace dealii;
-
-  namespace
-  {
-    // Of the memory of friction: it fades within so many steps, and within so much
-    // of a cell of slip. On a block that rings (2600 steps a second, h/c 2.5 steps)
-    // 8 are not enough, 16 to 64 do the same. Without the second, soil that slides
-    // a quarter as fast as its waves would be gone before friction has felt it.
-    constexpr double n_steps_of_memory = 32, slip_of_memory = 0.05;
-  } // namespace
-
-
 
   template <int dim>
   void
   FacetConstraints<dim>::prepare(const Grid<dim> &grid)
   {
     gaps_.prepare(grid, surfaces());
+    coverage_.prepare(grid);
     constraints_.clear();
     loaded_.clear();
   }
@@ -58,6 +48,9 @@ namespace talus
       constraints_[c] = {};
     loaded_.clear();
     constraints_.resize(facets_.owned().size());
+    coverage_.find(state, [this](const ContactFacet<dim> &facet) {
+      return volume_fraction(facet);
+    });
     for (unsigned int c = 0; c < constraints_.size(); ++c)
       {
         const ContactFacet<dim> &facet      = facets_.owned()[c];
@@ -68,9 +61,24 @@ namespace talus
         const Cell<dim> &cell = state.grid.cells()[facet.cell];
         require_uniform(cell, facet);
         find_masses(facet, cell.size, constraint);
+        constraint.area =
+          facet.area * share_in_contact(coverage_[c], volume_fraction(facet));
         if (has_memory)
-          constraint.share_in_mean = share_in_mean(state, facet, constraint);
+          constraint.averaging_weight =
+            averaging_weight(state, facet, constraint);
       }
+  }
+
+
+
+  template <int dim>
+  double
+  FacetConstraints<dim>::volume_fraction(const ContactFacet<dim> &facet) const
+  {
+    double result = 0;
+    for (unsigned int v = 0; v < facet.node.size(); ++v)
+      result += facet.shape_value[v] * nodes_.fill(facet.node[v]);
+    return result;
   }
 
 
@@ -95,7 +103,6 @@ namespace talus
     for (unsigned int v = 0; v < share.size(); ++v)
       constraint.share[v] = share[v] / sum;
     constraint.is_loaded = true;
-    constraint.area      = facet.area * sum;
     return true;
   }
 
@@ -153,16 +160,11 @@ namespace talus
 
 
 
-  // Where an elastic body may ring, Coulomb friction on a rigid surface has no
-  // steady sliding: the normal force and its friction feed the waves, the body
-  // chatters, slips by turns and is thrown up. What tames it is that friction does
-  // not follow the normal force at once, but within some slip or time (@cite
-  // cochard2000). It is impulses that are remembered, not pressures: then
-  // their sum is kept while soil slides from facet to facet, and with it the mean
-  // force.
+  // It is impulses that are averaged, not pressures: their sum is kept while soil
+  // slides from facet to facet, and with it the mean force.
   template <int dim>
   double
-  FacetConstraints<dim>::share_in_mean(
+  FacetConstraints<dim>::averaging_weight(
     const State<dim>           &state,
     const ContactFacet<dim>    &facet,
     const FacetConstraint<dim> &constraint) const
@@ -172,10 +174,8 @@ namespace talus
       velocity(facet, constraint) -
       obstacles_[facet.obstacle].velocity(state.time + 0.5 * dt);
     const double slip = (u - (u * facet.normal) * facet.normal).norm() * dt;
-    return std::min(1.,
-                    1. / n_steps_of_memory +
-                      slip /
-                        (slip_of_memory * state.grid.cells()[facet.cell].size));
+    return InterfaceFriction::averaging_weight(
+      slip, state.grid.cells()[facet.cell].size);
   }
 
 
@@ -199,17 +199,29 @@ namespace talus
                                         const double       normal_impulse,
                                         const double       dt) const
   {
-    const unsigned int obstacle = facets_.owned()[facet].obstacle;
-    const double largest_stress = facets_.owned()[facet].maximum_shear_stress;
-    const double friction       = obstacles_.friction_factor() *
-                            obstacles_[obstacle].friction_coefficient() *
-                            normal_impulse;
-    // Whatever share of it a trigger leaves.
-    if (std::isinf(largest_stress))
-      return friction;
-    return std::min(friction,
-                    obstacles_.shear_stress_factor() * largest_stress *
-                      constraints_[facet].area * dt);
+    const ContactFacet<dim> &at = facets_.owned()[facet];
+    return dt * obstacles_[at.obstacle].friction().largest_force(
+                  normal_impulse / dt,
+                  at.maximum_shear_stress,
+                  constraints_[facet].area);
+  }
+
+
+
+  template <int dim>
+  double
+  FacetConstraints<dim>::friction_impulse(const unsigned int facet,
+                                          const double       trial,
+                                          const double       normal_impulse,
+                                          const double       dt) const
+  {
+    const FacetConstraint<dim> &constraint = constraints_[facet];
+    return obstacles_[facets_.owned()[facet].obstacle].friction().impulse(
+      trial,
+      constraint.mass,
+      friction_limit(facet, normal_impulse, dt) / dt,
+      constraint.area,
+      dt);
   }
 
 

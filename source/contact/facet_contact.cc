@@ -28,7 +28,7 @@ namespace talus
                 const double                newest)
     {
       return impulse.mean_normal +
-             constraint.share_in_mean * (newest - impulse.mean_normal);
+             constraint.averaging_weight * (newest - impulse.mean_normal);
     }
 
 
@@ -199,9 +199,13 @@ namespace talus
           longer * std::min(1., constraint.mass / impulse.effective_mass);
         impulse.normal *= factor;
         impulse.mean_normal *= longer;
-        impulse.tangential = cut_to_length(
-          factor * impulse.tangential,
-          constraints_.friction_limit(c, impulse.mean_normal, state.time_step));
+        impulse.tangential = factor * impulse.tangential;
+        impulse.tangential =
+          cut_to_length(impulse.tangential,
+                        constraints_.friction_impulse(c,
+                                                      impulse.tangential.norm(),
+                                                      impulse.mean_normal,
+                                                      state.time_step));
         impulse.effective_mass = constraint.mass;
         add_impulse(c,
                     impulse.normal * facets_.owned()[c].normal +
@@ -239,10 +243,11 @@ namespace talus
           std::max(0.,
                    impulse.normal -
                      constraint.normal_mass * (constraint.gap / dt + u_n));
-        const Tensor<1, dim> tangential =
-          cut_to_length(impulse.tangential - constraint.mass * u_t,
-                        constraints_.friction_limit(
-                          c, mean_normal(impulse, constraint, normal), dt));
+        const Tensor<1, dim> trial = impulse.tangential - constraint.mass * u_t;
+        const Tensor<1, dim> tangential = cut_to_length(
+          trial,
+          constraints_.friction_impulse(
+            c, trial.norm(), mean_normal(impulse, constraint, normal), dt));
         add_impulse(c,
                     (normal - impulse.normal) * facet.normal + tangential -
                       impulse.tangential);

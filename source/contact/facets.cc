@@ -338,6 +338,7 @@ namespace talus
     nodes_.clear();
     listed_near_.clear();
     owned_.clear();
+    ghosts_.clear();
     owned_nodes_.clear();
     nodes_on_faces_.clear();
     owned_nodes_on_faces_.clear();
@@ -357,8 +358,7 @@ namespace talus
       {
         for (const ContactFacet<dim> &facet : cut_cell.facets)
           {
-            if (c < grid.n_owned_cells())
-              owned_.push_back(facet);
+            (c < grid.n_owned_cells() ? owned_ : ghosts_).push_back(facet);
             for (const unsigned int node : facet.node)
               {
                 nodes_and_obstacles_.push_back({node, facet.obstacle});

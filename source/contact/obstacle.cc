@@ -16,12 +16,8 @@ namespace talus
     : ParameterAcceptor("/Obstacles/" + name)
     , name_(name)
     , shape_parameters_("/Obstacles/" + name)
+    , friction_("/Obstacles/" + name)
   {
-    add_parameter("Friction coefficient",
-                  friction_coefficient_,
-                  "Coulomb friction coefficient mu of soil on the surface [-].",
-                  this->prm,
-                  Patterns::Double(0.));
     add_parameter(
       "Maximum shear stress",
       maximum_shear_stress_text_,
@@ -80,6 +76,7 @@ namespace talus
         everywhere.lower[d] = -everywhere.upper[d];
       }
     shape_ = shape_parameters_.make(everywhere);
+    friction_.check();
     maximum_shear_stress_.reset();
     if (limits_shear_stress())
       maximum_shear_stress_ =

@@ -132,6 +132,26 @@ namespace talus
 
   template <int dim>
   void
+  Obstacles<dim>::scale_maximum_shear_stress(const double factor)
+  {
+    for (const auto &obstacle : obstacles_)
+      obstacle->friction().scale_shear_stress(factor);
+  }
+
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::scale_strength(const double factor)
+  {
+    for (const auto &obstacle : obstacles_)
+      obstacle->friction().scale_strength(factor);
+  }
+
+
+
+  template <int dim>
+  void
   Obstacles<dim>::list_state(StateList &list)
   {
     for (const auto &obstacle : obstacles_)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/contact/box_extent.h>
 #include <talus/contact/point_confinement.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ namespace talus
 
   /// By the planes of the facets, since the distance from a terrain is dear and
   /// most points of a cut cell are not at its surface. Points move with the
-  /// velocity of the grid, which is not much more than their own; whoever is
+  /// velocity of the grid, which is not much more than their own; a point that is
   /// missed is found in the next step.
   template <int dim>
   void
@@ -42,9 +43,11 @@ namespace talus
               const double     later =
                 2. * state.time_step *
                 (load_vector(points, points.velocity, p) * facet.normal);
+              const Tensor<1, dim> half =
+                half_lengths_of_box(points, state.box_shape, p);
               if (distance_from_plane(facet, x) + std::min(0., later) <
-                  facet.deviation)
-                candidates_.push_back({p, &facet, x});
+                  facet.deviation + support_of_box(half, facet.normal))
+                candidates_.push_back({p, &facet, x, half});
             }
         });
   }
@@ -80,10 +83,12 @@ namespace talus
                                  Point<dim>      &x) const
   {
     const ContactFacet<dim> &facet = *candidate.facet;
-    if (distance_from_plane(facet, x) > facet.deviation)
+    if (distance_from_plane(facet, x) >
+        facet.deviation + support_of_box(candidate.half, facet.normal))
       return false;
-    const Obstacle<dim> &obstacle = obstacles_[facet.obstacle];
-    const auto [distance, normal] = obstacle.distance_and_normal(x);
+    const Obstacle<dim> &obstacle  = obstacles_[facet.obstacle];
+    const auto [of_centre, normal] = obstacle.distance_and_normal(x);
+    const double distance = of_centre - support_of_box(candidate.half, normal);
     if (distance >= 0)
       return false;
     const Tensor<1, dim> drift   = dt * obstacle.velocity(time + 0.5 * dt);

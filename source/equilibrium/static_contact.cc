@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/boundaries/contact_area.h>
 #include <talus/equilibrium/static_contact.h>
 
 #include <deal.II/base/mpi.h>
@@ -41,10 +40,8 @@ namespace talus
             contact.walls =
               problem.boundaries.components_constrained_by_walls(faces);
             // The area of the dynamics: both must find the same friction.
-            contact.area = contact_area(problem.state.nodes,
-                                        problem.state.grid,
-                                        face,
-                                        contact.node);
+            contact.area = problem.boundaries.seabed().contact_area(
+              problem.state.nodes, problem.state.grid, face, contact.node);
             if (const auto before = known.find(contact.node);
                 before != known.end() && before->second.face == face)
               {

@@ -43,7 +43,7 @@ namespace talus
     for (unsigned int k = 0; k < problem.contact.obstacles().size(); ++k)
       is_symmetric_ =
         is_symmetric_ &&
-        problem.contact.obstacles()[k].friction_coefficient() == 0;
+        problem.contact.obstacles()[k].friction().coefficient() == 0;
     if (problem.contact.obstacles().empty())
       return;
     problem.contact.find_constraints(problem.state);
@@ -85,12 +85,11 @@ namespace talus
             point.area      = constraint.area;
             point.stiffness = spring * modulus * constraint.area /
                               problem.state.grid.cells()[facets[k].cell].size;
-            point.coefficient = problem.contact.obstacles().friction_factor() *
-                                problem.contact.obstacles()[facets[k].obstacle]
-                                  .friction_coefficient();
-            point.largest_friction =
-              problem.contact.constraints().friction_limit(
-                k, /*normal_impulse=*/1e100, /*dt=*/1.);
+            const Obstacle<dim> &obstacle =
+              problem.contact.obstacles()[facets[k].obstacle];
+            point.coefficient      = obstacle.friction().coefficient();
+            point.largest_friction = obstacle.friction().limit_of_stress(
+              facets[k].maximum_shear_stress, constraint.area);
             point.given = {impulse.normal, impulse.tangential};
             if (before.size() > k && before[k].node == point.node)
               point.opened = before[k].opened;

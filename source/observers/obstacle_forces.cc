@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/contact/box_extent.h>
 #include <talus/observers/obstacle_forces.h>
+#include <talus/points/points_kernel.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -41,7 +43,10 @@ namespace talus
 
 
   // Nothing pushes points out that have come below a surface; so the user must
-  // see how many have.
+  // see how much soil has, and how deep. The volume of a point counts as far as
+  // its centre is below the surface, in full when its whole box is: points are
+  // held at the surface, and of a centre that is there by round-off nothing
+  // counts.
   template <int dim>
   void
   ObstacleForces<dim>::list_penetration(const unsigned int k,
@@ -50,32 +55,39 @@ namespace talus
   {
     const Points<dim>   &points   = state.points;
     const Obstacle<dim> &obstacle = contact_.obstacles()[k];
-    double               mass = 0, inside = 0, deepest = 0; // cells
+    double               volume = 0, deepest = 0, in_cells = 0;
     for (const Segment &segment : points.segments())
-      for (unsigned int p = segment.begin; p < segment.end; ++p)
-        {
-          const double m = points.data(points.mass)[p];
-          mass += m;
-          // Others are far from the surface.
-          if (!contact_.facets().is_near(segment.cell))
-            continue;
-          const double distance =
-            obstacle.signed_distance(load_place(points, points.position, p));
-          if (distance < 0)
-            inside += m;
-          deepest = std::max(deepest,
-                             -distance / state.grid.cells()[segment.cell].size);
-        }
-    const MPI_Comm communicator = state.communicator();
-    mass                        = Utilities::MPI::sum(mass, communicator);
-    inside                      = Utilities::MPI::sum(inside, communicator);
-    const std::string name      = obstacle.name() + ' ';
-    row.push_back({name + "share of mass below surface",
-                   "-",
-                   mass > 0 ? inside / mass : 0});
+      // Others are far from the surface.
+      if (contact_.facets().is_near(segment.cell))
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          {
+            const auto [distance, normal] = obstacle.distance_and_normal(
+              load_place(points, points.position, p));
+            if (distance >= 0)
+              continue;
+            const double support = support_of_box(
+              half_lengths_of_box(points, state.box_shape, p), normal);
+            const double v =
+              points.data(points.reference_volume)[p] *
+              determinant(load_matrix<dim, double>(
+                points, points.deformation_gradient, p));
+            volume += v * std::min(1., -distance / support);
+            deepest  = std::max(deepest, -distance);
+            in_cells = std::max(in_cells,
+                                -distance /
+                                  state.grid.cells()[segment.cell].size);
+          }
+    const MPI_Comm    communicator = state.communicator();
+    const std::string name         = obstacle.name() + ' ';
+    row.push_back({name + "volume below surface",
+                   dim == 2 ? "m^2" : "m^3",
+                   Utilities::MPI::sum(volume, communicator)});
+    row.push_back({name + "depth below surface",
+                   "m",
+                   Utilities::MPI::max(deepest, communicator)});
     row.push_back({name + "deepest point",
                    "cells",
-                   Utilities::MPI::max(deepest, communicator)});
+                   Utilities::MPI::max(in_cells, communicator)});
   }
 
 

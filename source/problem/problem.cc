@@ -21,6 +21,7 @@ namespace talus
     , folder_(preview.folder)
     , surfaces_(preview.surfaces)
     , materials(preview.materials)
+    , seabed_coverage(boundaries)
     , seabed_gaps(boundaries)
     , obstacles(preview.obstacles)
     , contact(obstacles)

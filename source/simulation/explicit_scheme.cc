@@ -252,6 +252,7 @@ namespace talus
       boundaries.scale_seabed_shear_stress(factor);
       problem_.obstacles.scale_maximum_shear_stress(factor);
       problem_.contact.apply(state_, boundaries);
+      problem_.seabed_coverage.find(state_);
       problem_.seabed_gaps.find(state_);
       state_.works += boundaries.apply(
         state_.nodes, state_.grid, time, dt, state_.mass_cutoff);

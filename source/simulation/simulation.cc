@@ -7,6 +7,7 @@
 #include <talus/maps/map_observers.h>
 #include <talus/observers/boundary_forces.h>
 #include <talus/observers/facets_output.h>
+#include <talus/observers/footprint.h>
 #include <talus/observers/obstacle_forces.h>
 #include <talus/observers/obstacles_output.h>
 #include <talus/simulation/simulation.h>
@@ -53,6 +54,7 @@ namespace talus
       std::make_unique<FacetsOutput<dim>>(problem_.contact));
     add_map_observers(problem_, output_);
     output_.add_quantities([this](const State<dim> &state, Quantities &list) {
+      list_contact_area(state, problem_.boundaries, problem_.contact, list);
       scheme_.splitter().list_quantities(state, list);
       scheme_.merger().list_quantities(state, list);
       problem_.water.list_quantities(state,

@@ -60,7 +60,8 @@ namespace talus
             problem_.materials,
             problem_.boundaries,
             problem_.loading.loads(),
-            problem_.contact};
+            problem_.contact,
+            problem_.seabed_coverage};
   }
 
 

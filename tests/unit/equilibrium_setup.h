@@ -100,6 +100,7 @@ namespace
     load(const Tensor<1, dim> &gravity)
     {
       boundaries.locate_nodes(grid);
+      seabed_coverage.prepare(grid);
       for (auto &acceleration : loads.acceleration_of_body)
         acceleration = gravity;
       this->mass_cutoff = transfer.mass_cutoff(density, grid.finest_size());
@@ -109,7 +110,13 @@ namespace
     StaticProblem<dim>
     problem()
     {
-      return {*this, transfer, materials, boundaries, loads, contact};
+      return {*this,
+              transfer,
+              materials,
+              boundaries,
+              loads,
+              contact,
+              seabed_coverage};
     }
 
     /// Search until the end. Returns whether equilibrium is found; residuals by
@@ -145,6 +152,7 @@ namespace
     Materials<dim>                            materials;
     Obstacles<dim>                            obstacles;
     FacetContact<dim>                         contact{obstacles};
+    SeabedCoverage<dim>                       seabed_coverage{boundaries};
     Equilibrium<dim>                          equilibrium;
     unsigned int                              n_before = 0;
     std::vector<std::vector<NewtonIteration>> runs;

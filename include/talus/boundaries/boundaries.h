@@ -40,8 +40,9 @@ namespace talus
     void
     prepare(const Constants &constants);
 
-    /// Find the places of the nodes that expressions are needed at; to be
-    /// called after each change of the mesh or its partition.
+    /// Find the nodes of the seabed, and the places of nodes that expressions
+    /// are needed at, after each change of the mesh or its partition.
+    /// Collective.
     void
     locate_nodes(const Grid<dim> &grid);
 
@@ -72,7 +73,7 @@ namespace talus
     void
     scale_seabed_shear_stress(const double factor)
     {
-      seabed_.scale_maximum_shear_stress(factor);
+      seabed_.friction().scale_shear_stress(factor);
     }
 
     /// From now on all that resists sliding on the seabed is @p factor times
@@ -80,8 +81,7 @@ namespace talus
     void
     scale_seabed_strength(const double factor)
     {
-      seabed_.scale_maximum_shear_stress(factor);
-      seabed_.scale_friction_coefficient(factor);
+      seabed_.friction().scale_strength(factor);
     }
 
     /// Axes whose two faces are periodic. Throws ExcUser if only one is.
@@ -137,6 +137,12 @@ namespace talus
                const dealii::Tensor<1, dim> &impulse,
                Works<dim>                   &work);
 
+    void
+    set_covered_area(const typename Seabed<dim>::CoveredArea &covered_area)
+    {
+      seabed_.set_covered_area(covered_area);
+    }
+
     /// For a seabed with a gap: how far soil at a node is from a face, m, beyond
     /// what counts as contact.
     using Gap = std::function<double(unsigned int face, unsigned int node)>;
@@ -184,6 +190,9 @@ namespace talus
     {
       return reactions_;
     }
+
+    void
+    list_state(StateList &list);
 
   private:
     void

@@ -23,7 +23,7 @@ namespace talus
     const std::string &velocity; ///< expressions
     const std::string &traction; ///< expressions
     const Constants   &constants;
-    const Seabed<dim> &seabed;
+    Seabed<dim>       &seabed;
   };
 
 
@@ -107,7 +107,7 @@ namespace talus
                   const Grid<dim> & /*grid*/,
                   const unsigned int /*node*/,
                   const double /*dt*/,
-                  const double /*gap*/) const
+                  const double /*gap*/)
     {
       return {};
     }

@@ -8,18 +8,36 @@
 
 namespace talus
 {
-  /// Area in which soil touches @p face at @p node, m^(dim-1): the node's share
-  /// of the face times the degree to which soil fills the node's share of the
-  /// cells at the face, at most one.
+  /// Volume fraction of soil in the cells at @p face, as @p node sees it, at
+  /// most one.
   template <int dim>
   double
-  contact_area(const NodalFields<dim> &nodes,
-               const Grid<dim>        &grid,
-               const unsigned int      face,
-               const unsigned int      node)
+  volume_fraction_at_face(const NodalFields<dim> &nodes,
+                          const Grid<dim>        &grid,
+                          const unsigned int      face,
+                          const unsigned int      node)
   {
-    const auto &share = grid.face_share(face, node);
-    return share.area * std::min(1., nodes.volume(node) / share.volume);
+    return std::min(1.,
+                    nodes.volume(node) / grid.face_share(face, node).volume);
+  }
+
+
+
+  /// Volume fraction from which on soil covers all of a surface, whatever its
+  /// boxes say.
+  constexpr double volume_fraction_of_full_cells = 0.95;
+
+  /// Share of a surface in contact [-]. It is @p covered, the share that lies
+  /// under the boxes of points, in a layer thinner than a cell, and one where
+  /// the volume fraction @p f of soil at the surface says that the cells are
+  /// full. A small share is left where soil acts on nodes beside the boxes: a
+  /// maximum shear stress on no area would cancel its Coulomb friction.
+  inline double
+  share_in_contact(const double covered, const double f)
+  {
+    constexpr double begin = 0.8, end = volume_fraction_of_full_cells;
+    const double     s = std::clamp((f - begin) / (end - begin), 0., 1.);
+    return std::max(0.02 * f, 1. - (1. - covered) * (1. - s));
   }
 } // namespace talus
 

@@ -4,10 +4,11 @@
 
 #include <talus/base/shear_stress_cap.h>
 #include <talus/boundaries/boundary_condition.h>
+#include <talus/boundaries/interface_friction.h>
+#include <talus/boundaries/normal_force_memory.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
-#include <algorithm>
 #include <functional>
 #include <memory>
 #include <string>
@@ -15,17 +16,15 @@
 
 namespace talus
 {
-  /// One-sided contact with Coulomb friction whose shear stress is capped, on a
-  /// face of the mesh. The cap is the interface law of (@cite dong2017): soft
-  /// soil cannot pass more shear to the seabed than its own remoulded strength.
+  /// One-sided contact with friction on faces of the mesh, node by node.
   template <int dim>
   class Seabed : public dealii::ParameterAcceptor
   {
   public:
     Seabed();
 
-    /// To be called after parsing. Throws ExcUser if the maximum shear stress
-    /// cannot be understood.
+    /// Read the maximum shear stress and check the parameters, after parsing.
+    /// Throws ExcUser.
     void
     prepare(const Constants &constants);
 
@@ -53,20 +52,54 @@ namespace talus
     locate(const std::vector<dealii::Point<dim>>        &places,
            const std::function<bool(unsigned int node)> &is_on_seabed);
 
-    /// Change the velocity of @p node on @p face after a step of @p dt: where
-    /// it would move into the seabed, its normal velocity becomes zero with the
-    /// force N = m |v_n|/dt, and friction of at most
-    /// min(m |v_t|/dt, mu N, tau_max A) acts against the tangential velocity.
-    /// Soil that moves away is free, and so is soil that does not cover @p gap,
-    /// m, in the step. Returns normal and tangential impulse, N s.
-    /// A is the area in contact, see contact_area().
+    /// Area of @p face that the boxes of points near it cover at @p node,
+    /// m^(dim-1), as SeabedCoverage finds it; at most a little more than the
+    /// node's share of the face.
+    using CoveredArea =
+      std::function<double(unsigned int face, unsigned int node)>;
+
+    void
+    set_covered_area(const CoveredArea &covered_area)
+    {
+      covered_area_ = covered_area;
+    }
+
+    /// Area of @p face in contact with soil at @p node, m^(dim-1).
+    double
+    contact_area(const NodalFields<dim> &nodes,
+                 const Grid<dim>        &grid,
+                 unsigned int            face,
+                 unsigned int            node) const;
+
+    /// Begin a step, before apply().
+    void
+    begin_step()
+    {
+      memory_.begin_step();
+      area_in_contact_ = 0;
+    }
+
+    /// Area in which soil touched the seabed in the last step, on the nodes of
+    /// this rank, m^(dim-1).
+    double
+    area_in_contact() const
+    {
+      return area_in_contact_;
+    }
+
+    /// Change the velocity of @p node on @p face after a step of @p dt, s: where
+    /// the node would move into the seabed, its normal velocity v_n becomes zero,
+    /// which takes the force N = m v_n/dt. Friction, limited by the running mean
+    /// of N, acts against the tangential velocity, also in steps in which the
+    /// node moves away. Soil farther than @p gap, m, from the face than it moves
+    /// in the step is free. Returns normal and tangential impulse, N s.
     std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
     apply(NodalFields<dim> &nodes,
           const Grid<dim>  &grid,
           unsigned int      face,
           unsigned int      node,
           double            dt,
-          double            gap = 0.) const;
+          double            gap = 0.);
 
     /// Whether contact waits until the boxes of the points have come to the
     /// face. Else a node feels the seabed as soon as it carries soil, which may
@@ -77,29 +110,36 @@ namespace talus
       return has_gap_;
     }
 
-    /// Largest friction force on soil that is pressed onto @p area, m^(dim-1),
-    /// at @p node with @p normal_force, N.
+    /// Largest friction force on soil at rest that is pressed onto @p area,
+    /// m^(dim-1), at @p node with @p normal_force, N.
     double
     largest_friction(const unsigned int node,
                      const double       normal_force,
                      const double       area) const
     {
-      return std::min(friction_factor_ * friction_coefficient_ * normal_force,
-                      factor_ * maximum_shear_stress(node) * area);
+      return friction_.largest_force(normal_force,
+                                     maximum_shear_stress(node),
+                                     area);
     }
 
-    /// From now on pass @p factor times the maximum shear stress [-].
-    void
-    scale_maximum_shear_stress(const double factor)
+    InterfaceFriction &
+    friction()
     {
-      factor_ = factor;
+      return friction_;
     }
 
-    /// From now on use @p factor times the friction coefficient [-].
+    /// Find the nodes of @p faces (bit f for face f), after each change of the
+    /// mesh or its partition. Collective.
     void
-    scale_friction_coefficient(const double factor)
+    prepare_nodes(const Grid<dim> &grid, const unsigned char faces)
     {
-      friction_factor_ = factor;
+      memory_.prepare(grid, faces);
+    }
+
+    void
+    list_state(StateList &list)
+    {
+      memory_.list_state(list);
     }
 
   private:
@@ -111,14 +151,14 @@ namespace talus
       return number ? *number : cap_of_node_[node];
     }
 
-    double friction_factor_ = 1.;
-    double factor_          = 1.; ///< of the maximum shear stress
-
     // Parameters
-    double      friction_coefficient_      = 10.;
     std::string maximum_shear_stress_text_ = "1000";
     bool        has_gap_                   = false;
 
+    InterfaceFriction                    friction_;
+    NormalForceMemory<dim>               memory_;
+    CoveredArea                          covered_area_;
+    double                               area_in_contact_ = 0; ///< m^(dim-1)
     std::unique_ptr<ShearStressCap<dim>> cap_;         ///< Pa
     std::vector<double>                  cap_of_node_; ///< Pa, if they differ
   };
@@ -152,13 +192,13 @@ namespace talus
                   const Grid<dim>   &grid,
                   const unsigned int node,
                   const double       dt,
-                  const double       gap) const override
+                  const double       gap) override
     {
       return seabed_.apply(nodes, grid, this->face(), node, dt, gap);
     }
 
   private:
-    const Seabed<dim> &seabed_;
+    Seabed<dim> &seabed_;
   };
 } // namespace talus
 

@@ -3,6 +3,7 @@
 #define talus_contact_facet_constraints_h
 
 #include <talus/contact/contact_nodes.h>
+#include <talus/contact/facet_coverage.h>
 #include <talus/contact/facets.h>
 #include <talus/contact/nodal_gaps.h>
 #include <talus/state/state.h>
@@ -22,8 +23,9 @@ namespace talus
     double mass        = 0;     ///< kg
     double gap         = 0;     ///< m
     double area        = 0;     ///< in contact, m^(dim-1)
-    /// Share of this step's normal impulse in the mean that limits friction.
-    double share_in_mean = 1;
+    /// Weight of the normal impulse of this step in the running mean that limits
+    /// friction [-].
+    double averaging_weight = 1;
   };
 
 
@@ -88,10 +90,18 @@ namespace talus
       return velocity(facets_.owned()[facet], constraints_[facet]);
     }
 
-    /// Largest impulse along the facet in a step of @p dt, N s, for this
-    /// impulse along the normal.
+    /// Friction impulse that a facet passes at most to soil at rest in a step of
+    /// @p dt s, N s, for an impulse along the normal, N s.
     double
     friction_limit(unsigned int facet, double normal_impulse, double dt) const;
+
+    /// Length of the tangential impulse of a facet in a step of @p dt s, N s, for
+    /// an impulse along the normal, N s, if @p trial would stop the soil, N s.
+    double
+    friction_impulse(unsigned int facet,
+                     double       trial,
+                     double       normal_impulse,
+                     double       dt) const;
 
     /// Room between such a node's soil and the obstacle, m.
     double
@@ -115,9 +125,11 @@ namespace talus
                 double                   cell_size,
                 FacetConstraint<dim>    &constraint) const;
     double
-    share_in_mean(const State<dim>           &state,
-                  const ContactFacet<dim>    &facet,
-                  const FacetConstraint<dim> &constraint) const;
+    averaging_weight(const State<dim>           &state,
+                     const ContactFacet<dim>    &facet,
+                     const FacetConstraint<dim> &constraint) const;
+    double
+    volume_fraction(const ContactFacet<dim> &facet) const;
     dealii::Tensor<1, dim>
     velocity(const ContactFacet<dim>    &facet,
              const FacetConstraint<dim> &constraint) const;
@@ -126,6 +138,7 @@ namespace talus
     const Facets<dim>                &facets_;
     const ContactNodes<dim>          &nodes_;
     NodalGaps<dim>                    gaps_; ///< the obstacles' surfaces
+    FacetCoverage<dim>                coverage_{obstacles_, facets_};
     std::vector<FacetConstraint<dim>> constraints_;
     std::vector<unsigned int>         loaded_;
   };

@@ -59,6 +59,13 @@ namespace talus
       return owned_;
     }
 
+    /// Facets in the ghost cells, in the same order.
+    const std::vector<ContactFacet<dim>> &
+    ghosts() const
+    {
+      return ghosts_;
+    }
+
     /// Call action(facet) for all that surfaces have in cell @p c of this rank:
     /// for those of owned(), for those whose centroids lie inside of another
     /// obstacle, and for surfaces on the faces of a cell inside.
@@ -215,7 +222,7 @@ namespace talus
     std::vector<const CutCell *> cut_cell_at_;  ///< by cell, for who asks often
     std::set<unsigned int>       cells_inside_; ///< beside surfaces
     std::vector<unsigned int>    listed_near_;
-    std::vector<ContactFacet<dim>> owned_;
+    std::vector<ContactFacet<dim>> owned_, ghosts_;
     std::vector<unsigned int>      owned_nodes_, nodes_;
     std::vector<unsigned int>      owned_nodes_on_faces_, nodes_on_faces_;
     std::vector<NodeAndSurface>    nodes_and_obstacles_;

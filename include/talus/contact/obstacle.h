@@ -5,6 +5,7 @@
 #include <talus/base/expression.h>
 #include <talus/base/shear_stress_cap.h>
 #include <talus/base/state.h>
+#include <talus/boundaries/interface_friction.h>
 #include <talus/geometry/shape.h>
 #include <talus/geometry/shape_parameters.h>
 
@@ -101,10 +102,17 @@ namespace talus
         maximum_shear_stress_->set_depth(depth);
     }
 
-    double
-    friction_coefficient() const
+    /// What resists sliding along the surface.
+    const InterfaceFriction &
+    friction() const
     {
-      return friction_coefficient_;
+      return friction_;
+    }
+
+    InterfaceFriction &
+    friction()
+    {
+      return friction_;
     }
 
     bool
@@ -144,9 +152,9 @@ namespace talus
 
     std::string          name_;
     ShapeParameters<dim> shape_parameters_;
+    InterfaceFriction    friction_;
 
     // Parameters
-    double      friction_coefficient_      = 10.;
     std::string maximum_shear_stress_text_ = "";
     std::string velocity_text_             = "";
     std::string reference_point_text_      = "";

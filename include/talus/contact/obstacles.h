@@ -79,33 +79,12 @@ namespace talus
 
     /// Let all surfaces pass @p factor times their maximum shear stress [-].
     void
-    scale_maximum_shear_stress(const double factor)
-    {
-      factor_ = factor;
-    }
+    scale_maximum_shear_stress(double factor);
 
-    /// That factor.
-    double
-    shear_stress_factor() const
-    {
-      return factor_;
-    }
-
-    /// From now on all that resists sliding on the surfaces is @p factor times
-    /// its parameter [-].
+    /// Multiply all that resists sliding on the surfaces by @p factor from now
+    /// on [-].
     void
-    scale_strength(const double factor)
-    {
-      factor_          = factor;
-      friction_factor_ = factor;
-    }
-
-    /// That factor, of the friction coefficients.
-    double
-    friction_factor() const
-    {
-      return friction_factor_;
-    }
+    scale_strength(double factor);
 
     void
     list_state(StateList &list);
@@ -113,8 +92,6 @@ namespace talus
   private:
     std::vector<std::string>                    listed_names_;
     std::vector<std::unique_ptr<Obstacle<dim>>> obstacles_;
-    double                                      factor_          = 1.;
-    double                                      friction_factor_ = 1.;
   };
 } // namespace talus
 

@@ -9,13 +9,13 @@
 
 namespace talus
 {
-  /// Lets no centre of a material point go into an obstacle.
+  /// Lets no box of a material point go into an obstacle.
   ///
   /// Contact is a constraint on the velocity of the nodes, one for each facet.
   /// In a layer thinner than a cell that is the velocity of the nodes with most
-  /// soil, which is not the one that the points at the surface move with: while
-  /// the layer spreads, these sink by 0.2 to 0.3 cells per unit of strain. So
-  /// of the motion of a point whose centre has come to the surface the part
+  /// soil, and points at the surface move with another one: while the layer
+  /// spreads, they sink by 0.2 to 0.3 cells per unit of strain. So of the motion
+  /// of a point whose box has come to the surface with its lower side the part
   /// that leads further in is left out. Velocities, stress and all balances
   /// stay as they are. To push points out that are inside already would give
   /// neighbours a jerk.
@@ -45,6 +45,7 @@ namespace talus
       unsigned int             point;
       const ContactFacet<dim> *facet;
       dealii::Point<dim>       place; ///< before it moved, m
+      dealii::Tensor<1, dim>   half;  ///< half lengths of its box, m
     };
 
     bool

@@ -4,6 +4,7 @@
 
 #include <talus/boundaries/boundaries.h>
 #include <talus/contact/facet_contact.h>
+#include <talus/contact/seabed_coverage.h>
 #include <talus/materials/materials.h>
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
@@ -21,6 +22,7 @@ namespace talus
     Boundaries<dim>      &boundaries;
     const Loads<dim>     &loads;
     FacetContact<dim>    &contact; ///< with obstacles
+    SeabedCoverage<dim>  &seabed_coverage;
   };
 
 
@@ -47,6 +49,7 @@ namespace talus
                                state.nodes);
     });
     state.nodes.sum_over_ranks(state.grid);
+    problem.seabed_coverage.find(state);
     problem.boundaries.add_tractions(state.nodes,
                                      state.grid,
                                      state.time,

@@ -4,6 +4,7 @@
 
 #include <talus/boundaries/boundaries.h>
 #include <talus/contact/facet_contact.h>
+#include <talus/contact/seabed_coverage.h>
 #include <talus/contact/seabed_gaps.h>
 #include <talus/problem/body.h>
 #include <talus/problem/loading.h>
@@ -112,6 +113,7 @@ namespace talus
     {
       find_mudline(grid);
       boundaries.locate_nodes(grid);
+      seabed_coverage.prepare(grid);
       seabed_gaps.prepare(grid);
       contact.prepare(grid);
       water.prepare(grid);
@@ -139,7 +141,7 @@ namespace talus
       loading.list_state(list);
       obstacles.list_state(list);
       contact.list_state(list);
-      boundaries.reactions().list_state(list);
+      boundaries.list_state(list);
     }
 
   private:
@@ -159,14 +161,15 @@ namespace talus
 
   public:
     // The parts, for those who work with them.
-    Materials<dim>    materials;
-    Boundaries<dim>   boundaries;
-    SeabedGaps<dim>   seabed_gaps;
-    Obstacles<dim>    obstacles;
-    FacetContact<dim> contact; ///< with the obstacles
-    Water<dim>        water;
-    Loading<dim>      loading;
-    Trigger<dim>      trigger;
+    Materials<dim>      materials;
+    Boundaries<dim>     boundaries;
+    SeabedCoverage<dim> seabed_coverage;
+    SeabedGaps<dim>     seabed_gaps;
+    Obstacles<dim>      obstacles;
+    FacetContact<dim>   contact; ///< with the obstacles
+    Water<dim>          water;
+    Loading<dim>        loading;
+    Trigger<dim>        trigger;
   };
 } // namespace talus
 

@@ -3,11 +3,9 @@
 #define talus_transfer_point_exchange_h
 
 #include <talus/grid/grid.h>
+#include <talus/grid/neighbor_exchange.h>
 #include <talus/points/points.h>
 
-#include <deal.II/base/mpi.h>
-
-#include <memory>
 #include <vector>
 
 namespace talus
@@ -30,10 +28,12 @@ namespace talus
       unsigned int cell;  ///< an owned cell
     };
 
-    /// To be called before the first exchange. Collective over all ranks, also
-    /// those that have no neighbours.
+    /// Prepare for exchanges; see NeighborExchange::connect(). Collective.
     void
-    connect(MPI_Comm communicator);
+    connect(const MPI_Comm communicator)
+    {
+      messages_.connect(communicator);
+    }
 
     /// Send these points, which stay here as dead copies, and append those that
     /// come in, in the order of the ranks and of their lists. Collective.
@@ -44,21 +44,19 @@ namespace talus
 
   private:
     void
-    send(const std::vector<OutgoingPoint> &outgoing,
+    pack(const std::vector<OutgoingPoint> &outgoing,
          const Grid<dim>                  &grid,
          const Points<dim>                &points);
     void
-    receive(unsigned int rank, const Grid<dim> &grid, Points<dim> &points);
+    append(const NeighborExchange::Message &message,
+           const Grid<dim>                 &grid,
+           Points<dim>                     &points);
 
-    // Own tags need an own communicator.
-    std::unique_ptr<dealii::Utilities::MPI::DuplicatedCommunicator>
-      communicator_;
+    NeighborExchange messages_;
 
     // Kept between calls so that a step does not allocate.
-    std::vector<IncomingPoint>       arrivals_;
-    std::vector<std::vector<double>> outgoing_; ///< for each neighbour
-    std::vector<double>              incoming_;
-    std::vector<MPI_Request>         requests_;
+    std::vector<IncomingPoint>             arrivals_;
+    std::vector<NeighborExchange::Message> outgoing_; ///< for each neighbour
   };
 } // namespace talus
 

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_contact_box_extent_h
+#define talus_contact_box_extent_h
+
+#include <talus/points/points.h>
+#include <talus/transfer/box_shape.h>
+
+#include <cmath>
+
+namespace talus
+{
+  /// Half lengths of the box of point @p p, m, as the soil fills it: without the
+  /// clipping that the weights need.
+  template <int dim>
+  dealii::Tensor<1, dim>
+  half_lengths_of_box(const Points<dim> &points,
+                      const BoxShape    &shape,
+                      const unsigned int p)
+  {
+    dealii::Tensor<1, dim> half;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        half[d] = 0.5 * points.data(points.reference_length, d)[p];
+        if (shape.rule != BoxRule::fixed)
+          half[d] *= points.data(points.stretch, d)[p];
+      }
+    return half;
+  }
+
+
+
+  /// Distance of the centre of a box with these half lengths, m, from a plane
+  /// that it touches and whose normal is @p normal, m.
+  template <int dim>
+  double
+  support_of_box(const dealii::Tensor<1, dim> &half,
+                 const dealii::Tensor<1, dim> &normal)
+  {
+    double result = 0;
+    for (unsigned int d = 0; d < dim; ++d)
+      result += half[d] * std::abs(normal[d]);
+    return result;
+  }
+
+
+
+  /// Boxes whose lower sides are no farther than this from a surface cover it,
+  /// in cells. Boxes parallel to the axes leave gaps over a surface that is
+  /// inclined to the axes.
+  constexpr double largest_gap_of_covering_box = 0.25;
+} // namespace talus
+
+#endif

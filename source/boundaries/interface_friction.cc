@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/boundaries/interface_friction.h>
+
+#include <cmath>
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // A block that rings (2600 steps a second, h/c 2.5 steps) needs more than 8
+    // steps of memory; 16 to 64 do the same. Without the memory by slip, soil
+    // that slides a quarter as fast as its waves would have left the place before
+    // friction has felt it.
+    constexpr double n_steps_of_memory = 32, slip_of_memory = 0.05;
+  } // namespace
+
+
+
+  InterfaceFriction::InterfaceFriction(const std::string &section)
+    : ParameterAcceptor(section)
+  {
+    add_parameter("Friction coefficient",
+                  coefficient_,
+                  "Coulomb friction coefficient mu of soil on the surface [-].",
+                  this->prm,
+                  Patterns::Double(0.));
+    add_parameter(
+      "Film consistency",
+      film_consistency_,
+      "Consistency K of a film of mud between surface and soil "
+      "[Pa s^n]: it adds K (u/b)^n to the shear stress of soil that "
+      "slides at the velocity u, with the exponent n and the "
+      "thickness b of the film. So mud flows over a base that it "
+      "sticks to, where the cells are too coarse for the sheared "
+      "layer at the base. 0: no film.",
+      this->prm,
+      Patterns::Double(0.));
+    add_parameter("Film exponent",
+                  film_exponent_,
+                  "Exponent n of the film, 1 for Bingham mud [-].",
+                  this->prm,
+                  Patterns::Double(0.1, 2.));
+    add_parameter(
+      "Film thickness",
+      film_thickness_,
+      "Thickness b of the film [m]; needed with 'Film consistency'.",
+      this->prm,
+      Patterns::Double(0.));
+  }
+
+
+
+  void
+  InterfaceFriction::check() const
+  {
+    const std::string section = get_section_name().substr(1);
+    AssertThrow(film_consistency_ == 0 || film_thickness_ > 0,
+                ExcUser(text("'",
+                             section,
+                             "/Film consistency = ",
+                             film_consistency_,
+                             "' asks for a film, but '",
+                             section,
+                             "/Film thickness' is 0. Give the thickness of the "
+                             "sheared layer at the base in m.")));
+    AssertThrow(film_consistency_ > 0 || film_thickness_ == 0,
+                ExcUser(text("'",
+                             section,
+                             "/Film thickness = ",
+                             film_thickness_,
+                             "' is given, but '",
+                             section,
+                             "/Film consistency' is 0, so that the film passes "
+                             "no stress. Give the consistency in Pa s^n, or "
+                             "remove the thickness.")));
+  }
+
+
+
+  double
+  InterfaceFriction::limit_of_stress(const double maximum_shear_stress,
+                                     const double area) const
+  {
+    return std::isinf(maximum_shear_stress)
+             ? std::numeric_limits<double>::infinity()
+             : shear_stress_factor_ * maximum_shear_stress * area;
+  }
+
+
+
+  double
+  InterfaceFriction::film_force(const double slip_velocity,
+                                const double area) const
+  {
+    return film_consistency_ == 0
+             ? 0.
+             : area * film_consistency_ *
+                 std::pow(slip_velocity / film_thickness_, film_exponent_);
+  }
+
+
+
+  // An explicit film would turn the motion around where it is stiff. The
+  // equation for the velocity left increases with it, so Newton's method between
+  // bounds finds the root; for exponents below 1 its slope is infinite at 0.
+  double
+  InterfaceFriction::impulse(const double trial,
+                             const double mass,
+                             const double largest_force,
+                             const double area,
+                             const double dt) const
+  {
+    const double rest = dt * largest_force;
+    if (trial <= rest)
+      return trial;
+    if (film_consistency_ == 0)
+      return rest;
+    const double excess = trial - rest;
+    double       lower = 0, upper = excess / mass, u = upper;
+    for (unsigned int i = 0; i < 60 && upper - lower > 1e-14 * upper; ++i)
+      {
+        const double film           = dt * film_force(u, area);
+        const double error          = mass * u + film - excess;
+        (error > 0 ? upper : lower) = u;
+        u -= error / (mass + film_exponent_ * film / u);
+        if (!(u > lower && u < upper))
+          u = 0.5 * (lower + upper);
+      }
+    return rest + dt * film_force(u, area);
+  }
+
+
+
+  double
+  InterfaceFriction::averaging_weight(const double slip, const double cell_size)
+  {
+    return std::min(1.,
+                    1. / n_steps_of_memory +
+                      slip / (slip_of_memory * cell_size));
+  }
+} // namespace talus

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/boundaries/contact_area.h>
+#include <talus/contact/box_extent.h>
+#include <talus/contact/facet_coverage.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Axis that is nearest to the normal of a facet.
+    template <int dim>
+    unsigned int
+    axis_across(const ContactFacet<dim> &facet)
+    {
+      unsigned int axis = 0;
+      for (unsigned int d = 1; d < dim; ++d)
+        if (std::abs(facet.normal[d]) > std::abs(facet.normal[axis]))
+          axis = d;
+      return axis;
+    }
+
+
+
+    bool
+    is_thin(const double volume_fraction)
+    {
+      return volume_fraction > 0 &&
+             volume_fraction < volume_fraction_of_full_cells;
+    }
+  } // namespace
+
+
+
+  // Points of ghost cells are on other ranks, and points here may cover facets
+  // of ghost cells: each rank looks at all facets it knows, and tells the owners
+  // which sample points its own points cover.
+  template <int dim>
+  void
+  FacetCoverage<dim>::find(const State<dim>     &state,
+                           const VolumeFraction &volume_fraction)
+  {
+    const auto &owned = facets_.owned();
+    masks_.assign(owned.size(), 0);
+    n_samples_.assign(owned.size(), 0);
+    shares_.assign(owned.size(), 1.);
+    for (unsigned int f = 0; f < owned.size(); ++f)
+      if (is_thin(volume_fraction(owned[f])))
+        {
+          const unsigned int axis    = axis_across(owned[f]);
+          const Samples      samples = samples_of(state.grid, owned[f], axis);
+          n_samples_[f]              = samples.size();
+          masks_[f] = covered_samples(state, owned[f], axis, samples);
+        }
+    if (!state.grid.neighbor_ranks().empty())
+      {
+        pack_ghosts(state, volume_fraction);
+        messages_.exchange(state.grid.neighbor_ranks(),
+                           outgoing_,
+                           [&](const NeighborExchange::Message &message) {
+                             receive(state.grid, message);
+                           });
+      }
+    for (unsigned int f = 0; f < owned.size(); ++f)
+      if (n_samples_[f] > 0)
+        shares_[f] = double(__builtin_popcount(masks_[f])) / n_samples_[f];
+  }
+
+
+
+  /// Whether another surface lies in the cell of the facet, too.
+  template <int dim>
+  bool
+  FacetCoverage<dim>::shares_cell(const ContactFacet<dim> &facet) const
+  {
+    bool result = false;
+    if (obstacles_.size() > 1)
+      facets_.for_each_in_cell(facet.cell, [&](const ContactFacet<dim> &other) {
+        result = result || other.obstacle != facet.obstacle;
+      });
+    return result;
+  }
+
+
+
+  /// Points of the plane of the facet in the middle of columns of the cell along
+  /// the axis nearest to the normal, where they lie in the cell and outside of
+  /// other obstacles; the centroid of a facet so small that there is none.
+  template <int dim>
+  typename FacetCoverage<dim>::Samples
+  FacetCoverage<dim>::samples_of(const Grid<dim>         &grid,
+                                 const ContactFacet<dim> &facet,
+                                 const unsigned int       axis) const
+  {
+    const Cell<dim> &cell      = grid.cells()[facet.cell];
+    const double     tolerance = 1e-6 * cell.size;
+    const bool       is_shared = shares_cell(facet);
+    Samples          samples;
+    for (unsigned int i = 0; i < power(n_columns, dim - 1); ++i)
+      {
+        Point<dim>   y    = facet.centroid;
+        unsigned int rest = i;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (d != axis)
+            {
+              y[d] = cell.lower[d] +
+                     (rest % n_columns + 0.5) * cell.size / n_columns;
+              rest /= n_columns;
+            }
+        y[axis] -= (y - facet.centroid) * facet.normal / facet.normal[axis];
+        if (y[axis] < cell.lower[axis] - tolerance ||
+            y[axis] > cell.lower[axis] + cell.size + tolerance)
+          continue;
+        bool is_open = true;
+        for (unsigned int k = 0; k < obstacles_.size() && is_shared; ++k)
+          if (k != facet.obstacle)
+            is_open = is_open && obstacles_[k].signed_distance(y) > -tolerance;
+        if (is_open)
+          samples.push_back(y);
+      }
+    if (samples.empty())
+      samples.push_back(facet.centroid);
+    return samples;
+  }
+
+
+
+  /// The cell of the facet first: its points nearly always cover all.
+  template <int dim>
+  typename FacetCoverage<dim>::Mask
+  FacetCoverage<dim>::covered_samples(const State<dim>        &state,
+                                      const ContactFacet<dim> &facet,
+                                      const unsigned int       axis,
+                                      const Samples           &samples) const
+  {
+    const Grid<dim>       &grid     = state.grid;
+    const Cell<dim>       &cell     = grid.cells()[facet.cell];
+    constexpr unsigned int n_around = power(3, dim), middle = n_around / 2;
+    const Mask             all     = (Mask(1) << samples.size()) - 1;
+    Mask                   covered = 0;
+    for (unsigned int i = 0; i < n_around && covered != all; ++i)
+      {
+        const unsigned int k = (i == 0 ? middle : i <= middle ? i - 1 : i);
+        const unsigned int c = cell.neighbors[k];
+        if (c >= grid.n_owned_cells())
+          continue;
+        // Across a periodic face the neighbour lies at the other end.
+        Tensor<1, dim> shift;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const int    offset = int(k / power(3, d) % 3) - 1;
+            const double apart =
+              cell.lower[d] + offset * cell.size - grid.cells()[c].lower[d];
+            if (std::abs(apart) > 0.5 * cell.size)
+              shift[d] = apart;
+          }
+        covered =
+          covered_by_points_of(state, c, shift, facet, axis, samples, covered);
+      }
+    return covered;
+  }
+
+
+
+  /// Add the sample points that the boxes of the points in cell @p c cover. A
+  /// box covers what lies under its section across the axis, an eighth of a cell
+  /// wider, if its lower side is near the surface and its upper side above.
+  template <int dim>
+  typename FacetCoverage<dim>::Mask
+  FacetCoverage<dim>::covered_by_points_of(const State<dim>        &state,
+                                           const unsigned int       c,
+                                           const Tensor<1, dim>    &shift,
+                                           const ContactFacet<dim> &facet,
+                                           const unsigned int       axis,
+                                           const Samples           &samples,
+                                           Mask covered) const
+  {
+    const Points<dim> &points   = state.points;
+    const auto        &segments = points.segments();
+    const double       h        = state.grid.cells()[facet.cell].size;
+    const double       slack    = 0.5 * h / n_columns;
+    const double       n_axis   = facet.normal[axis];
+    const double       outwards = (n_axis > 0 ? 1. : -1.);
+    const double       largest_gap =
+      largest_gap_of_covering_box * h / std::abs(n_axis);
+    for (auto segment =
+           std::lower_bound(segments.begin(),
+                            segments.end(),
+                            c,
+                            [](const Segment &s, const unsigned int cell) {
+                              return s.cell < cell;
+                            });
+         segment != segments.end() && segment->cell == c;
+         ++segment)
+      for (unsigned int p = segment->begin; p < segment->end; ++p)
+        {
+          const Point<dim> x = load_place(points, points.position, p) + shift;
+          const Tensor<1, dim> half =
+            half_lengths_of_box(points, state.box_shape, p);
+          for (unsigned int i = 0; i < samples.size(); ++i)
+            {
+              const Tensor<1, dim> from   = x - samples[i];
+              const double         height = outwards * from[axis];
+              bool                 is_under =
+                height - half[axis] < largest_gap && height + half[axis] > 0;
+              for (unsigned int d = 0; d < dim; ++d)
+                is_under = is_under &&
+                           (d == axis || std::abs(from[d]) <= half[d] + slack);
+              if (is_under)
+                covered |= Mask(1) << i;
+            }
+        }
+    return covered;
+  }
+
+
+
+  namespace
+  {
+    /// Number of a facet among those of its cell.
+    template <int dim>
+    unsigned int
+    number_in_cell(const std::vector<ContactFacet<dim>> &facets,
+                   const unsigned int                    f)
+    {
+      unsigned int first = f;
+      while (first > 0 && facets[first - 1].cell == facets[f].cell)
+        --first;
+      return f - first;
+    }
+  } // namespace
+
+
+
+  /// A message is a list of three numbers for each facet: key of its cell, number
+  /// among the facets there, mask.
+  template <int dim>
+  void
+  FacetCoverage<dim>::pack_ghosts(const State<dim>     &state,
+                                  const VolumeFraction &volume_fraction)
+  {
+    const Grid<dim> &grid   = state.grid;
+    const auto      &ranks  = grid.neighbor_ranks();
+    const auto      &ghosts = facets_.ghosts();
+    outgoing_.resize(ranks.size());
+    for (auto &message : outgoing_)
+      message.clear();
+    for (unsigned int f = 0; f < ghosts.size(); ++f)
+      {
+        if (!is_thin(volume_fraction(ghosts[f])))
+          continue;
+        const unsigned int axis    = axis_across(ghosts[f]);
+        const Samples      samples = samples_of(grid, ghosts[f], axis);
+        const Mask covered = covered_samples(state, ghosts[f], axis, samples);
+        if (covered == 0)
+          continue;
+        const auto to = std::lower_bound(ranks.begin(),
+                                         ranks.end(),
+                                         grid.owner_of_cell(ghosts[f].cell)) -
+                        ranks.begin();
+        double key;
+        static_assert(sizeof(key) == sizeof(ghosts[f].key));
+        std::memcpy(&key, &ghosts[f].key, sizeof(key));
+        for (const double value :
+             {key, double(number_in_cell(ghosts, f)), double(covered)})
+          outgoing_[to].push_back(value);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  FacetCoverage<dim>::receive(const Grid<dim>                 &grid,
+                              const NeighborExchange::Message &message)
+  {
+    const auto &owned = facets_.owned();
+    for (std::size_t i = 0; i < message.size(); i += 3)
+      {
+        unsigned long key;
+        std::memcpy(&key, &message[i], sizeof(key));
+        const unsigned int c     = grid.cell_of_key(key);
+        const auto         first = std::lower_bound(owned.begin(),
+                                            owned.end(),
+                                            c,
+                                            [](const ContactFacet<dim> &facet,
+                                               const unsigned int       cell) {
+                                              return facet.cell < cell;
+                                            });
+        masks_[first - owned.begin() + (unsigned int)(message[i + 1])] |=
+          Mask(message[i + 2]);
+      }
+  }
+
+
+
+  template class FacetCoverage<2>;
+  template class FacetCoverage<3>;
+} // namespace talus

@@ -1,0 +1,263 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/boundaries/contact_area.h>
+#include <talus/contact/box_extent.h>
+#include <talus/contact/seabed_coverage.h>
+#include <talus/transfer/weights_kernel.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  SeabedCoverage<dim>::SeabedCoverage(Boundaries<dim> &boundaries)
+    : boundaries_(boundaries)
+  {
+    boundaries_.set_covered_area(
+      [this](const unsigned int face, const unsigned int node) {
+        return area(face, node);
+      });
+  }
+
+
+
+  namespace
+  {
+    /// Layers of cells between a cell and a face of the mesh: 0 at the face.
+    template <int dim>
+    unsigned int
+    layers_to_face(const Cell<dim>   &cell,
+                   const Box<dim>    &domain,
+                   const unsigned int face)
+    {
+      const unsigned int axis = face / 2;
+      const double       room =
+        (face % 2 == 0 ? cell.lower[axis] - domain.lower[axis]
+                       : domain.upper[axis] - cell.lower[axis] - cell.size);
+      return std::lround(room / cell.size);
+    }
+  } // namespace
+
+
+
+  // Boxes of the second layer may reach the first one. The row of the patch on
+  // the face is its second or first one at a lower face, its third or last one
+  // at an upper face.
+  template <int dim>
+  void
+  SeabedCoverage<dim>::prepare(const Grid<dim> &grid)
+  {
+    n_faces_ = 0;
+    cells_.clear();
+    nodes_.clear();
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      if (boundaries_.is_seabed(face))
+        slot_[face] = n_faces_++;
+    if (n_faces_ == 0)
+      return;
+    for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+        if (boundaries_.is_seabed(face))
+          if (const unsigned int layers =
+                layers_to_face(grid.cells()[c], grid.domain(), face);
+              layers < 2)
+            cells_.push_back(
+              {c, face, face % 2 == 0 ? 1 - layers : 2 + layers});
+    std::vector<unsigned char> hangs(grid.n_nodes(), 0);
+    for (const auto &hanging : grid.hanging_nodes())
+      hangs[hanging.node] = 1;
+    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+        if (boundaries_.is_seabed(face) && !hangs[node] &&
+            (grid.faces_of_node(node) & (1u << face)) &&
+            (nodes_.empty() || nodes_.back() != node))
+          nodes_.push_back(node);
+    is_full_.assign(grid.n_nodes(), 0);
+    areas_.assign(std::size_t(n_faces_) * grid.n_nodes(), 0.);
+    exchange_.prepare(grid, n_faces_);
+  }
+
+
+
+  template <int dim>
+  void
+  SeabedCoverage<dim>::find(const State<dim> &state)
+  {
+    if (n_faces_ == 0)
+      return;
+    for (const unsigned int node : nodes_)
+      {
+        std::fill_n(areas_.begin() + std::size_t(n_faces_) * node,
+                    n_faces_,
+                    0.);
+        is_full_[node] = 0;
+        for (unsigned int face = 0; face < 2 * dim; ++face)
+          if (boundaries_.is_seabed(face) &&
+              (state.grid.faces_of_node(node) & (1u << face)) &&
+              volume_fraction_at_face(state.nodes, state.grid, face, node) >=
+                volume_fraction_of_full_cells)
+            is_full_[node] |= 1u << face;
+      }
+    // Cells and segments are both in the order of the cells.
+    auto at = cells_.begin();
+    for (const Segment &segment : state.points.segments())
+      {
+        while (at != cells_.end() && at->cell < segment.cell)
+          ++at;
+        for (auto here = at; here != cells_.end() && here->cell == segment.cell;
+             ++here)
+          if (!is_covered_anyway(state.grid, *here))
+            add_cell(state, *here, segment.begin, segment.end);
+      }
+    give_to_masters(state.grid);
+    exchange_.add_to_owners(areas_.data());
+  }
+
+
+
+  /// Hanging nodes carry nothing: pass their areas to their masters.
+  template <int dim>
+  void
+  SeabedCoverage<dim>::give_to_masters(const Grid<dim> &grid)
+  {
+    for (const auto &hanging : grid.hanging_nodes())
+      for (unsigned int i = 0; i < n_faces_; ++i)
+        {
+          double &given = areas_[n_faces_ * hanging.node + i];
+          for (const auto &[master, weight] : hanging.masters)
+            areas_[n_faces_ * master + i] += weight * given;
+          given = 0;
+        }
+  }
+
+
+
+  /// Whether all nodes that the points of a cell could cover are at full cells,
+  /// where the area is not asked for. Of ghosts this is not known.
+  template <int dim>
+  bool
+  SeabedCoverage<dim>::is_covered_anyway(const Grid<dim>  &grid,
+                                         const CellAtFace &at) const
+  {
+    const Cell<dim> &cell = grid.cells()[at.cell];
+    if (!cell.uniform)
+      return false;
+    const unsigned int stride = power(4, at.face / 2);
+    for (unsigned int k = 0; k < cell.patch.size(); ++k)
+      if (k / stride % 4 == at.row &&
+          !(is_full_[cell.patch[k]] & (1u << at.face)))
+        return false;
+    return true;
+  }
+
+
+
+  namespace
+  {
+    /// Weight of a box whose lower side is @p gap cells above the face [-].
+    double
+    weight_of_gap(const double gap)
+    {
+      constexpr double full = 0.05, none = largest_gap_of_covering_box;
+      return std::clamp((none - gap) / (none - full), 0., 1.);
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  SeabedCoverage<dim>::add_cell(const State<dim>  &state,
+                                const CellAtFace  &at,
+                                const unsigned int begin,
+                                const unsigned int end)
+  {
+    const Cell<dim>   &cell   = state.grid.cells()[at.cell];
+    const Box<dim>     domain = state.grid.domain();
+    const unsigned int axis   = at.face / 2;
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        const double x = state.points.data(state.points.position, axis)[p];
+        const Tensor<1, dim> half =
+          half_lengths_of_box(state.points, state.box_shape, p);
+        const double distance =
+          (at.face % 2 == 0 ? x - domain.lower[axis] : domain.upper[axis] - x);
+        double area = weight_of_gap((distance - half[axis]) / cell.size);
+        if (area == 0)
+          continue;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (d != axis)
+            area *= 2. * half[d];
+        if (cell.uniform && state.box_shape.rule != BoxRule::convected_domain)
+          add_to_patch(state, at, p, area);
+        else
+          add_by_weights(state, at, p, area);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  SeabedCoverage<dim>::add_to_patch(const State<dim>  &state,
+                                    const CellAtFace  &at,
+                                    const unsigned int p,
+                                    const double       area_of_box)
+  {
+    const Cell<dim>                       &cell = state.grid.cells()[at.cell];
+    const unsigned int                     axis = at.face / 2;
+    std::array<std::array<double, 4>, dim> share;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != axis)
+        share[d] =
+          axis_weights((state.points.data(state.points.position, d)[p] -
+                        cell.lower[d]) /
+                         cell.size,
+                       half_length_in_cells<dim>(
+                         state.points, state.box_shape, d, p, 1. / cell.size))
+            .value;
+    for (unsigned int k = 0; k < cell.patch.size(); ++k)
+      if (k / power(4, axis) % 4 == at.row)
+        {
+          double value = area_of_box;
+          for (unsigned int d = 0; d < dim; ++d)
+            if (d != axis)
+              value *= share[d][k / power(4, d) % 4];
+          if (value != 0)
+            area(at.face, cell.patch[k]) += value;
+        }
+  }
+
+
+
+  /// Where cells of several sizes meet, or domains are not boxes: the weights of
+  /// the nodes on the face, divided by their sum, are the means along the face.
+  template <int dim>
+  void
+  SeabedCoverage<dim>::add_by_weights(const State<dim>  &state,
+                                      const CellAtFace  &at,
+                                      const unsigned int p,
+                                      const double       area_of_box)
+  {
+    weights_of_point(
+      state.points, state.grid, state.box_shape, at.cell, p, weights_);
+    const auto is_on_face = [&](const NodeWeight<dim> &weight) {
+      return state.grid.faces_of_node(weight.node) & (1u << at.face);
+    };
+    double sum = 0;
+    for (const NodeWeight<dim> &weight : weights_)
+      if (is_on_face(weight))
+        sum += weight.value;
+    if (sum > 0)
+      for (const NodeWeight<dim> &weight : weights_)
+        if (is_on_face(weight))
+          area(at.face, weight.node) += weight.value / sum * area_of_box;
+  }
+
+
+
+  template class SeabedCoverage<2>;
+  template class SeabedCoverage<3>;
+} // namespace talus

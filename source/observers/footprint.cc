@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/contact/box_extent.h>
+#include <talus/contact/ground.h>
+#include <talus/observers/footprint.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Columns along y over the plan of the soil, dim-1 axes, and which of them
+    /// have soil. Those of a lattice through the lower corner of the mesh.
+    template <int dim>
+    class PlanOfSoil
+    {
+    public:
+      explicit PlanOfSoil(const State<dim> &state)
+        : width_(0.25 * state.grid.finest_size())
+        , origin_(state.grid.domain().lower)
+      {
+        find_extent(state);
+        for_each_box(state, [this](const Columns &first, const Columns &last) {
+          mark(first, last);
+        });
+        const int error = MPI_Allreduce(MPI_IN_PLACE,
+                                        has_soil_.data(),
+                                        has_soil_.size(),
+                                        MPI_UNSIGNED_CHAR,
+                                        MPI_BOR,
+                                        state.communicator());
+        AssertThrowMPI(error);
+      }
+
+      double
+      width() const
+      {
+        return width_;
+      }
+
+      /// Call action(x) for a place in the middle of each column with soil; x[1]
+      /// is that of the lower corner of the mesh.
+      template <typename Action>
+      void
+      for_each_column(const Action &action) const
+      {
+        for (std::size_t i = 0; i < has_soil_.size(); ++i)
+          if (has_soil_[i])
+            {
+              Point<dim>  x    = origin_;
+              std::size_t rest = i;
+              for (unsigned int d = 0; d < dim - 1; ++d)
+                {
+                  x[axis(d)] += (first_[d] + long(rest % n_[d]) + 0.5) * width_;
+                  rest /= n_[d];
+                }
+              action(x);
+            }
+      }
+
+    private:
+      using Columns = std::array<long, dim - 1>;
+
+      /// Of the mesh, for axis @p d of the plan.
+      static unsigned int
+      axis(const unsigned int d)
+      {
+        return d == 0 ? 0 : 2;
+      }
+
+      /// Call action(first, last) for each box: the columns whose middles lie
+      /// under it.
+      template <typename Action>
+      void
+      for_each_box(const State<dim> &state, const Action &action) const
+      {
+        const Points<dim> &points = state.points;
+        for (unsigned int p = 0; p < points.size(); ++p)
+          {
+            const auto half = half_lengths_of_box(points, state.box_shape, p);
+            Columns    first, last;
+            for (unsigned int d = 0; d < dim - 1; ++d)
+              {
+                const unsigned int a = axis(d);
+                const double       x =
+                  points.data(points.position, a)[p] - origin_[a];
+                first[d] = std::lround(std::ceil((x - half[a]) / width_ - 0.5));
+                last[d] = std::lround(std::floor((x + half[a]) / width_ - 0.5));
+              }
+            action(first, last);
+          }
+      }
+
+      /// The same on all ranks.
+      void
+      find_extent(const State<dim> &state)
+      {
+        // Of upper ends the numbers with their signs changed.
+        std::array<long, 2 * (dim - 1)> ends;
+        ends.fill(std::numeric_limits<long>::max());
+        for_each_box(state, [&](const Columns &first, const Columns &last) {
+          for (unsigned int d = 0; d < dim - 1; ++d)
+            {
+              ends[2 * d]     = std::min(ends[2 * d], first[d]);
+              ends[2 * d + 1] = std::min(ends[2 * d + 1], -last[d]);
+            }
+        });
+        const int error = MPI_Allreduce(MPI_IN_PLACE,
+                                        ends.data(),
+                                        ends.size(),
+                                        MPI_LONG,
+                                        MPI_MIN,
+                                        state.communicator());
+        AssertThrowMPI(error);
+        std::size_t n_all = 1;
+        for (unsigned int d = 0; d < dim - 1; ++d)
+          {
+            first_[d] = ends[2 * d];
+            n_[d]     = std::max(0l, -ends[2 * d + 1] - first_[d] + 1);
+            n_all *= n_[d];
+          }
+        has_soil_.assign(n_all, 0);
+      }
+
+      void
+      mark(const Columns &first, const Columns &last)
+      {
+        const long z_first = (dim == 2 ? 0 : first[dim - 2] - first_[dim - 2]),
+                   z_last  = (dim == 2 ? 0 : last[dim - 2] - first_[dim - 2]);
+        for (long z = z_first; z <= z_last; ++z)
+          for (long x = first[0] - first_[0]; x <= last[0] - first_[0]; ++x)
+            has_soil_[z * n_[0] + x] = 1;
+      }
+
+      double                     width_;
+      Point<dim>                 origin_;
+      Columns                    first_, n_;
+      std::vector<unsigned char> has_soil_;
+    };
+
+
+
+    /// Area of the ground under the soil, m^(dim-1): of walls and overhangs
+    /// nothing counts.
+    template <int dim>
+    double
+    footprint(const State<dim> &state, const Ground<dim> &ground)
+    {
+      const PlanOfSoil<dim> plan(state);
+      const double          area   = std::pow(plan.width(), dim - 1.);
+      double                result = 0;
+      plan.for_each_column([&](const Point<dim> &x) {
+        result += (ground.is_bottom_face() ? area
+                                           : area / ground.layer_normal(x)[1]);
+      });
+      return result;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  list_contact_area(const State<dim>        &state,
+                    const Boundaries<dim>   &boundaries,
+                    const FacetContact<dim> &contact,
+                    Quantities              &row)
+  {
+    const bool has_obstacles = !contact.obstacles().empty();
+    double     in_contact    = 0, under_soil = 0;
+    if (boundaries.has_seabed() || has_obstacles)
+      {
+        const Ground<dim> ground(state.grid.domain(),
+                                 has_obstacles ? &contact.obstacles() :
+                                                 nullptr);
+        in_contact =
+          Utilities::MPI::sum(boundaries.seabed().area_in_contact(),
+                              state.communicator());
+        for (unsigned int k = 0; k < contact.reactions().size(); ++k)
+          if (ground.contains(k))
+            in_contact += contact.reactions()[k].total.area;
+        under_soil = footprint(state, ground);
+      }
+    const std::string unit = (dim == 2 ? "m" : "m^2");
+    row.push_back({"contact area", unit, in_contact});
+    row.push_back({"footprint", unit, under_soil});
+  }
+
+
+
+  template decltype(list_contact_area<2>) list_contact_area<2>;
+  template decltype(list_contact_area<3>) list_contact_area<3>;
+} // namespace talus
