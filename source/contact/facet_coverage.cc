@@ -27,6 +27,15 @@ namespace talus
 
 
 
+    /// Axis @p k of those other than @p axis.
+    constexpr unsigned int
+    across(const unsigned int axis, const unsigned int k)
+    {
+      return k < axis ? k : k + 1;
+    }
+
+
+
     bool
     is_thin(const double volume_fraction)
     {
@@ -46,7 +55,7 @@ namespace talus
                            const VolumeFraction &volume_fraction)
   {
     const auto &owned = facets_.owned();
-    masks_.assign(owned.size(), 0);
+    reached_.assign(owned.size(), {});
     n_samples_.assign(owned.size(), 0);
     shares_.assign(owned.size(), 1.);
     for (unsigned int f = 0; f < owned.size(); ++f)
@@ -55,7 +64,7 @@ namespace talus
           const unsigned int axis    = axis_across(owned[f]);
           const Samples      samples = samples_of(state.grid, owned[f], axis);
           n_samples_[f]              = samples.size();
-          masks_[f] = covered_samples(state, owned[f], axis, samples);
+          reached_[f] = reached_samples(state, owned[f], axis, samples);
         }
     if (!state.grid.neighbor_ranks().empty())
       {
@@ -68,7 +77,8 @@ namespace talus
       }
     for (unsigned int f = 0; f < owned.size(); ++f)
       if (n_samples_[f] > 0)
-        shares_[f] = double(__builtin_popcount(masks_[f])) / n_samples_[f];
+        shares_[f] =
+          double(__builtin_popcount(reached_[f].covered())) / n_samples_[f];
   }
 
 
@@ -132,8 +142,8 @@ namespace talus
 
   /// The cell of the facet first: its points nearly always cover all.
   template <int dim>
-  typename FacetCoverage<dim>::Mask
-  FacetCoverage<dim>::covered_samples(const State<dim>        &state,
+  typename FacetCoverage<dim>::Reached
+  FacetCoverage<dim>::reached_samples(const State<dim>        &state,
                                       const ContactFacet<dim> &facet,
                                       const unsigned int       axis,
                                       const Samples           &samples) const
@@ -141,9 +151,9 @@ namespace talus
     const Grid<dim>       &grid     = state.grid;
     const Cell<dim>       &cell     = grid.cells()[facet.cell];
     constexpr unsigned int n_around = power(3, dim), middle = n_around / 2;
-    const Mask             all     = (Mask(1) << samples.size()) - 1;
-    Mask                   covered = 0;
-    for (unsigned int i = 0; i < n_around && covered != all; ++i)
+    const Mask             all = (Mask(1) << samples.size()) - 1;
+    Reached                reached;
+    for (unsigned int i = 0; i < n_around && reached.covered() != all; ++i)
       {
         const unsigned int k = (i == 0 ? middle : i <= middle ? i - 1 : i);
         const unsigned int c = cell.neighbors[k];
@@ -159,31 +169,30 @@ namespace talus
             if (std::abs(apart) > 0.5 * cell.size)
               shift[d] = apart;
           }
-        covered =
-          covered_by_points_of(state, c, shift, facet, axis, samples, covered);
+        add_points_of(state, c, shift, facet, axis, samples, reached);
       }
-    return covered;
+    return reached;
   }
 
 
 
-  /// Add the sample points that the boxes of the points in cell @p c cover. A
-  /// box covers what lies under its section across the axis, an eighth of a cell
-  /// wider, if its lower side is near the surface and its upper side above.
+  /// Add the sample points that the boxes of the points in cell @p c reach. A
+  /// box counts if its lower side is near the surface and its upper side above.
+  /// Along one axis a box reaches beyond its ends by a quarter of a cell: a hole
+  /// between two boxes counts as covered, and the end of a layer is where it is.
   template <int dim>
-  typename FacetCoverage<dim>::Mask
-  FacetCoverage<dim>::covered_by_points_of(const State<dim>        &state,
-                                           const unsigned int       c,
-                                           const Tensor<1, dim>    &shift,
-                                           const ContactFacet<dim> &facet,
-                                           const unsigned int       axis,
-                                           const Samples           &samples,
-                                           Mask covered) const
+  void
+  FacetCoverage<dim>::add_points_of(const State<dim>        &state,
+                                    const unsigned int       c,
+                                    const Tensor<1, dim>    &shift,
+                                    const ContactFacet<dim> &facet,
+                                    const unsigned int       axis,
+                                    const Samples           &samples,
+                                    Reached                 &reached) const
   {
     const Points<dim> &points   = state.points;
     const auto        &segments = points.segments();
     const double       h        = state.grid.cells()[facet.cell].size;
-    const double       slack    = 0.5 * h / n_columns;
     const double       n_axis   = facet.normal[axis];
     const double       outwards = (n_axis > 0 ? 1. : -1.);
     const double       largest_gap =
@@ -206,16 +215,35 @@ namespace talus
             {
               const Tensor<1, dim> from   = x - samples[i];
               const double         height = outwards * from[axis];
-              bool                 is_under =
-                height - half[axis] < largest_gap && height + half[axis] > 0;
-              for (unsigned int d = 0; d < dim; ++d)
-                is_under = is_under &&
-                           (d == axis || std::abs(from[d]) <= half[d] + slack);
-              if (is_under)
-                covered |= Mask(1) << i;
+              if (height - half[axis] < largest_gap && height + half[axis] > 0)
+                add_sample(i, from, half, axis, 0.25 * h, reached);
             }
         }
-    return covered;
+  }
+
+
+
+  /// Add sample point @p i for a box whose centre lies at @p from of it, m.
+  template <int dim>
+  void
+  FacetCoverage<dim>::add_sample(const unsigned int    i,
+                                 const Tensor<1, dim> &from,
+                                 const Tensor<1, dim> &half,
+                                 const unsigned int    axis,
+                                 const double          beyond,
+                                 Reached              &reached) const
+  {
+    for (unsigned int k = 0; k < dim - 1; ++k)
+      {
+        const unsigned int d     = across(axis, k);
+        const unsigned int other = (dim == 2 ? d : across(axis, 1 - k));
+        if (d != other && std::abs(from[other]) > half[other])
+          continue;
+        if (from[d] <= half[d] && -from[d] <= half[d] + beyond)
+          reached.from[2 * k] |= Mask(1) << i;
+        if (-from[d] <= half[d] && from[d] <= half[d] + beyond)
+          reached.from[2 * k + 1] |= Mask(1) << i;
+      }
   }
 
 
@@ -237,8 +265,8 @@ namespace talus
 
 
 
-  /// A message is a list of three numbers for each facet: key of its cell, number
-  /// among the facets there, mask.
+  /// A message is a list of numbers for each facet: key of its cell, number among
+  /// the facets there, masks.
   template <int dim>
   void
   FacetCoverage<dim>::pack_ghosts(const State<dim>     &state,
@@ -256,9 +284,8 @@ namespace talus
           continue;
         const unsigned int axis    = axis_across(ghosts[f]);
         const Samples      samples = samples_of(grid, ghosts[f], axis);
-        const Mask covered = covered_samples(state, ghosts[f], axis, samples);
-        if (covered == 0)
-          continue;
+        const Reached      reached =
+          reached_samples(state, ghosts[f], axis, samples);
         const auto to = std::lower_bound(ranks.begin(),
                                          ranks.end(),
                                          grid.owner_of_cell(ghosts[f].cell)) -
@@ -266,9 +293,10 @@ namespace talus
         double key;
         static_assert(sizeof(key) == sizeof(ghosts[f].key));
         std::memcpy(&key, &ghosts[f].key, sizeof(key));
-        for (const double value :
-             {key, double(number_in_cell(ghosts, f)), double(covered)})
-          outgoing_[to].push_back(value);
+        outgoing_[to].push_back(key);
+        outgoing_[to].push_back(number_in_cell(ghosts, f));
+        for (const Mask mask : reached.from)
+          outgoing_[to].push_back(mask);
       }
   }
 
@@ -279,8 +307,9 @@ namespace talus
   FacetCoverage<dim>::receive(const Grid<dim>                 &grid,
                               const NeighborExchange::Message &message)
   {
-    const auto &owned = facets_.owned();
-    for (std::size_t i = 0; i < message.size(); i += 3)
+    constexpr unsigned int n_masks = 2 * (dim - 1);
+    const auto            &owned   = facets_.owned();
+    for (std::size_t i = 0; i < message.size(); i += 2 + n_masks)
       {
         unsigned long key;
         std::memcpy(&key, &message[i], sizeof(key));
@@ -292,8 +321,10 @@ namespace talus
                                                const unsigned int       cell) {
                                               return facet.cell < cell;
                                             });
-        masks_[first - owned.begin() + (unsigned int)(message[i + 1])] |=
-          Mask(message[i + 2]);
+        Reached           &reached =
+          reached_[first - owned.begin() + (unsigned int)(message[i + 1])];
+        for (unsigned int k = 0; k < n_masks; ++k)
+          reached.from[k] |= Mask(message[i + 2 + k]);
       }
   }
 

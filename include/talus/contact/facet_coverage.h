@@ -14,7 +14,8 @@
 namespace talus
 {
   /// Share of each facet that soil covers: the share of its sample points that
-  /// lie under the box of a point. Unlike the volume fraction of soil in the cell
+  /// lie under the box of a point, or between two boxes close to one another.
+  /// Unlike the volume fraction of soil in the cell
   /// it does not shrink with the thickness of a layer thinner than a cell. A
   /// sample point is covered or not, whichever box covers it, so the shares are
   /// the same on any number of ranks, and boxes parallel to the axes need not
@@ -59,25 +60,48 @@ namespace talus
     /// Bit i is sample point i.
     using Mask = unsigned int;
 
+    /// Sample points that boxes reach from below (2 d) and from above (2 d + 1)
+    /// along axis d of the dim-1 axes across the facet.
+    struct Reached
+    {
+      std::array<Mask, 2 * (dim - 1)> from{};
+
+      Mask
+      covered() const
+      {
+        Mask result = 0;
+        for (unsigned int d = 0; d < dim - 1; ++d)
+          result |= from[2 * d] & from[2 * d + 1];
+        return result;
+      }
+    };
+
     Samples
     samples_of(const Grid<dim>         &grid,
                const ContactFacet<dim> &facet,
                unsigned int             axis) const;
     bool
     shares_cell(const ContactFacet<dim> &facet) const;
-    Mask
-    covered_samples(const State<dim>        &state,
+    Reached
+    reached_samples(const State<dim>        &state,
                     const ContactFacet<dim> &facet,
                     unsigned int             axis,
                     const Samples           &samples) const;
-    Mask
-    covered_by_points_of(const State<dim>             &state,
-                         unsigned int                  c,
-                         const dealii::Tensor<1, dim> &shift,
-                         const ContactFacet<dim>      &facet,
-                         unsigned int                  axis,
-                         const Samples                &samples,
-                         Mask                          covered) const;
+    void
+    add_points_of(const State<dim>             &state,
+                  unsigned int                  c,
+                  const dealii::Tensor<1, dim> &shift,
+                  const ContactFacet<dim>      &facet,
+                  unsigned int                  axis,
+                  const Samples                &samples,
+                  Reached                      &reached) const;
+    void
+    add_sample(unsigned int                  i,
+               const dealii::Tensor<1, dim> &from,
+               const dealii::Tensor<1, dim> &half,
+               unsigned int                  axis,
+               double                        beyond,
+               Reached                      &reached) const;
     void
     pack_ghosts(const State<dim> &state, const VolumeFraction &volume_fraction);
     void
@@ -85,7 +109,7 @@ namespace talus
 
     const Obstacles<dim>                  &obstacles_;
     const Facets<dim>                     &facets_;
-    std::vector<Mask>                      masks_;     ///< of owned facets
+    std::vector<Reached>                   reached_;   ///< by owned facet
     std::vector<unsigned int>              n_samples_; ///< 0: not looked at
     std::vector<double>                    shares_;    ///< of owned facets
     NeighborExchange                       messages_;
