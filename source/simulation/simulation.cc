@@ -55,12 +55,47 @@ namespace talus
     add_map_observers(problem_, output_);
     output_.add_quantities([this](const State<dim> &state, Quantities &list) {
       list_contact_area(state, problem_.boundaries, problem_.contact, list);
+      note_contact_area(list);
       scheme_.splitter().list_quantities(state, list);
       scheme_.merger().list_quantities(state, list);
       problem_.water.list_quantities(state,
                                      -problem_.loading.gravity()[1],
                                      list);
     });
+  }
+
+
+
+  /// Tell once that soil does not touch the ground that lies under it. @p list
+  /// ends with contact area and footprint; a contact area of 0 is that of a
+  /// run before its first step.
+  template <int dim>
+  void
+  Simulation<dim>::note_contact_area(const Quantities &list)
+  {
+    const Quantity &footprint = list.back(), &area = list[list.size() - 2];
+    const double    ratio = area.value / footprint.value;
+    if (has_noted_contact_area_ || area.value == 0 ||
+        (ratio >= 0.95 && ratio <= 1.05))
+      return;
+    has_noted_contact_area_ = true;
+    log_.say(LogLevel::info,
+             text(std::setprecision(4),
+                  "t = ",
+                  state_.time,
+                  " s: soil touches ",
+                  area.value,
+                  ' ',
+                  area.unit,
+                  " of the ",
+                  footprint.value,
+                  ' ',
+                  footprint.unit,
+                  " of ground under it, a ratio of ",
+                  ratio,
+                  " where 0.95 to 1.05 was expected. Soil is in the air there, "
+                  "or friction acts on a wrong area: look at the fields, and "
+                  "compare with smaller cells."));
   }
 
 

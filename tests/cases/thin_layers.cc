@@ -257,3 +257,211 @@ TEST(ThinLayers, FactorOfSafety)
                  0.02);
     }
 }
+
+
+
+namespace
+{
+  /// A sheet of clay in the depth-averaged theory of @cite savage1989, with a
+  /// largest shear stress at the base, a film, and the strength of the clay
+  /// along the sheet. Slices keep their soil; their sides move.
+  class DepthAveragedSheet
+  {
+  public:
+    struct Base
+    {
+      double shear_stress; ///< Pa
+      double film;         ///< K/b, Pa s/m, of exponent 1
+    };
+
+    DepthAveragedSheet(const Base &base, const double strength)
+      : base_(base)
+      , strength_(strength)
+    {
+      for (unsigned int i = 0; i <= n_slices; ++i)
+        {
+          x_.push_back(-15. + 30. * i / n_slices);
+          u_.push_back(0.);
+        }
+    }
+
+    void
+    run(const double end)
+    {
+      while (time_ < end)
+        step(end);
+    }
+
+    double
+    centre() const
+    {
+      double sum = 0;
+      for (unsigned int i = 0; i < n_slices; ++i)
+        sum += 0.5 * (x_[i] + x_[i + 1]);
+      return sum / n_slices;
+    }
+
+    double
+    front() const
+    {
+      return x_.back();
+    }
+
+    static constexpr double slope = 3. * degree;
+
+  private:
+    static constexpr unsigned int n_slices = 200;
+    static constexpr double       rho = 1600., area = 60. / n_slices; // m^2
+
+    double
+    time_step(const double end) const
+    {
+      double dt = std::min(0.005, end - time_);
+      for (unsigned int i = 0; i < n_slices; ++i)
+        {
+          const double dx = x_[i + 1] - x_[i];
+          dt              = std::min(dt,
+                        0.2 * dx /
+                          (std::abs(u_[i + 1] - u_[i]) +
+                           std::sqrt(g * area / dx)));
+        }
+      return dt;
+    }
+
+    /// Force of a slice along the sheet, N/m, tension positive: weight, strength
+    /// (2 s_u against stretching or shortening), and a viscosity for bores.
+    double
+    normal_force(const unsigned int i, const double dt) const
+    {
+      const double dx = x_[i + 1] - x_[i], du = u_[i + 1] - u_[i];
+      const double thickness = area / dx;
+      const double full_rate =
+        std::max(0.02, 8. * strength_ * dt / (rho * dx * dx));
+      const double bore =
+        du < 0 ? rho * thickness *
+                   (1.5 * du * du - 0.5 * std::sqrt(g * thickness) * du)
+               : 0.;
+      return -0.5 * rho * g * std::cos(slope) * thickness * thickness +
+             2. * strength_ * thickness *
+               std::clamp(du / dx / full_rate, -1., 1.) -
+             bore;
+    }
+
+    void
+    step(const double end)
+    {
+      const double        dt = time_step(end);
+      std::vector<double> force(n_slices + 1, 0.), mass(n_slices + 1, 0.),
+        length(n_slices + 1, 0.);
+      for (unsigned int i = 0; i < n_slices; ++i)
+        {
+          const double N = normal_force(i, dt);
+          force[i] += N;
+          force[i + 1] -= N;
+          for (const unsigned int side : {i, i + 1})
+            {
+              mass[side] += 0.5 * rho * area;
+              length[side] += 0.5 * (x_[i + 1] - x_[i]);
+            }
+        }
+      for (unsigned int i = 0; i <= n_slices; ++i)
+        {
+          const double trial =
+            u_[i] + dt * (force[i] / mass[i] + g * std::sin(slope));
+          const double slows = dt * length[i] / mass[i];
+          const double speed =
+            std::max(0., std::abs(trial) - slows * base_.shear_stress) /
+            (1. + slows * base_.film);
+          u_[i] = std::copysign(speed, trial);
+        }
+      for (unsigned int i = 0; i <= n_slices; ++i)
+        x_[i] += dt * u_[i];
+      time_ += dt;
+    }
+
+    Base                base_;
+    double              strength_, time_ = 0;
+    std::vector<double> x_, u_; ///< of the sides of slices, m, m/s
+  };
+
+
+
+  Overrides
+  sheet(const double cell_size, const double cap)
+  {
+    return {text("Grid/Cell size=", cell_size),
+            text("Boundaries/Seabed/Maximum shear stress=", cap)};
+  }
+} // namespace
+
+
+
+// Friction, whatever brakes beyond gravity, is what the thickness in cells must
+// not change: the sheet thins from 2.5 or 5 cells to a tenth of one at its ends.
+TEST(ThinLayers, SheetThatThinsOut)
+{
+  Verification gates("Sheet of clay that thins out, 3 degrees",
+                     "talus tests/cases/thin-sheet.prm",
+                     "depth-averaged, solved in the test");
+  const double end = 12.;
+  for (const double cap : {100., 200., 400.})
+    {
+      DepthAveragedSheet reference({cap, 0.}, 500.);
+      reference.run(end);
+      const double free_fall =
+        0.5 * g * std::sin(DepthAveragedSheet::slope) * end * end;
+      for (const double cell : {0.8, 0.4})
+        {
+          const Table table =
+            run<2>("thin-sheet.prm", "thin-sheet", sheet(cell, cap));
+          const double      way = table["centre x [m]"].back();
+          const std::string where =
+            text(", tau_max = ", cap, " Pa, h = ", cell, " m");
+          gates.near("way of the centre [m]" + where,
+                     way,
+                     reference.centre(),
+                     0.05);
+          gates.near("way that friction takes [m]" + where,
+                     free_fall - way,
+                     free_fall - reference.centre(),
+                     0.1);
+          double share = 0;
+          for (unsigned int row = 0; row < table.n_rows(); ++row)
+            if (table["time [s]"][row] >= 1.)
+              share = std::max(share,
+                               std::abs(table["contact area [m]"][row] /
+                                          table["footprint [m]"][row] -
+                                        1.));
+          gates.at_most("contact area/footprint - 1" + where, share, 0.05);
+        }
+    }
+}
+
+
+
+// Mud that sticks to its base: cells too coarse for the sheared layer need the
+// film.
+TEST(ThinLayers, SheetOnAFilm)
+{
+  Verification       gates("Sheet of mud on a film, 3 degrees",
+                     "talus tests/cases/thin-sheet.prm with a film of 50 Pa s "
+                           "and 0.25 m, tau_max = 200 Pa, s_u = 2 kPa",
+                     "depth-averaged, solved in the test");
+  DepthAveragedSheet reference({200., 200.}, 2000.);
+  reference.run(12.);
+  for (const double cell : {0.8, 0.4})
+    {
+      const Table table =
+        run<2>("thin-sheet.prm",
+               "thin-sheet",
+               sheet(cell, 200.) +
+                 Overrides{"Materials/clay/Undrained shear strength=2000",
+                           "Materials/clay/Young's modulus=2e5",
+                           "Boundaries/Seabed/Film consistency=50",
+                           "Boundaries/Seabed/Film thickness=0.25"});
+      gates.near(text("way of the centre [m], h = ", cell, " m"),
+                 table["centre x [m]"].back(),
+                 reference.centre(),
+                 0.05);
+    }
+}

@@ -10,6 +10,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,7 +55,7 @@ namespace talus
 
     /// Area of @p face that the boxes of points near it cover at @p node,
     /// m^(dim-1), as SeabedCoverage finds it; at most a little more than the
-    /// node's share of the face.
+    /// node's share of the face. Until set_covered_area() boxes cover all.
     using CoveredArea =
       std::function<double(unsigned int face, unsigned int node)>;
 
@@ -155,11 +156,13 @@ namespace talus
     std::string maximum_shear_stress_text_ = "1000";
     bool        has_gap_                   = false;
 
-    InterfaceFriction                    friction_;
-    NormalForceMemory<dim>               memory_;
-    CoveredArea                          covered_area_;
+    InterfaceFriction      friction_;
+    NormalForceMemory<dim> memory_;
+    CoveredArea            covered_area_ = [](unsigned int, unsigned int) {
+      return std::numeric_limits<double>::max();
+    };
     double                               area_in_contact_ = 0; ///< m^(dim-1)
-    std::unique_ptr<ShearStressCap<dim>> cap_;         ///< Pa
+    std::unique_ptr<ShearStressCap<dim>> cap_;                 ///< Pa
     std::vector<double>                  cap_of_node_; ///< Pa, if they differ
   };
 

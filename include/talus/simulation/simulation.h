@@ -102,6 +102,8 @@ namespace talus
 
   private:
     void
+    note_contact_area(const Quantities &list);
+    void
     prepare();
     void
     create_points();
@@ -150,6 +152,7 @@ namespace talus
     StaticStages<dim>   static_stages_;
     Checkpoint<dim>     checkpoint_;
     FoundCheckpoint     resumed_from_; ///< no path in a run from the start
+    bool has_noted_contact_area_ = false;
   };
 } // namespace talus
 

@@ -19,7 +19,8 @@ namespace
             const double          mass,
             const Tensor<1, dim> &before,
             const Tensor<1, dim> &trial,
-            const double          volume = 1e3)
+            const double          volume       = 1e3,
+            const double          covered_area = 0.)
       : Core<dim>(cube<dim>() +
                   in_section("Boundaries",
                              conditions + "\n" + in_section("Seabed", seabed)))
@@ -38,6 +39,8 @@ namespace
         node, mass, volume, mass * before, mass * (trial - before) / dt);
       this->boundaries.prepare(Constants());
       this->boundaries.locate_nodes(this->grid);
+      this->boundaries.set_covered_area(
+        [=](const unsigned int, const unsigned int) { return covered_area; });
       this->boundaries.add_tractions(nodes, this->grid, 0., 0.);
       nodes.update_momentum(dt, 0.);
       kinetic_energy_before = 0.5 * mass * before.norm_square();
@@ -124,14 +127,24 @@ namespace
 
 
 
-  TEST(Seabed, CapCountsTheAreaThatSoilFills)
+  TEST(Seabed, CapCountsTheAreaInContact)
   {
-    // The node stands for 1 m of the face and 0.5 m^2 of the cells at it.
-    const OneNode<2> half(
-      bottom, law(0.5, 3.), on_bottom, 2., before, trial, 0.2);
-    half.expect_velocity(Point<2>(3. - 0.4 * 0.15, 0.));
+    // The node stands for 1 m of the face and 0.5 m^2 of the cells at it; soil
+    // that fills two fifths of them covers 0.7 m.
+    const OneNode<2> thin(
+      bottom, law(0.5, 3.), on_bottom, 2., before, trial, 0.2, 0.7);
+    thin.expect_velocity(Point<2>(3. - 0.7 * 0.15, 0.));
+    // Boxes that overlap cover no more than there is.
+    const OneNode<2> double_row(
+      bottom, law(0.5, 3.), on_bottom, 2., before, trial, 0.2, 1.7);
+    double_row.expect_velocity(Point<2>(2.85, 0.));
+    // Soil that touches the node beside the boxes keeps 0.02 of 0.4.
+    const OneNode<2> beside(
+      bottom, law(0.5, 3.), on_bottom, 2., before, trial, 0.2, 0.);
+    beside.expect_velocity(Point<2>(3. - 0.008 * 0.15, 0.));
+    // Where cells are full all of the face counts.
     const OneNode<2> full(
-      bottom, law(0.5, 3.), on_bottom, 2., before, trial, 0.5);
+      bottom, law(0.5, 3.), on_bottom, 2., before, trial, 0.5, 0.2);
     full.expect_velocity(Point<2>(2.85, 0.));
     // At the end of the face it is half of both.
     const OneNode<2> end(
@@ -261,6 +274,53 @@ namespace
 
 
 
+  /// A node that moves away in a step still has the friction of the mean normal
+  /// force, which fades by the slip of the step, and is forgotten in a step
+  /// without soil.
+  TEST(Seabed, FrictionFollowsTheMeanNormalForce)
+  {
+    OneNode<2> n(bottom, law(0.5, 1e9), on_bottom, 2., before, trial);
+    // N = 10 N in the first step. A slip of 1 mm counts 1/32 + 0.001/0.05.
+    const auto move_away = [&](const double expected) {
+      n.nodes.clear();
+      const Tensor<1, 2> v = Point<2>(0.01, 0.2);
+      n.nodes.set_sums(n.node, 2., 1e3, 2. * v, Tensor<1, 2>());
+      n.nodes.update_momentum(dt, 0.);
+      n.boundaries.apply(n.nodes, n.grid, 0., dt, 0.);
+      n.expect_velocity(Point<2>(expected, 0.2));
+    };
+    // The friction would stop 1.5 N s, so it stops the node.
+    move_away(0.);
+    n.nodes.clear();
+    n.boundaries.apply(n.nodes, n.grid, 0., dt, 0.);
+    move_away(0.01);
+  }
+
+
+
+  /// The film brakes what friction leaves: for n = 1,
+  /// (m + dt A K/b) v = m v_trial - dt tau A.
+  TEST(Seabed, FilmIsImplicit)
+  {
+    const std::string film =
+      "\nset Film consistency = 30\nset Film thickness = 0.5";
+    const OneNode<2> n(
+      bottom, law(0.5, 3.) + film, on_bottom, 2., before, trial);
+    n.expect_velocity(
+      Point<2>((2. * 3. - 0.1 * 3.) / (2. + 0.1 * 30. / 0.5), 0.));
+    // With n = 1/2 the root of 2 v + 0.1 30 sqrt(v/0.5) = 5.7.
+    const OneNode<2> thinning(bottom,
+                              law(0.5, 3.) + film + "\nset Film exponent = 0.5",
+                              on_bottom,
+                              2.,
+                              before,
+                              trial);
+    const double     v = thinning.nodes.velocity(thinning.node)[0];
+    EXPECT_NEAR(2. * v + 3. * std::sqrt(v / 0.5), 5.7, 1e-12);
+  }
+
+
+
   /// Soil that has not come to the seabed by more than the gap is let fall to it.
   TEST(Seabed, GapLeavesRoomToFall)
   {
@@ -281,6 +341,7 @@ namespace
           ++node;
         nodes.set_sums(node, 2., 1., 2. * before, 2. * (trial - before) / dt);
         core.boundaries.prepare(Constants());
+        core.boundaries.locate_nodes(core.grid);
         core.boundaries.set_gap(
           [=](const unsigned int, const unsigned int) { return gap; });
         nodes.update_momentum(dt, 0.);

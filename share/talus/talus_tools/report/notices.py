@@ -9,7 +9,11 @@ from talus_tools.hdf5 import h5py
 from talus_tools.units import plain, show, unit_of
 
 # Shares above which a budget is not closed well enough to be left unsaid.
-ENERGY, MASS, LEDGER, BELOW_SURFACE = 0.01, 1e-9, 1e-9, 0.01
+ENERGY, MASS, LEDGER = 0.01, 1e-9, 1e-9
+
+# Depth below a surface, in cells, and departure of the contact area from the area under the
+# soil, above which they are told.
+BELOW_SURFACE, CONTACT_AREA = 0.1, 0.05
 
 
 def energy_scale(statistics):
@@ -103,12 +107,33 @@ def ledger(run):
 def below_surface(run):
     """Soil that went through an obstacle."""
     table, result = run.tables["obstacles"], []
-    end = " share of mass below surface [-]"
+    end = " deepest point [cells]"
     for name in table.names if table else []:
         if name.endswith(end) and table[name].max() > BELOW_SURFACE:
-            result.append(f"Up to {plain(100 * table[name].max(), 3)} % of the soil is below the "
-                          f"surface of the obstacle '{name[:-len(end)]}'.")
+            obstacle = name[:-len(end)]
+            unit = unit_of("[m^2]" if run.dimension == 2 else "[m^3]", run.dimension)
+            column = next(c for c in table.names
+                          if c.startswith(obstacle + " volume below surface"))
+            result.append(f"Up to {show(table[column].max(), unit)} of soil is below the surface "
+                          f"of the obstacle '{obstacle}', at most "
+                          f"{plain(table[obstacle + ' depth below surface [m]'].max(), 3)} m deep "
+                          f"({plain(table[name].max(), 2)} cells).")
     return result
+
+
+def contact_area(run):
+    """Ground under the soil that the soil does not touch, or touches twice."""
+    unit = "m" if run.dimension == 2 else "m^2"
+    area = run.statistics[f"contact area [{unit}]"]
+    footprint = run.statistics[f"footprint [{unit}]"]
+    rows = numpy.flatnonzero((area > 0) & (numpy.abs(area - footprint) >
+                                           CONTACT_AREA * footprint))
+    if not len(rows):
+        return []
+    worst = rows[numpy.argmax(numpy.abs(area[rows] / footprint[rows] - 1))]
+    return [f"At t = {plain(run.statistics['time [s]'][worst])} s the soil touched "
+            f"{plain(100 * area[worst] / footprint[worst], 3)} % of the ground under it (expected: "
+            "95 to 105 %). Either soil is in the air there, or friction acts on a wrong area."]
 
 
 def cut_off(run):
@@ -134,6 +159,6 @@ def remarks(run):
 
 def notices(run):
     """All of them, the gravest first."""
-    checks = (unfinished, mass, energy, fracture, ledger, below_surface, moving, cut_off,
-              without_h5py, remarks)
+    checks = (unfinished, mass, energy, fracture, ledger, below_surface, contact_area, moving,
+              cut_off, without_h5py, remarks)
     return [sentence for check in checks for sentence in check(run)]
