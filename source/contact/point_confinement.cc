@@ -32,6 +32,8 @@ namespace talus
       return;
     const Points<dim> &points = state.points;
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+      note_contained(points, points.segments()[s]);
+    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       facets_.for_each_in_cell(
         points.segments()[s].cell, [&](const ContactFacet<dim> &facet) {
           for (unsigned int p = points.segments()[s].begin;
@@ -44,9 +46,24 @@ namespace talus
                 (load_vector(points, points.velocity, p) * facet.normal);
               if (distance_from_plane(facet, x) + std::min(0., later) <
                   facet.deviation)
-                candidates_.push_back({p, &facet, x});
+                candidates_.push_back({p, &facet, x, facet.obstacle});
             }
         });
+  }
+
+
+
+  /// Note the points of a cell that an obstacle contains as a whole: there is no
+  /// plane of a facet to tell how deep a point lies.
+  template <int dim>
+  void
+  PointConfinement<dim>::note_contained(const Points<dim> &points,
+                                        const Segment     &segment)
+  {
+    for (const unsigned int k : facets_.containing(segment.cell))
+      for (unsigned int p = segment.begin; p < segment.end; ++p)
+        candidates_.push_back(
+          {p, nullptr, load_place(points, points.position, p), k});
   }
 
 
@@ -79,10 +96,10 @@ namespace talus
                                  const double     dt,
                                  Point<dim>      &x) const
   {
-    const ContactFacet<dim> &facet = *candidate.facet;
-    if (distance_from_plane(facet, x) > facet.deviation)
+    const ContactFacet<dim> *const facet = candidate.facet;
+    if (facet && distance_from_plane(*facet, x) > facet->deviation)
       return false;
-    const Obstacle<dim> &obstacle = obstacles_[facet.obstacle];
+    const Obstacle<dim> &obstacle = obstacles_[candidate.obstacle];
     const auto [distance, normal] = obstacle.distance_and_normal(x);
     if (distance >= 0)
       return false;

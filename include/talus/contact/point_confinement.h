@@ -42,10 +42,15 @@ namespace talus
   private:
     struct Candidate
     {
-      unsigned int             point;
-      const ContactFacet<dim> *facet;
-      dealii::Point<dim>       place; ///< before it moved, m
+      unsigned int point;
+      const ContactFacet<dim>
+                        *facet; ///< or nullptr, if obstacle contains it all
+      dealii::Point<dim> place; ///< before it moved, m
+      unsigned int       obstacle;
     };
+
+    void
+    note_contained(const Points<dim> &points, const Segment &segment);
 
     bool
     confine(const Candidate    &candidate,
