@@ -118,17 +118,24 @@ namespace talus
     std::pair<std::vector<Facet<dim>>, bool>
     find_surface(const Cell<dim> &cell, const Obstacle<dim> &obstacle)
     {
-      const auto box    = cell.box();
-      const auto pieces = surface_pieces<dim>(box, [&](const Point<dim> &x) {
-        return obstacle.signed_distance(x);
-      });
+      const auto     box       = cell.box();
+      const Box<dim> around    = obstacle.bounding_box();
+      double         thickness = around.length(0);
+      for (unsigned int d = 1; d < dim; ++d)
+        thickness = std::min(thickness, around.length(d));
+      const bool is_thin = thickness < 2. * cell.size;
+      const auto pieces  = surface_pieces<dim>(
+        box,
+        [&](const Point<dim> &x) { return obstacle.signed_distance(x); },
+        is_thin);
       if (sum_of_pieces<dim>(pieces).area >= min_area(cell))
         return {pieces, false};
       // A surface on faces of the mesh belongs to the cells where the distance
       // is positive.
-      auto inside = surface_pieces<dim>(box, [&](const Point<dim> &x) {
-        return -obstacle.signed_distance(x);
-      });
+      auto inside = surface_pieces<dim>(
+        box,
+        [&](const Point<dim> &x) { return -obstacle.signed_distance(x); },
+        is_thin);
       if (sum_of_pieces<dim>(inside).area < min_area(cell))
         return {};
       for (Facet<dim> &piece : inside)

@@ -69,23 +69,23 @@ namespace talus
 
 
 
-    /// Call action(simplex, values) for the simplices of those parts of a box
-    /// that the surface may be in, with the distances at the corners; and
-    /// uncut(part, distance) for the others, with that at the middle. What is
+    /// Call action(simplex, values) for the simplices of those of @p n_parts parts
+    /// per axis of a box that the surface may be in, with the distances at the
+    /// corners; and uncut(part, distance) for the other parts, with the distance
+    /// at the middle. What is
     /// as good as on the surface is made to be on it: else a surface on the face
     /// of a box would have facets or none as round-off has it.
     template <int dim, typename Action, typename Uncut>
     void
     for_each_simplex(const Box<dim>              &box,
                      const DistanceFunction<dim> &distance,
+                     const unsigned int           n_parts,
                      const Action                &action,
                      const Uncut                 &uncut)
     {
-      const double       size     = box.length(0);
-      const double       diagonal = box.lower.distance(box.upper);
-      const unsigned int n_parts =
-        faces_opposite_ways(box, distance) ? n_fine_parts : n_coarse_parts;
-      const auto value = [&](const Point<dim> &x) {
+      const double size     = box.length(0);
+      const double diagonal = box.lower.distance(box.upper);
+      const auto   value    = [&](const Point<dim> &x) {
         const double d = distance(x);
         return std::abs(d) < 1e-9 * size ? 0. : d;
       };
@@ -171,12 +171,16 @@ namespace talus
   // that is no plane, and two of them where the corners have alternating signs.
   template <int dim>
   std::vector<Facet<dim>>
-  surface_pieces(const Box<dim> &box, const DistanceFunction<dim> &distance)
+  surface_pieces(const Box<dim>              &box,
+                 const DistanceFunction<dim> &distance,
+                 const bool                   is_thin)
   {
     std::vector<Facet<dim>> pieces;
     for_each_simplex(
       box,
       distance,
+      is_thin || faces_opposite_ways(box, distance) ? n_fine_parts
+                                                    : n_coarse_parts,
       [&](const Simplex<dim>                &simplex,
           const std::array<double, dim + 1> &values) {
         const Facet<dim> facet = clip_simplex<dim>(simplex, values).facet;
@@ -224,6 +228,7 @@ namespace talus
     for_each_simplex(
       box,
       distance,
+      faces_opposite_ways(box, distance) ? n_fine_parts : n_coarse_parts,
       [&](const Simplex<dim>                &simplex,
           const std::array<double, dim + 1> &values) {
         for (const Simplex<dim> &closed :

@@ -144,8 +144,9 @@ namespace talus
         if (std::abs(distance) > tolerance_)
           return distance > 0;
         const double cosine = normal * cover_.normal(x);
-        return cosine > -same_direction &&
-               !(cosine > same_direction && cover_.covers_common_surface);
+        if (std::abs(cosine) <= same_direction)
+          return distance > 0;
+        return cosine > 0 && !cover_.covers_common_surface;
       }
 
       /// Return the last open place on the way from @p open to @p covered: by

@@ -27,11 +27,15 @@ namespace talus
 
   /// Return the surface in a box as plane pieces, in a fixed order; the
   /// vector_area() of a piece points to where the distance is positive and is
-  /// not zero. Where the surface faces two opposite directions within the box, as
-  /// both sides of a thin wall do, the pieces are four times as fine.
+  /// not zero. Pieces are four times as fine if the body @p is_thin, or where its
+  /// surface faces two opposite directions within the box. The pieces of a body
+  /// in boxes side by side match if @p is_thin is set for all of them or if no
+  /// box sees opposite directions.
   template <int dim>
   std::vector<Facet<dim>>
-  surface_pieces(const Box<dim> &box, const DistanceFunction<dim> &distance);
+  surface_pieces(const Box<dim>              &box,
+                 const DistanceFunction<dim> &distance,
+                 bool                         is_thin = false);
 
   /// Sum plane pieces up to one surface.
   template <int dim>

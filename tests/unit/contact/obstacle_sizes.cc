@@ -43,8 +43,8 @@ namespace
   const std::string small_ball = "Shape = ball|Centre = 3, 2|Radius = 0.4",
                     thin_wall =
                       "Shape = box|Lower corner = 3, 1|Upper corner = 3.1, 4",
-                    pipe = "Shape = box|Lower corner = 3, 1, -1|"
-                           "Upper corner = 3.5, 1.75, 9";
+                    thin_pipe = "Shape = box|Lower corner = 3, 1, -1|"
+                                "Upper corner = 3.5, 1.75, 9";
 } // namespace
 
 
@@ -77,7 +77,7 @@ TEST(ObstacleSizes, ThinAlongOneAxisOrTwo)
                      "Upper corner = 3.1, 4, 9")
               .size(),
             1u);
-  const std::string sentence = error<3>(pipe);
+  const std::string sentence = error<3>(thin_pipe);
   EXPECT_TRUE(contains(sentence, "0.5 m along x and 0.75 m along y"))
     << sentence;
 }
