@@ -23,7 +23,7 @@ namespace talus
   {
     if (!is_enabled_)
       return;
-    add_to_reactions(steps_, dt, communicator, reactions_);
+    add_to_reactions(steps_, dt, averaging_time_, communicator, reactions_);
     steps_.assign(names_.size(), {});
   }
 

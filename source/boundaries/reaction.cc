@@ -3,9 +3,41 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace talus
 {
   using namespace dealii;
+
+  // The mean decays exactly while the force of a step acts: it does not depend on
+  // how a time with a constant force is divided into steps.
+  template <int dim>
+  void
+  Reaction<dim>::update_extremes(const Tensor<1, dim> &force,
+                                 const double          dt,
+                                 const double          averaging_time)
+  {
+    const double weight = has_running_mean && averaging_time > 0
+                            ? -std::expm1(-dt / averaging_time)
+                            : 1.;
+    running_mean += weight * (force - running_mean);
+    has_running_mean = true;
+    if (duration == 0)
+      {
+        least = largest = force;
+        least_mean = largest_mean = running_mean;
+      }
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        least[d]        = std::min(least[d], force[d]);
+        largest[d]      = std::max(largest[d], force[d]);
+        least_mean[d]   = std::min(least_mean[d], running_mean[d]);
+        largest_mean[d] = std::max(largest_mean[d], running_mean[d]);
+      }
+  }
+
+
 
   template <int dim>
   void
@@ -39,6 +71,13 @@ namespace talus
     list.add(name + " area by time", "", area_time, Reduction::equal);
     components("least force", "N", least, dim);
     components("largest force", "N", largest, dim);
+    components("running mean of the force", "N", running_mean, dim);
+    list.add(name + " has a running mean",
+             "-",
+             has_running_mean,
+             Reduction::equal);
+    components("least mean force", "N", least_mean, dim);
+    components("largest mean force", "N", largest_mean, dim);
   }
 
 
@@ -56,6 +95,8 @@ namespace talus
                        per_time * tangential);
     append_vector<dim>(row, first + "least force", "N", least);
     append_vector<dim>(row, first + "largest force", "N", largest);
+    append_vector<dim>(row, first + "least mean force", "N", least_mean);
+    append_vector<dim>(row, first + "largest mean force", "N", largest_mean);
     for (unsigned int i = 0; i < angular_impulse.size(); ++i)
       row.push_back({first + "moment " + (dim == 2 ? 'z' : "xyz"[i]),
                      "N m",
@@ -74,6 +115,7 @@ namespace talus
   void
   add_to_reactions(std::vector<StepReaction<dim>> &steps,
                    const double                    dt,
+                   const double                    averaging_time,
                    const MPI_Comm                  communicator,
                    std::vector<Reaction<dim>>     &reactions)
   {
@@ -88,7 +130,7 @@ namespace talus
     for (unsigned int k = 0; k < steps.size(); ++k)
       {
         steps[k].from_list(sums.data() + k * StepReaction<dim>::n_values);
-        reactions[k].add(steps[k], dt);
+        reactions[k].add(steps[k], dt, averaging_time);
       }
   }
 

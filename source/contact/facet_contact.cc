@@ -346,7 +346,11 @@ namespace talus
         state.works.friction += step.friction_work;
         state.works.contact += step.contact_work;
       }
-    add_to_reactions(steps, state.time_step, state.communicator(), reactions_);
+    add_to_reactions(steps,
+                     state.time_step,
+                     averaging_time_,
+                     state.communicator(),
+                     reactions_);
   }
 
 

@@ -83,7 +83,7 @@ namespace talus
 
 
 
-  /// Whether another surface lies in the cell of the facet, too.
+  /// Whether another facet lies in the cell of the facet, too.
   template <int dim>
   bool
   FacetCoverage<dim>::shares_cell(const ContactFacet<dim> &facet) const
@@ -100,7 +100,7 @@ namespace talus
 
   /// Points of the plane of the facet in the middle of columns of the cell along
   /// the axis nearest to the normal, where they lie in the cell and outside of
-  /// other obstacles; the centroid of a facet so small that there is none.
+  /// all obstacles; the centroid of a facet so small that there is none.
   template <int dim>
   typename FacetCoverage<dim>::Samples
   FacetCoverage<dim>::samples_of(const Grid<dim>         &grid,
@@ -126,10 +126,12 @@ namespace talus
         if (y[axis] < cell.lower[axis] - tolerance ||
             y[axis] > cell.lower[axis] + cell.size + tolerance)
           continue;
+        // The surface of the facet itself may lie beside its plane.
         bool is_open = true;
         for (unsigned int k = 0; k < obstacles_.size() && is_shared; ++k)
-          if (k != facet.obstacle)
-            is_open = is_open && obstacles_[k].signed_distance(y) > -tolerance;
+          is_open =
+            is_open && obstacles_[k].signed_distance(y) >
+                         -(k == facet.obstacle ? facet.deviation : tolerance);
         if (is_open)
           samples.push_back(y);
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/contact/facet_impulses.h>
 
+#include <algorithm>
 #include <map>
 
 namespace talus
@@ -9,15 +10,18 @@ namespace talus
 
   namespace
   {
-    /// The key of the cell in halves, since a double does not hold all its
-    /// digits, and the obstacle.
+    /// Key of the cell in halves, since a double does not hold all its digits,
+    /// obstacle, and number of the facet among those of the obstacle in the cell.
+    using FacetName = std::array<double, 4>;
+
     template <int dim>
-    std::array<double, 3>
+    FacetName
     name_of(const ContactFacet<dim> &facet)
     {
       return {{double(facet.key >> 32),
                double(facet.key & 0xffffffff),
-               double(facet.obstacle)}};
+               double(facet.obstacle),
+               double(facet.number)}};
     }
   } // namespace
 
@@ -62,13 +66,16 @@ namespace talus
   void
   FacetImpulses<dim>::take(const std::vector<double> &rows)
   {
-    std::map<std::array<double, 3>, FacetImpulse<dim>> by_name;
+    std::map<FacetName, FacetImpulse<dim>> by_name;
     for (std::size_t r = 0; r < rows.size(); r += n_columns)
       {
-        FacetImpulse<dim> impulse{rows[r + 3], {}, rows[r + 4], rows[r + 5]};
+        FacetName name;
+        std::copy_n(&rows[r], name.size(), name.begin());
+        const double     *value = &rows[r + name.size()];
+        FacetImpulse<dim> impulse{value[0], {}, value[1], value[2]};
         for (unsigned int d = 0; d < dim; ++d)
-          impulse.tangential[d] = rows[r + 6 + d];
-        by_name[{{rows[r], rows[r + 1], rows[r + 2]}}] = impulse;
+          impulse.tangential[d] = value[3 + d];
+        by_name[name] = impulse;
       }
     impulses_.assign(facets_.owned().size(), {});
     for (unsigned int c = 0; c < impulses_.size(); ++c)
@@ -98,9 +105,10 @@ namespace talus
   {
     list.add_table(
       {"facet impulses",
-       "key of the cell: upper and lower 32 bits; obstacle; normal impulse [N "
-       "s]; "
-       "effective mass [kg]; mean normal impulse [N s]; friction impulse [N s]",
+       "key of the cell: upper and lower 32 bits; obstacle; number of the "
+       "facet "
+       "in its cell; normal impulse [N s]; effective mass [kg]; mean normal "
+       "impulse [N s]; friction impulse [N s]",
        n_columns,
        [this]() { return rows(); },
        [this](const std::vector<double> &rows) { restore(rows); }});

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/contact/facets.h>
-#include <talus/geometry/cut_box.h>
+#include <talus/geometry/open_surface.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,39 +102,78 @@ namespace talus
 
   namespace
   {
-    /// What an obstacle has of its surface in a cell, and whether it lies on a
-    /// face that the cell, which is inside, has in common with an open one.
+    /// Area below which a surface does not count in a cell, m^(dim-1).
     template <int dim>
-    std::pair<CutSurface<dim>, bool>
+    double
+    min_area(const Cell<dim> &cell)
+    {
+      return 1e-8 * std::pow(cell.size, dim - 1.);
+    }
+
+
+
+    /// Return the surface of an obstacle in a cell, and whether it lies on a face
+    /// that the cell, which is inside, has in common with an open one.
+    template <int dim>
+    std::pair<std::vector<Facet<dim>>, bool>
     find_surface(const Cell<dim> &cell, const Obstacle<dim> &obstacle)
     {
-      const auto   box     = cell.box();
-      const double none    = 1e-8 * std::pow(cell.size, dim - 1.);
-      const auto   surface = surface_in_box<dim>(box, [&](const Point<dim> &x) {
-        return obstacle.signed_distance(x);
-      });
-      if (surface.area >= none)
-        return {surface, false};
+      const auto     box       = cell.box();
+      const Box<dim> around    = obstacle.bounding_box();
+      double         thickness = around.length(0);
+      for (unsigned int d = 1; d < dim; ++d)
+        thickness = std::min(thickness, around.length(d));
+      const bool is_thin = thickness < 2. * cell.size;
+      const auto pieces  = surface_pieces<dim>(
+        box,
+        [&](const Point<dim> &x) { return obstacle.signed_distance(x); },
+        is_thin);
+      if (sum_of_pieces<dim>(pieces).area >= min_area(cell))
+        return {pieces, false};
       // A surface on faces of the mesh belongs to the cells where the distance
       // is positive.
-      auto inside = surface_in_box<dim>(box, [&](const Point<dim> &x) {
-        return -obstacle.signed_distance(x);
-      });
-      inside.vector_area *= -1.;
-      if (inside.area < none)
-        inside.area = 0;
+      auto inside = surface_pieces<dim>(
+        box,
+        [&](const Point<dim> &x) { return -obstacle.signed_distance(x); },
+        is_thin);
+      if (sum_of_pieces<dim>(inside).area < min_area(cell))
+        return {};
+      for (Facet<dim> &piece : inside)
+        std::reverse(piece.begin() + (dim - 2), piece.end());
       return {inside, true};
+    }
+
+
+
+    /// Return the obstacles that may cover parts of the surface of obstacle @p k
+    /// in the ball of @p radius, m, around @p centre.
+    template <int dim>
+    std::vector<Cover<dim>>
+    covers_of(const Obstacles<dim> &obstacles,
+              const unsigned int    k,
+              const Point<dim>     &centre,
+              const double          radius)
+    {
+      std::vector<Cover<dim>> covers;
+      for (unsigned int other = 0; other < obstacles.size(); ++other)
+        if (const Obstacle<dim> &o = obstacles[other];
+            other != k &&
+            (o.may_cut_ball(centre, radius) || o.signed_distance(centre) < 0))
+          covers.push_back(
+            {[&o](const Point<dim> &x) { return o.signed_distance(x); },
+             [&o](const Point<dim> &x) { return o.normal(x); },
+             /*covers_common_surface=*/other < k});
+      return covers;
     }
   } // namespace
 
 
 
-  /// The facets of all obstacles in cell @p c. Two kinds take no part in the
-  /// contact: of a surface that only grazes a face of the cell, which would
-  /// count at its nodes as others do, and those whose contact point is inside
-  /// of another obstacle, where it would hold soil that cannot be there. Points
-  /// must not slip through the latter either, nor through a surface on a face
-  /// of the mesh, where they are in the cell behind it as soon as they touch it.
+  /// Find the facets of all obstacles in cell @p c: of each surface the part
+  /// outside of the other obstacles, one facet for each of its directions. A
+  /// surface of which a part is covered, or that only grazes a face of the cell,
+  /// is hidden as well: points must not slip through it, although it takes no
+  /// part in the contact.
   template <int dim>
   void
   Facets<dim>::find_facets(const Grid<dim>      &grid,
@@ -144,30 +183,47 @@ namespace talus
   {
     const Cell<dim> &cell   = grid.cells()[c];
     const Point<dim> centre = centre_of(cell);
-    const Box<dim>   box    = cell.box();
+    const double     radius = outer_radius(cell);
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       {
         const Obstacle<dim> &obstacle = obstacles[k];
-        if (!obstacle.may_cut_ball(centre, outer_radius(cell)))
+        if (!obstacle.may_cut_ball(centre, radius))
           continue;
-        auto [surface, is_hidden] = find_surface(cell, obstacle);
-        if (surface.area == 0)
-          continue;
-        for (unsigned int other = 0; other < obstacles.size() && !is_hidden;
-             ++other)
-          is_hidden = other != k &&
-                      obstacles[other].signed_distance(surface.centroid) < 0;
-        (is_hidden ? section.hidden : section.facets)
-          .push_back({c,
-                      grid.key_of_cell(c),
-                      k,
-                      cell.nodes(),
-                      shape_values_at(box, surface.centroid),
-                      surface.centroid,
-                      surface.vector_area / surface.vector_area.norm(),
-                      surface.area,
-                      deviation_from_plane(surface, cell.size),
-                      obstacle.maximum_shear_stress(surface.centroid)});
+        const auto [pieces, is_grazing] = find_surface(cell, obstacle);
+        const auto add = [&](const auto &surfaces, auto &facets) {
+          unsigned int number = 0;
+          for (const CutSurface<dim> &surface : surfaces)
+            if (surface.area >= min_area(cell))
+              facets.push_back(
+                {c,
+                 grid.key_of_cell(c),
+                 k,
+                 number++,
+                 cell.nodes(),
+                 shape_values_at(cell.box(), surface.centroid),
+                 surface.centroid,
+                 surface.vector_area / surface.vector_area.norm(),
+                 surface.area,
+                 deviation_from_plane(surface, cell.size),
+                 obstacle.maximum_shear_stress(surface.centroid)});
+        };
+        const auto whole = surfaces_by_direction<dim>(pieces);
+        if (is_grazing)
+          {
+            add(whole, section.hidden);
+            continue;
+          }
+        const auto covers = covers_of(obstacles, k, centre, radius);
+        if (covers.empty())
+          {
+            add(whole, section.facets);
+            continue;
+          }
+        const auto open = uncovered_pieces<dim>(pieces, covers, cell.size);
+        add(surfaces_by_direction<dim>(open), section.facets);
+        if (sum_of_pieces<dim>(open).area <
+            (1. - 1e-6) * sum_of_pieces<dim>(pieces).area)
+          add(whole, section.hidden);
       }
   }
 
@@ -183,6 +239,19 @@ namespace talus
     Section          section;
     section.distance = obstacles.signed_distance(centre_of(cell));
     find_facets(grid, obstacles, c, section);
+    for (unsigned int k = 0; k < obstacles.size(); ++k)
+      {
+        const auto is_of_k = [k](const ContactFacet<dim> &facet) {
+          return facet.obstacle == k;
+        };
+        const auto has_none =
+          [&](const std::vector<ContactFacet<dim>> &facets) {
+            return std::none_of(facets.begin(), facets.end(), is_of_k);
+          };
+        if (obstacles[k].signed_distance(centre_of(cell)) < 0 &&
+            has_none(section.facets) && has_none(section.hidden))
+          section.containing.push_back(k);
+      }
     if (!section.facets.empty() || !section.hidden.empty())
       section.open_volume =
         open_shape_integrals<dim>(cell.box(), [&](const Point<dim> &x) {
@@ -224,6 +293,7 @@ namespace talus
     // Points may dip half a cell below a surface, and reach one more.
     const Cell<dim> &cell    = grid.cells()[c];
     const Section   &section = sections_.at(grid.key_of_cell(c));
+    section_at_[c]           = &section;
     if (section.distance <= 0 &&
         section.distance > -2. * std::sqrt(double(dim)) * cell.size)
       cells_inside_.insert(c);
@@ -257,6 +327,7 @@ namespace talus
   {
     cut_cells_.clear();
     cut_cell_at_.assign(grid.cells().size(), nullptr);
+    section_at_.assign(grid.cells().size(), nullptr);
     cells_inside_.clear();
     clear_sums();
     n_facets_.assign(grid.n_nodes(), 0);

@@ -33,6 +33,8 @@ namespace talus
       return;
     const Points<dim> &points = state.points;
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+      note_contained(state, points.segments()[s]);
+    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       facets_.for_each_in_cell(
         points.segments()[s].cell, [&](const ContactFacet<dim> &facet) {
           for (unsigned int p = points.segments()[s].begin;
@@ -47,9 +49,29 @@ namespace talus
                 half_lengths_of_box(points, state.box_shape, p);
               if (distance_from_plane(facet, x) + std::min(0., later) <
                   facet.deviation + support_of_box(half, facet.normal))
-                candidates_.push_back({p, &facet, x, half});
+                candidates_.push_back({p, facet.obstacle, &facet, x, half});
             }
         });
+  }
+
+
+
+  /// Note the points of a cell that an obstacle contains as a whole: there is no
+  /// plane of a facet to tell how deep a point lies.
+  template <int dim>
+  void
+  PointConfinement<dim>::note_contained(const State<dim> &state,
+                                        const Segment    &segment)
+  {
+    const Points<dim> &points = state.points;
+    for (const unsigned int k : facets_.containing(segment.cell))
+      for (unsigned int p = segment.begin; p < segment.end; ++p)
+        candidates_.push_back(
+          {p,
+           k,
+           nullptr,
+           load_place(points, points.position, p),
+           half_lengths_of_box(points, state.box_shape, p)});
   }
 
 
@@ -82,17 +104,19 @@ namespace talus
                                  const double     dt,
                                  Point<dim>      &x) const
   {
-    const ContactFacet<dim> &facet = *candidate.facet;
-    if (distance_from_plane(facet, x) >
-        facet.deviation + support_of_box(candidate.half, facet.normal))
+    const ContactFacet<dim> *const facet = candidate.facet;
+    if (facet &&
+        distance_from_plane(*facet, x) >
+          facet->deviation + support_of_box(candidate.half, facet->normal))
       return false;
-    const Obstacle<dim> &obstacle  = obstacles_[facet.obstacle];
-    const auto [of_centre, normal] = obstacle.distance_and_normal(x);
+    const auto [of_centre, normal] =
+      obstacles_[candidate.obstacle].distance_and_normal(x);
     const double distance = of_centre - support_of_box(candidate.half, normal);
     if (distance >= 0)
       return false;
-    const Tensor<1, dim> drift   = dt * obstacle.velocity(time + 0.5 * dt);
-    const double         inwards = (drift - (x - candidate.place)) * normal;
+    const Tensor<1, dim> drift =
+      dt * obstacles_[candidate.obstacle].velocity(time + 0.5 * dt);
+    const double inwards = (drift - (x - candidate.place)) * normal;
     if (inwards <= 0)
       return false;
     x += std::min(inwards, -distance) * normal;

@@ -15,19 +15,71 @@ namespace talus
     // Along each axis. The surface is a plane in each part of a part, so that
     // the area of a circle that crosses a box in an arc of half its radius is
     // right to 2e-4 (with one part per axis: to a per cent).
-    constexpr unsigned int n_parts = 4;
+    constexpr unsigned int n_coarse_parts = 4;
+
+    // Along each axis of a box with surfaces that face each other's backs.
+    constexpr unsigned int n_fine_parts = 16;
 
 
 
-    /// Call action(simplex, values) for the simplices of those parts of a box
-    /// that the surface may be in, with the distances at the corners; and
-    /// uncut(part, distance) for the others, with that at the middle. What is
+    template <int dim>
+    Tensor<1, dim>
+    gradient(const DistanceFunction<dim> &distance,
+             const Point<dim>            &x,
+             const double                 step)
+    {
+      Tensor<1, dim> result;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          Point<dim> before = x, after = x;
+          before[d] -= step;
+          after[d] += step;
+          result[d] = (distance(after) - distance(before)) / (2. * step);
+        }
+      return result;
+    }
+
+
+
+    /// Return whether the outward normals at the corners of @p box turn by more
+    /// than 120 degrees: the two sides of a wall thinner than the box, or a body
+    /// smaller than the box, which a coarse lattice may miss.
+    template <int dim>
+    bool
+    faces_opposite_ways(const Box<dim>              &box,
+                        const DistanceFunction<dim> &distance)
+    {
+      std::array<Tensor<1, dim>, (1u << dim)> outwards;
+      for (unsigned int v = 0; v < outwards.size(); ++v)
+        {
+          Point<dim> x = box.lower;
+          for (unsigned int d = 0; d < dim; ++d)
+            if ((v >> d) & 1)
+              x[d] = box.upper[d];
+          // Deep inside a body the nearest surface may lie in another box.
+          if (distance(x) > -0.125 * box.length(0))
+            outwards[v] = gradient<dim>(distance, x, 1e-6 * box.length(0));
+          for (unsigned int w = 0; w < v; ++w)
+            if (outwards[v] * outwards[w] <
+                -0.5 * outwards[v].norm() * outwards[w].norm())
+              return true;
+        }
+      return false;
+    }
+
+
+
+    /// Call action(simplex, values) for the simplices of those of @p n_parts parts
+    /// per axis of a box that the surface may be in, with the distances at the
+    /// corners; and uncut(part, distance) for the other parts, with the distance
+    /// at the middle. What is
     /// as good as on the surface is made to be on it: else a surface on the face
     /// of a box would have facets or none as round-off has it.
     template <int dim, typename Action, typename Uncut>
     void
     for_each_simplex(const Box<dim>              &box,
                      const DistanceFunction<dim> &distance,
+                     const unsigned int           n_parts,
                      const Action                &action,
                      const Uncut                 &uncut)
     {
@@ -118,29 +170,43 @@ namespace talus
   // distance between their corners is zero. A bilinear one would have a surface
   // that is no plane, and two of them where the corners have alternating signs.
   template <int dim>
-  CutSurface<dim>
-  surface_in_box(const Box<dim> &box, const DistanceFunction<dim> &distance)
+  std::vector<Facet<dim>>
+  surface_pieces(const Box<dim>              &box,
+                 const DistanceFunction<dim> &distance,
+                 const bool                   is_thin)
   {
-    CutSurface<dim> result;
+    std::vector<Facet<dim>> pieces;
     for_each_simplex(
       box,
       distance,
+      is_thin || faces_opposite_ways(box, distance) ? n_fine_parts
+                                                    : n_coarse_parts,
       [&](const Simplex<dim>                &simplex,
           const std::array<double, dim + 1> &values) {
-        const ClippedSimplex<dim> clipped = clip_simplex<dim>(simplex, values);
-        if (clipped.facet.empty())
-          return;
-        const Tensor<1, dim> vector_area =
-          talus::vector_area<dim>(clipped.facet);
-        const double area = vector_area.norm();
+        const Facet<dim> facet = clip_simplex<dim>(simplex, values).facet;
         // One corner on the surface: a facet without area.
-        if (area == 0)
-          return;
-        result.area += area;
-        result.vector_area += vector_area;
-        result.centroid += area * centroid<dim>(clipped.facet);
+        if (!facet.empty() && vector_area<dim>(facet).norm_square() > 0)
+          pieces.push_back(facet);
       },
       [](const Box<dim> &, double) {});
+    return pieces;
+  }
+
+
+
+  template <int dim>
+  CutSurface<dim>
+  sum_of_pieces(const std::vector<Facet<dim>> &pieces)
+  {
+    CutSurface<dim> result;
+    for (const Facet<dim> &piece : pieces)
+      {
+        const Tensor<1, dim> vector_area = talus::vector_area<dim>(piece);
+        const double         area        = vector_area.norm();
+        result.area += area;
+        result.vector_area += vector_area;
+        result.centroid += area * centroid<dim>(piece);
+      }
     if (result.area > 0)
       result.centroid /= result.area;
     return result;
@@ -162,6 +228,7 @@ namespace talus
     for_each_simplex(
       box,
       distance,
+      faces_opposite_ways(box, distance) ? n_fine_parts : n_coarse_parts,
       [&](const Simplex<dim>                &simplex,
           const std::array<double, dim + 1> &values) {
         for (const Simplex<dim> &closed :
@@ -183,8 +250,10 @@ namespace talus
 
   template decltype(shape_values_at<2>)      shape_values_at<2>;
   template decltype(shape_values_at<3>)      shape_values_at<3>;
-  template decltype(surface_in_box<2>)       surface_in_box<2>;
-  template decltype(surface_in_box<3>)       surface_in_box<3>;
+  template decltype(surface_pieces<2>)       surface_pieces<2>;
+  template decltype(surface_pieces<3>)       surface_pieces<3>;
+  template decltype(sum_of_pieces<2>)        sum_of_pieces<2>;
+  template decltype(sum_of_pieces<3>)        sum_of_pieces<3>;
   template decltype(open_shape_integrals<2>) open_shape_integrals<2>;
   template decltype(open_shape_integrals<3>) open_shape_integrals<3>;
 } // namespace talus

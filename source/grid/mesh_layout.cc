@@ -96,6 +96,25 @@ namespace talus
 
 
 
+  template <int dim>
+  double
+  MeshLayout<dim>::finest_size_in(const Box<dim> &box) const
+  {
+    unsigned int n_levels = 0;
+    for (const RefinementBox<dim> &finer : boxes_)
+      {
+        bool meets = true;
+        for (unsigned int d = 0; d < dim; ++d)
+          meets = meets && finer.box.lower[d] < box.upper[d] &&
+                  finer.box.upper[d] > box.lower[d];
+        if (meets)
+          n_levels = std::max(n_levels, finer.n_levels);
+      }
+    return size_of_level(base_level_ + n_levels);
+  }
+
+
+
   /// Number of cells along axis d, a multiple of @p factor; moves the upper
   /// face for that where it may.
   /// Cells must have exactly the size asked for, since results depend on it:

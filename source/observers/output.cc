@@ -67,6 +67,14 @@ namespace talus
                   "Write what tells the runout: the columns of front and rear "
                   "in statistics.csv, and profile.csv. Not with damping, which "
                   "falsifies the runout.");
+    add_parameter("Force averaging time",
+                  settings_.averaging_time,
+                  "Time over which the forces on obstacles and faces are "
+                  "averaged for the columns of the least and largest mean "
+                  "force [s]: extremes of single steps are impacts that a "
+                  "structure hardly feels. 0: no averaging.",
+                  this->prm,
+                  Patterns::Double(0.));
     list_observers(obstacles);
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/contact/obstacle_sizes.h>
 #include <talus/problem/bottom_of_mesh.h>
 #include <talus/problem/geostatic.h>
 #include <talus/problem/problem.h>
@@ -141,6 +142,8 @@ namespace talus
                            Ground<dim>(state.grid.domain(), &obstacles),
                            state.communicator());
     notes_.insert(notes_.end(), notes_on_stress.begin(), notes_on_stress.end());
+    const auto notes_on_sizes = check_obstacle_sizes(obstacles, state.grid);
+    notes_.insert(notes_.end(), notes_on_sizes.begin(), notes_on_sizes.end());
     // Face 2 is the bottom, in both dimensions.
     const std::string on_bottom =
       boundaries.is_free(2) ? note_on_bottom(obstacles,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/simulation/explicit_scheme.h>
+#include <talus/transfer/large_deformation.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -303,12 +304,32 @@ namespace talus
                                        state_.workspace,
                                        batch,
                                        dt);
+      renew_large_deformations(batch, rule);
       update_stretch(
         state_.points, state_.workspace, batch.begin, batch.end, rule, dt);
       timer_.lap(PhaseTimer::stress_update);
       splitter_.mark(state_.points, batch, state_.grid, rule);
       timer_.lap(PhaseTimer::splitting);
     });
+  }
+
+
+
+  /// Hyperelastic laws need the whole deformation.
+  template <int dim>
+  void
+  ExplicitScheme<dim>::renew_large_deformations(const Batch  &batch,
+                                                const BoxRule rule)
+  {
+    problem_.materials.for_each_material_range(
+      state_.points,
+      batch,
+      [&](const MaterialModel<dim> &model,
+          const unsigned int        begin,
+          const unsigned int        end) {
+        if (!model.is_hyperelastic())
+          talus::renew_large_deformations(state_.points, begin, end, rule);
+      });
   }
 
 

@@ -184,6 +184,9 @@ namespace talus
     problem_.prepare(state_.points,
                      static_stages_.stages().contain(Stage::strength_reduction),
                      end_time_);
+    problem_.contact.set_averaging_time(output_.force_averaging_time());
+    problem_.boundaries.reactions().set_averaging_time(
+      output_.force_averaging_time());
     static_stages_.check();
     transfer_.use_bbar(problem_.bodies_with_bbar());
     state_.box_shape = transfer_.box_shape();

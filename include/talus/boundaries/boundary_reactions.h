@@ -21,6 +21,13 @@ namespace talus
     void
     prepare(const std::vector<std::string> &names, bool is_enabled);
 
+    /// Average forces over @p time, s; see Reaction::add().
+    void
+    set_averaging_time(const double time)
+    {
+      averaging_time_ = time;
+    }
+
     bool
     is_enabled() const
     {
@@ -67,7 +74,8 @@ namespace talus
     list_state(StateList &list);
 
   private:
-    bool                           is_enabled_ = false;
+    bool                           is_enabled_     = false;
+    double                         averaging_time_ = 0; ///< s
     std::vector<std::string>       names_;
     std::vector<StepReaction<dim>> steps_; ///< this rank's share
     std::vector<Reaction<dim>>     reactions_;

@@ -96,10 +96,19 @@ namespace talus
     double                 area_time = 0; ///< integral of the area, m^(dim-1) s
     dealii::Tensor<1, dim> least, largest; ///< force in a step since then, N
 
-    /// Add a step of @p dt, s.
+    /// Running mean of the force, N: weights of past steps decay as exp(-t / T)
+    /// with the averaging time T, so that impacts of single steps do not count.
+    dealii::Tensor<1, dim> running_mean;
+    bool                   has_running_mean = false;
+    dealii::Tensor<1, dim> least_mean, largest_mean; ///< of the interval, N
+
+    /// Add a step of @p dt, s; @p averaging_time, s, is T above, or 0 for none.
     void
-    add(const StepReaction<dim> &step, const double dt)
+    add(const StepReaction<dim> &step,
+        const double             dt,
+        const double             averaging_time)
     {
+      update_extremes(step.impulse / dt, dt, averaging_time);
       total.impulse += step.impulse;
       total.tangential += step.tangential;
       total.area = step.area;
@@ -110,26 +119,21 @@ namespace talus
           total.angular_impulse[i] += step.angular_impulse[i];
           angular_impulse[i] += step.angular_impulse[i];
         }
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const double force = step.impulse[d] / dt;
-          const bool   first = (duration == 0);
-          least[d]           = (first || force < least[d] ? force : least[d]);
-          largest[d] = (first || force > largest[d] ? force : largest[d]);
-        }
       impulse += step.impulse;
       tangential += step.tangential;
       area_time += dt * step.area;
       duration += dt;
     }
 
-    /// A row was written.
+    /// Reset the means and extremes of the interval: a row was written.
     void
     start_interval()
     {
-      const StepReaction<dim> so_far = total;
-      *this                          = Reaction<dim>();
-      total                          = so_far;
+      Reaction<dim> next;
+      next.total            = total;
+      next.running_mean     = running_mean;
+      next.has_running_mean = has_running_mean;
+      *this                 = next;
     }
 
     void
@@ -139,16 +143,23 @@ namespace talus
     /// happened since the start; the names begin with @p name.
     void
     list_quantities(const std::string &name, Quantities &row) const;
+
+  private:
+    void
+    update_extremes(const dealii::Tensor<1, dim> &force,
+                    double                        dt,
+                    double                        averaging_time);
   };
 
 
 
   /// Sum @p steps over the ranks and add them to @p reactions, of a step of
-  /// @p dt, s. Collective.
+  /// @p dt, s; @p averaging_time as in Reaction::add(). Collective.
   template <int dim>
   void
   add_to_reactions(std::vector<StepReaction<dim>> &steps,
                    double                          dt,
+                   double                          averaging_time,
                    MPI_Comm                        communicator,
                    std::vector<Reaction<dim>>     &reactions);
 } // namespace talus

@@ -21,7 +21,7 @@ namespace talus
 
   /// To be raised when a talus of today could not read the file of tomorrow, or
   /// the other way round.
-  constexpr std::uint64_t checkpoint_format = 5;
+  constexpr std::uint64_t checkpoint_format = 6;
 
   /// What one wants to know of a checkpoint first: attributes of the file.
   struct CheckpointHead

@@ -35,6 +35,13 @@ namespace talus
       return obstacles_;
     }
 
+    /// Average the forces of reactions() over @p time, s; see Reaction::add().
+    void
+    set_averaging_time(const double time)
+    {
+      averaging_time_ = time;
+    }
+
     /// Find facets and nodes; to be called after each change of the mesh or its
     /// partition. Facets that were there before keep their impulses.
     /// Collective.
@@ -157,6 +164,7 @@ namespace talus
     Facets<dim>                facets_;
     FacetImpulses<dim>         impulses_{facets_};
     std::vector<Reaction<dim>> reactions_;
+    double                     averaging_time_     = 0; ///< s
     bool                       has_begun_          = false;
     double                     previous_time_step_ = 0; ///< s
 

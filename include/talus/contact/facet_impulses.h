@@ -29,7 +29,7 @@ namespace talus
 
   /// Those of all facets of this rank, which outlive the facets: when the mesh,
   /// its partition or the place of an obstacle changes, and in checkpoints, they
-  /// stay with the cell and the obstacle.
+  /// stay with the cell, the obstacle and the number of the facet there.
   template <int dim>
   class FacetImpulses
   {
@@ -62,8 +62,8 @@ namespace talus
     set(const std::vector<FacetImpulse<dim>> &impulses);
 
     /// Those of the facets that pass something, or that restore() keeps, a row
-    /// of numbers each: key of the cell (two), obstacle, and those of
-    /// FacetImpulse.
+    /// of numbers each: key of the cell (two), obstacle, number of the facet in
+    /// its cell, and those of FacetImpulse.
     std::vector<double>
     rows() const;
 
@@ -91,7 +91,7 @@ namespace talus
     list_state(StateList &list);
 
   private:
-    static constexpr unsigned int n_columns = 6 + dim;
+    static constexpr unsigned int n_columns = 7 + dim;
 
     const Facets<dim>             &facets_;
     std::vector<FacetImpulse<dim>> impulses_;

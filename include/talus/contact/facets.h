@@ -14,8 +14,10 @@
 
 namespace talus
 {
-  /// The part of the surface of an obstacle that lies in one cell of the mesh.
-  /// It is one contact point, at its centroid.
+  /// Part of the surface of an obstacle in one cell of the mesh, outside of all
+  /// other obstacles. It is one contact point, at its centroid. An obstacle has
+  /// several facets in a cell where its surface has several directions, see
+  /// surfaces_by_direction().
   template <int dim>
   struct ContactFacet
   {
@@ -24,7 +26,8 @@ namespace talus
     unsigned int                      cell;
     unsigned long                     key; ///< of the cell, on all ranks
     unsigned int                      obstacle;
-    std::array<unsigned int, n_nodes> node;        ///< of the cell
+    unsigned int                      number; ///< of this obstacle in the cell
+    std::array<unsigned int, n_nodes> node;   ///< of the cell
     std::array<double, n_nodes>       shape_value; ///< of these at the centroid
     dealii::Point<dim>                centroid;    ///< m
     dealii::Tensor<1, dim>            normal; ///< out of the obstacle, mean
@@ -66,9 +69,9 @@ namespace talus
       return ghosts_;
     }
 
-    /// Call action(facet) for all that surfaces have in cell @p c of this rank:
-    /// for those of owned(), for those whose centroids lie inside of another
-    /// obstacle, and for surfaces on the faces of a cell inside.
+    /// Call action(facet) for all surfaces in cell @p c of this rank: for the
+    /// facets of owned(), for whole surfaces of which another obstacle covers a
+    /// part, and for surfaces on the faces of a cell inside.
     template <typename Action>
     void
     for_each_in_cell(const unsigned int c, const Action &action) const
@@ -77,6 +80,14 @@ namespace talus
         for (const auto *facets : {&cut_cell->facets, &cut_cell->hidden})
           for (const ContactFacet<dim> &facet : *facets)
             action(facet);
+    }
+
+    /// Obstacles that contain the whole of cell @p c of this rank, and so have no
+    /// facet there, in ascending order.
+    const std::vector<unsigned int> &
+    containing(const unsigned int c) const
+    {
+      return section_at_[c]->containing;
     }
 
     /// Nodes that touch a facet: those this rank owns, and all it knows.
@@ -177,8 +188,9 @@ namespace talus
     struct Section
     {
       double distance; ///< of its centre from the obstacles, m
-      std::vector<ContactFacet<dim>> facets; ///< where soil may be
-      std::vector<ContactFacet<dim>> hidden; ///< inside of another obstacle
+      std::vector<ContactFacet<dim>> facets;     ///< where soil may be
+      std::vector<ContactFacet<dim>> hidden;     ///< partly or wholly covered
+      std::vector<unsigned int>      containing; ///< obstacles
       std::array<double, ContactFacet<dim>::n_nodes> open_volume{};
     };
 
@@ -220,6 +232,7 @@ namespace talus
     std::unordered_map<unsigned long, Section> sections_;  ///< by key of cell
     std::map<unsigned int, CutCell>            cut_cells_; ///< ghosts, too
     std::vector<const CutCell *> cut_cell_at_;  ///< by cell, for who asks often
+    std::vector<const Section *> section_at_;   ///< by cell
     std::set<unsigned int>       cells_inside_; ///< beside surfaces
     std::vector<unsigned int>    listed_near_;
     std::vector<ContactFacet<dim>> owned_, ghosts_;

@@ -43,10 +43,15 @@ namespace talus
     struct Candidate
     {
       unsigned int             point;
-      const ContactFacet<dim> *facet;
-      dealii::Point<dim>       place; ///< before it moved, m
-      dealii::Tensor<1, dim>   half;  ///< half lengths of its box, m
+      unsigned int             obstacle;
+      const ContactFacet<dim> *facet; ///< nullptr if the obstacle contains the
+                                      ///< whole cell
+      dealii::Point<dim>     place;   ///< before it moved, m
+      dealii::Tensor<1, dim> half;    ///< half lengths of its box, m
     };
+
+    void
+    note_contained(const State<dim> &state, const Segment &segment);
 
     bool
     confine(const Candidate    &candidate,

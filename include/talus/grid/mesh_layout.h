@@ -73,6 +73,11 @@ namespace talus
       return size_of_level(base_level_);
     }
 
+    /// Edge of the smallest cells that the parameters ask for anywhere in
+    /// @p box, m.
+    double
+    finest_size_in(const Box<dim> &box) const;
+
     /// Edge of the cells of a level, m.
     double
     size_of_level(const unsigned int level) const

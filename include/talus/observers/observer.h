@@ -22,6 +22,7 @@ namespace talus
     bool                  write_grid      = true;
     bool                  write_obstacles = true;
     bool                  write_runout    = true;
+    double                averaging_time  = 0.1; ///< of forces, s
   };
 
 

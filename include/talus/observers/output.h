@@ -61,6 +61,13 @@ namespace talus
     void
     set_folder(const std::string &folder);
 
+    /// Time over which forces on obstacles and faces are averaged, s.
+    double
+    force_averaging_time() const
+    {
+      return settings_.averaging_time;
+    }
+
     /// As given by the parameter or by set_folder().
     const std::string &
     folder() const

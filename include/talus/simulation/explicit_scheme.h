@@ -89,6 +89,8 @@ namespace talus
     void
     grid_to_points();
     void
+    renew_large_deformations(const Batch &batch, BoxRule rule);
+    void
     split();
 
     State<dim>           &state_;

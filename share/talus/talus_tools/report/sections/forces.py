@@ -6,7 +6,8 @@ import numpy
 from talus_tools.report.page import BLUE, COLORS, RED, Cell, Rows, Section, embed, subplots
 from talus_tools.units import largest, scaled, show, unit_of
 
-HEAD = ["quantity", "largest mean over a row", "at t =", "largest in any step", "mean over the run",
+HEAD = ["quantity", "largest mean over a row", "at t =", "largest running mean", "largest in any step",
+        "mean over the run",
         "what it means"]
 AXES = {"x": "Along the slope: drag; positive where the soil pushes along x.",
         "y": "Across the slope: negative presses down, positive lifts.",
@@ -16,34 +17,42 @@ AXES = {"x": "Along the slope: drag; positive where the soil pushes along x.",
 def names_of(table):
     """Names of obstacles or faces, by their columns."""
     end = " force x [N]"
-    kinds = (" friction", " least", " largest")
+    kinds = (" friction", " least", " largest", " mean")
     return [n[:-len(end)] for n in table.names
             if n.endswith(end) and not n[:-len(end)].endswith(kinds)]
 
 
-def peak(table, name, axis):
-    """The component of the largest magnitude in any step."""
-    both = [table[f"{name} {which} force {axis} [N]"] for which in ("least", "largest")]
+def has_running_means(table, name):
+    """Whether the run averaged forces over time, which older ones did not."""
+    return f"{name} largest mean force x [N]" in table
+
+
+def peak(table, name, axis, kind=""):
+    """Least and largest component in any step, or of the running mean (kind " mean")."""
+    both = [table[f"{name} {which}{kind} force {axis} [N]"] for which in ("least", "largest")]
     return min(both[0].min(), 0), max(both[1].max(), 0)
 
 
 def history(table, name, dimension):
-    """Components over time, with the range of the single steps."""
+    """Components over time, with the range of the running mean or of single steps."""
+    kind = " mean" if has_running_means(table, name) else ""
     time = table["time [s]"]
     axes_of_space = "xyz"[:dimension]
     unit = unit_of("[N]", dimension)
     figure, axes = subplots(1, dimension, height=2.3)
     for one, axis, color in zip(axes, axes_of_space, (BLUE, RED, COLORS[2])):
         force = table[f"{name} force {axis} [N]"]
-        scale, shown_unit = scaled(max(map(abs, peak(table, name, axis))), unit)
-        one.fill_between(time, table[f"{name} least force {axis} [N]"] / scale,
-                         table[f"{name} largest force {axis} [N]"] / scale, step="pre",
+        scale, shown_unit = scaled(max(map(abs, peak(table, name, axis, kind))), unit)
+        one.fill_between(time, table[f"{name} least{kind} force {axis} [N]"] / scale,
+                         table[f"{name} largest{kind} force {axis} [N]"] / scale, step="pre",
                          color=color, alpha=0.2, lw=0)
         one.plot(time, force / scale, color=color)
         one.set_title(f"force {axis} [{shown_unit}]")
         one.set(xlabel="time [s]", xlim=(0, time[-1]))
     return embed(figure, f"{name}: the force over time. Line: mean over each row of the table; "
-                 "band: least and largest value of any step in it.")
+                 "band: least and largest value "
+                 + ("of the running mean over 'Force averaging time'." if kind
+                    else "of any step in it."))
 
 
 def rows_of(table, name, dimension):
@@ -53,10 +62,12 @@ def rows_of(table, name, dimension):
         column = f"{name} force {axis} [N]"
         at = largest(table[column])
         step = max(peak(table, name, axis), key=abs)
+        running = (show(max(peak(table, name, axis, " mean"), key=abs), unit)
+                   if has_running_means(table, name) else "–")
         mean = table[f"{name} impulse {axis} [N s]"][-1] / time[-1] if time[-1] > 0 else 0
         rows.append([f"force {axis}", Cell(show(table[column][at], unit),
                                            repr(float(table[column][at])), column),
-                     show(time[at], "s"), show(step, unit), show(mean, unit), AXES[axis]])
+                     show(time[at], "s"), running, show(step, unit), show(mean, unit), AXES[axis]])
     for column, what, sentence in (
             (f"{name} moment z [N m]", "moment z", "About its reference point: what overturns."),
             (f"{name} contact area [m]" if dimension == 2 else f"{name} contact area [m^2]",
@@ -65,7 +76,7 @@ def rows_of(table, name, dimension):
             at = largest(table[column])
             rows.append([what, Cell(show(table[column][at], unit_of(column, dimension)),
                                     repr(float(table[column][at])), column),
-                         show(time[at], "s"), "–", "–", sentence])
+                         show(time[at], "s"), "–", "–", "–", sentence])
     return rows
 
 
@@ -94,8 +105,8 @@ def section(run, table_name, anchor, title, lead):
 def obstacles(run):
     """Forces on obstacles."""
     return section(run, "obstacles", "obstacles", "Forces on obstacles",
-                   "What the soil does to each obstacle. The largest mean over a row is what a "
-                   "structure feels; single steps have peaks that are partly numerical.")
+                   "What the soil does to each obstacle. A structure feels the means over a row "
+                   "and the running mean; single steps have peaks that are partly numerical.")
 
 
 def faces(run):

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_contact_obstacle_sizes_h
+#define talus_contact_obstacle_sizes_h
+
+#include <talus/contact/obstacles.h>
+#include <talus/grid/grid.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// Compare the extents of @p obstacles along the axes with the smallest cells
+  /// that the mesh may have where they are. Throw ExcUser if an obstacle is
+  /// shorter than a cell along two axes, as a small ball or a thin pipe is: nodes
+  /// on all sides of it are the same, so that soil meets a body as large as a
+  /// cell. Return a sentence for the log for each obstacle that is shorter than
+  /// two cells along an axis.
+  template <int dim>
+  std::vector<std::string>
+  check_obstacle_sizes(const Obstacles<dim> &obstacles, const Grid<dim> &grid);
+} // namespace talus
+
+#endif

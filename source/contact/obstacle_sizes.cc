@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/contact/obstacle_sizes.h>
+
+#include <algorithm>
+#include <iomanip>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Cells across an obstacle that resolve it: with four the force on a pipe is
+    // right within a few per cent.
+    constexpr double n_cells_needed = 4.;
+
+    /// Extent of an obstacle along axis @p axis, m.
+    struct Extent
+    {
+      unsigned int axis;
+      double       length;
+    };
+
+
+
+    /// Return the extents of a box, the shortest first.
+    template <int dim>
+    std::vector<Extent>
+    sorted_extents(const Box<dim> &box)
+    {
+      std::vector<Extent> extents;
+      for (unsigned int d = 0; d < dim; ++d)
+        extents.push_back({d, box.upper[d] - box.lower[d]});
+      std::stable_sort(extents.begin(),
+                       extents.end(),
+                       [](const Extent &a, const Extent &b) {
+                         return a.length < b.length;
+                       });
+      return extents;
+    }
+
+
+
+    /// @p length, m, with three digits.
+    std::string
+    in_words(const double length)
+    {
+      return text(std::setprecision(3), length, " m");
+    }
+
+
+
+    const std::string how_to_refine =
+      "by 'Grid/Cell size', or by 'Grid/Refinement boxes' around the obstacle";
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  check_obstacle_sizes(const Obstacles<dim> &obstacles, const Grid<dim> &grid)
+  {
+    std::vector<std::string> notes;
+    for (unsigned int k = 0; k < obstacles.size(); ++k)
+      {
+        const Box<dim> box     = obstacles[k].bounding_box();
+        const double   h       = grid.finest_size_in(box);
+        const auto     extents = sorted_extents(box);
+        // The size of a cell that fits exactly has round-off.
+        const auto is_shorter = [](const double a, const double b) {
+          return a < (1. - 1e-9) * b;
+        };
+        const auto extent = [&](const unsigned int i) {
+          return text(in_words(extents[i].length),
+                      " along ",
+                      "xyz"[extents[i].axis]);
+        };
+        const std::string needed = in_words(extents[0].length / n_cells_needed);
+        AssertThrow(!is_shorter(extents[1].length, h),
+                    ExcUser(text("The obstacle '",
+                                 obstacles[k].name(),
+                                 "' is only ",
+                                 extent(0),
+                                 " and ",
+                                 extent(1),
+                                 ", which is less than a cell of ",
+                                 in_words(h),
+                                 " along two axes: the soil would meet a body "
+                                 "as large as a cell. Ask for cells of ",
+                                 needed,
+                                 " or less there, ",
+                                 how_to_refine,
+                                 ", or leave the obstacle out.")));
+        if (is_shorter(extents[0].length, 2. * h))
+          notes.push_back(text("The obstacle '",
+                               obstacles[k].name(),
+                               "' is only ",
+                               extent(0),
+                               ", less than two cells of ",
+                               in_words(h),
+                               ": soil on both sides of it moves with the same "
+                               "nodes, and the force on it is rough. Cells of ",
+                               needed,
+                               " or less there, ",
+                               how_to_refine,
+                               ", resolve it."));
+      }
+    return notes;
+  }
+
+
+
+  template decltype(check_obstacle_sizes<2>) check_obstacle_sizes<2>;
+  template decltype(check_obstacle_sizes<3>) check_obstacle_sizes<3>;
+} // namespace talus

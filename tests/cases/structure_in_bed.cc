@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Soil that runs against a structure which stands in the bed: box-in-bed.prm. The
+// surfaces of bed and structure end where they meet; soil must not get below the
+// bed there. With facets that were dropped whole 12 to 14 % of it did, 2.7 cells
+// deep.
+
+#include "case.h"
+
+#include <gtest/gtest.h>
+
+using namespace talus::cases;
+
+namespace
+{
+  const double end_time = 20.; // s
+
+  /// Run the jet against the box with the bed at the height @p y, m, at its face.
+  void
+  expect_no_leak(const std::string &name,
+                 const std::string &y,
+                 const Overrides   &overrides = {})
+  {
+    SCOPED_TRACE(name);
+    run<2>("box-in-bed.prm",
+           name,
+           Overrides{"Surfaces/b/Expression=" + y + " - 0.07*(x - 400)",
+                     "Output/Statistics interval=1"} +
+             overrides);
+    const Table obstacles(std::filesystem::path(TALUS_RESULTS_DIR) / name /
+                          "obstacles.csv");
+    EXPECT_GE(obstacles["time [s]"].back(), end_time);
+    EXPECT_LT(obstacles["bed share of mass below surface [-]"].back(), 0.03);
+    EXPECT_LT(obstacles["bed deepest point [cells]"].back(), 0.5);
+    EXPECT_GT(obstacles["box impulse x [N s]"].back(), 0.);
+  }
+} // namespace
+
+
+
+// The bed above the middle of the cell, where the whole face of the box was
+// dropped.
+TEST(StructureInBed, KeepsSoilAboveTheBed)
+{
+  expect_no_leak("box-in-bed-6", "-2");
+  expect_no_leak("box-in-bed-7", "-1.5");
+}
+
+
+
+TEST(StructureInBed, WithADeepFoot)
+{
+  expect_no_leak("box-in-bed-deep",
+                 "-2",
+                 {"Obstacles/box/Lower corner=400,-42"});
+}
+
+
+
+// The bed and the box, both cut by a wall a tenth of a cell thick, which is a
+// remark and no error: it must run.
+TEST(StructureInBed, ThinWall)
+{
+  expect_no_leak("box-in-bed-wall",
+                 "-2",
+                 {"Obstacles/box/Lower corner=400,-15",
+                  "Obstacles/box/Upper corner=400.5,10"});
+}
