@@ -60,7 +60,8 @@ namespace talus
             problem_.materials,
             problem_.boundaries,
             problem_.loading.loads(),
-            problem_.contact};
+            problem_.contact,
+            problem_.mudline()};
   }
 
 
@@ -105,6 +106,28 @@ namespace talus
     equilibrium_.begin(StrainMeasure::small, limits);
     StaticProblem<dim> before = problem();
     equilibrium_.return_stress(before);
+    return take_all_steps(label);
+  }
+
+
+
+  template <int dim>
+  bool
+  StaticSolver<dim>::find_with_weight(const Label &label)
+  {
+    EquilibriumLimits limits = equilibrium_.limits(StrainMeasure::small);
+    limits.is_well_balanced  = false;
+    equilibrium_.begin(StrainMeasure::small, limits);
+    return take_all_steps(label);
+  }
+
+
+
+  /// Returns whether balance was found. The log has nothing of the load steps.
+  template <int dim>
+  bool
+  StaticSolver<dim>::take_all_steps(const Label &label)
+  {
     while (!equilibrium_.is_found())
       {
         StepNote note;
@@ -243,6 +266,7 @@ namespace talus
     send_points_to_owners(state_.points, state_.grid);
     mesh_.insert_points();
     mesh_.adapt();
+    equilibrium_.forget_well_balanced_load();
   }
 
 

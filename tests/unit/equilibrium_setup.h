@@ -109,7 +109,7 @@ namespace
     StaticProblem<dim>
     problem()
     {
-      return {*this, transfer, materials, boundaries, loads, contact};
+      return {*this, transfer, materials, boundaries, loads, contact, mudline};
     }
 
     /// Search until the end. Returns whether equilibrium is found; residuals by
@@ -146,6 +146,7 @@ namespace
     Obstacles<dim>                            obstacles;
     FacetContact<dim>                         contact{obstacles};
     Equilibrium<dim>                          equilibrium;
+    std::function<double(const Point<dim> &)> mudline; ///< see StaticProblem
     unsigned int                              n_before = 0;
     std::vector<std::vector<NewtonIteration>> runs;
   };

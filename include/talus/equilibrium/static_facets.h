@@ -9,6 +9,7 @@
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace talus
@@ -37,6 +38,14 @@ namespace talus
     add_forces(double                     factor,
                const std::vector<double> &u,
                std::vector<double>       &forces);
+
+    /// Add to @p forces, N, those of the pressure @p pressure(x), Pa, on the
+    /// facets in contact: p A n, with the area in contact and the shares of the
+    /// nodes by which facets pass their own forces.
+    void
+    add_pressure(
+      const std::function<double(const dealii::Point<dim> &)> &pressure,
+      std::vector<double>                                     &forces) const;
 
     void
     add_to_pattern(const Unknowns<dim>                       &unknowns,
@@ -87,8 +96,9 @@ namespace talus
     {
       std::array<unsigned int, n_nodes> node;
       std::array<double, n_nodes>       share;
-      dealii::Tensor<1, dim>            normal;
-      double                            area = 0; ///< in contact, m^(dim-1)
+      dealii::Point<dim>     place; ///< mean of the nodes by share, m
+      dealii::Tensor<1, dim> normal;
+      double                 area = 0; ///< in contact, m^(dim-1)
       double stiffness        = 0; ///< of the spring, N/m; 0: there is no soil
       double gap              = 0; ///< at the start of the step, m
       double opened           = 0; ///< since points were last moved, m

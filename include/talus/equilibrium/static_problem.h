@@ -8,6 +8,8 @@
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
 
+#include <functional>
+
 namespace talus
 {
   /// What is to be brought to equilibrium, and what acts on it at the time of
@@ -21,6 +23,9 @@ namespace talus
     Boundaries<dim>      &boundaries;
     const Loads<dim>     &loads;
     FacetContact<dim>    &contact; ///< with obstacles
+    /// Height of the mudline in the vertical through a place, m, not a number
+    /// where there is no soil; empty if it is not known.
+    std::function<double(const dealii::Point<dim> &)> mudline = {};
   };
 
 
