@@ -14,9 +14,10 @@ namespace talus
 
   namespace
   {
-    // Errors of quadrature are less than this share of the weight of a full
-    // cell. A force that is larger is that of a pressure which nothing bears.
-    constexpr double largest_error = 1.;
+    // Errors of quadrature stay below a third of this: shares of the weight of a
+    // full cell, and of the pressure on its side. A larger force is that of a
+    // pressure which nothing bears.
+    constexpr double share_of_weight = 0.3, share_of_pressure = 0.15;
   } // namespace
 
 
@@ -192,32 +193,37 @@ namespace talus
 
 
 
-  /// Volume of the cells that the points around a node lie in, m^dim: their mean
-  /// by volume of soil. First of the dim components at each node. Collective.
+  /// Largest E that may be an error of quadrature, N, by node: the mean over the
+  /// points around it of what their cells allow, by volume of soil. First of the
+  /// dim components at each node. Collective.
   template <int dim>
   std::vector<double>
-  WellBalancedLoad<dim>::volumes_of_cells(
-    const StaticProblem<dim>      &problem,
-    const ShapeFunctionCache<dim> &weights,
-    Unknowns<dim>                 &unknowns) const
+  WellBalancedLoad<dim>::largest_errors(const StaticProblem<dim>      &problem,
+                                        const ShapeFunctionCache<dim> &weights,
+                                        Unknowns<dim> &unknowns) const
   {
-    std::vector<double> sums = unknowns.field(); // S V h^dim, S V
+    const Points<dim>  &points = problem.state.points;
+    std::vector<double> sums   = unknowns.field(); // error S V, S V
     for (unsigned int c = 0; c < weights.cells().size(); ++c)
       {
-        const Batch &cell  = weights.cells()[c];
-        const auto   patch = weights.patch(c);
-        const auto  &place =
-          problem.state.grid
-            .cells()[problem.state.points.segments()[cell.first_segment].cell];
+        const Batch       &cell  = weights.cells()[c];
+        const auto         patch = weights.patch(c);
+        const unsigned int k     = points.segments()[cell.first_segment].cell;
+        const double       h     = problem.state.grid.cells()[k].size;
         for (unsigned int p = cell.begin; p < cell.end; ++p)
-          for (unsigned int a = 0; a < patch.n_nodes; ++a)
-            {
-              const double share =
-                volume_[p] * weights.of_point(c, p - cell.begin)[a].value;
-              double *sum = &sums[dim * std::size_t(patch.nodes[a])];
-              sum[0] += share * std::pow(place.size, dim);
-              sum[1] += share;
-            }
+          {
+            const auto  *weight = weights.of_point(c, p - cell.begin);
+            const double error  = (share_of_weight * unit_weight_ * h +
+                                  share_of_pressure * pressure_[p]) *
+                                 std::pow(h, dim - 1);
+            for (unsigned int a = 0; a < patch.n_nodes; ++a)
+              {
+                const double share = volume_[p] * weight[a].value;
+                double      *sum   = &sums[dim * std::size_t(patch.nodes[a])];
+                sum[0] += share * error;
+                sum[1] += share;
+              }
+          }
       }
     unknowns.add_to_owners(sums);
     for (std::size_t i = 0; i < sums.size(); i += dim)
@@ -227,9 +233,9 @@ namespace talus
 
 
 
-  /// Where p is not borne, E is about p times the face of a cell, more than any
-  /// error of quadrature below a depth of a cell. Such a face touches further
-  /// nodes with less of it: those of the same points. Collective.
+  /// Where p is not borne, E is about p times the side of a cell, more than any
+  /// error of quadrature. Points beside the free face give less of it to their
+  /// other nodes, at which E is left out, too. Collective.
   template <int dim>
   void
   WellBalancedLoad<dim>::leave_free_faces_alone(
@@ -237,7 +243,7 @@ namespace talus
     const ShapeFunctionCache<dim> &weights,
     Unknowns<dim>                 &unknowns)
   {
-    const auto          volumes  = volumes_of_cells(problem, weights, unknowns);
+    const auto          limits   = largest_errors(problem, weights, unknowns);
     std::vector<double> is_large = unknowns.field(), touches = is_large;
     for (const unsigned int node : unknowns.active_nodes())
       {
@@ -245,7 +251,7 @@ namespace talus
         double            square = 0.;
         for (unsigned int d = 0; d < dim; ++d)
           square += forces_[i + d] * forces_[i + d];
-        if (std::sqrt(square) > largest_error * unit_weight_ * volumes[i])
+        if (std::sqrt(square) > limits[i])
           is_large[i] = 1.;
       }
     unknowns.copy_to_ghosts(is_large);

@@ -77,9 +77,9 @@ namespace talus
                            const ShapeFunctionCache<dim> &weights,
                            Unknowns<dim>                 &unknowns);
     std::vector<double>
-    volumes_of_cells(const StaticProblem<dim>      &problem,
-                     const ShapeFunctionCache<dim> &weights,
-                     Unknowns<dim>                 &unknowns) const;
+    largest_errors(const StaticProblem<dim>      &problem,
+                   const ShapeFunctionCache<dim> &weights,
+                   Unknowns<dim>                 &unknowns) const;
 
     bool                                is_computed_     = false;
     double                              unit_weight_     = 0; ///< N/m^dim
