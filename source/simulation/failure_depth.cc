@@ -5,7 +5,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <algorithm>
 #include <cmath>
 #include <iomanip>
 
@@ -18,15 +17,50 @@ namespace talus
     // A mechanism that is thinner than so many cells depends on their size.
     constexpr double few_cells = 2.;
 
-    /// Depths of the points that move, and means over those of them that lie
-    /// half a cell to one and a half cells below the mudline.
-    struct DepthSums
+    // Depths are counted in so many parts of a cell.
+    constexpr double parts_of_cell = 4.;
+
+    /// Sums over points, by their motion: volume times square of displacement.
+    struct MotionSums
     {
-      double depth       = 0; ///< largest, m
-      double volume      = 0; ///< of the points of the means, m^dim
-      double strength    = 0; ///< times volume, Pa m^dim
-      double unit_weight = 0; ///< times volume, N
+      std::vector<double> of_layer; ///< by depth, a part of a cell each
+      /// Motion half a cell to one and a half cells below the mudline, and its
+      /// product with the strength, Pa, and with the unit weight, N/m^dim.
+      double motion = 0., strength = 0., unit_weight = 0.;
     };
+
+
+
+    /// Sum up over all ranks. Collective.
+    void
+    sum_over_ranks(MotionSums &sums, const MPI_Comm communicator)
+    {
+      sums.of_layer.resize(
+        Utilities::MPI::max(static_cast<unsigned int>(sums.of_layer.size()),
+                            communicator));
+      Utilities::MPI::sum(sums.of_layer, communicator, sums.of_layer);
+      std::vector<double> means{sums.motion, sums.strength, sums.unit_weight};
+      Utilities::MPI::sum(means, communicator, means);
+      sums.motion      = means[0];
+      sums.strength    = means[1];
+      sums.unit_weight = means[2];
+    }
+
+
+
+    /// Number of layers from the mudline down that have nine tenths of the
+    /// motion; 0 if nothing moves.
+    unsigned int
+    n_moving_layers(const std::vector<double> &motion_of_layer)
+    {
+      double total = 0., above = 0.;
+      for (const double motion : motion_of_layer)
+        total += motion;
+      unsigned int n = 0;
+      while (n < motion_of_layer.size() && above < 0.9 * total)
+        above += motion_of_layer[n++];
+      return n;
+    }
 
 
 
@@ -52,14 +86,9 @@ namespace talus
   void
   FailureDepth<dim>::record(const std::vector<double> &mechanism)
   {
-    constexpr double share = 0.3;
-    moves_.clear();
-    for (std::size_t i = 0; i < mechanism.size(); i += dim)
-      moves_.push_back(std::any_of(mechanism.begin() + i,
-                                   mechanism.begin() + i + dim,
-                                   [](const double component) {
-                                     return std::abs(component) > share;
-                                   }));
+    square_.assign(mechanism.size() / dim, 0.);
+    for (std::size_t i = 0; i < mechanism.size(); ++i)
+      square_[i / dim] += mechanism[i] * mechanism[i];
   }
 
 
@@ -69,45 +98,46 @@ namespace talus
   FailureDepth<dim>::note(const State<dim>   &state,
                           const Problem<dim> &problem) const
   {
-    const Points<dim> &points       = state.points;
-    const auto         mudline      = problem.mudline();
-    const MPI_Comm     communicator = state.communicator();
-    const double       h            = state.grid.finest_size();
-    DepthSums          sums;
-    for (unsigned int p = 0; p < moves_.size() && mudline; ++p)
-      if (moves_[p])
-        {
-          const auto   x     = load_place(points, points.position, p);
-          const double half  = 0.5 * points.data(points.reference_length, 1)[p];
-          const double depth = mudline(x) - x[1];
-          if (!(depth >= 0.))
-            continue;
-          sums.depth = std::max(sums.depth, depth + half);
-          if (std::abs(depth - h) > 0.5 * h)
-            continue;
-          const unsigned int body     = points.data(points.body)[p];
-          const auto        &material = problem.materials.of_body(body);
-          const double       volume   = points.data(points.reference_volume)[p];
-          sums.volume += volume;
-          sums.strength += volume * material.shear_strength(points, p);
-          sums.unit_weight -= volume * material.submerged_density() *
-                              problem.loading.gravity()[1];
-        }
-    sums.depth = Utilities::MPI::max(sums.depth, communicator);
-    std::vector<double> means{sums.volume, sums.strength, sums.unit_weight};
-    Utilities::MPI::sum(means, communicator, means);
-    if (sums.depth == 0.)
+    const Points<dim> &points  = state.points;
+    const auto         mudline = problem.mudline();
+    const double       h       = state.grid.finest_size();
+    MotionSums         sums;
+    for (unsigned int p = 0; p < square_.size() && mudline; ++p)
+      {
+        const auto   x     = load_place(points, points.position, p);
+        const double depth = mudline(x) - x[1];
+        if (!(depth >= 0.))
+          continue;
+        const double motion =
+          points.data(points.reference_volume)[p] * square_[p];
+        const auto layer = static_cast<unsigned int>(parts_of_cell * depth / h);
+        if (layer >= sums.of_layer.size())
+          sums.of_layer.resize(layer + 1, 0.);
+        sums.of_layer[layer] += motion;
+        if (std::abs(depth - h) > 0.5 * h)
+          continue;
+        const unsigned int body     = points.data(points.body)[p];
+        const auto        &material = problem.materials.of_body(body);
+        sums.motion += motion;
+        sums.strength += motion * material.shear_strength(points, p);
+        sums.unit_weight -=
+          motion * material.submerged_density() * problem.loading.gravity()[1];
+      }
+    sum_over_ranks(sums, state.communicator());
+    const double n_cells = n_moving_layers(sums.of_layer) / parts_of_cell;
+    if (n_cells == 0.)
       return {};
     const std::string result = text(std::setprecision(3),
-                                    "The mechanism reaches ",
-                                    sums.depth,
-                                    " m below the mudline, ",
-                                    sums.depth / h,
+                                    "Nine tenths of the mechanism lie within ",
+                                    n_cells * h,
+                                    " m of the mudline, ",
+                                    n_cells,
                                     " cells.");
-    if (sums.depth >= few_cells * h || means[0] == 0.)
+    if (n_cells >= few_cells || sums.motion == 0.)
       return result;
-    return result + sentence_on_coarse_cells(means[1] / means[0],
-                                             h * means[2] / means[0]);
+    return result +
+           sentence_on_coarse_cells(sums.strength / sums.motion,
+                                    h * sums.unit_weight / sums.motion);
   }
 
 

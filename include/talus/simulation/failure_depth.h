@@ -15,14 +15,14 @@ namespace talus
   class FailureDepth
   {
   public:
-    /// Remember which points move: more than three tenths of the largest of
-    /// @p mechanism, dim components for each point of this rank with largest
-    /// component 1.
+    /// Remember the motion of the points: @p mechanism with dim components for
+    /// each point of this rank, of any unit.
     void
     record(const std::vector<double> &mechanism);
 
-    /// Sentences for the log on soil with the strength that it has: the depth of
-    /// the mechanism below the mudline, and, if this is less than two cells, the
+    /// Sentences for the log on soil with the strength that it has: the depth
+    /// below the mudline above which nine tenths of the motion lie, by volume and
+    /// square of the displacement, and, if this is less than two cells, the
     /// strength one cell below the mudline against the weight of a cell. Empty
     /// if no mechanism was recorded or the mudline is not known. Points must be
     /// those of record(), in the same order. Collective.
@@ -30,7 +30,7 @@ namespace talus
     note(const State<dim> &state, const Problem<dim> &problem) const;
 
   private:
-    std::vector<bool> moves_; ///< by point
+    std::vector<double> square_; ///< of the displacement, by point
   };
 } // namespace talus
 
