@@ -82,9 +82,7 @@ namespace talus
         point.normal = facets[k].normal;
         if (constraint.is_loaded)
           {
-            const auto &cell = problem.state.grid.cells()[facets[k].cell];
-            for (unsigned int v = 0; v < n_nodes; ++v)
-              point.place += constraint.share[v] * cell.vertex(v);
+            point.place     = facets[k].centroid;
             point.area      = constraint.area;
             point.stiffness = spring * modulus * constraint.area /
                               problem.state.grid.cells()[facets[k].cell].size;

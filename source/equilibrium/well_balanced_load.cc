@@ -42,7 +42,7 @@ namespace talus
   {
     clear();
     is_computed_ = true;
-    if (!problem.mudline)
+    if (!problem.mudline || has_moved(problem))
       return;
     unit_weight_ = mean_unit_weight(problem);
     if (!(unit_weight_ > 0.))
@@ -61,8 +61,31 @@ namespace talus
       },
       forces_);
     unknowns.add_to_owners(forces_);
-    leave_walls_alone(problem.state.grid, unknowns);
+    leave_walls_alone(problem, unknowns);
     leave_free_faces_alone(problem, weights, unknowns);
+  }
+
+
+
+  /// Whether the mudline is no longer that of the start: on the average of their
+  /// mass the points are farther than a tenth of the smallest cell from where
+  /// they were without displacement. Collective.
+  template <int dim>
+  bool
+  WellBalancedLoad<dim>::has_moved(const StaticProblem<dim> &problem) const
+  {
+    const Points<dim>  &points = problem.state.points;
+    std::vector<double> sums(2, 0.); // mass times way, mass
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const double mass = points.data(points.mass)[p];
+        sums[0] += mass * load_place(points, points.position, p)
+                            .distance(
+                              load_place(points, points.initial_position, p));
+        sums[1] += mass;
+      }
+    Utilities::MPI::sum(sums, problem.state.grid.communicator(), sums);
+    return sums[0] > 0.1 * problem.state.grid.finest_size() * sums[1];
   }
 
 
@@ -178,16 +201,17 @@ namespace talus
 
 
 
-  /// A face of the mesh bears p by its reaction, which friction needs whole: so
-  /// E has no component along the normal there.
+  /// A face of the mesh that is not free bears p by its reaction, which friction
+  /// needs whole: so E has no component along the normal there.
   template <int dim>
   void
-  WellBalancedLoad<dim>::leave_walls_alone(const Grid<dim>     &grid,
-                                           const Unknowns<dim> &unknowns)
+  WellBalancedLoad<dim>::leave_walls_alone(const StaticProblem<dim> &problem,
+                                           const Unknowns<dim>      &unknowns)
   {
     for (const unsigned int node : unknowns.active_nodes())
       for (unsigned int face = 0; face < 2 * dim; ++face)
-        if (grid.faces_of_node(node) & (1u << face))
+        if (problem.state.grid.faces_of_node(node) & (1u << face) &&
+            !problem.boundaries.is_free(face))
           forces_[dim * std::size_t(node) + face / 2] = 0.;
   }
 

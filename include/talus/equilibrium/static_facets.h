@@ -96,9 +96,9 @@ namespace talus
     {
       std::array<unsigned int, n_nodes> node;
       std::array<double, n_nodes>       share;
-      dealii::Point<dim>     place; ///< mean of the nodes by share, m
-      dealii::Tensor<1, dim> normal;
-      double                 area = 0; ///< in contact, m^(dim-1)
+      dealii::Point<dim>                place; ///< centroid, m
+      dealii::Tensor<1, dim>            normal;
+      double                            area = 0; ///< in contact, m^(dim-1)
       double stiffness        = 0; ///< of the spring, N/m; 0: there is no soil
       double gap              = 0; ///< at the start of the step, m
       double opened           = 0; ///< since points were last moved, m

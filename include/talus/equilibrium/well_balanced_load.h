@@ -24,8 +24,9 @@ namespace talus
   class WellBalancedLoad
   {
   public:
-    /// Compute E for points, weights and facets as they are. Without a mudline
-    /// or a weight along y there is none. Collective.
+    /// Compute E for points, weights and facets as they are. There is none
+    /// without a mudline or a weight along -y, nor where the soil is no longer
+    /// below the mudline of the start. Collective.
     void
     compute(const StaticProblem<dim>      &problem,
             const ShapeFunctionCache<dim> &weights,
@@ -61,6 +62,8 @@ namespace talus
   private:
     void
     find_pressure(const StaticProblem<dim> &problem);
+    bool
+    has_moved(const StaticProblem<dim> &problem) const;
     double
     mean_unit_weight(const StaticProblem<dim> &problem) const;
     double
@@ -71,7 +74,8 @@ namespace talus
     void
     add_pressure_gradient(const ShapeFunctionCache<dim> &weights);
     void
-    leave_walls_alone(const Grid<dim> &grid, const Unknowns<dim> &unknowns);
+    leave_walls_alone(const StaticProblem<dim> &problem,
+                      const Unknowns<dim>      &unknowns);
     void
     leave_free_faces_alone(const StaticProblem<dim>      &problem,
                            const ShapeFunctionCache<dim> &weights,
