@@ -69,6 +69,14 @@ namespace talus
                   "neighbours, over the shear modulus [-].",
                   this->prm,
                   Patterns::Double(0.));
+    add_parameter("Well-balanced load",
+                  is_well_balanced_,
+                  "Subtract from the weight its error in cells that the soil "
+                  "fills in part only, which is the force that a pressure in "
+                  "proportion to the depth leaves at the nodes. Without it the "
+                  "soil at the mudline has to bear shear stresses of half of "
+                  "the weight of a cell, however small the cells are. Small "
+                  "strain only.");
   }
 
 
@@ -106,7 +114,8 @@ namespace talus
             smallest_step_,
             allowed_imbalance_ > 0.           ? allowed_imbalance_
             : measure == StrainMeasure::small ? 1e-6
-                                              : 1e-3};
+                                              : 1e-3,
+            is_well_balanced_};
   }
 
 
@@ -116,10 +125,11 @@ namespace talus
   Equilibrium<dim>::begin(const StrainMeasure      measure,
                           const EquilibriumLimits &limits)
   {
-    limits_                    = limits;
-    newton_parameters_.measure = measure;
-    load_                      = 0;
-    step_                      = 1. / limits.n_load_steps;
+    limits_                             = limits;
+    newton_parameters_.measure          = measure;
+    newton_parameters_.is_well_balanced = limits.is_well_balanced;
+    load_                               = 0;
+    step_                               = 1. / limits.n_load_steps;
     n_steps_ = n_settling_ = 0;
     imbalance_             = 0;
     is_found_              = false;

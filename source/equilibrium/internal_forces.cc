@@ -57,7 +57,6 @@ namespace talus
     Points<dim> &points = problem.state.points;
     set_gradients(problem, weights, u);
     linearizations_.resize(points.size());
-    volumes_.resize(points.size());
     bool sound = true;
     problem.materials.for_each_material_range(
       points,
@@ -75,23 +74,55 @@ namespace talus
     // Nothing was added so far, so the caller may try a shorter step.
     if (!sound)
       return false;
+    find_volumes(problem);
+    for (unsigned int c = 0; c < weights.cells().size(); ++c)
+      add_forces_of_cell(c, weights, forces);
+    return true;
+  }
+
+
+
+  /// Volumes at the start of the load step: F is changed in commit() only. Zero
+  /// marks the points that neither give to the mean of B-bar nor take it.
+  template <int dim>
+  void
+  InternalForces<dim>::find_volumes(const StaticProblem<dim> &problem)
+  {
+    const Points<dim> &points = problem.state.points;
+    volumes_.resize(points.size());
     volumes_of_mean_.resize(points.size());
     for (const Segment &segment : points.segments())
       for (unsigned int p = segment.begin; p < segment.end; ++p)
         {
-          // At the start of the load step: F is changed in commit() only.
           volumes_[p] =
             points.data(points.reference_volume)[p] *
             determinant(
               load_matrix<dim, double>(points, points.deformation_gradient, p));
-          // Zero marks the points that neither give to the mean nor take it;
-          // the sums below need no further question.
           volumes_of_mean_[p] =
             problem.transfer.uses_bbar(segment.body) ? volumes_[p] : 0.;
         }
+  }
+
+
+
+  template <int dim>
+  void
+  InternalForces<dim>::add_forces_of_pressure(
+    const StaticProblem<dim>      &problem,
+    const ShapeFunctionCache<dim> &weights,
+    const std::vector<double>     &pressure,
+    std::vector<double>           &forces)
+  {
+    find_volumes(problem);
+    linearizations_.resize(pressure.size());
+    for (std::size_t p = 0; p < pressure.size(); ++p)
+      {
+        linearizations_[p].stress = {};
+        for (unsigned int d = 0; d < dim; ++d)
+          linearizations_[p].stress[(dim + 1) * d] = -pressure[p];
+      }
     for (unsigned int c = 0; c < weights.cells().size(); ++c)
       add_forces_of_cell(c, weights, forces);
-    return true;
   }
 
 

@@ -18,7 +18,10 @@ namespace talus
     parameters_ = parameters;
     extent_     = problem.state.grid.domain().lower.distance(
       problem.state.grid.domain().upper);
-    equations_.begin(problem, parameters.measure, parameters.ghost_penalty);
+    equations_.begin(problem,
+                     parameters.measure,
+                     parameters.ghost_penalty,
+                     parameters.is_well_balanced);
     u_ = last_correction_ = residual_ = equations_.unknowns().field();
     mechanism_.resize(u_.size(), 0.);
   }

@@ -44,11 +44,13 @@ namespace talus
   void
   StaticEquations<dim>::begin(StaticProblem<dim> &problem,
                               const StrainMeasure measure,
-                              const double        ghost_penalty)
+                              const double        ghost_penalty,
+                              const bool          is_well_balanced)
   {
-    measure_         = measure;
-    internal_forces_ = InternalForces<dim>(measure);
-    places_          = places_of_owned_nodes(problem.state.grid);
+    measure_          = measure;
+    is_well_balanced_ = is_well_balanced && measure == StrainMeasure::small;
+    internal_forces_  = InternalForces<dim>(measure);
+    places_           = places_of_owned_nodes(problem.state.grid);
     sum_forces(problem);
     unknowns_.number(problem.state.nodes,
                      problem.state.grid,
@@ -63,6 +65,8 @@ namespace talus
     constrain(problem);
     make_pattern();
     make_rigid_modes(problem.state.grid);
+    if (is_well_balanced_ && !well_balanced_.is_computed())
+      well_balanced_.compute(problem, weights_, contact_.facets(), unknowns_);
     find_forces(problem);
   }
 
@@ -99,13 +103,33 @@ namespace talus
             // nothing to compare with.
             internal += internal_[i] * internal_[i];
             external += std::pow(unbalanced_[i] + internal_[i], 2);
+            if (has_well_balanced_load())
+              unbalanced_[i] -= well_balanced_.forces()[i];
           }
       }
+    const MPI_Comm communicator = problem.state.grid.communicator();
+    internal                    = Utilities::MPI::sum(internal, communicator);
+    external                    = Utilities::MPI::sum(external, communicator);
+    loads_                      = std::sqrt(external);
     // The larger of loads and stress: soil without weight may have a stress,
     // and soil that is not yet stressed has loads.
-    reference_ = std::sqrt(std::max(
-      Utilities::MPI::sum(internal, problem.state.grid.communicator()),
-      Utilities::MPI::sum(external, problem.state.grid.communicator())));
+    reference_ = std::sqrt(std::max(internal, external));
+  }
+
+
+
+  template <int dim>
+  double
+  StaticEquations<dim>::well_balanced_share() const
+  {
+    double square = 0;
+    if (has_well_balanced_load())
+      for (const unsigned int node : unknowns_.active_nodes())
+        for (unsigned int d = 0; d < dim; ++d)
+          square += std::pow(well_balanced_.forces()[dim * node + d], 2);
+    const double norm =
+      std::sqrt(Utilities::MPI::sum(square, unknowns_.communicator()));
+    return loads_ > 0. ? norm / loads_ : 0.;
   }
 
 

@@ -82,6 +82,7 @@ namespace talus
         point.normal = facets[k].normal;
         if (constraint.is_loaded)
           {
+            point.place     = facets[k].centroid;
             point.area      = constraint.area;
             point.stiffness = spring * modulus * constraint.area /
                               problem.state.grid.cells()[facets[k].cell].size;
@@ -236,6 +237,26 @@ namespace talus
             forces[std::size_t(dim) * point.node[v] + d] +=
               point.share[v] * force[d];
       }
+  }
+
+
+
+  template <int dim>
+  void
+  StaticFacets<dim>::add_pressure(
+    const std::function<double(const Point<dim> &)> &pressure,
+    std::vector<double>                             &forces) const
+  {
+    for (const ContactPoint &point : points_)
+      if (point.area > 0.)
+        {
+          const Tensor<1, dim> force =
+            pressure(point.place) * point.area * point.normal;
+          for (unsigned int v = 0; v < n_nodes; ++v)
+            for (unsigned int d = 0; d < dim; ++d)
+              forces[std::size_t(dim) * point.node[v] + d] +=
+                point.share[v] * force[d];
+        }
   }
 
 

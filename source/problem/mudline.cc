@@ -2,6 +2,7 @@
 #include <talus/problem/mudline.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace talus
 {
@@ -33,31 +34,51 @@ namespace talus
 
 
 
-  /// Down in steps that cannot pass the surface, or are a ten-thousandth of the
-  /// mesh, then by bisection.
+  /// Height of the uppermost soil above @p bottom in the vertical through @p x,
+  /// m; none if there is no soil. The search goes down in steps that cannot pass
+  /// the surface, or are a ten-thousandth of the mesh, and ends by bisection.
   template <int dim>
-  double
-  Mudline<dim>::depth(const Point<dim> &x) const
+  std::optional<double>
+  Mudline<dim>::highest_soil(const Point<dim> &x, const double bottom) const
   {
     Point<dim> above = x, below = x;
-    above[1] = std::max(domain_.upper[1], x[1]);
+    above[1] = std::max(domain_.upper[1], bottom);
     if (is_soil(above))
-      return above[1] - x[1];
-    for (below = above; !is_soil(below) && below[1] > x[1];)
+      return above[1];
+    for (below = above; !is_soil(below) && below[1] > bottom;)
       {
         above    = below;
-        below[1] = std::max(x[1], below[1] - clear_height(below));
+        below[1] = std::max(bottom, below[1] - clear_height(below));
       }
-    // At x itself round-off may say that it is outside.
     if (!is_soil(below))
-      return 0.;
+      return {};
     while (above[1] - below[1] > 1e-12 * domain_.length(1))
       {
         Point<dim> middle                 = above;
         middle[1]                         = 0.5 * (above[1] + below[1]);
         (is_soil(middle) ? below : above) = middle;
       }
-    return below[1] - x[1];
+    return below[1];
+  }
+
+
+
+  /// At x itself round-off may say that it is outside: then the depth is 0.
+  template <int dim>
+  double
+  Mudline<dim>::depth(const Point<dim> &x) const
+  {
+    return highest_soil(x, x[1]).value_or(x[1]) - x[1];
+  }
+
+
+
+  template <int dim>
+  double
+  Mudline<dim>::height(const Point<dim> &x) const
+  {
+    return highest_soil(x, domain_.lower[1])
+      .value_or(std::numeric_limits<double>::quiet_NaN());
   }
 
 

@@ -166,16 +166,31 @@ namespace talus
   void
   Problem<dim>::find_mudline(const Grid<dim> &grid)
   {
-    if (mudline_ || !(obstacles.depend_on_depth() ||
-                      boundaries.seabed().depends_on_depth()))
+    if (mudline_)
       return;
     mudline_ = std::make_shared<const Mudline<dim>>(
       mudline_of(bodies_, grid.domain_before_growth()));
+    if (!obstacles.depend_on_depth() && !boundaries.seabed().depends_on_depth())
+      return;
     const auto depth = [mudline = mudline_](const Point<dim> &x) {
       return mudline->depth(x);
     };
     obstacles.set_depth(depth);
     boundaries.set_depth(depth);
+  }
+
+
+
+  template <int dim>
+  std::function<double(const Point<dim> &)>
+  Problem<dim>::mudline() const
+  {
+    if (std::any_of(bodies_.begin(), bodies_.end(), [](const auto &body) {
+          return body->initial_state().is_displaced();
+        }))
+      return {};
+    return
+      [mudline = mudline_](const Point<dim> &x) { return mudline->height(x); };
   }
 
 

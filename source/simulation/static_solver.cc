@@ -61,7 +61,8 @@ namespace talus
             problem_.boundaries,
             problem_.loading.loads(),
             problem_.contact,
-            problem_.seabed_coverage};
+            problem_.seabed_coverage,
+            problem_.mudline()};
   }
 
 
@@ -106,6 +107,28 @@ namespace talus
     equilibrium_.begin(StrainMeasure::small, limits);
     StaticProblem<dim> before = problem();
     equilibrium_.return_stress(before);
+    return take_all_steps(label);
+  }
+
+
+
+  template <int dim>
+  bool
+  StaticSolver<dim>::find_with_weight(const Label &label)
+  {
+    EquilibriumLimits limits = equilibrium_.limits(StrainMeasure::small);
+    limits.is_well_balanced  = false;
+    equilibrium_.begin(StrainMeasure::small, limits);
+    return take_all_steps(label);
+  }
+
+
+
+  /// Returns whether balance was found. The log has nothing of the load steps.
+  template <int dim>
+  bool
+  StaticSolver<dim>::take_all_steps(const Label &label)
+  {
     while (!equilibrium_.is_found())
       {
         StepNote note;
@@ -244,6 +267,7 @@ namespace talus
     send_points_to_owners(state_.points, state_.grid);
     mesh_.insert_points();
     mesh_.adapt();
+    equilibrium_.forget_well_balanced_load();
   }
 
 

@@ -55,10 +55,13 @@ namespace talus
   void
   StaticStages<dim>::run_next()
   {
+    solver_.begin_stage();
     if (stages_.next() == Stage::equilibrium)
       find_equilibrium();
     else
       reduce_strength();
+    if (stages_.dynamics_follows())
+      let_weight_act();
     state_.workspace.clear();
     stages_.count_one();
   }
@@ -145,6 +148,81 @@ namespace talus
                   " N, at ",
                   place,
                   "."));
+    tell_of_well_balanced_load();
+  }
+
+
+
+  /// Whether large strain has moved the points away from where the bodies are.
+  template <int dim>
+  bool
+  StaticStages<dim>::soil_has_moved() const
+  {
+    return stages_.contain(Stage::equilibrium) &&
+           (standing_factor_ == 1.
+              ? equilibrium().measure()
+              : measure_of_stronger_soil()) == StrainMeasure::large;
+  }
+
+
+
+  /// Collective.
+  template <int dim>
+  void
+  StaticStages<dim>::tell_of_well_balanced_load() const
+  {
+    const auto &equations = equilibrium().newton().equations();
+    if (!equations.has_well_balanced_load())
+      return;
+    const double        share = equations.well_balanced_share();
+    const unsigned long n_without =
+      equations.well_balanced_load().n_nodes_without();
+    log_.say(LogLevel::result,
+             text(std::setprecision(3),
+                  "The load is well-balanced: its correction in cells that "
+                  "are not full is ",
+                  share,
+                  " of the loads (Euclidean norms of the forces at the "
+                  "nodes)",
+                  n_without > 0
+                    ? text(". There is none at ",
+                           n_without,
+                           " nodes beside free faces of the soil, as at "
+                           "cliffs.")
+                    : "."));
+  }
+
+
+
+  /// The explicit scheme knows no well-balanced load: what this has subtracted
+  /// acts as one more load step. If the soil at the mudline cannot bear it, the
+  /// dynamics starts from the balance with the well-balanced load. Collective.
+  template <int dim>
+  void
+  StaticStages<dim>::let_weight_act()
+  {
+    if (!stages_.contain(Stage::equilibrium) || soil_has_moved() ||
+        standing_factor_ != 1. ||
+        !equilibrium().newton().equations().has_well_balanced_load())
+      return;
+    const auto before = solver_.save();
+    if (solver_.find_with_weight(label(1.)))
+      log_.say(LogLevel::result,
+               text("For the dynamics the weight acts without the correction "
+                    "of the well-balanced load; balance was found in ",
+                    equilibrium().n_steps(),
+                    " steps."));
+    else
+      {
+        solver_.restore(before);
+        log_.say(LogLevel::result,
+                 "Note: the dynamics takes the weight without the correction "
+                 "of the well-balanced load, for which no balance was found. " +
+                   equilibrium().failure() +
+                   ". It starts from the balance with the correction, so that "
+                   "soil in cells that are not full may move a little in the "
+                   "first seconds.");
+      }
   }
 
 
@@ -275,13 +353,20 @@ namespace talus
         if (stands)
           state = solver_.save();
         else // of all that fail the last one has the smallest factor
-          write_mechanism("mechanism");
+          {
+            write_mechanism("mechanism");
+            failure_depth_.record(
+              equilibrium().newton().mechanism(state_.points));
+          }
         solver_.restore(state);
       }
     solver_.restore(before);
     problem_.scale_seabed_strength(
       strength_reduction_.includes_seabed() ? 1. / standing_factor_ : 1.);
     log_.say(LogLevel::result, strength_reduction_.result());
+    if (const std::string note = failure_depth_.note(state_, problem_);
+        !note.empty())
+      log_.say(LogLevel::result, note);
   }
 
 
@@ -314,10 +399,12 @@ namespace talus
   StaticStages<dim>::stands_with(const double factor)
   {
     divide_strength(factor);
-    return solver_.find_again(
+    EquilibriumLimits limits =
       strength_reduction_.limits(factor,
-                                 equilibrium().limits(StrainMeasure::small)),
-      label(factor));
+                                 equilibrium().limits(StrainMeasure::small));
+    // Points that have moved are no longer where the mudline was.
+    limits.is_well_balanced = limits.is_well_balanced && !soil_has_moved();
+    return solver_.find_again(limits, label(factor));
   }
 
 

@@ -4,6 +4,7 @@
 #include "static_case.h"
 
 #include <talus/base/errors.h>
+#include <talus/points/points_kernel.h>
 
 #include <gtest/gtest.h>
 
@@ -316,4 +317,198 @@ TEST(VerticalCutSafetyFine, Cells)
   const double number = stability_number(32);
   gates.near(name_of(32), number, 3.78, 0.03);
   EXPECT_LT(number, stability_number(16));
+}
+
+
+
+namespace
+{
+  const std::string clay_slope     = "Slope of soft clay between two flats",
+                    clay_slope_run = "prm/verification/clay-slope.prm",
+                    clay_slope_source =
+                      "infinite slope: at least s_u/(gamma' T tan) = 3.21";
+
+  /// The slope with cells of @p h m, down to its factor of safety.
+  StaticCase<2>
+  clay_slope_case(const std::string &name,
+                  const double       h,
+                  const Overrides   &overrides = {})
+  {
+    return StaticCase<2>("verification/clay-slope.prm",
+                         text("clay-slope-", name, '-', h),
+                         Overrides{text("Grid/Cell size=", h)} + overrides);
+  }
+
+
+
+  double
+  clay_slope_factor(const std::string &name,
+                    const double       h,
+                    const Overrides   &overrides = {})
+  {
+    return clay_slope_case(name, h, overrides).factor_of_safety();
+  }
+
+
+
+  /// The layer ends in a tip on its bed.
+  const Overrides tapered = {
+    "Surfaces/firm/Expression=mudline - 15*min(1, max(0, (260 - x)/40))",
+    "Bodies/sediment/Upper corner=260, 0"};
+
+  /// The layer ends at a vertical face as high as it is thick.
+  const Overrides cliff = {"Bodies/sediment/Upper corner=250, 0"};
+
+  /// The mudline falls by 3 degrees, then by 6.
+  const Overrides steeper = {
+    "Surfaces/mudline/Expression=1.3 - 0.0524*min(max(x, 0), 100) - "
+    "0.1051*min(max(x - 100, 0), 100)",
+    "Materials/clay/Submerged density=800"};
+} // namespace
+
+
+
+TEST(ClaySlope, FactorOfSafety)
+{
+  Verification gates(clay_slope, clay_slope_run, clay_slope_source);
+  const double coarse = clay_slope_factor("flats", 5.);
+  const double fine   = clay_slope_factor("flats", 2.5);
+  for (const auto &[h, F] : {std::pair(5., coarse), {2.5, fine}})
+    {
+      gates.at_least(text("factor of safety, cells of T/", 15. / h),
+                     F,
+                     3.21,
+                     ">= 3.21");
+      gates.at_most(text("factor of safety, cells of T/", 15. / h),
+                    F,
+                    3.7,
+                    ">= 3.21");
+    }
+  gates.near("factor of safety with cells of T/3 against T/6",
+             coarse,
+             fine,
+             0.03);
+}
+
+
+
+TEST(ClaySlope, FactorOfSafetyOfATip)
+{
+  Verification gates(clay_slope + ", tapered at its end",
+                     clay_slope_run + " with the bed at mudline - 15 "
+                                      "min(1, max(0, (260 - x)/40))",
+                     clay_slope_source);
+  gates.near("factor of safety with cells of T/3 against T/6",
+             clay_slope_factor("tapered", 5., tapered),
+             clay_slope_factor("tapered", 2.5, tapered),
+             0.03);
+}
+
+
+
+// At the free face of a cliff nothing bears the reference pressure.
+TEST(ClaySlope, FactorOfSafetyOfACliff)
+{
+  Verification gates(clay_slope + ", with a cliff at its end",
+                     clay_slope_run + " Bodies/sediment/Upper corner=250, 0",
+                     "the factor without well-balanced load");
+  for (const double h : {5., 2.5})
+    gates.near(text("factor of safety, cells of T/", 15. / h),
+               clay_slope_factor("cliff", h, cliff),
+               clay_slope_factor(
+                 "cliff-weight",
+                 h,
+                 cliff + Overrides{"Equilibrium/Well-balanced load=false"}),
+               0.02);
+}
+
+
+
+TEST(ClaySlope, FactorOfSafetyOfThreeToSixDegrees)
+{
+  Verification gates(clay_slope + ", 3 and 6 degrees",
+                     clay_slope_run + " with slopes of 3 and 6 degrees",
+                     "infinite slope of 6 degrees: at least 1.86");
+  for (const double h : {5., 2.5})
+    gates.at_least(text("factor of safety, cells of T/", 15. / h),
+                   clay_slope_factor("steeper", h, steeper),
+                   1.86,
+                   ">= 1.86");
+}
+
+
+
+namespace
+{
+  /// Largest shear stress above the depth h/2 in the middle of the slope, over
+  /// the submerged weight of a cell per area.
+  double
+  largest_shear_stress(const StaticCase<2> &slope, const double h)
+  {
+    const auto &points = slope.points();
+    double      result = 0.;
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const double x = points.data(points.position, 0)[p];
+        const double depth =
+          1.3 - 0.075 * x - points.data(points.position, 1)[p];
+        if (x < 10. || x > 190. || depth > 0.5 * h)
+          continue;
+        const auto   sigma = load_stress<2, double>(points, p);
+        const double mean  = (sigma[0] + sigma[1] + sigma[2]) / 3.;
+        double       sum   = 0.;
+        for (unsigned int c = 0; c < 4; ++c)
+          sum += c < 3 ? 0.5 * (sigma[c] - mean) * (sigma[c] - mean)
+                       : sigma[c] * sigma[c];
+        result = std::max(result, std::sqrt(sum));
+      }
+    return result / (650. * 9.81 * h);
+  }
+} // namespace
+
+
+
+// Elastic soil, since it does not fail: its shear stress near the mudline is that
+// of the slope, 0.04 of the weight of a cell at the depth h/2.
+TEST(ClaySlope, ShearStressInCutCells)
+{
+  Verification    gates("Slope of elastic soil between two flats",
+                     clay_slope_run + " with a strength of 1 GPa",
+                     "gamma' d tan");
+  const Overrides elastic = {"Stages=equilibrium",
+                             "Materials/clay/Undrained shear strength=1e9",
+                             "Materials/clay/Stiffness ratio=0.01",
+                             "Bodies/sediment/K0=1"};
+  for (const double h : {5., 2.5})
+    gates.at_most(text("largest shear stress above the depth h/2 over gamma' "
+                       "h, cells of T/",
+                       15. / h),
+                  largest_shear_stress(clay_slope_case("elastic", h, elastic),
+                                       h),
+                  0.1,
+                  "0.04");
+}
+
+
+
+// What the load is corrected by takes no part of what drives the slope.
+TEST(ClaySlope, CorrectionDoesNotDrive)
+{
+  Verification gates(clay_slope,
+                     clay_slope_run + " Stages=equilibrium",
+                     "forces of quadrature have no sum");
+  const auto  slope = clay_slope_case("correction", 5., {"Stages=equilibrium"});
+  const auto &equations =
+    (*slope).static_stages().equilibrium().newton().equations();
+  const auto &load = equations.well_balanced_load();
+  double      sum = 0., drive = 0.;
+  for (const unsigned int node : equations.unknowns().active_nodes())
+    sum += load.forces()[2 * node];
+  const auto &points = slope.points();
+  for (unsigned int p = 0; p < points.size(); ++p)
+    if (const double x = points.data(points.position, 0)[p]; x > 0. && x < 200.)
+      drive += 650. * 9.81 * 0.075 * points.data(points.reference_volume)[p];
+  gates.at_most("sum of the corrections along x over what drives the slope",
+                std::abs(sum) / drive,
+                1e-3);
 }

@@ -116,7 +116,8 @@ namespace
               boundaries,
               loads,
               contact,
-              seabed_coverage};
+              seabed_coverage,
+              mudline};
     }
 
     /// Search until the end. Returns whether equilibrium is found; residuals by
@@ -154,6 +155,7 @@ namespace
     FacetContact<dim>                         contact{obstacles};
     SeabedCoverage<dim>                       seabed_coverage{boundaries};
     Equilibrium<dim>                          equilibrium;
+    std::function<double(const Point<dim> &)> mudline; ///< see StaticProblem
     unsigned int                              n_before = 0;
     std::vector<std::vector<NewtonIteration>> runs;
   };

@@ -28,6 +28,8 @@ namespace talus
     unsigned int n_load_steps;      ///< in which the load comes on
     double       smallest_step;     ///< share of it below which no step is cut
     double       allowed_imbalance; ///< with which the soil counts as balanced
+    /// Whether the load may be well-balanced (WellBalancedLoad).
+    bool is_well_balanced = true;
   };
 
 
@@ -109,6 +111,13 @@ namespace talus
       return n_steps_;
     }
 
+    /// Compute the well-balanced load anew: points or mesh have changed.
+    void
+    forget_well_balanced_load()
+    {
+      newton_.forget_well_balanced_load();
+    }
+
     /// The nodes of the seabed as they are.
     const StaticContact<dim> &
     contact() const
@@ -151,6 +160,7 @@ namespace talus
     unsigned int                     largest_settling_  = 100;
     double                           allowed_imbalance_ = 0.;
     typename Newton<dim>::Parameters newton_parameters_;
+    bool                             is_well_balanced_ = true;
     LinearSolver                     linear_solver_;
 
     Newton<dim>         newton_;

@@ -47,6 +47,15 @@ namespace talus
              const std::vector<double>     &u,
              std::vector<double>           &forces);
 
+    /// Add to @p forces, N, those of the stress -p I, with the pressure p of each
+    /// point of this rank in @p pressure, Pa, and the mean of B-bar. Overwrites
+    /// the stresses of the last evaluate().
+    void
+    add_forces_of_pressure(const StaticProblem<dim>      &problem,
+                           const ShapeFunctionCache<dim> &weights,
+                           const std::vector<double>     &pressure,
+                           std::vector<double>           &forces);
+
     /// Add the derivative found by the last evaluate() to @p matrix.
     void
     add_tangent(const ShapeFunctionCache<dim>          &weights,
@@ -65,6 +74,8 @@ namespace talus
       std::vector<dealii::types::global_dof_index> unknowns;
     };
 
+    void
+    find_volumes(const StaticProblem<dim> &problem);
     void
     add_forces_of_cell(unsigned int                   c,
                        const ShapeFunctionCache<dim> &weights,

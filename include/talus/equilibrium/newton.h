@@ -36,6 +36,7 @@ namespace talus
       double        tolerance          = 1e-8; ///< of the residual
       unsigned int  largest_iterations = 30;
       double        ghost_penalty      = 0.01; ///< gamma
+      bool          is_well_balanced   = true; ///< with small strain
     };
 
     /// How solve() ended.
@@ -74,6 +75,13 @@ namespace talus
     /// Collective.
     std::vector<double>
     mechanism(const Points<dim> &points) const;
+
+    /// See StaticEquations.
+    void
+    forget_well_balanced_load()
+    {
+      equations_.forget_well_balanced_load();
+    }
 
     const StaticEquations<dim> &
     equations() const

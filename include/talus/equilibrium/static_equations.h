@@ -6,6 +6,7 @@
 #include <talus/equilibrium/internal_forces.h>
 #include <talus/equilibrium/linear_solver.h>
 #include <talus/equilibrium/static_contact.h>
+#include <talus/equilibrium/well_balanced_load.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
@@ -22,16 +23,45 @@ namespace talus
   ///       - ghost,
   /// where f_ext + c - f_int(0) is what the points have out of balance now, c
   /// the force of the seabed on them so far: the step takes the share of it.
+  /// With a well-balanced load f_ext is the load less its error E.
   /// Fields have dim numbers for each node of Unknowns.
   template <int dim>
   class StaticEquations
   {
   public:
-    /// Set up the unknowns of the soil as it is now. Collective.
+    /// Set up the unknowns of the soil as it is now; with small strain the load
+    /// may be well-balanced (WellBalancedLoad). Collective.
     void
     begin(StaticProblem<dim> &problem,
           StrainMeasure       measure,
-          double              ghost_penalty);
+          double              ghost_penalty,
+          bool                is_well_balanced = false);
+
+    /// Compute the well-balanced load anew at the next begin(): points or mesh
+    /// have changed.
+    void
+    forget_well_balanced_load()
+    {
+      well_balanced_.clear();
+    }
+
+    /// Whether the loads of this load step are well-balanced.
+    bool
+    has_well_balanced_load() const
+    {
+      return is_well_balanced_ && !well_balanced_.forces().empty();
+    }
+
+    const WellBalancedLoad<dim> &
+    well_balanced_load() const
+    {
+      return well_balanced_;
+    }
+
+    /// Euclidean norm of what a well-balanced load subtracts from the loads, over
+    /// that of the loads [-]. Collective.
+    double
+    well_balanced_share() const;
 
     /// The share of what is out of balance that the step takes.
     void
@@ -83,8 +113,8 @@ namespace talus
     void
     commit(StaticProblem<dim> &problem, const std::vector<double> &u);
 
-    /// Force out of balance at u = 0, as the dynamics would meet it: Euclidean
-    /// norm over the free unknowns, of the reference force. Collective.
+    /// Force out of balance at u = 0, as the dynamics would meet it but for what
+    /// a well-balanced load subtracts: Euclidean norm over the free unknowns, of the reference force. Collective.
     double
     imbalance() const;
 
@@ -156,17 +186,20 @@ namespace talus
     InternalForces<dim>     internal_forces_{StrainMeasure::small};
     GhostStabilization<dim> ghost_;
     StaticContact<dim>      contact_;
+    WellBalancedLoad<dim>   well_balanced_;
+    bool                    is_well_balanced_ = false;
 
     dealii::TrilinosWrappers::SparseMatrix matrix_;
     RigidModes                             modes_;
     std::vector<dealii::Point<dim>>        places_;
 
     // Fields at the nodes
-    std::vector<double> unbalanced_;    ///< f_ext - f_int(0), N
+    std::vector<double> unbalanced_;    ///< f_ext - E - f_int(0), N
     std::vector<double> internal_;      ///< f_int(0), N
     std::vector<double> of_facets_;     ///< force of obstacles at u = 0, N
     std::vector<double> target_;        ///< what f_int + ghost are to be, N
     double              reference_ = 0; ///< N
+    double              loads_     = 0; ///< Euclidean norm, N
   };
 } // namespace talus
 

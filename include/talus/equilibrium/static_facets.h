@@ -9,6 +9,7 @@
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace talus
@@ -37,6 +38,14 @@ namespace talus
     add_forces(double                     factor,
                const std::vector<double> &u,
                std::vector<double>       &forces);
+
+    /// Add to @p forces, N, those of the pressure @p pressure(x), Pa, on the
+    /// facets in contact: p A n, with the area in contact and the shares of the
+    /// nodes by which facets pass their own forces.
+    void
+    add_pressure(
+      const std::function<double(const dealii::Point<dim> &)> &pressure,
+      std::vector<double>                                     &forces) const;
 
     void
     add_to_pattern(const Unknowns<dim>                       &unknowns,
@@ -87,6 +96,7 @@ namespace talus
     {
       std::array<unsigned int, n_nodes> node;
       std::array<double, n_nodes>       share;
+      dealii::Point<dim>                place; ///< centroid, m
       dealii::Tensor<1, dim>            normal;
       double                            area = 0; ///< in contact, m^(dim-1)
       double stiffness        = 0; ///< of the spring, N/m; 0: there is no soil

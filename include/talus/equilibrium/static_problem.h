@@ -9,6 +9,8 @@
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
 
+#include <functional>
+
 namespace talus
 {
   /// What is to be brought to equilibrium, and what acts on it at the time of
@@ -23,6 +25,9 @@ namespace talus
     const Loads<dim>     &loads;
     FacetContact<dim>    &contact; ///< with obstacles
     SeabedCoverage<dim>  &seabed_coverage;
+    /// Height of the mudline in the vertical through a place, m, not a number
+    /// where there is no soil; empty if it is not known.
+    std::function<double(const dealii::Point<dim> &)> mudline = {};
   };
 
 

@@ -5,6 +5,7 @@
 #include <talus/problem/body.h>
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace talus
@@ -28,7 +29,14 @@ namespace talus
     double
     depth(const dealii::Point<dim> &x) const;
 
+    /// Height of the mudline in the vertical through @p x, m, with the accuracy
+    /// of depth(); not a number if this vertical meets no soil in the mesh.
+    double
+    height(const dealii::Point<dim> &x) const;
+
   private:
+    std::optional<double>
+    highest_soil(const dealii::Point<dim> &x, double bottom) const;
     bool
     is_soil(const dealii::Point<dim> &x) const;
     double

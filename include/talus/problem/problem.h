@@ -18,6 +18,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -119,6 +120,12 @@ namespace talus
       water.prepare(grid);
     }
 
+    /// Height of the mudline of the start, m, in the vertical through a place,
+    /// not a number where there is no soil. Empty if points do not start where
+    /// their bodies are. To be called after locate().
+    std::function<double(const dealii::Point<dim> &)>
+    mudline() const;
+
     const Surfaces<dim> &
     surfaces() const
     {
@@ -156,7 +163,7 @@ namespace talus
     Surfaces<dim>                           surfaces_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     std::vector<InputFile>                  strength_tables_;
-    std::shared_ptr<const Mudline<dim>>     mudline_; ///< if one asks for it
+    std::shared_ptr<const Mudline<dim>>     mudline_; ///< of the start
     std::vector<std::string>                notes_;   ///< on the initial state
 
   public:

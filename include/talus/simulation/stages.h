@@ -48,6 +48,14 @@ namespace talus
       return n_done_ < stages_.size() && stages_[n_done_] != Stage::dynamics;
     }
 
+    /// Whether the one after the next one is the dynamics.
+    bool
+    dynamics_follows() const
+    {
+      return n_done_ + 1 < stages_.size() &&
+             stages_[n_done_ + 1] == Stage::dynamics;
+    }
+
     Stage
     next() const
     {

@@ -37,6 +37,13 @@ namespace talus
     std::string
     cannot_resume(const std::filesystem::path &folder) const;
 
+    /// A stage begins: points and mesh may be others than in the last one.
+    void
+    begin_stage()
+    {
+      equilibrium_.forget_well_balanced_load();
+    }
+
     /// What is told of a search: the number of its stage and the factor that
     /// strengths are divided by.
     struct Label
@@ -54,6 +61,11 @@ namespace talus
     /// finds it again within these limits, in small strain. Collective.
     bool
     find_again(const EquilibriumLimits &limits, const Label &label);
+
+    /// Whether soil in balance with a well-balanced load finds a balance with
+    /// its weight as the dynamics takes it, too, in small strain. Collective.
+    bool
+    find_with_weight(const Label &label);
 
     /// Why find() failed, a sentence.
     std::string
@@ -101,6 +113,8 @@ namespace talus
 
     StaticProblem<dim>
     problem();
+    bool
+    take_all_steps(const Label &label);
     bool
     take_load_step(const Label &label, StepNote &note);
     void

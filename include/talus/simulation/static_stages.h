@@ -4,6 +4,7 @@
 
 #include <talus/equilibrium/strength_reduction.h>
 #include <talus/observers/output.h>
+#include <talus/simulation/failure_depth.h>
 #include <talus/simulation/stages.h>
 #include <talus/simulation/static_solver.h>
 
@@ -85,6 +86,12 @@ namespace talus
 
     void
     find_equilibrium();
+    bool
+    soil_has_moved() const;
+    void
+    tell_of_well_balanced_load() const;
+    void
+    let_weight_act();
     [[noreturn]] void
     throw_no_equilibrium(const std::string &sentence) const;
     void
@@ -110,6 +117,7 @@ namespace talus
     Stages             stages_;
     StaticSolver<dim>  solver_;
     StrengthReduction  strength_reduction_;
+    FailureDepth<dim>  failure_depth_;
 
     /// The soil is in balance with its strengths divided by this [-]: 1, or less
     /// where it does not stand with those that it has.

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_equilibrium_well_balanced_load_h
+#define talus_equilibrium_well_balanced_load_h
+
+#include <talus/equilibrium/shape_function_cache.h>
+#include <talus/equilibrium/static_facets.h>
+#include <talus/equilibrium/static_problem.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// Error of the weight in cells that the soil fills in part only, by a
+  /// reference stress that is in exact balance (doc/method.md, section 12).
+  ///
+  /// The reference stress is -p I with p = gamma' d, where d is the depth below
+  /// the mudline and gamma' the mean submerged unit weight of all soil. The
+  /// forces of this stress at the points, of its gradient and of its pressure on
+  /// obstacles sum up to zero at each node but for errors of quadrature. What
+  /// they leave, E, is subtracted from the loads: then soil without shear stress
+  /// is in balance in cut cells, too. E is not subtracted where p is borne by
+  /// nothing, as at the free face of a cliff.
+  template <int dim>
+  class WellBalancedLoad
+  {
+  public:
+    /// Compute E for points, weights and facets as they are. There is none
+    /// without a mudline or a weight along -y, nor where the soil is no longer
+    /// below the mudline of the start. Collective.
+    void
+    compute(const StaticProblem<dim>      &problem,
+            const ShapeFunctionCache<dim> &weights,
+            const StaticFacets<dim>       &facets,
+            Unknowns<dim>                 &unknowns);
+
+    /// Forget E: points or mesh have changed.
+    void
+    clear();
+
+    /// Whether compute() was called since the last clear().
+    bool
+    is_computed() const
+    {
+      return is_computed_;
+    }
+
+    /// E by node, dim components each, N; empty if there is none. Only the
+    /// values at nodes that this rank owns count.
+    const std::vector<double> &
+    forces() const
+    {
+      return forces_;
+    }
+
+    /// Number of nodes of all ranks at which E is left out.
+    unsigned long
+    n_nodes_without() const
+    {
+      return n_nodes_without_;
+    }
+
+  private:
+    void
+    find_pressure(const StaticProblem<dim> &problem);
+    bool
+    has_moved(const StaticProblem<dim> &problem) const;
+    double
+    mean_unit_weight(const StaticProblem<dim> &problem) const;
+    double
+    mean_slope(const StaticProblem<dim> &problem,
+               unsigned int              p,
+               unsigned int              d,
+               double                    height) const;
+    void
+    add_pressure_gradient(const ShapeFunctionCache<dim> &weights);
+    void
+    leave_walls_alone(const StaticProblem<dim> &problem,
+                      const Unknowns<dim>      &unknowns);
+    void
+    leave_free_faces_alone(const StaticProblem<dim>      &problem,
+                           const ShapeFunctionCache<dim> &weights,
+                           Unknowns<dim>                 &unknowns);
+    std::vector<double>
+    largest_errors(const StaticProblem<dim>      &problem,
+                   const ShapeFunctionCache<dim> &weights,
+                   Unknowns<dim>                 &unknowns) const;
+
+    bool                                is_computed_     = false;
+    double                              unit_weight_     = 0; ///< N/m^dim
+    unsigned long                       n_nodes_without_ = 0;
+    std::vector<double>                 forces_;
+    std::vector<double>                 volume_;   ///< by point, m^dim
+    std::vector<double>                 pressure_; ///< by point, Pa
+    std::vector<dealii::Tensor<1, dim>> gradient_; ///< of it, Pa/m
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/equilibrium/internal_forces.h>
+#include <talus/equilibrium/well_balanced_load.h>
+#include <talus/points/points_kernel.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Errors of quadrature stay below a third of this: shares of the weight of a
+    // full cell, and of the pressure on its side. A larger force is that of a
+    // pressure which nothing bears.
+    constexpr double share_of_weight = 0.3, share_of_pressure = 0.15;
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  WellBalancedLoad<dim>::clear()
+  {
+    *this = {};
+  }
+
+
+
+  ///   E_i = sum_p V (p' grad S_ip + S_ip grad p) + sum_f share_if p A n,
+  /// with p' after the mean of B-bar and the normals n of facets into the soil.
+  template <int dim>
+  void
+  WellBalancedLoad<dim>::compute(const StaticProblem<dim>      &problem,
+                                 const ShapeFunctionCache<dim> &weights,
+                                 const StaticFacets<dim>       &facets,
+                                 Unknowns<dim>                 &unknowns)
+  {
+    clear();
+    is_computed_ = true;
+    if (!problem.mudline || has_moved(problem))
+      return;
+    unit_weight_ = mean_unit_weight(problem);
+    if (!(unit_weight_ > 0.))
+      return;
+    find_pressure(problem);
+    forces_ = unknowns.field();
+    InternalForces<dim> internal(StrainMeasure::small);
+    internal.add_forces_of_pressure(problem, weights, pressure_, forces_);
+    for (double &force : forces_)
+      force = -force;
+    add_pressure_gradient(weights);
+    facets.add_pressure(
+      [&](const Point<dim> &x) {
+        const double height = problem.mudline(x);
+        return height > x[1] ? unit_weight_ * (height - x[1]) : 0.;
+      },
+      forces_);
+    unknowns.add_to_owners(forces_);
+    leave_walls_alone(problem, unknowns);
+    leave_free_faces_alone(problem, weights, unknowns);
+  }
+
+
+
+  /// Whether the mudline is no longer that of the start: on the average of their
+  /// mass the points are farther than a tenth of the smallest cell from where
+  /// they were without displacement. Collective.
+  template <int dim>
+  bool
+  WellBalancedLoad<dim>::has_moved(const StaticProblem<dim> &problem) const
+  {
+    const Points<dim>  &points = problem.state.points;
+    std::vector<double> sums(2, 0.); // mass times way, mass
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const double mass = points.data(points.mass)[p];
+        sums[0] += mass * load_place(points, points.position, p)
+                            .distance(
+                              load_place(points, points.initial_position, p));
+        sums[1] += mass;
+      }
+    Utilities::MPI::sum(sums, problem.state.grid.communicator(), sums);
+    return sums[0] > 0.1 * problem.state.grid.finest_size() * sums[1];
+  }
+
+
+
+  /// Component along -y of the weight of all soil over its volume, N/m^dim: one
+  /// number for all bodies, so that p is continuous between them. Collective.
+  template <int dim>
+  double
+  WellBalancedLoad<dim>::mean_unit_weight(
+    const StaticProblem<dim> &problem) const
+  {
+    const Points<dim>  &points = problem.state.points;
+    std::vector<double> sums(2, 0.); // weight, volume
+    for (const Segment &segment : points.segments())
+      for (unsigned int p = segment.begin; p < segment.end; ++p)
+        {
+          sums[0] -= points.data(points.mass)[p] *
+                     problem.loads.acceleration_of_body[segment.body][1];
+          sums[1] +=
+            points.data(points.reference_volume)[p] *
+            determinant(
+              load_matrix<dim, double>(points, points.deformation_gradient, p));
+        }
+    Utilities::MPI::sum(sums, problem.state.grid.communicator(), sums);
+    return sums[1] > 0. ? sums[0] / sums[1] : 0.;
+  }
+
+
+
+  /// Pressure at the centres of the boxes, and its gradient: exact along y, and
+  /// along the other axes the mean over the width of the box.
+  template <int dim>
+  void
+  WellBalancedLoad<dim>::find_pressure(const StaticProblem<dim> &problem)
+  {
+    const Points<dim> &points = problem.state.points;
+    volume_.resize(points.size());
+    pressure_.resize(points.size());
+    gradient_.resize(points.size());
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        volume_[p] =
+          points.data(points.reference_volume)[p] *
+          determinant(
+            load_matrix<dim, double>(points, points.deformation_gradient, p));
+        const auto   x      = load_place(points, points.position, p);
+        const double height = problem.mudline(x);
+        // Also if the height is not a number.
+        if (!(height > x[1]))
+          continue;
+        pressure_[p] = unit_weight_ * (height - x[1]);
+        for (unsigned int d = 0; d < dim; ++d)
+          gradient_[p][d] =
+            unit_weight_ * (d == 1 ? -1. : mean_slope(problem, p, d, height));
+      }
+  }
+
+
+
+  /// Rise of the mudline along axis @p d over the width of the box of point
+  /// @p p, within the mesh, per length; @p height, m, is that at its centre.
+  /// Beside the tip of a layer are verticals without soil: then the rise is
+  /// taken over less of the width, or on one side of the centre.
+  template <int dim>
+  double
+  WellBalancedLoad<dim>::mean_slope(const StaticProblem<dim> &problem,
+                                    const unsigned int        p,
+                                    const unsigned int        d,
+                                    const double              height) const
+  {
+    const Points<dim> &points = problem.state.points;
+    const Box<dim>    &domain = problem.state.grid.domain();
+    const auto         x      = load_place(points, points.position, p);
+    double half_width = 0.5 * points.data(points.reference_length, d)[p];
+    for (unsigned int k = 0; k < 5; ++k, half_width *= 0.5)
+      {
+        Point<dim> lower = x, upper = x;
+        lower[d] = std::max(x[d] - half_width, domain.lower[d]);
+        upper[d] = std::min(x[d] + half_width, domain.upper[d]);
+        const double lower_height = problem.mudline(lower);
+        const double upper_height = problem.mudline(upper);
+        if (!std::isnan(lower_height) && !std::isnan(upper_height))
+          return (upper_height - lower_height) / (upper[d] - lower[d]);
+        if (k == 4 && !std::isnan(lower_height))
+          return (height - lower_height) / (x[d] - lower[d]);
+        if (k == 4 && !std::isnan(upper_height))
+          return (upper_height - height) / (upper[d] - x[d]);
+      }
+    return 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  WellBalancedLoad<dim>::add_pressure_gradient(
+    const ShapeFunctionCache<dim> &weights)
+  {
+    for (unsigned int c = 0; c < weights.cells().size(); ++c)
+      {
+        const Batch &cell  = weights.cells()[c];
+        const auto   patch = weights.patch(c);
+        for (unsigned int p = cell.begin; p < cell.end; ++p)
+          {
+            const auto *weight = weights.of_point(c, p - cell.begin);
+            for (unsigned int a = 0; a < patch.n_nodes; ++a)
+              for (unsigned int d = 0; d < dim; ++d)
+                forces_[dim * std::size_t(patch.nodes[a]) + d] +=
+                  volume_[p] * weight[a].value * gradient_[p][d];
+          }
+      }
+  }
+
+
+
+  /// A face of the mesh that is not free bears p by its reaction, which friction
+  /// needs whole: so E has no component along the normal there.
+  template <int dim>
+  void
+  WellBalancedLoad<dim>::leave_walls_alone(const StaticProblem<dim> &problem,
+                                           const Unknowns<dim>      &unknowns)
+  {
+    for (const unsigned int node : unknowns.active_nodes())
+      for (unsigned int face = 0; face < 2 * dim; ++face)
+        if (problem.state.grid.faces_of_node(node) & (1u << face) &&
+            !problem.boundaries.is_free(face))
+          forces_[dim * std::size_t(node) + face / 2] = 0.;
+  }
+
+
+
+  /// Largest E that may be an error of quadrature, N, by node: the mean over the
+  /// points around it of what their cells allow, by volume of soil. First of the
+  /// dim components at each node. Collective.
+  template <int dim>
+  std::vector<double>
+  WellBalancedLoad<dim>::largest_errors(const StaticProblem<dim>      &problem,
+                                        const ShapeFunctionCache<dim> &weights,
+                                        Unknowns<dim> &unknowns) const
+  {
+    const Points<dim>  &points = problem.state.points;
+    std::vector<double> sums   = unknowns.field(); // error S V, S V
+    for (unsigned int c = 0; c < weights.cells().size(); ++c)
+      {
+        const Batch       &cell  = weights.cells()[c];
+        const auto         patch = weights.patch(c);
+        const unsigned int k     = points.segments()[cell.first_segment].cell;
+        const double       h     = problem.state.grid.cells()[k].size;
+        for (unsigned int p = cell.begin; p < cell.end; ++p)
+          {
+            const auto  *weight = weights.of_point(c, p - cell.begin);
+            const double error  = (share_of_weight * unit_weight_ * h +
+                                  share_of_pressure * pressure_[p]) *
+                                 std::pow(h, dim - 1);
+            for (unsigned int a = 0; a < patch.n_nodes; ++a)
+              {
+                const double share = volume_[p] * weight[a].value;
+                double      *sum   = &sums[dim * std::size_t(patch.nodes[a])];
+                sum[0] += share * error;
+                sum[1] += share;
+              }
+          }
+      }
+    unknowns.add_to_owners(sums);
+    for (std::size_t i = 0; i < sums.size(); i += dim)
+      sums[i] = (sums[i + 1] > 0. ? sums[i] / sums[i + 1] : 0.);
+    return sums;
+  }
+
+
+
+  /// Where p is not borne, E is about p times the side of a cell, more than any
+  /// error of quadrature. Points beside the free face give less of it to their
+  /// other nodes, at which E is left out, too. Collective.
+  template <int dim>
+  void
+  WellBalancedLoad<dim>::leave_free_faces_alone(
+    const StaticProblem<dim>      &problem,
+    const ShapeFunctionCache<dim> &weights,
+    Unknowns<dim>                 &unknowns)
+  {
+    const auto          limits   = largest_errors(problem, weights, unknowns);
+    std::vector<double> is_large = unknowns.field(), touches = is_large;
+    for (const unsigned int node : unknowns.active_nodes())
+      {
+        const std::size_t i      = dim * std::size_t(node);
+        double            square = 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          square += forces_[i + d] * forces_[i + d];
+        if (std::sqrt(square) > limits[i])
+          is_large[i] = 1.;
+      }
+    unknowns.copy_to_ghosts(is_large);
+    for (unsigned int c = 0; c < weights.cells().size(); ++c)
+      {
+        const Batch &cell  = weights.cells()[c];
+        const auto   patch = weights.patch(c);
+        for (unsigned int p = cell.begin; p < cell.end; ++p)
+          {
+            const auto *weight  = weights.of_point(c, p - cell.begin);
+            double      largest = 0.;
+            for (unsigned int a = 0; a < patch.n_nodes; ++a)
+              if (weight[a].value > 0.)
+                largest = std::max(largest,
+                                   is_large[dim * std::size_t(patch.nodes[a])]);
+            for (unsigned int a = 0; a < patch.n_nodes; ++a)
+              if (weight[a].value > 0.)
+                touches[dim * std::size_t(patch.nodes[a])] += largest;
+          }
+      }
+    unknowns.add_to_owners(touches);
+    for (const unsigned int node : unknowns.active_nodes())
+      if (const std::size_t i = dim * std::size_t(node);
+          touches[i] + is_large[i] > 0.)
+        {
+          std::fill_n(forces_.begin() + i, dim, 0.);
+          ++n_nodes_without_;
+        }
+    n_nodes_without_ =
+      Utilities::MPI::sum(n_nodes_without_, unknowns.communicator());
+  }
+
+
+
+  template class WellBalancedLoad<2>;
+  template class WellBalancedLoad<3>;
+} // namespace talus
