@@ -211,6 +211,7 @@ namespace
 
 
   const std::string clipped = "set Filling = clipped\n";
+  const std::string centres = "set Filling = centres\n";
 
   template <int dim>
   double
@@ -231,7 +232,7 @@ namespace
   {
     const std::string shape =
       box("0, 1, 2", "2, 2, 4") + "set Points per cell and axis = 2, 3, 1\n";
-    WithBodies<3> by_centres({shape});
+    WithBodies<3> by_centres({shape + centres});
     by_centres.create();
     WithBodies<3> all({shape + clipped});
     all.create();
@@ -365,7 +366,7 @@ namespace
       EXPECT_GT(bed.signed_distance(Point<2>(all.get(all.points.position, p))),
                 0.);
 
-    WithBodies<2>     by_centres({box("0, 0", "4, 2")});
+    WithBodies<2>     by_centres({box("0, 0", "4, 2") + centres});
     const std::string note = fill_down_to(bed, by_centres);
     EXPECT_NE(note.find(
                 text("take ",
