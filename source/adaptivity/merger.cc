@@ -33,11 +33,7 @@ namespace talus
                   enabled_,
                   "Whether points of one body that lie side by side in a cell "
                   "become one point, where soil is compressed or at rest and "
-                  "no longer needs what splitting made.");
-    add_parameter("Merge unsplit points",
-                  merges_unsplit_,
-                  "Whether points that were never split are merged, too: those "
-                  "of a dense filling or of soil that is compressed.");
+                  "no longer needs them.");
     add_parameter("Merge interval",
                   interval_,
                   "Steps from one search for points to merge to the next [-].",
@@ -173,8 +169,7 @@ namespace talus
         const double     size = cell.size * (cell.uniform ? 1. : 0.5);
         members_.clear();
         for (unsigned int p = segment.begin; p < segment.end; ++p)
-          if (merges_unsplit_ || points.data(points.generation)[p] > 0)
-            members_.push_back(p);
+          members_.push_back(p);
         double of_segment = 0;
         for (unsigned int d = 0; d < dim; ++d)
           of_segment += merge_along(d, points, rule, size, splitter);

@@ -29,9 +29,6 @@ namespace talus
   /// is lost. The children of a split that have stayed as they were give their
   /// parent.
   ///
-  /// Points that were never split keep the density that the user has chosen,
-  /// unless `Merge unsplit points` allows to merge them, too.
-  ///
   /// Which points are merged depends on where they are, and not on their
   /// numbers or their order, so that all numbers of ranks merge the same.
   template <int dim>
@@ -108,11 +105,10 @@ namespace talus
                unsigned int         q,
                const JointBox<dim> &joint);
 
-    bool         enabled_        = true;
-    bool         merges_unsplit_ = false;
-    unsigned int interval_       = 100;
-    double       length_         = 0.45;
-    double       tolerance_      = 0.15;
+    bool         enabled_   = false;
+    unsigned int interval_  = 100;
+    double       length_    = 0.45;
+    double       tolerance_ = 0.15;
 
     std::vector<unsigned int> members_; ///< of the segment at hand
     std::vector<unsigned int> removed_;

@@ -12,7 +12,7 @@ namespace
   using dealii::Point;
   using dealii::Tensor;
 
-  /// A Core whose points are merged, also those that were never split.
+  /// A Core whose points are merged.
   template <int dim>
   struct Merging : Core<dim>
   {
@@ -22,9 +22,7 @@ namespace
     {
       // The splitter's parameters, which share the section, stay.
       dealii::ParameterAcceptor::prm.parse_input_from_string(
-        in_section("Splitting",
-                   "set Merge = true\nset Merge unsplit points = true\n" +
-                     of_merging));
+        in_section("Splitting", "set Merge = true\n" + of_merging));
       dealii::ParameterAcceptor::parse_all_parameters();
     }
 
@@ -169,25 +167,6 @@ namespace
     core.sort();
     core.merge();
     EXPECT_EQ(core.points.size(), 2u);
-  }
-
-
-
-  // The user has chosen their density.
-  TEST(Merger, PointsThatWereNeverSplitStayAsTheyAre)
-  {
-    for (const double generation : {0., 1.})
-      {
-        Merging<2> core("", "set Merge unsplit points = false");
-        for (const double x : {1.1, 1.3})
-          {
-            const unsigned int p = core.add({x, 1.1}, Point<2>(0.2, 0.2));
-            core.points.data(core.points.generation)[p] = generation;
-          }
-        core.sort();
-        core.merge();
-        EXPECT_EQ(core.points.size(), generation == 0. ? 2u : 1u);
-      }
   }
 
 
