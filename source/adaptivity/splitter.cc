@@ -26,10 +26,10 @@ namespace talus
                   Patterns::Double(1. + 1e-6));
     add_parameter("Directions",
                   directions_,
-                  "'all': halve every axis (four children in 2-D, eight in "
-                  "3-D), as the paper does; 'stretched': halve only the axes "
-                  "that are too long, which needs a fifth to a third of the "
-                  "points.",
+                  "'stretched': halve only the axes that are too long; 'all': "
+                  "halve every axis (four children in 2-D, eight in 3-D), as "
+                  "the paper does, which needs three to five times as many "
+                  "points, and far more where a layer becomes thin.",
                   this->prm,
                   Patterns::Selection("all|stretched"));
     add_parameter("Minimum length",
@@ -40,10 +40,13 @@ namespace talus
                   Patterns::Double(0., 1.));
     add_parameter("Maximum generation",
                   maximum_generation_,
-                  "Number of splits a point may have behind it. A point at the "
-                  "limit is not split; its box is clipped and counted [-].",
+                  "Number of splits a point may have behind it [-]. The "
+                  "default does not bound. A point at the limit is not split: "
+                  "its box is clipped, and soil that stretches on may tear. "
+                  "These points are counted in statistics.csv, and log.txt "
+                  "tells when there are some.",
                   this->prm,
-                  Patterns::Integer(0, 50));
+                  Patterns::Integer(0));
     add_parameter("Maximum number of points",
                   maximum_points_,
                   "The run stops with an error before there are more points "
@@ -224,11 +227,78 @@ namespace talus
 
 
 
+  template <int dim>
+  unsigned int
+  Splitter<dim>::required_axes(const Points<dim> &points,
+                               const Grid<dim>   &grid,
+                               const unsigned int p,
+                               const BoxRule      rule,
+                               const unsigned int cell,
+                               double            &cell_size) const
+  {
+    cell_size = grid.cells()[cell].size;
+    const unsigned int axes =
+      grid.cells()[cell].uniform
+        ? axes_to_split(points, p, cell_size)
+        : axes_near_other_sizes(points, grid, p, rule, cell, cell_size);
+    return (axes != 0 && directions_ == "all") ? (1u << dim) - 1 : axes;
+  }
+
+
+
+  template <int dim>
+  bool
+  Splitter<dim>::is_stretched(const Points<dim> &points,
+                              const unsigned int p) const
+  {
+    for (unsigned int d = 0; d < dim; ++d)
+      if (points.data(points.stretch, d)[p] >
+          threshold_ * points.data(points.creation_stretch, d)[p])
+        return true;
+    return false;
+  }
+
+
+
+  // Looked at when a row of statistics is due, and not in the step. A point
+  // that may be split counts nowhere: the next step splits it.
+  template <int dim>
+  UnsplitPoints
+  Splitter<dim>::count_unsplit(const Points<dim> &points,
+                               const Grid<dim>   &grid,
+                               const BoxRule      rule) const
+  {
+    UnsplitPoints count;
+    if (!enabled_)
+      return count;
+    for (const Segment &segment : points.segments())
+      for (unsigned int p = segment.begin; p < segment.end; ++p)
+        {
+          double             cell_size;
+          const unsigned int axes =
+            required_axes(points, grid, p, rule, segment.cell, cell_size);
+          if (axes == 0)
+            count.at_length_limit += is_stretched(points, p);
+          else if (points.data(points.generation)[p] >= maximum_generation_)
+            ++count.at_generation_limit;
+          else if (!children_may_stay(points, p, axes, cell_size, grid, rule))
+            ++count.at_mesh_limit;
+        }
+    for (unsigned long *number : {&count.at_generation_limit,
+                                  &count.at_mesh_limit,
+                                  &count.at_length_limit})
+      *number = Utilities::MPI::sum(*number, grid.communicator());
+    return count;
+  }
+
+
+
   namespace
   {
     const std::string more_points_advice =
-      ". Raise it, lower 'Splitting/Maximum generation', or use "
-      "'Splitting/Directions = stretched'.";
+      ". Raise it, use larger cells, 'Splitting/Directions = stretched' and "
+      "'Splitting/Merge = true', or set a 'Splitting/Maximum generation', "
+      "beyond which soil that stretches on may tear.";
   }
 
 
@@ -307,25 +377,19 @@ namespace talus
       return;
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
-        const Segment   &segment   = points.segments()[s];
-        const Cell<dim> &cell      = grid.cells()[segment.cell];
-        double           cell_size = cell.size;
+        const Segment &segment = points.segments()[s];
         if (!may_exceed(
               points, segment.begin, segment.end, least_size(segment)))
           continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
-            unsigned int axes =
-              cell.uniform ? axes_to_split(points, p, cell_size)
-                           : axes_near_other_sizes(
-                               points, grid, p, rule, segment.cell, cell_size);
-            // A point at the limit goes on with a clipped box, and is counted.
-            if (axes == 0 ||
-                points.data(points.generation)[p] >= maximum_generation_)
-              continue;
-            if (directions_ == "all")
-              axes = (1u << dim) - 1;
-            if (children_may_stay(points, p, axes, cell_size, grid, rule))
+            double             cell_size;
+            const unsigned int axes =
+              required_axes(points, grid, p, rule, segment.cell, cell_size);
+            // A point at the limit goes on with a clipped box: count_unsplit().
+            if (axes != 0 &&
+                points.data(points.generation)[p] < maximum_generation_ &&
+                children_may_stay(points, p, axes, cell_size, grid, rule))
               marked_.push_back({p, axes});
           }
       }
@@ -495,8 +559,8 @@ namespace talus
 
 
 
-  // Counting clipped boxes passes over all points, so it is done when a row of
-  // statistics is due and not in the step.
+  // Counting clipped boxes and points at limits passes over all points, so it
+  // is done when a row of statistics is due and not in the step.
   template <int dim>
   void
   Splitter<dim>::list_quantities(const State<dim> &state,
@@ -513,6 +577,11 @@ namespace talus
         Utilities::MPI::sum(
           count_clipped_boxes(state.points, state.grid, state.box_shape),
           communicator));
+    const UnsplitPoints unsplit =
+      count_unsplit(state.points, state.grid, state.box_shape.rule);
+    add("points at generation limit", unsplit.at_generation_limit);
+    add("points at mesh limit", unsplit.at_mesh_limit);
+    add("points at length limit", unsplit.at_length_limit);
     list.push_back({"split ledger",
                     "-",
                     Utilities::MPI::max(statistics_.ledger, communicator)});

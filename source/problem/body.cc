@@ -32,13 +32,13 @@ namespace talus
                   Patterns::List(Patterns::Integer(1, 16), 1, dim));
     add_parameter("Filling",
                   filling_,
-                  "'centres': whole boxes of points, those whose centre lies "
-                  "in the body, so that its surface is a staircase and its "
-                  "volume right to the size of a point. 'clipped': boxes cut "
-                  "by the surface; the points lie at the centroids of what is "
-                  "left, and the mass is that of the shape.",
+                  "'clipped': boxes of points cut by the surface of the body; "
+                  "the points lie at the centroids of what is left, and the "
+                  "mass is that of the shape. 'centres': whole boxes, those "
+                  "whose centre lies in the body, so that its surface is a "
+                  "staircase and its volume right to the size of a point.",
                   this->prm,
-                  Patterns::Selection("centres|clipped"));
+                  Patterns::Selection("clipped|centres"));
     add_parameter("Cut by obstacles",
                   cut_by_obstacles_,
                   "Whether what of the body lies inside of obstacles is "

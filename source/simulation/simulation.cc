@@ -11,6 +11,7 @@
 #include <talus/observers/obstacle_forces.h>
 #include <talus/observers/obstacles_output.h>
 #include <talus/simulation/simulation.h>
+#include <talus/simulation/split_limit_remark.h>
 #include <talus/version.h>
 
 #include <deal.II/base/mpi.h>
@@ -48,6 +49,8 @@ namespace talus
       std::make_unique<ObstacleForces<dim>>(problem_.contact));
     output_.add_row_observer(
       std::make_unique<BoundaryForces<dim>>(problem_.boundaries.reactions()));
+    output_.add_row_observer(
+      std::make_unique<SplitLimitRemark<dim>>(scheme_.splitter(), log_));
     output_.add_field_observer(
       std::make_unique<ObstaclesOutput<dim>>(problem_.obstacles));
     output_.add_field_observer(

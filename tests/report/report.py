@@ -122,6 +122,22 @@ class Report(ReportCase):
         self.assertEqual(float(page.values["pipe force x [N]"]), max(forces))
         self.assertIn("the soil touches it from", page.said("obstacles"))
 
+    def test_points_at_limits_of_splitting(self):
+        words = "stretched too far and could not be split"
+        page = self.report(self.slide("split"))
+        self.assertNotIn(words, page.said("notices"))
+        self.assertNotIn("cannot be split", page.said("log"))
+        self.assertEqual(float(page.values["points at generation limit"]), 0)
+        folder = self.slide("unsplit", "Splitting/Maximum generation=0")
+        page = self.report(folder)
+        counts = [float(row["points at generation limit"])
+                  for row in read_csv(folder / "statistics.csv")]
+        self.assertIn(f"Up to {max(counts):.0f} points were {words}", page.said("notices"))
+        self.assertIn("Raise that number: its default does not bound", page.said("notices"))
+        self.assertEqual(float(page.values["points at generation limit"]), max(counts))
+        self.assertIn("cannot be split", page.said("log"))
+        self.assertEqual((folder / "log.txt").read_text().count("cannot be split"), 1)
+
     def test_stages(self):
         folder = self.slide("stages", "Stages=equilibrium, strength reduction",
                             "Materials/mud/Undrained shear strength=8e3",

@@ -13,6 +13,21 @@ namespace talus
     /// and centre of mass, of the sums over all splits of before - after.
     double ledger = 0;
   };
+
+
+
+  /// Numbers of points that are stretched too far and are not split, by the
+  /// limit that forbids the split. A point counts once.
+  struct UnsplitPoints
+  {
+    /// Points with `Maximum generation` splits behind them.
+    unsigned long at_generation_limit = 0;
+    /// Points whose children would lie too far outside the mesh.
+    unsigned long at_mesh_limit = 0;
+    /// Points stretched beyond `Threshold` along an axis, but not longer than
+    /// `Minimum length`. Their boxes fit into their cells.
+    unsigned long at_length_limit = 0;
+  };
 } // namespace talus
 
 #endif

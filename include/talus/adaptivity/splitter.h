@@ -88,8 +88,16 @@ namespace talus
       return statistics_;
     }
 
-    /// List what was split so far, and how many boxes are clipped now for the
-    /// weights. Collective.
+    /// Count the points that a limit keeps from being split now, over all ranks.
+    /// The points must be sorted. All numbers are 0 where splitting is switched
+    /// off. Collective.
+    UnsplitPoints
+    count_unsplit(const Points<dim> &points,
+                  const Grid<dim>   &grid,
+                  BoxRule            rule) const;
+
+    /// List what was split so far, how many boxes are clipped now for the
+    /// weights, and how many points are at a limit. Collective.
     void
     list_quantities(const State<dim> &state, Quantities &list) const;
 
@@ -159,6 +167,19 @@ namespace talus
                           BoxRule            rule,
                           unsigned int       cell,
                           double            &cell_size) const;
+    /// Axes along which the criterion asks for a split of point @p p of cell
+    /// @p cell, whatever the limits; with `Directions = all` none or all axes.
+    /// Sets the size of the cell that the point is in now, m.
+    unsigned int
+    required_axes(const Points<dim> &points,
+                  const Grid<dim>   &grid,
+                  unsigned int       p,
+                  BoxRule            rule,
+                  unsigned int       cell,
+                  double            &cell_size) const;
+    /// Whether point @p p is stretched beyond the threshold along an axis.
+    bool
+    is_stretched(const Points<dim> &points, unsigned int p) const;
     void
     check_budget(const Points<dim> &points, std::size_t n_points) const;
     void
@@ -166,9 +187,9 @@ namespace talus
 
     bool         enabled_            = true;
     double       threshold_          = 1.4;
-    std::string  directions_         = "all";
+    std::string  directions_         = "stretched";
     double       minimum_length_     = 0.7;
-    unsigned int maximum_generation_ = 3;
+    unsigned int maximum_generation_ = 1000; // no soil is stretched so far
     unsigned int maximum_points_     = 10000000;
 
     struct Violation

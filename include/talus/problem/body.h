@@ -123,7 +123,7 @@ namespace talus
     ShapeParameters<dim>      shape_;
     std::string               material_ = "";
     std::vector<unsigned int> points_per_cell_{2};
-    std::string               filling_          = "centres";
+    std::string               filling_          = "clipped";
     bool                      cut_by_obstacles_ = true;
     InitialState<dim>         initial_state_;
   };

@@ -24,7 +24,8 @@ namespace
               const double       creation_stretch = 1.,
               const unsigned int generation       = 0)
   {
-    Core<dim>      core(cube<dim>() + splitting(parameters));
+    Core<dim>      core(cube<dim>() +
+                   splitting("set Directions = all\n" + parameters));
     auto          &points = core.points;
     Point<dim>     x;
     Tensor<1, dim> length;
@@ -48,7 +49,8 @@ namespace
   unsigned int
   count_after_at_height(const double y)
   {
-    Core<2>            core(cube<2>() + splitting("set Threshold = 1.1"));
+    Core<2>            core(cube<2>() + splitting("set Threshold = 1.1\n"
+                                                  "set Directions = all"));
     const Tensor<1, 2> length({0.1, 0.9});
     const unsigned int p = core.add(Point<2>(1.5, y), length);
     core.points.data(core.points.stretch, 1)[p] = 1.2;
@@ -136,12 +138,16 @@ namespace
 
   TEST(Splitter, GenerationLimit)
   {
-    EXPECT_EQ(count_after<2>("", 0.6, 1.5, 1., 2), 4u);
-    EXPECT_EQ(count_after<2>("", 0.6, 1.5, 1., 3), 1u);
+    const std::string three = "set Maximum generation = 3";
+    EXPECT_EQ(count_after<2>(three, 0.6, 1.5, 1., 2), 4u);
+    EXPECT_EQ(count_after<2>(three, 0.6, 1.5, 1., 3), 1u);
+    // The default does not bound.
+    EXPECT_EQ(count_after<2>("", 0.6, 1.5, 1., 60), 4u);
     EXPECT_EQ(count_after<2>("set Maximum generation = 0", 0.6, 1.5), 1u);
     EXPECT_EQ(count_after<2>("set Enabled = false", 0.6, 1.5), 1u);
 
-    Core<2> core(cube<2>() + splitting("set Maximum generation = 2"));
+    Core<2> core(cube<2>() + splitting("set Maximum generation = 2\n"
+                                       "set Directions = all"));
     core.add({1.5, 1.5}, Point<2>(3., 3.));
     core.points.data(core.points.stretch)[0] = 1.5;
     core.sort();
@@ -158,11 +164,79 @@ namespace
 
 
 
+  // -------------------------------------------------------- points at limits
+
+  /// The points that a limit keeps from being split, of one point at @p x with
+  /// a box of @p length along x, m, stretched by @p stretch since its creation.
+  UnsplitPoints
+  count_unsplit(const std::string &parameters,
+                const Point<2>    &x,
+                const double       length,
+                const double       stretch,
+                const unsigned int generation = 0)
+  {
+    Core<2>            core(cube<2>() + splitting(parameters));
+    const unsigned int p = core.add(x, Point<2>(length / stretch, 0.4));
+    core.points.data(core.points.stretch)[p]    = stretch;
+    core.points.data(core.points.generation)[p] = generation;
+    core.sort();
+    core.split();
+    core.sort();
+    return core.splitter.count_unsplit(core.points,
+                                       core.grid,
+                                       core.transfer.box_shape().rule);
+  }
+
+
+
+  void
+  expect_counts(const UnsplitPoints &count,
+                const unsigned long  at_generation_limit,
+                const unsigned long  at_mesh_limit,
+                const unsigned long  at_length_limit)
+  {
+    EXPECT_EQ(count.at_generation_limit, at_generation_limit);
+    EXPECT_EQ(count.at_mesh_limit, at_mesh_limit);
+    EXPECT_EQ(count.at_length_limit, at_length_limit);
+  }
+
+
+
+  // Cells of 1 m, threshold 1.4, minimum length 0.7 m.
+  TEST(Splitter, PointsAtLimitsAreCounted)
+  {
+    const std::string two = "set Maximum generation = 2";
+    const Point<2>    inside(1.5, 1.5), at_wall(-0.4, 1.5);
+    // Split, and neither child is at a limit.
+    expect_counts(count_unsplit("", inside, 0.9, 1.5), 0, 0, 0);
+    expect_counts(count_unsplit(two, inside, 0.9, 1.5, 1), 0, 0, 0);
+    // Not to be split.
+    expect_counts(count_unsplit(two, inside, 0.9, 1.3, 2), 0, 0, 0);
+    // By the threshold, or longer than a cell whatever the threshold says.
+    expect_counts(count_unsplit(two, inside, 0.9, 1.5, 2), 1, 0, 0);
+    expect_counts(count_unsplit(two, inside, 1.1, 1.2, 2), 1, 0, 0);
+    // Children at -0.4 -+ 0.225 m, half a cell is allowed.
+    expect_counts(count_unsplit("", at_wall, 0.9, 1.5), 0, 1, 0);
+    expect_counts(count_unsplit(two, at_wall, 0.9, 1.5, 2), 1, 0, 0);
+    // Stretched, but shorter than the minimum length.
+    expect_counts(count_unsplit("", inside, 0.6, 1.5), 0, 0, 1);
+    expect_counts(count_unsplit(two, at_wall, 0.6, 1.5, 2), 0, 0, 1);
+    expect_counts(count_unsplit("", inside, 0.6, 1.3), 0, 0, 0);
+    // Switched off by the user.
+    expect_counts(count_unsplit("set Enabled = false", inside, 1.5, 1.5),
+                  0,
+                  0,
+                  0);
+  }
+
+
+
   TEST(Splitter, BudgetOfPoints)
   {
     const auto enforce = [](const unsigned int budget) {
-      Core<2> core(cube<2>() +
-                   splitting(text("set Maximum number of points = ", budget)));
+      Core<2> core(cube<2>() + splitting(text("set Directions = all\n"
+                                              "set Maximum number of points = ",
+                                              budget)));
       for (unsigned int i = 0; i < 3; ++i)
         {
           core.add(Point<2>(0.5 + i, 0.5), Point<2>(0.6, 0.6));
@@ -300,7 +374,9 @@ namespace
   void
   expect_children(const std::string &directions, const unsigned int axes)
   {
-    Core<dim> core(cube<dim>() + splitting("set Directions = " + directions));
+    Core<dim> core(cube<dim>() + splitting("set Maximum generation = 3\n"
+                                           "set Directions = " +
+                                           directions));
     auto     &points = core.points;
     add_parent(core, axes);
     const unsigned int parent = index_of(core, 2), child = index_of(core, 1);

@@ -164,7 +164,9 @@ namespace
   void
   expect_closed_ledger(const std::string &directions)
   {
-    Core<dim> core(cube<dim>() + splitting_along(directions));
+    // Without a bound there would be a million points.
+    Core<dim> core(cube<dim>() + splitting_along(directions) +
+                   in_section("Splitting", "set Maximum generation = 3"));
     auto     &points = core.points;
     for (unsigned int i = 0; i < 60; ++i)
       core.randomize(core.add(core.place(0.7), core.vector(0.2, 0.9)));

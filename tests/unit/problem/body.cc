@@ -56,6 +56,11 @@ namespace
 
 
 
+  const std::string clipped = "set Filling = clipped\n";
+  const std::string centres = "set Filling = centres\n";
+
+
+
   std::string
   box(const std::string &lower, const std::string &upper)
   {
@@ -130,7 +135,7 @@ namespace
   // it.
   TEST(Bodies, PointsOnTheEdgeBelongToIt)
   {
-    WithBodies<2> all({polygon("0,0; 4,0; 0,4")});
+    WithBodies<2> all({polygon("0,0; 4,0; 0,4") + centres});
     all.create();
     EXPECT_EQ(all.points.size(), 8 * 9 / 2);
     EXPECT_EQ(all.sum(all.points.reference_volume), 9.);
@@ -193,7 +198,7 @@ namespace
       error<2>({box("0, 0", "2, 5")}),
       "reaches from 0 m to 5 m along axis 1, but the mesh only from 0 m to "
       "4 m");
-    expect(error<2>({box("0.1, 0.1", "0.2, 0.2")}), "got no points");
+    expect(error<2>({box("0.1, 0.1", "0.2, 0.2") + centres}), "got no points");
     expect(error<2>({box("2, 0", "1, 1")}), "must lie above");
     expect(error<3>({polygon("0,0; 1,0; 1,1; 0,1") + "set Extent in z = 3, 1"}),
            "'Bodies/0/Extent in z' = '3, 1' ends before it begins");
@@ -209,8 +214,6 @@ namespace
   }
 
 
-
-  const std::string clipped = "set Filling = clipped\n";
 
   template <int dim>
   double
@@ -231,7 +234,7 @@ namespace
   {
     const std::string shape =
       box("0, 1, 2", "2, 2, 4") + "set Points per cell and axis = 2, 3, 1\n";
-    WithBodies<3> by_centres({shape});
+    WithBodies<3> by_centres({shape + centres});
     by_centres.create();
     WithBodies<3> all({shape + clipped});
     all.create();
@@ -365,7 +368,7 @@ namespace
       EXPECT_GT(bed.signed_distance(Point<2>(all.get(all.points.position, p))),
                 0.);
 
-    WithBodies<2>     by_centres({box("0, 0", "4, 2")});
+    WithBodies<2>     by_centres({box("0, 0", "4, 2") + centres});
     const std::string note = fill_down_to(bed, by_centres);
     EXPECT_NE(note.find(
                 text("take ",

@@ -96,6 +96,30 @@ def fracture(run):
     return result
 
 
+# Columns that count points which a limit keeps from being split: the limit, and what to do.
+SPLIT_LIMITS = {
+    "points at generation limit": (
+        "'Splitting/Maximum generation' forbids it. Raise that number: its default does not bound."),
+    "points at mesh limit": (
+        "their children would lie more than half a cell outside the mesh. Enlarge the mesh by "
+        "'Grid/Lower corner' and 'Grid/Upper corner', or take smaller cells."),
+}
+
+
+def split_limits(run):
+    """Points that are stretched too far and are not split: the soil may tear there."""
+    time, result = run.statistics["time [s]"], []
+    for column, why in SPLIT_LIMITS.items():
+        if column not in run.statistics or not run.statistics[column].any():
+            continue
+        count = run.statistics[column]
+        first = time[numpy.flatnonzero(count)[0]]
+        result.append(f"Up to {count.max():.0f} points were stretched too far and could not be "
+                      f"split, first at t = {plain(first)} s: {why} Until then the soil may tear "
+                      "there although nothing broke in nature.")
+    return result
+
+
 def ledger(run):
     """Splits that did not conserve."""
     worst = numpy.abs(run.statistics["split ledger [-]"]).max()
@@ -159,6 +183,6 @@ def remarks(run):
 
 def notices(run):
     """All of them, the gravest first."""
-    checks = (unfinished, mass, energy, fracture, ledger, below_surface, contact_area, moving,
-              cut_off, without_h5py, remarks)
+    checks = (unfinished, mass, energy, fracture, split_limits, ledger, below_surface,
+              contact_area, moving, cut_off, without_h5py, remarks)
     return [sentence for check in checks for sentence in check(run)]

@@ -15,8 +15,15 @@ MEANINGS = {
                              "that the soil is about to tear."),
     "splits": ("splits", "How often a point was split so that the soil stays whole."),
     "largest generation": ("largest generation", "Largest number of splits behind one point."),
-    "clipped boxes": ("clipped boxes", "Boxes longer than the weights can take: points that "
-                      "should have been split, but could not."),
+    "clipped boxes": ("clipped boxes", "Axes along which a box is shorter or longer than the "
+                      "weights can take. Short ones are common in thin layers, and harmless."),
+    "points at generation limit": ("at the largest generation", "Points that should be split, but "
+                                   "'Splitting/Maximum generation' forbids it. Sound: 0."),
+    "points at mesh limit": ("at the edge of the mesh", "Points that should be split, but their "
+                             "children would lie outside the mesh. Sound: 0."),
+    "points at length limit": ("at the minimum length", "Points stretched beyond the threshold "
+                               "that are shorter than 'Splitting/Minimum length': common, and "
+                               "harmless, since they fit into their cell."),
 }
 
 

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/simulation/split_limit_remark.h>
+
+namespace talus
+{
+  template <int dim>
+  SplitLimitRemark<dim>::SplitLimitRemark(const Splitter<dim> &splitter,
+                                          Log                 &log)
+    : splitter_(splitter)
+    , log_(log)
+  {}
+
+
+
+  template <int dim>
+  void
+  SplitLimitRemark<dim>::begin(const OutputSettings & /*settings*/,
+                               const State<dim> & /*state*/,
+                               const Beginning /*beginning*/)
+  {}
+
+
+
+  template <int dim>
+  void
+  SplitLimitRemark<dim>::observe(const State<dim> &state)
+  {
+    if (is_written_)
+      return;
+    const UnsplitPoints unsplit =
+      splitter_.count_unsplit(state.points, state.grid, state.box_shape.rule);
+    if (unsplit.at_generation_limit + unsplit.at_mesh_limit == 0)
+      return;
+    is_written_ = true;
+    log_.say(LogLevel::info,
+             text("At t = ",
+                  state.time,
+                  " s points are stretched too far and cannot be split, so "
+                  "that the soil may tear: ",
+                  unsplit.at_generation_limit,
+                  " have 'Splitting/Maximum generation' splits behind them, "
+                  "which the default does not bound; the children of ",
+                  unsplit.at_mesh_limit,
+                  " would lie more than half a cell outside the mesh, which a "
+                  "larger mesh or smaller cells allow. The columns 'points at "
+                  "... limit' of statistics.csv count them on."));
+  }
+
+
+
+  template <int dim>
+  void
+  SplitLimitRemark<dim>::list_state(StateList &list)
+  {
+    list.add("split limit remark", "-", is_written_, Reduction::equal);
+  }
+
+
+
+  template <int dim>
+  void
+  SplitLimitRemark<dim>::sync()
+  {}
+
+
+
+  template class SplitLimitRemark<2>;
+  template class SplitLimitRemark<3>;
+} // namespace talus
