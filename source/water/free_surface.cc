@@ -1,12 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/geometry/clip_simplex.h>
-#include <talus/geometry/cut_box.h>
 #include <talus/water/free_surface.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 namespace talus
 {
@@ -14,61 +10,28 @@ namespace talus
 
   namespace
   {
-    template <int dim>
-    constexpr unsigned int n_corners = power(2, dim);
+    /// Cells on either side of a cell whose vector areas tell the normal: the
+    /// volume fraction falls from one to zero within two cells along the normal.
+    constexpr int reach = 2;
 
-    /// Where the contour is.
-    constexpr double half_filled = 0.5;
-
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-    /// What obstacles leave of a simplex of a cell, whose corners are @p distance
-    /// away from them, m, in deal.II's order. What is as good as on a surface
-    /// counts as on it, as in surface_in_box().
-    template <int dim>
-    auto
-    open_parts(const Simplex<dim>                    &simplex,
-               const Cell<dim>                       &cell,
-               const std::array<double, (1u << dim)> &distance)
-    {
-      std::array<double, dim + 1> depth;
-      for (unsigned int v = 0; v <= dim; ++v)
-        {
-          unsigned int corner = 0;
-          for (unsigned int d = 0; d < dim; ++d)
-            corner |= (simplex[v][d] > cell.lower[d] + 0.5 * cell.size) << d;
-          depth[v] = -distance[corner];
-          if (std::abs(depth[v]) < 1e-9 * cell.size)
-            depth[v] = 0;
-        }
-      return clip_simplex<dim>(simplex, depth).parts;
-    }
+    /// Vector area of a column of cells, as a share of the face of a cell, from
+    /// which on it is a surface. Less is noise of boxes that do not tile the soil,
+    /// or a few points on their own.
+    constexpr double min_area_of_surface = 0.25;
   } // namespace
 
 
 
-  // The room of a node and the cells around it: both only for the cells that
-  // this rank owns, so that a message completes the room, and each facet is
-  // found on one rank.
   template <int dim>
   void
   FreeSurface<dim>::prepare(const Grid<dim> &grid)
   {
-    volume_.assign(grid.n_nodes(), 0.);
+    solid_.prepare(grid);
+    coverage_.prepare(grid);
     std::vector<std::vector<unsigned int>> cells(grid.n_nodes());
-    for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+    for (unsigned int c = 0; c < grid.cells().size(); ++c)
       for (const unsigned int node : grid.cells()[c].nodes())
-        {
-          volume_[node] += std::pow(grid.cells()[c].size, dim) / n_corners<dim>;
-          cells[node].push_back(c);
-        }
-    for (const auto &hanging : grid.hanging_nodes())
-      for (const auto &[master, weight] : hanging.masters)
-        volume_[master] += weight * volume_[hanging.node];
-    NodalExchange<dim> exchange_of_volumes;
-    exchange_of_volumes.prepare(grid, 1);
-    exchange_of_volumes.add_to_owners(volume_.data());
-
+        cells[node].push_back(c);
     first_cell_.assign(1, 0);
     cells_.clear();
     for (const auto &of_node : cells)
@@ -76,78 +39,96 @@ namespace talus
         cells_.insert(cells_.end(), of_node.begin(), of_node.end());
         first_cell_.push_back(cells_.size());
       }
-    visited_.assign(grid.n_owned_cells(), 0);
-    n_searches_ = 0;
     exchange_.prepare(grid, width);
+    exchange_of_areas_.prepare(grid, width_of_areas);
     records_.assign(std::size_t(width) * grid.n_nodes(), 0.);
+    areas_of_nodes_.assign(std::size_t(width_of_areas) * grid.n_nodes(), 0.);
+    vector_areas_.assign(grid.cells().size(), Tensor<1, dim>());
+    is_listed_.assign(grid.cells().size(), 0);
     filled_nodes_.clear();
+    listed_cells_.clear();
     facets_.clear();
-    distance_.assign(grid.n_nodes(), unknown);
   }
 
 
 
-  /// How far the corners of a cell are from obstacles, m. Asked for in each step,
-  /// by the cells of a node as often as there are: remembered while obstacles
-  /// stay where they are.
-  template <int dim>
-  typename FreeSurface<dim>::ShapeValues
-  FreeSurface<dim>::distances(const Cell<dim>      &cell,
-                              const Obstacles<dim> &obstacles)
-  {
-    ShapeValues result;
-    for (unsigned int v = 0; v < result.size(); ++v)
-      {
-        double &known = distance_[cell.nodes()[v]];
-        if (std::isnan(known))
-          known = obstacles.signed_distance(cell.vertex(v));
-        result[v] = known;
-      }
-    return result;
-  }
-
-
-
-  /// Volume around an owned node that soil can fill, m^dim.
-  template <int dim>
-  double
-  FreeSurface<dim>::room(const FacetContact<dim> &contact,
-                         const unsigned int       node) const
-  {
-    if (contact.obstacles().empty() || !contact.facets().is_contact_node(node))
-      return volume_[node];
-    // A corner that an obstacle nearly fills: what boxes overlap of it would
-    // count as much as all its room.
-    return std::max(contact.facets().open_volume(node), 1e-3 * volume_[node]);
-  }
-
-
-
-  /// Velocities are those that the points bring along. Round-off must not decide
-  /// which cells are looked at where nodes are just half filled, as those at a
-  /// level surface in a row of nodes are. Collective.
   template <int dim>
   void
-  FreeSurface<dim>::fill_records(const State<dim>        &state,
-                                 const FacetContact<dim> &contact)
+  FreeSurface<dim>::find(const State<dim>        &state,
+                         const FacetContact<dim> &contact)
+  {
+    const Grid<dim> &grid = state.grid;
+    clear(grid);
+    solid_.update(grid, contact);
+    fill_records(state);
+    list_cells(state);
+    find_vector_areas(grid);
+    for (const unsigned int c : listed_cells_)
+      if (const Tensor<1, dim> own = vector_areas_[c];
+          c < grid.n_owned_cells() && own.norm() > 0)
+        {
+          SurfaceFacet<dim> facet;
+          if (!set_surface(grid.cells()[c], own, facet))
+            continue;
+          facet.node = grid.cells()[c].nodes();
+          set_soil(facet);
+          facets_.push_back(facet);
+        }
+  }
+
+
+
+  /// Forget the last step.
+  template <int dim>
+  void
+  FreeSurface<dim>::clear(const Grid<dim> &grid)
   {
     for (const unsigned int node : filled_nodes_)
       std::fill_n(record(node), width, 0.);
+    for (const unsigned int c : listed_cells_)
+      {
+        vector_areas_[c] = Tensor<1, dim>();
+        is_listed_[c]    = 0;
+        const auto nodes = grid.cells()[c].nodes();
+        for (const unsigned int node : {nodes.front(), nodes.back()})
+          std::fill_n(areas_of_nodes_.begin() +
+                        std::size_t(width_of_areas) * node,
+                      width_of_areas,
+                      0.);
+      }
     filled_nodes_.clear();
+    listed_cells_.clear();
+    facets_.clear();
+  }
+
+
+
+  /// Velocities are those that the points bring along. Collective.
+  template <int dim>
+  void
+  FreeSurface<dim>::fill_records(const State<dim> &state)
+  {
     const NodalFields<dim> &nodes = state.nodes;
     for (const unsigned int node : nodes.active_nodes())
       if (nodes.mass(node) > state.mass_cutoff)
         {
           double *const to = record(node);
-          to[filling] = std::min(1., nodes.volume(node) / room(contact, node));
-          if (std::abs(to[filling] - half_filled) < 1e-12)
-            to[filling] = half_filled;
+          to[fraction] =
+            std::min(1., nodes.volume(node) / solid_.open_volume(node));
           to[mass]               = nodes.mass(node);
           const Tensor<1, dim> p = nodes.momentum(node);
           for (unsigned int d = 0; d < dim; ++d)
             to[velocity + d] = p[d] / to[mass];
           filled_nodes_.push_back(node);
         }
+    coverage_.find(state, solid_, [this](const unsigned int node) {
+      return record(node)[fraction];
+    });
+    for (const unsigned int node : filled_nodes_)
+      {
+        record(node)[facets_covered] = coverage_.of_facets(node);
+        record(node)[bottom]         = coverage_.of_bottom(node);
+      }
     exchange_.copy_to_ghosts(records_.data());
     fill_hanging_records(state.grid);
   }
@@ -167,8 +148,8 @@ namespace talus
         for (const auto &[master, weight] : hanging.masters)
           {
             const double *const from = record(master);
-            to[filling] += weight * from[filling];
-            to[mass] += weight * from[mass];
+            for (const unsigned int i : {fraction, facets_covered, bottom, mass})
+              to[i] += weight * from[i];
             for (unsigned int d = 0; d < dim; ++d)
               to[velocity + d] += weight * from[mass] * from[velocity + d];
           }
@@ -179,118 +160,164 @@ namespace talus
 
 
 
-  // Of nodes that are half filled or more, those this rank owns and ghosts, the
-  // cells around; so the cost follows the soil, and the order that of the active
-  // nodes, which is the same in a resumed run.
+  // Of nodes with soil, those this rank owns and ghosts, the cells around; so the
+  // cost follows the soil, and the order that of the active nodes, which is the
+  // same in a resumed run.
   template <int dim>
   void
-  FreeSurface<dim>::find(const State<dim>        &state,
-                         const FacetContact<dim> &contact)
+  FreeSurface<dim>::list_cells(const State<dim> &state)
   {
-    fill_records(state, contact);
-    facets_.clear();
-    if (contact.obstacles().move())
-      std::fill(distance_.begin(), distance_.end(), unknown);
-    ++n_searches_;
-    const Grid<dim> &grid  = state.grid;
-    const auto       visit = [&](const unsigned int node) {
-      if (fill(node) < half_filled)
-        return;
-      for (unsigned int i = first_cell_[node]; i < first_cell_[node + 1]; ++i)
-        if (const unsigned int c = cells_[i]; visited_[c] != n_searches_)
-          {
-            visited_[c] = n_searches_;
-            cut_cell(grid, contact, c);
-          }
-    };
-    for (const unsigned int node : state.nodes.active_nodes())
-      visit(node);
-    for (const auto &hanging : grid.hanging_nodes())
-      if (hanging.node < grid.n_owned_nodes())
-        visit(hanging.node);
+    const Grid<dim> &grid = state.grid;
     for (unsigned int node = grid.n_owned_nodes(); node < grid.n_nodes();
          ++node)
-      visit(node);
+      if (record(node)[fraction] > 0)
+        filled_nodes_.push_back(node);
+    for (const unsigned int node : filled_nodes_)
+      if (record(node)[fraction] > 0)
+        for (unsigned int i = first_cell_[node]; i < first_cell_[node + 1]; ++i)
+          if (const unsigned int c = cells_[i]; !is_listed_[c])
+            {
+              is_listed_[c] = 1;
+              listed_cells_.push_back(c);
+            }
   }
 
 
 
-  /// Half filled less the degree of filling at the corners of a simplex in a
-  /// cell. What is as good as zero is made zero, so that round-off does not show
-  /// the cells at a face different signs.
+  // The second cell from a cell at the end of a rank is not known there, but its
+  // vertex that is nearer is: its owner knows all cells around.
   template <int dim>
-  std::array<double, dim + 1>
-  FreeSurface<dim>::emptiness_at(const Simplex<dim> &simplex,
-                                 const Box<dim>     &box,
-                                 const NodesOfCell  &nodes) const
+  void
+  FreeSurface<dim>::find_vector_areas(const Grid<dim> &grid)
   {
-    std::array<double, dim + 1> result;
-    for (unsigned int v = 0; v <= dim; ++v)
+    for (const unsigned int c : listed_cells_)
       {
-        const auto N = shape_values_at<dim>(box, simplex[v]);
-        result[v]    = half_filled;
-        for (unsigned int k = 0; k < N.size(); ++k)
-          result[v] -= N[k] * fill(nodes[k]);
-        if (std::abs(result[v]) < 1e-12)
-          result[v] = 0;
+        const Cell<dim> &cell  = grid.cells()[c];
+        const auto       nodes = cell.nodes();
+        vector_areas_[c]       = integrate_gradient(grid, cell);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            areas_of_nodes_[width_of_areas * nodes.front() + d] =
+              vector_areas_[c][d];
+            areas_of_nodes_[width_of_areas * nodes.back() + dim + d] =
+              vector_areas_[c][d];
+          }
       }
+    exchange_of_areas_.copy_to_ghosts(areas_of_nodes_.data());
+  }
+
+
+
+  /// Share of the surfaces of obstacles around a cell that soil covers [-].
+  template <int dim>
+  double
+  FreeSurface<dim>::covered_share_of_facets(const NodesOfCell &nodes) const
+  {
+    double covered = 0, area = 0;
+    for (const unsigned int node : nodes)
+      {
+        covered += record(node)[facets_covered] * solid_.facet_area(node);
+        area += solid_.facet_area(node);
+      }
+    return area > 0 ? covered / area : 0.;
+  }
+
+
+
+  // - integral of (grad s + c grad b), with the volume fractions s of soil and b
+  // of obstacles and the covered share c of their surfaces: where soil covers the
+  // bed, only the surface towards the water is left. What lies below the mesh
+  // counts in the same way, with the face of the mesh in the place of grad b.
+  template <int dim>
+  Tensor<1, dim>
+  FreeSurface<dim>::integrate_gradient(const Grid<dim> &grid,
+                                       const Cell<dim> &cell) const
+  {
+    constexpr unsigned int bottom_bit = 1u << 2;
+    const auto             nodes      = cell.nodes();
+    const double           face = std::pow(cell.size, dim - 1) / power(2, dim - 1);
+    const double  covered = solid_.exists() ? covered_share_of_facets(nodes) : 0.;
+    Tensor<1, dim> result;
+    for (unsigned int v = 0; v < nodes.size(); ++v)
+      {
+        const double *const node = record(nodes[v]);
+        const double        b    = solid_.volume_fraction(nodes[v]);
+        const double        u    = (1. - b) * node[fraction] + covered * b;
+        for (unsigned int d = 0; d < dim; ++d)
+          result[d] += ((v >> d) & 1) ? -u : u;
+        if (((v >> 1) & 1) == 0 && (grid.faces_of_node(nodes[v]) & bottom_bit))
+          result[1] += (solid_.contains(nodes[v]) ?
+                          covered - u :
+                          (1. - b) * (node[bottom] - node[fraction]));
+      }
+    // Round-off of cells that are full.
+    return result.norm() < 1e-12 ? Tensor<1, dim>() : face * result;
+  }
+
+
+
+  /// Vector area of the cell @p step cells along @p axis, m^(dim-1); zero beyond
+  /// the mesh and where cells have another size.
+  template <int dim>
+  Tensor<1, dim>
+  FreeSurface<dim>::area_at(const Cell<dim>   &cell,
+                            const unsigned int axis,
+                            const int          step) const
+  {
+    // The lowest vertex of a cell above is the own lowest one, moved; so is the
+    // highest vertex of a cell below.
+    const unsigned int own =
+      patch_of_vertex<dim>(step > 0 ? 0 : power(2, dim) - 1);
+    const unsigned int node = cell.patch[own + step * int(power(4, axis))];
+    Tensor<1, dim>     result;
+    if (node != numbers::invalid_unsigned_int)
+      for (unsigned int d = 0; d < dim; ++d)
+        result[d] =
+          areas_of_nodes_[width_of_areas * node + (step > 0 ? 0 : dim) + d];
     return result;
   }
 
 
 
-  // By simplices, linear in each: the ends of facets at a face are the same
-  // seen from both cells, so that nothing is open, and there is none of the
-  // ambiguous cases of squares and cubes. In a cell that an obstacle cuts the
-  // simplices are cut first.
+  // The sum of the vector areas along an axis through the whole fall of the volume
+  // fraction has the direction of the surface, where the gradient in each single
+  // cell does not: its components are differences over another stencil. The column
+  // along the axis that is nearest to the normal crosses the surface within the
+  // fewest cells. Weights by the angle between two cells leave out the other side
+  // of a thin sheet, and what lies around an edge.
+  /// Set normal and vector area of a facet from @p own, the vector area of the
+  /// surface in its cell, m^(dim-1). Returns whether there is a surface.
   template <int dim>
-  void
-  FreeSurface<dim>::cut_cell(const Grid<dim>         &grid,
-                             const FacetContact<dim> &contact,
-                             const unsigned int       c)
+  bool
+  FreeSurface<dim>::set_surface(const Cell<dim>      &cell,
+                                const Tensor<1, dim> &own,
+                                SurfaceFacet<dim>    &facet) const
   {
-    const Cell<dim> &cell  = grid.cells()[c];
-    const auto       nodes = cell.nodes();
-    if (std::none_of(nodes.begin(), nodes.end(), [&](const unsigned int node) {
-          return fill(node) < half_filled;
-        }))
-      return;
-    const bool is_near_obstacle =
-      !contact.obstacles().empty() &&
-      std::any_of(nodes.begin(), nodes.end(), [&](const unsigned int node) {
-        return contact.facets().is_contact_node(node);
-      });
-    const Box<dim> box = cell.box();
-    const bool     is_cut =
-      is_near_obstacle && contact.facets().nearness_of_cells()[c] == 2;
-    ShapeValues distance{};
-    if (is_near_obstacle)
-      distance = distances(cell, contact.obstacles());
-    if (is_near_obstacle && !is_cut &&
-        std::accumulate(distance.begin(), distance.end(), 0.) < 0)
-      return; // soil is only beside it
-
-    const auto add_facet = [&](const Simplex<dim> &simplex) {
-      const Facet<dim> facet =
-        clip_simplex<dim>(simplex, emptiness_at(simplex, box, nodes)).facet;
-      if (facet.empty())
-        return;
-      SurfaceFacet<dim> result;
-      result.vector_area = vector_area<dim>(facet);
-      if (result.vector_area.norm() == 0)
-        return;
-      result.node     = nodes;
-      result.centroid = centroid<dim>(facet);
-      set_soil(result, shape_values_at<dim>(box, result.centroid));
-      facets_.push_back(result);
-    };
-    for (const Simplex<dim> &simplex : simplices_of(box))
-      if (is_cut)
-        for (const Simplex<dim> &part :
-             open_parts<dim>(simplex, cell, distance))
-          add_facet(part);
-      else
-        add_facet(simplex);
+    double area_of_column = 0, sum = 0;
+    for (unsigned int axis = 0; axis < dim; ++axis)
+      {
+        Tensor<1, dim> column = own;
+        for (int step = -reach; step <= reach; ++step)
+          if (step != 0)
+            if (const Tensor<1, dim> other = area_at(cell, axis, step);
+                other * own > 0)
+              column += std::pow(other * own, 4) /
+                        std::pow(other.norm_square() * own.norm_square(), 2) *
+                        other;
+        const double length = column.norm();
+        const double weight = std::pow(column[axis] / length, 4);
+        facet.normal += weight / length * column;
+        area_of_column += weight * length;
+        sum += weight;
+      }
+    const double length = facet.normal.norm();
+    if (length == 0)
+      return false;
+    facet.normal /= length;
+    const double full =
+      min_area_of_surface * sum * std::pow(cell.size, dim - 1);
+    facet.vector_area = std::min(1., area_of_column / full) * own;
+    return facet.vector_area * facet.normal > 0;
   }
 
 
@@ -300,18 +327,14 @@ namespace talus
   // cannot bear.
   template <int dim>
   void
-  FreeSurface<dim>::set_soil(SurfaceFacet<dim> &facet,
-                             const ShapeValues &shape_values) const
+  FreeSurface<dim>::set_soil(SurfaceFacet<dim> &facet) const
   {
     double sum = 0;
-    for (unsigned int v = 0; v < shape_values.size(); ++v)
+    for (const unsigned int node : facet.node)
+      sum += record(node)[mass];
+    for (unsigned int v = 0; v < facet.node.size(); ++v)
       {
-        facet.share[v] = shape_values[v] * record(facet.node[v])[mass];
-        sum += facet.share[v];
-      }
-    for (unsigned int v = 0; v < shape_values.size(); ++v)
-      {
-        facet.share[v] /= sum;
+        facet.share[v] = record(facet.node[v])[mass] / sum;
         for (unsigned int d = 0; d < dim; ++d)
           facet.velocity[d] +=
             facet.share[v] * record(facet.node[v])[velocity + d];

@@ -135,21 +135,22 @@ namespace talus
 
 
 
-  /// On a facet, N: friction along it, and pressure where it moves into the
-  /// water.
+  // The pressure acts on the vector area, so that it is in balance on a surface
+  // that is closed.
+  /// Force on a facet, N: friction along it, and pressure where it moves into
+  /// the water.
   template <int dim>
   Tensor<1, dim>
   Water<dim>::drag(const SurfaceFacet<dim> &facet) const
   {
-    const double         area       = facet.vector_area.norm();
-    const Tensor<1, dim> normal     = facet.vector_area / area;
-    const double         outwards   = facet.velocity * normal;
-    const Tensor<1, dim> tangential = facet.velocity - outwards * normal;
-    const double         pressure =
+    const double         area       = facet.vector_area * facet.normal;
+    const double         outwards   = facet.velocity * facet.normal;
+    const Tensor<1, dim> tangential = facet.velocity - outwards * facet.normal;
+    const Tensor<1, dim> friction =
+      skin_friction_ * area * tangential.norm() * tangential;
+    const double pressure =
       pressure_drag_ * std::pow(std::max(0., outwards), 2);
-    return -0.5 * density_ * area *
-           (skin_friction_ * tangential.norm() * tangential +
-            pressure * normal);
+    return -0.5 * density_ * (friction + pressure * facet.vector_area);
   }
 
 

@@ -3,8 +3,9 @@
 #define talus_water_free_surface_h
 
 #include <talus/contact/facet_contact.h>
-#include <talus/geometry/clip_simplex.h>
 #include <talus/state/state.h>
+#include <talus/water/bed_coverage.h>
+#include <talus/water/solid_at_nodes.h>
 
 #include <array>
 #include <vector>
@@ -18,20 +19,21 @@ namespace talus
   {
     static constexpr unsigned int n_nodes = power(2, dim);
 
-    std::array<unsigned int, n_nodes> node;     ///< of the cell
-    std::array<double, n_nodes>       share;    ///< of these in the soil there
-    dealii::Point<dim>                centroid; ///< m
-    dealii::Tensor<1, dim>            vector_area; ///< out of the soil,
-                                                   ///< m^(dim-1)
+    std::array<unsigned int, n_nodes> node;  ///< of the cell
+    std::array<double, n_nodes>       share; ///< of the force, by node [-]
+    dealii::Tensor<1, dim> vector_area; ///< integral of the outward normal,
+                                        ///< m^(dim-1)
+    dealii::Tensor<1, dim> normal;      ///< outwards, of the surface around
     dealii::Tensor<1, dim> velocity; ///< of the soil, before the step, m/s
   };
 
 
 
-  /// The free surface of the soil: the contour on which the nodes are half
-  /// filled. It does not jump when points cross cells, since the volume of soil
-  /// at a node does not, and it is closed with the walls and obstacles that the
-  /// soil lies on.
+  /// Free surface of the soil: where the volume fraction of soil and bed together
+  /// falls from one to zero. The integral of its gradient over a cell is the
+  /// vector area of the surface in the cell, however thin the soil on the bed is,
+  /// and continuous in time as points cross cells. The normal is that of all cells
+  /// through which the volume fraction falls, see doc/method.md, section "Water".
   template <int dim>
   class FreeSurface
   {
@@ -41,7 +43,7 @@ namespace talus
     prepare(const Grid<dim> &grid);
 
     /// Find the facets in the cells that this rank owns, from the sums at the
-    /// nodes. Collective.
+    /// nodes and the boxes of the points. Collective.
     void
     find(const State<dim> &state, const FacetContact<dim> &contact);
 
@@ -51,25 +53,40 @@ namespace talus
       return facets_;
     }
 
-    /// Which part of the room around a node is soil, at most 1; after find().
-    double
-    fill(const unsigned int node) const
+    /// Integral of the outward normal over the surface of the soil in cell
+    /// @p cell, m^(dim-1); after find().
+    dealii::Tensor<1, dim>
+    vector_area_of_cell(unsigned int cell) const
     {
-      return record(node)[filling];
+      return vector_areas_[cell];
+    }
+
+    /// Covered share of the lower face of the mesh at @p node [-]; after find().
+    double
+    covered_bottom(const unsigned int node) const
+    {
+      return record(node)[bottom];
     }
 
   private:
-    using ShapeValues = std::array<double, (1u << dim)>;
     using NodesOfCell = std::array<unsigned int, power(2, dim)>;
 
-    // By node: degree of filling [-], mass [kg] and velocity [m/s].
+    // By node: volume fraction of soil in the room that obstacles leave [-],
+    // covered shares of facets and of the lower face of the mesh [-], mass [kg]
+    // and velocity [m/s].
     enum Record
     {
-      filling,
+      fraction,
+      facets_covered,
+      bottom,
       mass,
       velocity,
       width = velocity + dim
     };
+
+    /// By node: vector areas of the cells whose lowest and highest vertex the
+    /// node is, m^(dim-1).
+    static constexpr unsigned int width_of_areas = 2 * dim;
 
     double *
     record(const unsigned int node)
@@ -83,34 +100,40 @@ namespace talus
       return records_.data() + std::size_t(width) * node;
     }
 
-    ShapeValues
-    distances(const Cell<dim> &cell, const Obstacles<dim> &obstacles);
-    double
-    room(const FacetContact<dim> &contact, unsigned int node) const;
     void
-    fill_records(const State<dim> &state, const FacetContact<dim> &contact);
+    clear(const Grid<dim> &grid);
+    void
+    fill_records(const State<dim> &state);
     void
     fill_hanging_records(const Grid<dim> &grid);
     void
-    cut_cell(const Grid<dim>         &grid,
-             const FacetContact<dim> &contact,
-             unsigned int             c);
-    std::array<double, dim + 1>
-    emptiness_at(const Simplex<dim> &simplex,
-                 const Box<dim>     &box,
-                 const NodesOfCell  &nodes) const;
+    list_cells(const State<dim> &state);
     void
-    set_soil(SurfaceFacet<dim> &facet, const ShapeValues &shape_values) const;
+    find_vector_areas(const Grid<dim> &grid);
+    double
+    covered_share_of_facets(const NodesOfCell &nodes) const;
+    dealii::Tensor<1, dim>
+    integrate_gradient(const Grid<dim> &grid, const Cell<dim> &cell) const;
+    dealii::Tensor<1, dim>
+    area_at(const Cell<dim> &cell, unsigned int axis, int step) const;
+    bool
+    set_surface(const Cell<dim>              &cell,
+                const dealii::Tensor<1, dim> &own,
+                SurfaceFacet<dim>            &facet) const;
+    void
+    set_soil(SurfaceFacet<dim> &facet) const;
 
-    std::vector<double> volume_; ///< integral of the shape function, by node
-    std::vector<unsigned int>  first_cell_, cells_; ///< owned ones, by node
-    std::vector<double>        distance_; ///< from obstacles, by node, m
-    NodalExchange<dim>         exchange_;
-    std::vector<double>        records_;
-    std::vector<unsigned int>  filled_nodes_; ///< whose records are not zero
-    std::vector<unsigned long> visited_;      ///< by cell: in which search
-    unsigned long              n_searches_ = 0;
-    std::vector<SurfaceFacet<dim>> facets_;
+    SolidAtNodes<dim>         solid_;
+    BedCoverage<dim>          coverage_;
+    std::vector<unsigned int> first_cell_, cells_; ///< ghosts, too, by node
+    NodalExchange<dim>        exchange_, exchange_of_areas_;
+    std::vector<double>       records_;
+    std::vector<unsigned int> filled_nodes_; ///< whose records are not zero
+    std::vector<unsigned int> listed_cells_; ///< that touch a filled node
+    std::vector<unsigned char> is_listed_;   ///< by cell
+    std::vector<dealii::Tensor<1, dim>> vector_areas_;   ///< by cell
+    std::vector<double>                 areas_of_nodes_; ///< by node
+    std::vector<SurfaceFacet<dim>>      facets_;
   };
 } // namespace talus
 

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_water_solid_at_nodes_h
+#define talus_water_solid_at_nodes_h
+
+#include <talus/contact/facet_contact.h>
+
+#include <vector>
+
+namespace talus
+{
+  /// Obstacles as the nodes see them: volume fraction and surface around each
+  /// node. Recomputed only if the mesh changes or an obstacle moves.
+  template <int dim>
+  class SolidAtNodes
+  {
+  public:
+    /// Integrate the shape functions, after each change of the mesh or its
+    /// partition. Collective.
+    void
+    prepare(const Grid<dim> &grid);
+
+    /// Find the obstacles where they are now. Collective.
+    void
+    update(const Grid<dim> &grid, const FacetContact<dim> &contact);
+
+    /// Whether there is an obstacle.
+    bool
+    exists() const
+    {
+      return exists_;
+    }
+
+    /// Integral of the shape function of an owned node outside of all obstacles,
+    /// m^dim.
+    double
+    open_volume(const unsigned int node) const
+    {
+      return (1. - volume_fraction(node)) * volume_[node];
+    }
+
+    /// Share of obstacles in the volume around a node, at most slightly below one
+    /// where the node touches a facet [-]. Zero far from surfaces.
+    double
+    volume_fraction(const unsigned int node) const
+    {
+      return records_[width * node + fraction];
+    }
+
+    /// Area of the facets around a node, weighted by its shape function,
+    /// m^(dim-1).
+    double
+    facet_area(const unsigned int node) const
+    {
+      return records_[width * node + area];
+    }
+
+    /// Area of the facets around a node that boxes on them cover at least,
+    /// weighted by the shape function of the node, m^(dim-1): boxes parallel to
+    /// the axes leave gaps over an inclined surface, in steps of their height.
+    double
+    min_covered_area(const unsigned int node) const
+    {
+      return records_[width * node + min_covered];
+    }
+
+    /// Whether a node lies inside an obstacle.
+    bool
+    contains(const unsigned int node) const
+    {
+      return exists_ && distance_[node] < 0;
+    }
+
+    /// Signed distance of a node from the obstacles, m; NaN where no cell of the
+    /// node touches a facet.
+    double
+    distance(const unsigned int node) const
+    {
+      return distance_[node];
+    }
+
+  private:
+    // By node: volume fraction [-] and areas of facets, m^(dim-1).
+    enum Record
+    {
+      fraction,
+      area,
+      min_covered,
+      width
+    };
+
+    void
+    find_distances(const Grid<dim> &grid, const FacetContact<dim> &contact);
+
+    bool                is_known_ = false;
+    bool                exists_   = false;
+    std::vector<double> volume_;   ///< integral of the shape function, by node
+    std::vector<double> records_;  ///< by node
+    std::vector<double> distance_; ///< by node, m
+    NodalExchange<dim>  exchange_;
+  };
+} // namespace talus
+
+#endif

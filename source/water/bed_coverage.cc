@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/geometry/cut_box.h>
+#include <talus/transfer/box_rule.h>
+#include <talus/water/bed_coverage.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Volume fraction from which on soil covers the bed, whatever its boxes say,
+    /// and where that begins to count.
+    constexpr double full = 0.95, nearly_full = 0.8;
+
+    /// Boxes whose lower sides are so far above the bed, in cells, lie on it, or
+    /// do not: in between partly.
+    constexpr double lies_on_bed = 0.05, lies_above_bed = 0.25;
+
+    /// Sum of sections from which on the bed counts as covered, as a share of the
+    /// area that boxes cover at least.
+    constexpr double covered = 0.95;
+
+    /// The axis along which boxes stand on a bed with this normal.
+    template <int dim>
+    unsigned int
+    steepest_axis(const Tensor<1, dim> &normal)
+    {
+      unsigned int axis = 0;
+      for (unsigned int d = 1; d < dim; ++d)
+        if (std::abs(normal[d]) > std::abs(normal[axis]))
+          axis = d;
+      return axis;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  void
+  BedCoverage<dim>::prepare(const Grid<dim> &grid)
+  {
+    is_at_bottom_.assign(grid.n_owned_cells(), 0);
+    for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+      is_at_bottom_[c] = (grid.faces_of_node(grid.cells()[c].nodes()[0]) >> 2) & 1;
+    is_full_.assign(grid.n_nodes(), 0);
+    sums_.assign(std::size_t(width) * grid.n_nodes(), 0.);
+    exchange_.prepare(grid, width);
+  }
+
+
+
+  // Points of the cells at the bed and of those beside them: a box on the bed is
+  // at most a cell long.
+  template <int dim>
+  void
+  BedCoverage<dim>::find(const State<dim>        &state,
+                         const SolidAtNodes<dim> &solid,
+                         const VolumeFraction    &volume_fraction)
+  {
+    const Grid<dim> &grid = state.grid;
+    clear(grid);
+    for (const unsigned int node : state.nodes.active_nodes())
+      {
+        is_full_[node] = volume_fraction(node) >= full;
+        touched_.push_back(node);
+      }
+    for (const Segment &segment : state.points.segments())
+      {
+        const Cell<dim> &cell = grid.cells()[segment.cell];
+        const bool is_at_bottom = is_at_bottom_[segment.cell];
+        if ((!is_at_bottom && !solid.exists()) || is_full(cell))
+          continue;
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          {
+            const Point<dim> x =
+              load_place(state.points, state.points.position, p);
+            Plane plane{x[1] - cell.lower[1], Tensor<1, dim>()};
+            plane.normal[1] = 1.;
+            if (is_at_bottom)
+              add_box(state, p, cell.size, plane, bottom);
+            if (find_plane(cell, solid, x, plane))
+              add_box(state, p, cell.size, plane, facets);
+          }
+      }
+    for (const auto &hanging : grid.hanging_nodes())
+      for (const unsigned int i : {bottom, facets})
+        {
+          double &given = sums_[width * hanging.node + i];
+          for (const auto &[master, weight] : hanging.masters)
+            if (given > 0)
+              {
+                sums_[width * master + i] += weight * given;
+                touched_.push_back(master);
+              }
+          given = 0;
+        }
+    exchange_.add_to_owners(sums_.data());
+    find_shares(state, solid, volume_fraction);
+  }
+
+
+
+  /// Forget the last step.
+  template <int dim>
+  void
+  BedCoverage<dim>::clear(const Grid<dim> &grid)
+  {
+    const auto clear_node = [this](const unsigned int node) {
+      std::fill_n(sums_.begin() + std::size_t(width) * node, width, 0.);
+      is_full_[node] = 0;
+    };
+    std::for_each(touched_.begin(), touched_.end(), clear_node);
+    std::for_each(grid.interface_nodes().begin(),
+                  grid.interface_nodes().end(),
+                  clear_node);
+    touched_.clear();
+  }
+
+
+
+  /// Whether the shares of all nodes are known without the boxes. Ghosts count
+  /// as not full.
+  template <int dim>
+  bool
+  BedCoverage<dim>::is_full(const Cell<dim> &cell) const
+  {
+    const auto nodes = cell.nodes();
+    return std::all_of(nodes.begin(), nodes.end(), [&](const unsigned int n) {
+      return is_full_[n];
+    });
+  }
+
+
+
+  /// Plane of the obstacles by the distances of the cell's nodes. Returns whether
+  /// there is one.
+  template <int dim>
+  bool
+  BedCoverage<dim>::find_plane(const Cell<dim>         &cell,
+                               const SolidAtNodes<dim> &solid,
+                               const Point<dim>        &x,
+                               Plane                   &plane) const
+  {
+    if (!solid.exists())
+      return false;
+    const auto nodes = cell.nodes();
+    if (std::isnan(solid.distance(nodes[0])))
+      return false;
+    const auto N = shape_values_at<dim>(cell.box(), x);
+    plane        = Plane{0., Tensor<1, dim>()};
+    for (unsigned int v = 0; v < nodes.size(); ++v)
+      {
+        const double distance = solid.distance(nodes[v]);
+        plane.distance += N[v] * distance;
+        for (unsigned int d = 0; d < dim; ++d)
+          plane.normal[d] += (((v >> d) & 1) ? distance : -distance);
+      }
+    const double length = plane.normal.norm();
+    plane.normal /= length;
+    return length > 0;
+  }
+
+
+
+  // The section of a box is sampled at two places along each axis of the bed, so
+  // that boxes of any length up to a cell cover a flat bed evenly.
+  template <int dim>
+  void
+  BedCoverage<dim>::add_box(const State<dim>  &state,
+                            const unsigned int p,
+                            const double       cell_size,
+                            const Plane       &plane,
+                            const Sum          sum)
+  {
+    const Tensor<1, dim> &n    = plane.normal;
+    const unsigned int    axis = steepest_axis<dim>(n);
+    Tensor<1, dim>        half;
+    double                area = 1. / std::abs(n[axis]);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        const Tensor<1, dim> edge =
+          edge_of_box(state.points, state.box_shape.rule, d, p);
+        for (unsigned int e = 0; e < dim; ++e)
+          half[e] += 0.5 * std::abs(edge[e]);
+      }
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != axis)
+        area *= half[d]; // of one of two samples along the axis
+    const Point<dim> x = load_place(state.points, state.points.position, p);
+    for (unsigned int i = 0; i < power(2, dim - 1); ++i)
+      {
+        Point<dim> foot     = x;
+        double     distance = plane.distance;
+        for (unsigned int d = 0, bit = 0; d < dim; ++d)
+          if (d != axis)
+            {
+              const double shift = (((i >> bit++) & 1) ? 0.5 : -0.5) * half[d];
+              foot[d] += shift;
+              distance += n[d] * shift;
+            }
+        const double gap =
+          (distance - half[axis] * std::abs(n[axis])) / cell_size;
+        const double weight = std::clamp((lies_above_bed - gap) /
+                                           (lies_above_bed - lies_on_bed),
+                                         0.,
+                                         1.);
+        foot[axis] -= distance / n[axis];
+        if (weight > 0)
+          add_foot(state.grid, foot, weight * area, sum);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  BedCoverage<dim>::add_foot(const Grid<dim>  &grid,
+                             const Point<dim> &foot,
+                             const double      area,
+                             const Sum         sum)
+  {
+    const unsigned int c = grid.find_cell(foot);
+    if (c >= grid.cells().size())
+      return;
+    const Cell<dim> &cell  = grid.cells()[c];
+    const auto       nodes = cell.nodes();
+    Point<dim>       x     = foot;
+    for (unsigned int d = 0; d < dim; ++d)
+      x[d] = std::clamp(x[d], cell.lower[d], cell.lower[d] + cell.size);
+    const auto N = shape_values_at<dim>(cell.box(), x);
+    for (unsigned int v = 0; v < nodes.size(); ++v)
+      {
+        sums_[width * nodes[v] + sum] += N[v] * area;
+        touched_.push_back(nodes[v]);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  BedCoverage<dim>::find_shares(const State<dim>        &state,
+                                const SolidAtNodes<dim> &solid,
+                                const VolumeFraction    &volume_fraction)
+  {
+    const auto share = [](double &sum, const double area, const double f) {
+      const double s =
+        std::clamp((f - nearly_full) / (full - nearly_full), 0., 1.);
+      sum = (area > 0 ? std::max(s, std::min(1., sum / (covered * area))) : 0.);
+    };
+    constexpr unsigned int bottom_face = 2;
+    const Grid<dim> &grid = state.grid;
+    for (const unsigned int node : state.nodes.active_nodes())
+      {
+        const double f = volume_fraction(node);
+        double      &on_bottom = sums_[width * node + bottom];
+        double      &on_facets = sums_[width * node + facets];
+        if (f == 0)
+          {
+            on_bottom = on_facets = 0;
+            continue;
+          }
+        share(on_bottom,
+              (grid.faces_of_node(node) >> bottom_face) & 1 ?
+                grid.face_share(bottom_face, node).area :
+                0.,
+              f);
+        share(on_facets, solid.exists() ? solid.min_covered_area(node) : 0., f);
+      }
+  }
+
+
+
+  template class BedCoverage<2>;
+  template class BedCoverage<3>;
+} // namespace talus

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Drag on bodies that move as a whole through water at rest: on layers of any
+// thickness, and on noses of any slope.
+#include "obstacles_setup.h"
+#include "ranks_setup.h"
+#include "suites.h"
+
+#include <talus/geometry/analytic_shapes.h>
+#include <talus/problem/filling.h>
+#include <talus/water/free_surface.h>
+
+#include <cmath>
+
+namespace Utilities = dealii::Utilities;
+
+namespace
+{
+  TALUS_ALSO_ON_RANKS(WaterDrag, 3);
+
+  double L=60.;
+  constexpr double degree = M_PI / 180.;
+
+  template <int dim>
+  using Sections =
+    std::initializer_list<typename WithObstacles<dim>::Section>;
+
+  /// Forces divided by half the density of the water, its coefficient and the
+  /// square of the velocity, m^(dim-1).
+  template <int dim>
+  struct DragAreas
+  {
+    Tensor<1, dim> friction;
+    Tensor<1, dim> pressure;
+  };
+
+  /// Soil in an intersection of half spaces, two points per cell and axis.
+  template <int dim>
+  struct ClippedSoil : Core<dim>
+  {
+    ClippedSoil(const std::string   &parameters,
+                const Sections<dim> &sections = {})
+      : Core<dim>(parameters)
+      , with(sections)
+      , contact(with.obstacles)
+    {
+      contact.prepare(this->grid);
+      surface.prepare(this->grid);
+    }
+
+    void
+    keep_below(const Point<dim> &x, const Tensor<1, dim> &normal)
+    {
+      shapes.push_back(std::make_unique<HalfSpace<dim>>(x, normal));
+    }
+
+    /// Drag at velocity @p u, m/s.
+    DragAreas<dim>
+    drag(const Tensor<1, dim> &u)
+    {
+      fill(u);
+      this->sort();
+      this->scatter();
+      surface.find(*this, contact);
+      DragAreas<dim> result;
+      for (const SurfaceFacet<dim> &facet : surface.facets())
+        {
+          EXPECT_LT((facet.velocity - u).norm(), 1e-12);
+          const double         area    = facet.vector_area * facet.normal;
+          const double         outward = u * facet.normal;
+          const Tensor<1, dim> along   = u - outward * facet.normal;
+          result.friction += area * along.norm() * along;
+          if (outward > 0)
+            result.pressure += outward * outward * facet.vector_area;
+        }
+      result.friction =
+        Utilities::MPI::sum(result.friction, this->grid.communicator());
+      result.pressure =
+        Utilities::MPI::sum(result.pressure, this->grid.communicator());
+      return result;
+    }
+
+    void
+    fill(const Tensor<1, dim> &u)
+    {
+      Region<dim> region;
+      for (const auto &shape : shapes)
+        region.restrict_to(*shape);
+      std::array<unsigned int, dim> n;
+      n.fill(2);
+      for (const auto &point : clipped_filling<dim>(this->grid,
+                                                    region,
+                                                    this->grid.domain(),
+                                                    n))
+        {
+          double volume = 1.;
+          for (unsigned int d = 0; d < dim; ++d)
+            volume *= point.length[d];
+          const unsigned int p = this->add(point.x, point.length);
+          this->points.data(this->points.mass)[p]             = 1600. * volume;
+          this->points.data(this->points.reference_volume)[p] = volume;
+          this->set(this->points.velocity, p, u);
+        }
+    }
+
+    WithObstacles<dim>                          with;
+    FacetContact<dim>                           contact;
+    FreeSurface<dim>                            surface;
+    std::vector<std::unique_ptr<HalfSpace<dim>>> shapes;
+  };
+
+
+
+  template <int dim>
+  Tensor<1, dim>
+  direction(const unsigned int axis, const double angle)
+  {
+    Tensor<1, dim> result;
+    result[axis] = std::cos(angle);
+    result[1]    = std::sin(angle);
+    return result;
+  }
+
+
+
+  /// Friction on a layer of @p thickness cells and 60 cells in length, on a plane
+  /// through (0, @p height) that rises by @p angle, compared to its top.
+  double
+  friction_on_layer(const double thickness,
+                    const double angle,
+                    const double height)
+  {
+    const Tensor<1, 2> along  = direction<2>(0, angle);
+    const Tensor<1, 2> across = direction<2>(0, angle + 0.5 * M_PI);
+    const auto         format = [](const Tensor<1, 2> &x) {
+      std::ostringstream out;
+      out << std::setprecision(17) << x[0] << ", " << x[1];
+      return out.str();
+    };
+    const Point<2> origin(0., height);
+    const std::string parameters = mesh("0, 0", "68, 42");
+    const std::string plane = "Shape = half-plane|Point = " + format(origin) +
+                              "|Normal = " + format(across);
+    auto soil = height > 0 ? std::make_unique<ClippedSoil<2>>(
+                               parameters, Sections<2>{{"bed", plane}}) :
+                             std::make_unique<ClippedSoil<2>>(parameters);
+    const Point<2> start = origin + 3.21 * along;
+    soil->keep_below(origin, -across);
+    soil->keep_below(origin + thickness * across, across);
+    soil->keep_below(start, -along);
+    soil->keep_below(start + L * along, along);
+    return soil->drag(along).friction * along / L;
+  }
+
+
+
+  /// Pressure on a nose 20 cells high that slopes by @p angle towards the lower
+  /// or the upper end of @p axis, compared to that of a plane.
+  template <int dim>
+  double
+  pressure_on_nose(const double angle, const unsigned int axis, const bool up)
+  {
+    const double height = 20., length = height / std::tan(angle) + 12.;
+    const double extent = std::ceil(length + 5.);
+    Tensor<1, dim> sense;
+    sense[axis] = (up ? 1. : -1.);
+    std::string upper;
+    for (unsigned int d = 0; d < dim; ++d)
+      upper += (d > 0 ? ", " : "") +
+               std::to_string(d == axis ? extent : d == 1 ? 23. : 2.);
+    ClippedSoil<dim> soil(mesh(dim == 2 ? "0, 0" : "0, 0, 0", upper));
+    Point<dim>       toe, top;
+    toe[axis] = (up ? length : extent - length);
+    top[1]    = height;
+    Tensor<1, dim> normal = std::sin(angle) * sense;
+    normal[1]             = std::cos(angle);
+    soil.keep_below(toe, normal);
+    soil.keep_below(top, direction<dim>(axis, 0.5 * M_PI));
+    const double width = (dim == 2 ? 1. : 2.);
+    return soil.drag(sense).pressure * sense /
+           (width * height * std::pow(std::sin(angle), 2));
+  }
+} // namespace
+
+
+
+TEST(WaterDrag, LayersOfAnyThickness)
+{
+  for (L=20;L<61;L+=40) for (const double t : {0.125, 0.25, 0.5, 0.75, 1., 2.})
+    {
+      std::cout << t;
+      for (const auto &[angle, height] :
+           std::vector<std::pair<double, double>>{
+             {0., 0.}, {0., 0.37}, {0., 1.0}, {5., 0.37}, {17., 0.37}, {30., 0.37}})
+       {
+        const double f = friction_on_layer(t, angle * degree, height);
+        std::cout << " " << f;
+       }
+      std::cout << std::endl;
+    }
+}
+
+
+
+TEST(WaterDrag, NosesOfAnySlope)
+{
+  for (const double angle : {90., 63., 45., 30., 20., 15.})
+    {
+      const double right = pressure_on_nose<2>(angle * degree, 0, true);
+      const double left  = pressure_on_nose<2>(angle * degree, 0, false);
+      std::cout << angle << " " << right << " " << left << std::endl;
+    }
+}
+TEST(WaterDrag, NosesOfAnySlope3)
+{
+  for (const double angle : {90., 63., 45., 30., 20., 15.})
+    std::cout << angle << " " << pressure_on_nose<3>(angle * degree, 0, true)<< " " << pressure_on_nose<3>(angle * degree, 0, false)<< " " << pressure_on_nose<3>(angle * degree, 2, true)<< " " << pressure_on_nose<3>(angle * degree, 2, false)<<std::endl;
+}
