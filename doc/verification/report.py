@@ -42,8 +42,9 @@ SECTIONS = [
      ["ImplicitColumn", "ImplicitElasticaLoads", "ImplicitElastica",
       "Multigrid"]),
     ("Factors of safety",
-     ["InfiniteSlope", "TaylorSlope", "PaperSlopeSafety", "StripFooting",
-      "StripFootingFine", "VerticalCutSafety", "VerticalCutSafetyFine"]),
+     ["InfiniteSlope", "TaylorSlope", "PaperSlopeSafety", "ClaySlope",
+      "ClaySlopeFine", "SlopeStability", "StripFooting", "StripFootingFine",
+      "VerticalCutSafety", "VerticalCutSafetyFine"]),
     ("From rest into motion",
      ["Geostatic", "Trigger", "GroundMotion", "LandslideFromEquilibrium",
       "LandslideFromEquilibriumFine"]),
@@ -68,7 +69,8 @@ SUMMARY = [
 ]
 SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
         "VerticalCutBracket", "ElasticaLoads", "ImplicitElasticaLoads",
-        "StripFootingFine", "VerticalCutSafetyFine",
+        "StripFootingFine", "VerticalCutSafetyFine", "ClaySlopeFine",
+        "SlopeStability",
         "LandslideFromEquilibriumFine", "PipeRefined",
         "LandslideInclinedFull", "LandslideInclinedFine"}
 

@@ -180,11 +180,14 @@ namespace talus
       take_slivers();
       void
       receive(const std::vector<Gift<dim>> &gifts);
+      Parts &
+      changing_parts(unsigned int cell);
 
       const Grid<dim>              &grid_;
       std::array<unsigned int, dim> n_;
       // By cell; a cell without any is missing.
       std::map<unsigned int, Parts> parts_; // at first, which decides
+      // Of the cells that have given or received a sliver.
       std::map<unsigned int, Parts> now_;
     };
 
@@ -206,12 +209,13 @@ namespace talus
             continue;
           Parts parts = parts_of_cell(cell, region);
           n_boxes += parts.size();
-          // There are two copies.
-          check_memory(grid, n_boxes, 2. * sizeof(PartInside<dim>));
+          // The points are made while the parts are there.
+          check_memory(grid,
+                       n_boxes,
+                       sizeof(PartInside<dim>) + sizeof(NewPoint<dim>));
           if (!parts.empty())
             parts_.emplace(c, std::move(parts));
         }
-      now_ = parts_;
     }
 
 
@@ -355,6 +359,17 @@ namespace talus
 
 
 
+    /// Parts of the boxes of @p cell now, copied from those at first when they
+    /// change for the first time.
+    template <int dim>
+    typename ClippedBoxes<dim>::Parts &
+    ClippedBoxes<dim>::changing_parts(const unsigned int cell)
+    {
+      return now_.try_emplace(cell, parts_.at(cell)).first->second;
+    }
+
+
+
     /// By the rank that gets them; what is taken is no longer there. Where soil
     /// thins out so slowly that no kept box is around, slivers go to the largest
     /// one, from where they may go on. They only go to boxes that had more at
@@ -364,12 +379,14 @@ namespace talus
     ClippedBoxes<dim>::take_slivers()
     {
       std::map<unsigned int, std::vector<Gift<dim>>> gifts;
-      for (auto &[cell, parts] : now_)
-        for (unsigned int i = 0; i < parts.size(); ++i)
+      for (const auto &[cell, first] : parts_)
+        for (unsigned int i = 0; i < first.size(); ++i)
           {
-            PartInside<dim> &part = parts[i];
-            if (cell >= grid_.n_owned_cells() || part.volume == 0. ||
-                is_kept(parts_.at(cell)[i], cell))
+            if (cell >= grid_.n_owned_cells() || first[i].volume == 0. ||
+                is_kept(first[i], cell))
+              continue;
+            PartInside<dim> &part = changing_parts(cell)[i];
+            if (part.volume == 0.)
               continue;
             auto [to_cell, to_box] = nearest_kept(part.centroid, cell);
             if (to_cell == numbers::invalid_unsigned_int)
@@ -422,7 +439,7 @@ namespace talus
       for (const auto &[names, numbers] : gifts)
         {
           PartInside<dim> &part =
-            now_.at(grid_.cell_of_key(names[0]))[names[1]];
+            changing_parts(grid_.cell_of_key(names[0]))[names[1]];
           // Steiner: the variance of two parts is theirs and that of their
           // centroids.
           const double share = numbers[0] / (part.volume + numbers[0]);
@@ -463,11 +480,18 @@ namespace talus
     std::vector<NewPoint<dim>>
     ClippedBoxes<dim>::points() const
     {
+      std::size_t n_boxes = 0;
+      for (const auto &[c, parts] : parts_)
+        n_boxes += (c < grid_.n_owned_cells() ? parts.size() : 0);
       std::vector<NewPoint<dim>> result;
-      for (const auto &[c, parts] : now_)
+      result.reserve(n_boxes);
+      for (const auto &[c, first] : parts_)
         {
           if (c >= grid_.n_owned_cells())
             break;
+          const auto   changed = now_.find(c);
+          const Parts &parts =
+            (changed == now_.end() ? first : changed->second);
           const Cell<dim>     &cell    = grid_.cells()[c];
           const auto           centres = lattice_of<dim>(cell, n_);
           const Tensor<1, dim> length  = lattice_lengths<dim>(cell, n_);

@@ -153,19 +153,6 @@ namespace talus
 
 
 
-  /// Whether large strain has moved the points away from where the bodies are.
-  template <int dim>
-  bool
-  StaticStages<dim>::soil_has_moved() const
-  {
-    return stages_.contain(Stage::equilibrium) &&
-           (standing_factor_ == 1.
-              ? equilibrium().measure()
-              : measure_of_stronger_soil()) == StrainMeasure::large;
-  }
-
-
-
   /// Collective.
   template <int dim>
   void
@@ -201,8 +188,8 @@ namespace talus
   void
   StaticStages<dim>::let_weight_act()
   {
-    if (!stages_.contain(Stage::equilibrium) || soil_has_moved() ||
-        standing_factor_ != 1. ||
+    if (!stages_.contain(Stage::equilibrium) || standing_factor_ != 1. ||
+        equilibrium().measure() == StrainMeasure::large ||
         !equilibrium().newton().equations().has_well_balanced_load())
       return;
     const auto before = solver_.save();
@@ -364,6 +351,9 @@ namespace talus
     problem_.scale_seabed_strength(
       strength_reduction_.includes_seabed() ? 1. / standing_factor_ : 1.);
     log_.say(LogLevel::result, strength_reduction_.result());
+    if (!stages_.contain(Stage::equilibrium) ||
+        equilibrium().measure() == StrainMeasure::large)
+      tell_of_well_balanced_load();
     if (const std::string note = failure_depth_.note(state_, problem_);
         !note.empty())
       log_.say(LogLevel::result, note);
@@ -399,12 +389,10 @@ namespace talus
   StaticStages<dim>::stands_with(const double factor)
   {
     divide_strength(factor);
-    EquilibriumLimits limits =
+    return solver_.find_again(
       strength_reduction_.limits(factor,
-                                 equilibrium().limits(StrainMeasure::small));
-    // Points that have moved are no longer where the mudline was.
-    limits.is_well_balanced = limits.is_well_balanced && !soil_has_moved();
-    return solver_.find_again(limits, label(factor));
+                                 equilibrium().limits(StrainMeasure::small)),
+      label(factor));
   }
 
 

@@ -227,7 +227,8 @@ class BadInput(Case):
 
     def test_no_points(self):
         self.refuse_set(["Bodies/block/Lower corner=1.4,0.4",
-                         "Bodies/block/Upper corner=1.6,0.6"],
+                         "Bodies/block/Upper corner=1.6,0.6",
+                         "Bodies/block/Filling=centres"],
                         "block", "no points", "Points per cell and axis")
 
     def test_mesh_upside_down(self):

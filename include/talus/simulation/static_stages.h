@@ -86,8 +86,6 @@ namespace talus
 
     void
     find_equilibrium();
-    bool
-    soil_has_moved() const;
     void
     tell_of_well_balanced_load() const;
     void
