@@ -120,17 +120,26 @@ namespace talus
     if (film_consistency_ == 0)
       return rest;
     const double excess = trial - rest;
-    double       lower = 0, upper = excess / mass, u = upper;
-    for (unsigned int i = 0; i < 60 && upper - lower > 1e-14 * upper; ++i)
+    if (film_exponent_ == 1.)
+      {
+        const double film = dt * film_force(1., area);
+        return rest + excess * film / (mass + film);
+      }
+    double lower = 0, upper = excess / mass, u = upper;
+    for (unsigned int i = 0; i < 60; ++i)
       {
         const double film           = dt * film_force(u, area);
         const double error          = mass * u + film - excess;
         (error > 0 ? upper : lower) = u;
+        const double before         = u;
         u -= error / (mass + film_exponent_ * film / u);
         if (!(u > lower && u < upper))
           u = 0.5 * (lower + upper);
+        if (std::abs(u - before) <= 1e-14 * before)
+          break;
       }
-    return rest + dt * film_force(u, area);
+    // Between rest and trial, however near the root is.
+    return trial - mass * u;
   }
 
 

@@ -24,7 +24,7 @@ namespace talus
          Utilities::MPI::all_gather(grid.communicator(), rows()))
       all.insert(all.end(), of_rank.begin(), of_rank.end());
     means_.clear();
-    const std::vector<unsigned long> keys = keys_of_owned_nodes(grid);
+    const std::vector<unsigned long> keys = keys_of_face_nodes(grid);
     for (unsigned int face = 0; face < 2 * dim; ++face)
       {
         index_[face].clear();

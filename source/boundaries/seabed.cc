@@ -8,6 +8,13 @@ namespace talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    constexpr unsigned int bottom = 2; ///< face of the mesh, in 2-D and 3-D
+  }                                    // namespace
+
+
+
   template <int dim>
   Seabed<dim>::Seabed()
     : ParameterAcceptor("/Boundaries/Seabed")
@@ -114,12 +121,13 @@ namespace talus
                      InterfaceFriction::averaging_weight(speed * dt,
                                                          cell_size));
     const double area = contact_area(nodes, grid, face, node);
-    area_in_contact_ += area;
+    if (face == bottom && mean_normal_force > 0)
+      area_in_contact_ += area;
     const double friction =
       friction_.impulse(mass * speed,
                         mass,
                         largest_friction(node, mean_normal_force, area),
-                        area,
+                        mean_normal_force > 0 ? area : 0.,
                         dt);
 
     Tensor<1, dim> normal_impulse;

@@ -20,7 +20,8 @@ namespace talus
     // sweep, and does not change with more than four.
     constexpr unsigned int n_sweeps_at_rest = 1, n_sweeps_moving = 4;
 
-    /// Of the last steps, with @p newest as that of this one.
+    /// Running mean of the normal impulse including @p newest, the impulse of this
+    /// step, N s.
     template <int dim>
     double
     mean_normal(const FacetImpulse<dim>    &impulse,

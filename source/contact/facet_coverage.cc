@@ -131,7 +131,9 @@ namespace talus
         for (unsigned int k = 0; k < obstacles_.size() && is_shared; ++k)
           is_open =
             is_open && obstacles_[k].signed_distance(y) >
-                         -(k == facet.obstacle ? facet.deviation : tolerance);
+                         -(k == facet.obstacle
+                             ? std::min(facet.deviation, 0.05 * cell.size)
+                             : tolerance);
         if (is_open)
           samples.push_back(y);
       }
@@ -150,27 +152,26 @@ namespace talus
                                       const unsigned int       axis,
                                       const Samples           &samples) const
   {
-    const Grid<dim>       &grid     = state.grid;
-    const Cell<dim>       &cell     = grid.cells()[facet.cell];
-    constexpr unsigned int n_around = power(3, dim), middle = n_around / 2;
-    const Mask             all = (Mask(1) << samples.size()) - 1;
-    Reached                reached;
-    for (unsigned int i = 0; i < n_around && reached.covered() != all; ++i)
+    const Grid<dim> &grid  = state.grid;
+    const Cell<dim> &cell  = grid.cells()[facet.cell];
+    const auto      &cells = facets_.touching_cells(facet.cell);
+    const Mask       all   = (Mask(1) << samples.size()) - 1;
+    Reached          reached;
+    for (unsigned int i = 0; i <= cells.size() && reached.covered() != all; ++i)
       {
-        const unsigned int k = (i == 0 ? middle : i <= middle ? i - 1 : i);
-        const unsigned int c = cell.neighbors[k];
-        if (c >= grid.n_owned_cells())
+        const unsigned int c = (i == 0 ? facet.cell : cells[i - 1]);
+        if (c >= grid.n_owned_cells() || (i > 0 && c == facet.cell))
           continue;
         // Across a periodic face the neighbour lies at the other end.
         Tensor<1, dim> shift;
         for (unsigned int d = 0; d < dim; ++d)
-          {
-            const int    offset = int(k / power(3, d) % 3) - 1;
-            const double apart =
-              cell.lower[d] + offset * cell.size - grid.cells()[c].lower[d];
-            if (std::abs(apart) > 0.5 * cell.size)
-              shift[d] = apart;
-          }
+          if (grid.periodicity().along(d))
+            {
+              const double length = grid.domain().length(d);
+              shift[d] =
+                length *
+                std::round((cell.lower[d] - grid.cells()[c].lower[d]) / length);
+            }
         add_points_of(state, c, shift, facet, axis, samples, reached);
       }
     return reached;

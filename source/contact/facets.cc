@@ -169,6 +169,31 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Number for a facet with a vector area among those of its obstacle in its
+    /// cell, of which @p taken has numbers: by the axis that is nearest to the
+    /// normal, so that a facet keeps its number when an obstacle moves and others
+    /// come and go.
+    template <int dim>
+    unsigned int
+    number_of_direction(const Tensor<1, dim>      &vector_area,
+                        std::vector<unsigned int> &taken)
+    {
+      unsigned int axis = 0;
+      for (unsigned int d = 1; d < dim; ++d)
+        if (std::abs(vector_area[d]) > std::abs(vector_area[axis]))
+          axis = d;
+      unsigned int number = 2 * axis + (vector_area[axis] > 0);
+      while (std::count(taken.begin(), taken.end(), number) > 0)
+        number += 2 * dim;
+      taken.push_back(number);
+      return number;
+    }
+  } // namespace
+
+
+
   /// Find the facets of all obstacles in cell @p c: of each surface the part
   /// outside of the other obstacles, one facet for each of its directions. A
   /// surface of which a part is covered, or that only grazes a face of the cell,
@@ -191,14 +216,14 @@ namespace talus
           continue;
         const auto [pieces, is_grazing] = find_surface(cell, obstacle);
         const auto add = [&](const auto &surfaces, auto &facets) {
-          unsigned int number = 0;
+          std::vector<unsigned int> numbers;
           for (const CutSurface<dim> &surface : surfaces)
             if (surface.area >= min_area(cell))
               facets.push_back(
                 {c,
                  grid.key_of_cell(c),
                  k,
-                 number++,
+                 number_of_direction<dim>(surface.vector_area, numbers),
                  cell.nodes(),
                  shape_values_at(cell.box(), surface.centroid),
                  surface.centroid,

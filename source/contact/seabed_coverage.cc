@@ -2,6 +2,7 @@
 #include <talus/boundaries/contact_area.h>
 #include <talus/contact/box_extent.h>
 #include <talus/contact/seabed_coverage.h>
+#include <talus/points/points_kernel.h>
 #include <talus/transfer/weights_kernel.h>
 
 #include <algorithm>
@@ -167,6 +168,34 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Area of the section of the box of point @p p across @p axis, m^(dim-1);
+    /// of a convected domain the mean over its height.
+    template <int dim>
+    double
+    section_of_box(const State<dim>     &state,
+                   const unsigned int    p,
+                   const unsigned int    axis,
+                   const Tensor<1, dim> &half)
+    {
+      const Points<dim> &points = state.points;
+      if (state.box_shape.rule == BoxRule::convected_domain)
+        return points.data(points.reference_volume)[p] *
+               determinant(load_matrix<dim, double>(points,
+                                                    points.deformation_gradient,
+                                                    p)) /
+               (2. * half[axis]);
+      double area = 1.;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (d != axis)
+          area *= 2. * half[d];
+      return area;
+    }
+  } // namespace
+
+
+
   template <int dim>
   void
   SeabedCoverage<dim>::add_cell(const State<dim>  &state,
@@ -187,9 +216,7 @@ namespace talus
         double area = weight_of_gap((distance - half[axis]) / cell.size);
         if (area == 0)
           continue;
-        for (unsigned int d = 0; d < dim; ++d)
-          if (d != axis)
-            area *= 2. * half[d];
+        area *= section_of_box(state, p, axis, half);
         if (cell.uniform && state.box_shape.rule != BoxRule::convected_domain)
           add_to_patch(state, at, p, area);
         else

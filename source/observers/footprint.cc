@@ -44,30 +44,42 @@ namespace talus
         return width_;
       }
 
-      /// Call action(x) for a place in the middle of each column with soil; x[1]
-      /// is that of the lower corner of the mesh.
+      /// Call action(x, n) for squares of 4 x 4 columns with soil, of which n have
+      /// some: x lies in the middle, x[1] is that of the lower corner of the mesh.
+      /// Each rank has a part of the squares.
       template <typename Action>
       void
-      for_each_column(const Action &action) const
+      for_each_square(const MPI_Comm communicator, const Action &action) const
       {
-        for (std::size_t i = 0; i < has_soil_.size(); ++i)
-          if (has_soil_[i])
+        constexpr long     side = 4;
+        const unsigned int rank =
+                             Utilities::MPI::this_mpi_process(communicator),
+                           n_rank =
+                             Utilities::MPI::n_mpi_processes(communicator);
+        const long   n_x = n_[0], n_z = (dim == 2 ? 1 : n_[dim - 2]);
+        unsigned int k = 0;
+        for (long z = 0; z < n_z; z += side)
+          for (long x = 0; x < n_x; x += side)
             {
-              Point<dim>  x    = origin_;
-              std::size_t rest = i;
-              for (unsigned int d = 0; d < dim - 1; ++d)
-                {
-                  x[axis(d)] += (first_[d] + long(rest % n_[d]) + 0.5) * width_;
-                  rest /= n_[d];
-                }
-              action(x);
+              unsigned int n = 0;
+              for (long j = z; j < std::min(z + side, n_z); ++j)
+                for (long i = x; i < std::min(x + side, n_x); ++i)
+                  n += has_soil_[j * n_x + i];
+              if (n == 0 || k++ % n_rank != rank)
+                continue;
+              Point<dim> middle = origin_;
+              middle[0] += (first_[0] + x + 0.5 * side) * width_;
+              if (dim == 3)
+                middle[axis(dim - 2)] +=
+                  (first_[dim - 2] + z + 0.5 * side) * width_;
+              action(middle, n);
             }
       }
 
     private:
       using Columns = std::array<long, dim - 1>;
 
-      /// Of the mesh, for axis @p d of the plan.
+      /// Return the axis of the mesh for axis @p d of the plan: x or z.
       static unsigned int
       axis(const unsigned int d)
       {
@@ -97,11 +109,12 @@ namespace talus
           }
       }
 
-      /// The same on all ranks.
+      /// Find the range of columns under the boxes of all ranks. Collective.
       void
       find_extent(const State<dim> &state)
       {
-        // Of upper ends the numbers with their signs changed.
+        // Upper ends are stored with the opposite sign, so that one minimum
+        // serves both.
         std::array<long, 2 * (dim - 1)> ends;
         ends.fill(std::numeric_limits<long>::max());
         for_each_box(state, [&](const Columns &first, const Columns &last) {
@@ -121,8 +134,10 @@ namespace talus
         std::size_t n_all = 1;
         for (unsigned int d = 0; d < dim - 1; ++d)
           {
-            first_[d] = ends[2 * d];
-            n_[d]     = std::max(0l, -ends[2 * d + 1] - first_[d] + 1);
+            const bool has_points =
+              ends[2 * d] < std::numeric_limits<long>::max();
+            first_[d] = (has_points ? ends[2 * d] : 0);
+            n_[d]     = (has_points ? -ends[2 * d + 1] - first_[d] + 1 : 0);
             n_all *= n_[d];
           }
         has_soil_.assign(n_all, 0);
@@ -146,20 +161,43 @@ namespace talus
 
 
 
-    /// Area of the ground under the soil, m^(dim-1): of walls and overhangs
-    /// nothing counts.
+    /// Area of the ground under the soil, m^(dim-1). Of walls, which are steeper
+    /// than 45 degrees, and overhangs nothing counts. Collective.
     template <int dim>
     double
     footprint(const State<dim> &state, const Ground<dim> &ground)
     {
       const PlanOfSoil<dim> plan(state);
-      const double          area   = std::pow(plan.width(), dim - 1.);
-      double                result = 0;
-      plan.for_each_column([&](const Point<dim> &x) {
-        result += (ground.is_bottom_face() ? area
-                                           : area / ground.layer_normal(x)[1]);
-      });
-      return result;
+      double                n_columns = 0;
+      plan.for_each_square(state.communicator(),
+                           [&](const Point<dim> &x, const unsigned int n) {
+                             n_columns += (ground.is_bottom_face()
+                                             ? n
+                                             : n / ground.layer_normal(x)[1]);
+                           });
+      return std::pow(plan.width(), dim - 1.) *
+             Utilities::MPI::sum(n_columns, state.communicator());
+    }
+
+
+
+    /// Area of the ground on which soil acted in the last step, m^(dim-1), as
+    /// footprint() counts it. Collective.
+    template <int dim>
+    double
+    contact_area(const State<dim>        &state,
+                 const Boundaries<dim>   &boundaries,
+                 const FacetContact<dim> &contact,
+                 const Ground<dim>       &ground)
+    {
+      const double least_vertical = std::sqrt(0.5);
+      double       area           = boundaries.seabed().area_in_contact();
+      for (const unsigned int f : contact.constraints().loaded())
+        if (const ContactFacet<dim> &facet = contact.facets().owned()[f];
+            contact.impulses()[f].acts() && ground.contains(facet.obstacle) &&
+            facet.normal[1] >= least_vertical)
+          area += contact.constraints()[f].area;
+      return Utilities::MPI::sum(area, state.communicator());
     }
   } // namespace
 
@@ -173,18 +211,13 @@ namespace talus
                     Quantities              &row)
   {
     const bool has_obstacles = !contact.obstacles().empty();
-    double     in_contact    = 0, under_soil = 0;
+    double     in_contact = 0, under_soil = 0;
     if (boundaries.has_seabed() || has_obstacles)
       {
         const Ground<dim> ground(state.grid.domain(),
-                                 has_obstacles ? &contact.obstacles() :
-                                                 nullptr);
-        in_contact =
-          Utilities::MPI::sum(boundaries.seabed().area_in_contact(),
-                              state.communicator());
-        for (unsigned int k = 0; k < contact.reactions().size(); ++k)
-          if (ground.contains(k))
-            in_contact += contact.reactions()[k].total.area;
+                                 has_obstacles ? &contact.obstacles()
+                                               : nullptr);
+        in_contact = contact_area(state, boundaries, contact, ground);
         under_soil = footprint(state, ground);
       }
     const std::string unit = (dim == 2 ? "m" : "m^2");

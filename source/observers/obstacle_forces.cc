@@ -58,24 +58,26 @@ namespace talus
     double               volume = 0, deepest = 0, in_cells = 0;
     for (const Segment &segment : points.segments())
       // Others are far from the surface.
-      if (contact_.facets().is_near(segment.cell))
+      if (const Facets<dim> &facets = contact_.facets();
+          facets.is_near(segment.cell) ||
+          !facets.containing(segment.cell).empty())
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
             const auto [distance, normal] = obstacle.distance_and_normal(
               load_place(points, points.position, p));
             if (distance >= 0)
               continue;
-            const double support = support_of_box(
-              half_lengths_of_box(points, state.box_shape, p), normal);
-            const double v =
-              points.data(points.reference_volume)[p] *
-              determinant(load_matrix<dim, double>(
-                points, points.deformation_gradient, p));
+            const double support =
+              support_of_box(half_lengths_of_box(points, state.box_shape, p),
+                             normal);
+            const double v = points.data(points.reference_volume)[p] *
+                             determinant(load_matrix<dim, double>(
+                               points, points.deformation_gradient, p));
             volume += v * std::min(1., -distance / support);
-            deepest  = std::max(deepest, -distance);
-            in_cells = std::max(in_cells,
-                                -distance /
-                                  state.grid.cells()[segment.cell].size);
+            deepest = std::max(deepest, -distance);
+            in_cells =
+              std::max(in_cells,
+                       -distance / state.grid.cells()[segment.cell].size);
           }
     const MPI_Comm    communicator = state.communicator();
     const std::string name         = obstacle.name() + ' ';

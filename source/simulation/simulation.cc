@@ -78,7 +78,7 @@ namespace talus
   {
     const Quantity &footprint = list.back(), &area = list[list.size() - 2];
     const double    ratio = area.value / footprint.value;
-    if (has_noted_contact_area_ || area.value == 0 ||
+    if (has_noted_contact_area_ || area.value == 0 || footprint.value == 0 ||
         (ratio >= 0.95 && ratio <= 1.05))
       return;
     has_noted_contact_area_ = true;
@@ -512,6 +512,10 @@ namespace talus
   Simulation<dim>::list_state()
   {
     StateList list;
+    list.add("contact area remark",
+             "-",
+             has_noted_contact_area_,
+             Reduction::equal);
     state_.list_state(list);
     problem_.list_state(list);
     mesh_.list_state(list);

@@ -8,8 +8,8 @@
 
 namespace talus
 {
-  /// Volume fraction of soil in the cells at @p face, as @p node sees it, at
-  /// most one.
+  /// Volume fraction of soil in the cells at @p face, weighted by the shape
+  /// function of @p node [-]; at most one.
   template <int dim>
   double
   volume_fraction_at_face(const NodalFields<dim> &nodes,
@@ -23,8 +23,8 @@ namespace talus
 
 
 
-  /// Volume fraction from which on soil covers all of a surface, whatever its
-  /// boxes say.
+  /// Volume fraction above which a surface counts as fully covered [-]: the boxes
+  /// there are not examined.
   constexpr double volume_fraction_of_full_cells = 0.95;
 
   /// Share of a surface in contact [-]. It is @p covered, the share that lies

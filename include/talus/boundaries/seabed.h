@@ -80,8 +80,9 @@ namespace talus
       area_in_contact_ = 0;
     }
 
-    /// Area in which soil touched the seabed in the last step, on the nodes of
-    /// this rank, m^(dim-1).
+    /// Area in which soil pressed on a seabed at the bottom of the mesh in the
+    /// last step, on the nodes of this rank, m^(dim-1); 0 before the first step of
+    /// a run or a resumed run.
     double
     area_in_contact() const
     {

@@ -3,14 +3,15 @@
 #define talus_contact_box_extent_h
 
 #include <talus/points/points.h>
-#include <talus/transfer/box_shape.h>
+#include <talus/transfer/box_rule.h>
 
 #include <cmath>
 
 namespace talus
 {
   /// Half lengths of the box of point @p p, m, as the soil fills it: without the
-  /// clipping that the weights need.
+  /// clipping that the weights need. Of a convected domain: half lengths of the
+  /// box around it.
   template <int dim>
   dealii::Tensor<1, dim>
   half_lengths_of_box(const Points<dim> &points,
@@ -18,6 +19,16 @@ namespace talus
                       const unsigned int p)
   {
     dealii::Tensor<1, dim> half;
+    if (shape.rule == BoxRule::convected_domain)
+      {
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const auto edge = edge_of_box(points, shape.rule, d, p);
+            for (unsigned int i = 0; i < dim; ++i)
+              half[i] += 0.5 * std::abs(edge[i]);
+          }
+        return half;
+      }
     for (unsigned int d = 0; d < dim; ++d)
       {
         half[d] = 0.5 * points.data(points.reference_length, d)[p];

@@ -39,8 +39,8 @@ namespace talus
       messages_.connect(grid.communicator());
     }
 
-    /// Find the shares of Facets::owned() where the volume fraction says that
-    /// the cells are neither empty nor full; elsewhere they are one. Collective.
+    /// Compute the covered share of each facet of Facets::owned(). Only facets in
+    /// partly filled cells are sampled; all others get the share one. Collective.
     void
     find(const State<dim> &state, const VolumeFraction &volume_fraction);
 

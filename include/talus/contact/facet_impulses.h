@@ -61,8 +61,8 @@ namespace talus
     void
     set(const std::vector<FacetImpulse<dim>> &impulses);
 
-    /// Those of the facets that pass something, or that restore() keeps, a row
-    /// of numbers each: key of the cell (two), obstacle, number of the facet in
+    /// Return one row for each loaded facet, or the restored rows if they have not
+    /// been taken yet: key of the cell (two), obstacle, number of the facet in
     /// its cell, and those of FacetImpulse.
     std::vector<double>
     rows() const;

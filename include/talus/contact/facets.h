@@ -90,6 +90,14 @@ namespace talus
       return section_at_[c]->containing;
     }
 
+    /// Cells that share a corner with cell @p c, which has a facet and may be a
+    /// ghost; cell @p c itself is one of them.
+    const std::vector<unsigned int> &
+    touching_cells(const unsigned int c) const
+    {
+      return cut_cell_at_[c]->touching;
+    }
+
     /// Nodes that touch a facet: those this rank owns, and all it knows.
     const std::vector<unsigned int> &
     owned_nodes() const

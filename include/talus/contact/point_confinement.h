@@ -18,7 +18,9 @@ namespace talus
   /// of a point whose box has come to the surface with its lower side the part
   /// that leads further in is left out. Velocities, stress and all balances
   /// stay as they are. To push points out that are inside already would give
-  /// neighbours a jerk.
+  /// neighbours a jerk. A point is held by the surfaces in its own cell: where a
+  /// surface lies just below a face of the mesh, a box sinks until its centre is
+  /// in the cell of the surface.
   template <int dim>
   class PointConfinement
   {
