@@ -79,9 +79,9 @@ namespace talus
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         const double mass = points.data(points.mass)[p];
-        sums[0] += mass * load_place(points, points.position, p)
-                            .distance(
-                              load_place(points, points.initial_position, p));
+        sums[0] +=
+          mass * load_place(points, points.position, p)
+                   .distance(load_place(points, points.initial_position, p));
         sums[1] += mass;
       }
     Utilities::MPI::sum(sums, problem.state.grid.communicator(), sums);
