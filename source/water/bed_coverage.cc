@@ -14,7 +14,7 @@ namespace talus
   {
     /// Volume fraction from which on soil covers the bed, whatever its boxes say,
     /// and where that begins to count.
-    constexpr double full = 0.95, nearly_full = 0.8;
+    constexpr double full = 0.7, nearly_full = 0.4;
 
     /// Boxes whose lower sides are so far above the bed, in cells, lie on it, or
     /// do not: in between partly.
@@ -45,7 +45,8 @@ namespace talus
   {
     is_at_bottom_.assign(grid.n_owned_cells(), 0);
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
-      is_at_bottom_[c] = (grid.faces_of_node(grid.cells()[c].nodes()[0]) >> 2) & 1;
+      is_at_bottom_[c] =
+        (grid.faces_of_node(grid.cells()[c].nodes()[0]) >> 2) & 1;
     is_full_.assign(grid.n_nodes(), 0);
     sums_.assign(std::size_t(width) * grid.n_nodes(), 0.);
     exchange_.prepare(grid, width);
@@ -70,8 +71,8 @@ namespace talus
       }
     for (const Segment &segment : state.points.segments())
       {
-        const Cell<dim> &cell = grid.cells()[segment.cell];
-        const bool is_at_bottom = is_at_bottom_[segment.cell];
+        const Cell<dim> &cell         = grid.cells()[segment.cell];
+        const bool       is_at_bottom = is_at_bottom_[segment.cell];
         if ((!is_at_bottom && !solid.exists()) || is_full(cell))
           continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
@@ -204,10 +205,10 @@ namespace talus
             }
         const double gap =
           (distance - half[axis] * std::abs(n[axis])) / cell_size;
-        const double weight = std::clamp((lies_above_bed - gap) /
-                                           (lies_above_bed - lies_on_bed),
-                                         0.,
-                                         1.);
+        const double weight =
+          std::clamp((lies_above_bed - gap) / (lies_above_bed - lies_on_bed),
+                     0.,
+                     1.);
         foot[axis] -= distance / n[axis];
         if (weight > 0)
           add_foot(state.grid, foot, weight * area, sum);
@@ -253,10 +254,10 @@ namespace talus
       sum = (area > 0 ? std::max(s, std::min(1., sum / (covered * area))) : 0.);
     };
     constexpr unsigned int bottom_face = 2;
-    const Grid<dim> &grid = state.grid;
+    const Grid<dim>       &grid        = state.grid;
     for (const unsigned int node : state.nodes.active_nodes())
       {
-        const double f = volume_fraction(node);
+        const double f         = volume_fraction(node);
         double      &on_bottom = sums_[width * node + bottom];
         double      &on_facets = sums_[width * node + facets];
         if (f == 0)
@@ -265,9 +266,9 @@ namespace talus
             continue;
           }
         share(on_bottom,
-              (grid.faces_of_node(node) >> bottom_face) & 1 ?
-                grid.face_share(bottom_face, node).area :
-                0.,
+              (grid.faces_of_node(node) >> bottom_face) & 1
+                ? grid.face_share(bottom_face, node).area
+                : 0.,
               f);
         share(on_facets, solid.exists() ? solid.min_covered_area(node) : 0., f);
       }

@@ -18,6 +18,24 @@ namespace talus
     /// which on it is a surface. Less is noise of boxes that do not tile the soil,
     /// or a few points on their own.
     constexpr double min_area_of_surface = 0.25;
+
+    /// Vector area of a single cell, as a share of its face, below which the cell
+    /// is passed over; from twice as much on it counts.
+    constexpr double min_area_in_cell = 1e-4;
+
+    double
+    square(const double x)
+    {
+      return x * x;
+    }
+
+    /// Area of a face of a cell, m^(dim-1).
+    template <int dim>
+    double
+    face_of(const Cell<dim> &cell)
+    {
+      return dim == 2 ? cell.size : cell.size * cell.size;
+    }
   } // namespace
 
 
@@ -64,12 +82,16 @@ namespace talus
     list_cells(state);
     find_vector_areas(grid);
     for (const unsigned int c : listed_cells_)
-      if (const Tensor<1, dim> own = vector_areas_[c];
-          c < grid.n_owned_cells() && own.norm() > 0)
+      if (const double excess =
+            vector_areas_[c].norm() /
+              (min_area_in_cell * face_of<dim>(grid.cells()[c])) -
+            1.;
+          c < grid.n_owned_cells() && excess > 0)
         {
           SurfaceFacet<dim> facet;
-          if (!set_surface(grid.cells()[c], own, facet))
+          if (!set_surface(grid.cells()[c], vector_areas_[c], facet))
             continue;
+          facet.vector_area *= std::min(1., excess);
           facet.node = grid.cells()[c].nodes();
           set_soil(facet);
           facets_.push_back(facet);
@@ -148,7 +170,8 @@ namespace talus
         for (const auto &[master, weight] : hanging.masters)
           {
             const double *const from = record(master);
-            for (const unsigned int i : {fraction, facets_covered, bottom, mass})
+            for (const unsigned int i :
+                 {fraction, facets_covered, bottom, mass})
               to[i] += weight * from[i];
             for (unsigned int d = 0; d < dim; ++d)
               to[velocity + d] += weight * from[mass] * from[velocity + d];
@@ -235,8 +258,9 @@ namespace talus
   {
     constexpr unsigned int bottom_bit = 1u << 2;
     const auto             nodes      = cell.nodes();
-    const double           face = std::pow(cell.size, dim - 1) / power(2, dim - 1);
-    const double  covered = solid_.exists() ? covered_share_of_facets(nodes) : 0.;
+    const double           face       = face_of<dim>(cell) / power(2, dim - 1);
+    const double           covered =
+      solid_.exists() ? covered_share_of_facets(nodes) : 0.;
     Tensor<1, dim> result;
     for (unsigned int v = 0; v < nodes.size(); ++v)
       {
@@ -246,12 +270,11 @@ namespace talus
         for (unsigned int d = 0; d < dim; ++d)
           result[d] += ((v >> d) & 1) ? -u : u;
         if (((v >> 1) & 1) == 0 && (grid.faces_of_node(nodes[v]) & bottom_bit))
-          result[1] += (solid_.contains(nodes[v]) ?
-                          covered - u :
-                          (1. - b) * (node[bottom] - node[fraction]));
+          result[1] += (solid_.contains(nodes[v])
+                          ? covered - u
+                          : (1. - b) * (node[bottom] - node[fraction]));
       }
-    // Round-off of cells that are full.
-    return result.norm() < 1e-12 ? Tensor<1, dim>() : face * result;
+    return face * result;
   }
 
 
@@ -301,11 +324,11 @@ namespace talus
           if (step != 0)
             if (const Tensor<1, dim> other = area_at(cell, axis, step);
                 other * own > 0)
-              column += std::pow(other * own, 4) /
-                        std::pow(other.norm_square() * own.norm_square(), 2) *
+              column += square(square(other * own) /
+                               (other.norm_square() * own.norm_square())) *
                         other;
         const double length = column.norm();
-        const double weight = std::pow(column[axis] / length, 4);
+        const double weight = square(square(column[axis] / length));
         facet.normal += weight / length * column;
         area_of_column += weight * length;
         sum += weight;
@@ -314,8 +337,7 @@ namespace talus
     if (length == 0)
       return false;
     facet.normal /= length;
-    const double full =
-      min_area_of_surface * sum * std::pow(cell.size, dim - 1);
+    const double full = min_area_of_surface * sum * face_of<dim>(cell);
     facet.vector_area = std::min(1., area_of_column / full) * own;
     return facet.vector_area * facet.normal > 0;
   }

@@ -45,8 +45,7 @@ namespace talus
     volume_.assign(grid.n_nodes(), 0.);
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
       for (const unsigned int node : grid.cells()[c].nodes())
-        volume_[node] +=
-          std::pow(grid.cells()[c].size, dim) / power(2, dim);
+        volume_[node] += std::pow(grid.cells()[c].size, dim) / power(2, dim);
     for (const auto &hanging : grid.hanging_nodes())
       for (const auto &[master, weight] : hanging.masters)
         volume_[master] += weight * volume_[hanging.node];

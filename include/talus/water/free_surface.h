@@ -24,7 +24,7 @@ namespace talus
     dealii::Tensor<1, dim> vector_area; ///< integral of the outward normal,
                                         ///< m^(dim-1)
     dealii::Tensor<1, dim> normal;      ///< outwards, of the surface around
-    dealii::Tensor<1, dim> velocity; ///< of the soil, before the step, m/s
+    dealii::Tensor<1, dim> velocity;    ///< of the soil, before the step, m/s
   };
 
 
@@ -63,7 +63,7 @@ namespace talus
 
     /// Covered share of the lower face of the mesh at @p node [-]; after find().
     double
-    covered_bottom(const unsigned int node) const
+    covered_share(const unsigned int node) const
     {
       return record(node)[bottom];
     }
@@ -123,14 +123,14 @@ namespace talus
     void
     set_soil(SurfaceFacet<dim> &facet) const;
 
-    SolidAtNodes<dim>         solid_;
-    BedCoverage<dim>          coverage_;
-    std::vector<unsigned int> first_cell_, cells_; ///< ghosts, too, by node
-    NodalExchange<dim>        exchange_, exchange_of_areas_;
-    std::vector<double>       records_;
-    std::vector<unsigned int> filled_nodes_; ///< whose records are not zero
-    std::vector<unsigned int> listed_cells_; ///< that touch a filled node
-    std::vector<unsigned char> is_listed_;   ///< by cell
+    SolidAtNodes<dim>          solid_;
+    BedCoverage<dim>           coverage_;
+    std::vector<unsigned int>  first_cell_, cells_; ///< ghosts, too, by node
+    NodalExchange<dim>         exchange_, exchange_of_areas_;
+    std::vector<double>        records_;
+    std::vector<unsigned int>  filled_nodes_; ///< whose records are not zero
+    std::vector<unsigned int>  listed_cells_; ///< that touch a filled node
+    std::vector<unsigned char> is_listed_;    ///< by cell
     std::vector<dealii::Tensor<1, dim>> vector_areas_;   ///< by cell
     std::vector<double>                 areas_of_nodes_; ///< by node
     std::vector<SurfaceFacet<dim>>      facets_;
