@@ -41,7 +41,9 @@ namespace talus
     add_parameter("Maximum generation",
                   maximum_generation_,
                   "Number of splits a point may have behind it [-]. The "
-                  "default does not bound. A point at the limit is not split: "
+                  "default does not bound a slide that thins to a tenth of a "
+                  "cell (11 splits), but shear on a base without slip, which "
+                  "splits without end. A point at the limit is not split: "
                   "its box is clipped, and soil that stretches on may tear. "
                   "These points are counted in statistics.csv, and log.txt "
                   "tells when there are some.",

@@ -33,18 +33,20 @@ namespace talus
     if (unsplit.at_generation_limit + unsplit.at_mesh_limit == 0)
       return;
     is_written_ = true;
-    log_.say(LogLevel::info,
-             text("At t = ",
-                  state.time,
-                  " s points are stretched too far and cannot be split, so "
-                  "that the soil may tear: ",
-                  unsplit.at_generation_limit,
-                  " have 'Splitting/Maximum generation' splits behind them, "
-                  "which the default does not bound; the children of ",
-                  unsplit.at_mesh_limit,
-                  " would lie more than half a cell outside the mesh, which a "
-                  "larger mesh or smaller cells allow. The columns 'points at "
-                  "... limit' of statistics.csv count them on."));
+    log_.say(
+      LogLevel::info,
+      text("At t = ",
+           state.time,
+           " s points are stretched too far and cannot be split, so "
+           "that the soil may tear: ",
+           unsplit.at_generation_limit,
+           " points have reached 'Splitting/Maximum generation' (raise "
+           "it, unless they lie on a base without slip); the children "
+           "of ",
+           unsplit.at_mesh_limit,
+           " points would lie more than half a cell outside the mesh "
+           "(use a larger mesh or smaller cells). The columns 'points at "
+           "... limit' of statistics.csv count them on."));
   }
 
 

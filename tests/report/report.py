@@ -133,7 +133,7 @@ class Report(ReportCase):
         counts = [float(row["points at generation limit"])
                   for row in read_csv(folder / "statistics.csv")]
         self.assertIn(f"Up to {max(counts):.0f} points were {words}", page.said("notices"))
-        self.assertIn("Raise that number: its default does not bound", page.said("notices"))
+        self.assertIn("Raise that number", page.said("notices"))
         self.assertEqual(float(page.values["points at generation limit"]), max(counts))
         self.assertIn("cannot be split", page.said("log"))
         self.assertEqual((folder / "log.txt").read_text().count("cannot be split"), 1)

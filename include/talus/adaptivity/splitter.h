@@ -189,7 +189,7 @@ namespace talus
     double       threshold_          = 1.4;
     std::string  directions_         = "stretched";
     double       minimum_length_     = 0.7;
-    unsigned int maximum_generation_ = 1000; // no soil is stretched so far
+    unsigned int maximum_generation_ = 16; // stretched by 65 536
     unsigned int maximum_points_     = 10000000;
 
     struct Violation
