@@ -10,7 +10,7 @@ namespace
   using dealii::Tensor;
 
   // More than a register of any machine holds, and a rest.
-  constexpr unsigned int n_points = 27;
+  constexpr unsigned int n_deformed = 27;
 
   /// Deformation gradient with the determinant @p J whose longest axis is about
   /// @p length: a random one, sheared.
@@ -37,9 +37,9 @@ namespace
   boxes(Core<dim> &core, const BoxRule rule)
   {
     auto &points = core.points;
-    update_stretch(points, core.workspace, 0, n_points, rule, 0.);
+    update_stretch(points, core.workspace, 0, n_deformed, rule, 0.);
     std::vector<double> result;
-    for (unsigned int p = 0; p < n_points; ++p)
+    for (unsigned int p = 0; p < n_deformed; ++p)
       for (unsigned int d = 0; d < dim; ++d)
         {
           result.push_back(edge_of_box(points, rule, d, p).norm());
@@ -57,10 +57,10 @@ namespace
   {
     Core<dim> core(cube<dim>());
     auto     &points = core.points;
-    points.append(n_points);
-    core.workspace.reinit(0, n_points);
-    std::vector<Tensor<2, dim>> F(n_points);
-    for (unsigned int p = 0; p < n_points; ++p)
+    points.append(n_deformed);
+    core.workspace.reinit(0, n_deformed);
+    std::vector<Tensor<2, dim>> F(n_deformed);
+    for (unsigned int p = 0; p < n_deformed; ++p)
       {
         // Every third one is to stay as it is.
         F[p] = sheared(core, p % 3 == 0 ? 900. : 1100. + 50. * p, 0.9);
@@ -73,11 +73,11 @@ namespace
           }
       }
     const std::vector<double> before = boxes(core, rule);
-    renew_large_deformations(points, 0, n_points, rule);
+    renew_large_deformations(points, 0, n_deformed, rule);
     const std::vector<double> after = boxes(core, rule);
     for (unsigned int i = 0; i < before.size(); ++i)
       EXPECT_NEAR(after[i], before[i], 1e-7 * before[i]);
-    for (unsigned int p = 0; p < n_points; ++p)
+    for (unsigned int p = 0; p < n_deformed; ++p)
       {
         const Tensor<2, dim> now = core.deformation(p);
         if (F[p].norm() <= 1000.)
