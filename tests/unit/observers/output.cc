@@ -100,7 +100,7 @@ namespace
                                    "#   HDF5 1.",
                                    "#   Boost 1.",
                                    "subsection Output",
-                                   "Statistics interval = 0.25",
+                                   "Statistics interval  = 0.25",
                                    "Cell size"})
       EXPECT_NE(record.find(part), std::string::npos) << part << record;
     EXPECT_NE(record.find(folder.string()), std::string::npos) << record;

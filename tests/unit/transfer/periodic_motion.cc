@@ -77,9 +77,11 @@ namespace
     for (const unsigned int width : {1, 2, 5})
       {
         const Periodic<2> periodic{{{true, false}}, width};
-        Core<2>           core(periodic.grid() + periodic.conditions() +
-                     in_section("Splitting", "set Minimum length = 0"));
-        const Point<2>    x(-2.999, -1.4);
+        Core<2>           core(
+          periodic.grid() + periodic.conditions() +
+          in_section("Splitting",
+                     "set Minimum length = 0\nset Directions = all"));
+        const Point<2> x(-2.999, -1.4);
         if (core.grid.find_cell(x) < core.grid.n_owned_cells())
           {
             const unsigned int p = core.add(x, Point<2>(0.5, 0.5));
