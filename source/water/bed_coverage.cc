@@ -25,6 +25,17 @@ namespace talus
     /// area that boxes cover at least.
     constexpr double covered = 0.95;
 
+    /// Whether a place is in a cell, or on one of its lower faces.
+    template <int dim>
+    bool
+    contains(const Cell<dim> &cell, const Point<dim> &x)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (x[d] < cell.lower[d] || x[d] >= cell.lower[d] + cell.size)
+          return false;
+      return true;
+    }
+
     /// The axis along which boxes stand on a bed with this normal.
     template <int dim>
     unsigned int
@@ -50,8 +61,11 @@ namespace talus
         (grid.faces_of_node(grid.cells()[c].nodes()[0]) >> 2) & 1;
     constexpr unsigned int face = 2;
     area_of_bottom_.assign(grid.n_owned_nodes(), 0.);
+    std::vector<unsigned char> hangs(grid.n_nodes(), 0);
+    for (const auto &hanging : grid.hanging_nodes())
+      hangs[hanging.node] = 1;
     for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
-      if ((grid.faces_of_node(node) >> face) & 1)
+      if (!hangs[node] && ((grid.faces_of_node(node) >> face) & 1))
         area_of_bottom_[node] = grid.face_share(face, node).area;
     sums_.assign(std::size_t(width) * grid.n_nodes(), 0.);
     exchange_.prepare(grid, width);
@@ -85,9 +99,9 @@ namespace talus
             Plane plane{x[1] - cell.lower[1], Tensor<1, dim>()};
             plane.normal[1] = 1.;
             if (is_at_bottom)
-              add_box(state, p, cell.size, plane, bottom);
+              add_box(state, p, cell, plane, bottom);
             if (is_at_facets && find_plane(cell, solid, x, plane))
-              add_box(state, p, cell.size, plane, facets);
+              add_box(state, p, cell, plane, facets);
           }
       }
     for (const auto &hanging : grid.hanging_nodes())
@@ -172,7 +186,7 @@ namespace talus
   void
   BedCoverage<dim>::add_box(const State<dim>  &state,
                             const unsigned int p,
-                            const double       cell_size,
+                            const Cell<dim>   &cell,
                             const Plane       &plane,
                             const Sum          sum)
   {
@@ -197,14 +211,14 @@ namespace talus
               distance += n[d] * shift;
             }
         const double gap =
-          (distance - half[axis] * std::abs(n[axis])) / cell_size;
+          (distance - half[axis] * std::abs(n[axis])) / cell.size;
         const double weight =
           std::clamp((lies_above_bed - gap) / (lies_above_bed - lies_on_bed),
                      0.,
                      1.);
         foot[axis] -= distance / n[axis];
         if (weight > 0)
-          add_foot(state.grid, foot, weight * area, sum);
+          add_foot(state.grid, cell, foot, weight * area, sum);
       }
   }
 
@@ -213,14 +227,20 @@ namespace talus
   template <int dim>
   void
   BedCoverage<dim>::add_foot(const Grid<dim>  &grid,
+                             const Cell<dim>  &near,
                              const Point<dim> &foot,
                              const double      area,
                              const Sum         sum)
   {
-    const unsigned int c = grid.find_cell(foot);
-    if (c >= grid.cells().size())
-      return;
-    const Cell<dim> &cell  = grid.cells()[c];
+    const Cell<dim> *found = &near;
+    if (!contains(near, foot))
+      {
+        const unsigned int c = grid.find_cell(foot);
+        if (c >= grid.cells().size())
+          return;
+        found = &grid.cells()[c];
+      }
+    const Cell<dim> &cell  = *found;
     const auto       nodes = cell.nodes();
     Point<dim>       x     = foot;
     for (unsigned int d = 0; d < dim; ++d)

@@ -148,21 +148,20 @@ namespace talus
     fill_records(state);
     list_cells(state);
     find_vector_areas(grid);
-    for (const unsigned int c : listed_cells_)
+    for (const unsigned int c : surface_cells_)
       {
-        const Cell<dim> &cell     = grid.cells()[c];
-        const double     min_area = min_area_in_cell * face_of<dim>(cell);
-        if (c >= grid.n_owned_cells() ||
-            vector_areas_[c].norm_square() <= square(min_area))
-          continue;
-        SurfaceFacet<dim> facet;
+        const Cell<dim>   &cell     = grid.cells()[c];
+        const double       min_area = min_area_in_cell * face_of<dim>(cell);
+        SurfaceFacet<dim> &facet    = facets_.emplace_back();
         if (!set_surface(cell, vector_areas_[c], facet))
-          continue;
-        facet.vector_area *=
-          std::min(1., vector_areas_[c].norm() / min_area - 1.);
+          {
+            facets_.pop_back();
+            continue;
+          }
+        if (vector_areas_[c].norm_square() < square(2. * min_area))
+          facet.vector_area *= vector_areas_[c].norm() / min_area - 1.;
         facet.node = cell.nodes();
         set_soil(facet);
-        facets_.push_back(facet);
       }
   }
 
@@ -285,11 +284,16 @@ namespace talus
   void
   FreeSurface<dim>::find_vector_areas(const Grid<dim> &grid)
   {
+    surface_cells_.clear();
     for (const unsigned int c : listed_cells_)
       {
         const Cell<dim> &cell  = grid.cells()[c];
         const auto       nodes = cell.nodes();
         vector_areas_[c]       = integrate_gradient(grid, cell);
+        if (c < grid.n_owned_cells() &&
+            vector_areas_[c].norm_square() >
+              square(min_area_in_cell * face_of<dim>(cell)))
+          surface_cells_.push_back(c);
         for (unsigned int d = 0; d < dim; ++d)
           {
             areas_of_nodes_[width_of_areas * nodes.front() + d] =

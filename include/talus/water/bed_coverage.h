@@ -85,11 +85,12 @@ namespace talus
     void
     add_box(const State<dim> &state,
             unsigned int      p,
-            double            cell_size,
+            const Cell<dim>  &cell,
             const Plane      &plane,
             Sum               sum);
     void
                                add_foot(const Grid<dim>          &grid,
+                                        const Cell<dim>          &near,
                                         const dealii::Point<dim> &foot,
                                         double                    area,
                                         Sum                       sum);

@@ -128,8 +128,9 @@ namespace talus
     std::vector<double>        records_;
     std::vector<unsigned int>  filled_nodes_; ///< whose records are not zero
     std::vector<unsigned int>  soil_nodes_, previous_soil_nodes_; ///< f > 0
-    std::vector<unsigned int>  listed_cells_; ///< that touch a filled node
-    std::vector<unsigned char> is_listed_;    ///< by cell
+    std::vector<unsigned int>  listed_cells_;  ///< that touch a filled node
+    std::vector<unsigned int>  surface_cells_; ///< that may have a facet
+    std::vector<unsigned char> is_listed_;     ///< by cell
     std::vector<dealii::Tensor<1, dim>> vector_areas_;   ///< by cell
     std::vector<double>                 areas_of_nodes_; ///< by node
     std::vector<SurfaceFacet<dim>>      facets_;
