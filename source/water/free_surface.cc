@@ -167,7 +167,7 @@ namespace talus
 
 
 
-  /// Velocities are those that the points bring along. Collective.
+  /// Momenta are those that the points bring along. Collective.
   template <int dim>
   void
   FreeSurface<dim>::fill_records(const State<dim> &state)
@@ -182,7 +182,7 @@ namespace talus
           to[mass]               = nodes.mass(node);
           const Tensor<1, dim> p = nodes.momentum(node);
           for (unsigned int d = 0; d < dim; ++d)
-            to[velocity + d] = p[d] / to[mass];
+            to[momentum + d] = p[d];
           filled_nodes_.push_back(node);
         }
     coverage_.find(state, solid_, [this](const unsigned int node) {
@@ -211,16 +211,8 @@ namespace talus
         std::fill_n(to, width, 0.);
         filled_nodes_.push_back(hanging.node);
         for (const auto &[master, weight] : hanging.masters)
-          {
-            const double *const from = record(master);
-            for (const unsigned int i :
-                 {fraction, facets_covered, bottom, mass})
-              to[i] += weight * from[i];
-            for (unsigned int d = 0; d < dim; ++d)
-              to[velocity + d] += weight * from[mass] * from[velocity + d];
-          }
-        for (unsigned int d = 0; d < dim && to[mass] > 0; ++d)
-          to[velocity + d] /= to[mass];
+          for (unsigned int i = 0; i < width; ++i)
+            to[i] += weight * record(master)[i];
       }
   }
 
@@ -413,11 +405,12 @@ namespace talus
       sum += record(node)[mass];
     for (unsigned int v = 0; v < facet.node.size(); ++v)
       {
-        facet.share[v] = record(facet.node[v])[mass] / sum;
+        const double *const node = record(facet.node[v]);
+        facet.share[v]           = node[mass] / sum;
         for (unsigned int d = 0; d < dim; ++d)
-          facet.velocity[d] +=
-            facet.share[v] * record(facet.node[v])[velocity + d];
+          facet.velocity[d] += node[momentum + d];
       }
+    facet.velocity /= sum;
   }
 
 

@@ -73,15 +73,15 @@ namespace talus
 
     // By node: volume fraction of soil in the room that obstacles leave [-],
     // covered shares of facets and of the lower face of the mesh [-], mass [kg]
-    // and velocity [m/s].
+    // and momentum [kg m/s].
     enum Record
     {
       fraction,
       facets_covered,
       bottom,
       mass,
-      velocity,
-      width = velocity + dim
+      momentum,
+      width = momentum + dim
     };
 
     /// By node: vector areas of the cells whose lowest and highest vertex the
