@@ -370,12 +370,12 @@ namespace talus
         std::array<double, dim> column = own;
         add_column<dim>(areas_of_nodes_.data(), cell, axis, column);
         const double square_of_length = norm_square<dim>(column);
-        const double length           = std::sqrt(square_of_length);
-        const double weight = square(square(column[axis]) / square_of_length);
-        const double factor = weight / length;
+        const double inverse          = 1. / std::sqrt(square_of_length);
+        const double weight           = square(square(column[axis] * inverse));
+        const double factor           = weight * inverse;
         for (unsigned int d = 0; d < dim; ++d)
           n[d] += factor * column[d];
-        area_of_column += weight * length;
+        area_of_column += factor * square_of_length;
         sum += weight;
       }
     const double length = std::sqrt(norm_square<dim>(n));
