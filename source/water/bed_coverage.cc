@@ -55,11 +55,11 @@ namespace talus
   void
   BedCoverage<dim>::prepare(const Grid<dim> &grid)
   {
+    constexpr unsigned int face = 2;
     is_at_bottom_.assign(grid.n_owned_cells(), 0);
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
       is_at_bottom_[c] =
-        (grid.faces_of_node(grid.cells()[c].nodes()[0]) >> 2) & 1;
-    constexpr unsigned int face = 2;
+        (grid.faces_of_node(grid.cells()[c].nodes()[0]) >> face) & 1;
     area_of_bottom_.assign(grid.n_owned_nodes(), 0.);
     std::vector<unsigned char> hangs(grid.n_nodes(), 0);
     for (const auto &hanging : grid.hanging_nodes())

@@ -59,9 +59,9 @@ namespace talus
     }
 
     // Two cells on either side, since the volume fraction falls from one to zero
-    // within two cells along the normal. The lowest vertex of a cell above is the own lowest one, moved; so is the
-    // highest vertex of a cell below. With plain numbers, which stay in registers:
-    // a part of the cost of water is here.
+    // within two cells along the normal. The lowest vertex of a cell above is the
+    // own lowest one, moved; the highest vertex of a cell below likewise. Plain
+    // numbers stay in registers, tensors would go through memory.
     /// Add the vector areas of the cells along @p axis to @p sum, the own one of
     /// @p cell, each weighted by the fourth power of the cosine to the own one,
     /// m^(dim-1). @p areas: two vector areas by node, those of the cells whose
