@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/contact/box_extent.h>
 #include <talus/geometry/cut_box.h>
-#include <talus/transfer/box_rule.h>
 #include <talus/water/bed_coverage.h>
 
 #include <algorithm>
@@ -18,11 +18,23 @@ namespace talus
 
     /// Boxes whose lower sides are so far above the bed, in cells, lie on it, or
     /// do not: in between partly.
-    constexpr double lies_on_bed = 0.05, lies_above_bed = 0.25;
+    constexpr double lies_on_bed    = 0.05,
+                     lies_above_bed = largest_gap_of_covering_box;
 
     /// Sum of sections from which on the bed counts as covered, as a share of the
     /// area that boxes cover at least.
     constexpr double covered = 0.95;
+
+    /// Whether a place is in a cell, or on one of its lower faces.
+    template <int dim>
+    bool
+    contains(const Cell<dim> &cell, const Point<dim> &x)
+    {
+      for (unsigned int d = 0; d < dim; ++d)
+        if (x[d] < cell.lower[d] || x[d] >= cell.lower[d] + cell.size)
+          return false;
+      return true;
+    }
 
     /// The axis along which boxes stand on a bed with this normal.
     template <int dim>
@@ -43,11 +55,18 @@ namespace talus
   void
   BedCoverage<dim>::prepare(const Grid<dim> &grid)
   {
+    constexpr unsigned int face = 2;
     is_at_bottom_.assign(grid.n_owned_cells(), 0);
     for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
       is_at_bottom_[c] =
-        (grid.faces_of_node(grid.cells()[c].nodes()[0]) >> 2) & 1;
-    is_full_.assign(grid.n_nodes(), 0);
+        (grid.faces_of_node(grid.cells()[c].nodes()[0]) >> face) & 1;
+    area_of_bottom_.assign(grid.n_owned_nodes(), 0.);
+    std::vector<unsigned char> hangs(grid.n_nodes(), 0);
+    for (const auto &hanging : grid.hanging_nodes())
+      hangs[hanging.node] = 1;
+    for (unsigned int node = 0; node < grid.n_owned_nodes(); ++node)
+      if (!hangs[node] && ((grid.faces_of_node(node) >> face) & 1))
+        area_of_bottom_[node] = grid.face_share(face, node).area;
     sums_.assign(std::size_t(width) * grid.n_nodes(), 0.);
     exchange_.prepare(grid, width);
   }
@@ -64,16 +83,14 @@ namespace talus
   {
     const Grid<dim> &grid = state.grid;
     clear(grid);
-    for (const unsigned int node : state.nodes.active_nodes())
-      {
-        is_full_[node] = volume_fraction(node) >= full;
-        touched_.push_back(node);
-      }
     for (const Segment &segment : state.points.segments())
       {
         const Cell<dim> &cell         = grid.cells()[segment.cell];
         const bool       is_at_bottom = is_at_bottom_[segment.cell];
-        if ((!is_at_bottom && !solid.exists()) || is_full(cell))
+        const bool       is_at_facets =
+          solid.exists() && !std::isnan(solid.distance(cell.nodes()[0]));
+        if ((!is_at_bottom && !is_at_facets) ||
+            is_full(grid, cell, volume_fraction))
           continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
@@ -82,9 +99,9 @@ namespace talus
             Plane plane{x[1] - cell.lower[1], Tensor<1, dim>()};
             plane.normal[1] = 1.;
             if (is_at_bottom)
-              add_box(state, p, cell.size, plane, bottom);
-            if (find_plane(cell, solid, x, plane))
-              add_box(state, p, cell.size, plane, facets);
+              add_box(state, p, cell, plane, bottom);
+            if (is_at_facets && find_plane(cell, solid, x, plane))
+              add_box(state, p, cell, plane, facets);
           }
       }
     for (const auto &hanging : grid.hanging_nodes())
@@ -100,7 +117,6 @@ namespace talus
           given = 0;
         }
     exchange_.add_to_owners(sums_.data());
-    find_shares(state, solid, volume_fraction);
   }
 
 
@@ -112,7 +128,6 @@ namespace talus
   {
     const auto clear_node = [this](const unsigned int node) {
       std::fill_n(sums_.begin() + std::size_t(width) * node, width, 0.);
-      is_full_[node] = 0;
     };
     std::for_each(touched_.begin(), touched_.end(), clear_node);
     std::for_each(grid.interface_nodes().begin(),
@@ -127,11 +142,13 @@ namespace talus
   /// as not full.
   template <int dim>
   bool
-  BedCoverage<dim>::is_full(const Cell<dim> &cell) const
+  BedCoverage<dim>::is_full(const Grid<dim>      &grid,
+                            const Cell<dim>      &cell,
+                            const VolumeFraction &volume_fraction) const
   {
     const auto nodes = cell.nodes();
     return std::all_of(nodes.begin(), nodes.end(), [&](const unsigned int n) {
-      return is_full_[n];
+      return n < grid.n_owned_nodes() && volume_fraction(n) >= full;
     });
   }
 
@@ -146,13 +163,9 @@ namespace talus
                                const Point<dim>        &x,
                                Plane                   &plane) const
   {
-    if (!solid.exists())
-      return false;
     const auto nodes = cell.nodes();
-    if (std::isnan(solid.distance(nodes[0])))
-      return false;
-    const auto N = shape_values_at<dim>(cell.box(), x);
-    plane        = Plane{0., Tensor<1, dim>()};
+    const auto N     = shape_values_at<dim>(cell.box(), x);
+    plane            = Plane{0., Tensor<1, dim>()};
     for (unsigned int v = 0; v < nodes.size(); ++v)
       {
         const double distance = solid.distance(nodes[v]);
@@ -173,21 +186,15 @@ namespace talus
   void
   BedCoverage<dim>::add_box(const State<dim>  &state,
                             const unsigned int p,
-                            const double       cell_size,
+                            const Cell<dim>   &cell,
                             const Plane       &plane,
                             const Sum          sum)
   {
     const Tensor<1, dim> &n    = plane.normal;
     const unsigned int    axis = steepest_axis<dim>(n);
-    Tensor<1, dim>        half;
-    double                area = 1. / std::abs(n[axis]);
-    for (unsigned int d = 0; d < dim; ++d)
-      {
-        const Tensor<1, dim> edge =
-          edge_of_box(state.points, state.box_shape.rule, d, p);
-        for (unsigned int e = 0; e < dim; ++e)
-          half[e] += 0.5 * std::abs(edge[e]);
-      }
+    const Tensor<1, dim>  half =
+      half_lengths_of_box(state.points, state.box_shape, p);
+    double area = 1. / std::abs(n[axis]);
     for (unsigned int d = 0; d < dim; ++d)
       if (d != axis)
         area *= half[d]; // of one of two samples along the axis
@@ -204,14 +211,14 @@ namespace talus
               distance += n[d] * shift;
             }
         const double gap =
-          (distance - half[axis] * std::abs(n[axis])) / cell_size;
+          (distance - half[axis] * std::abs(n[axis])) / cell.size;
         const double weight =
           std::clamp((lies_above_bed - gap) / (lies_above_bed - lies_on_bed),
                      0.,
                      1.);
         foot[axis] -= distance / n[axis];
         if (weight > 0)
-          add_foot(state.grid, foot, weight * area, sum);
+          add_foot(state.grid, cell, foot, weight * area, sum);
       }
   }
 
@@ -220,14 +227,20 @@ namespace talus
   template <int dim>
   void
   BedCoverage<dim>::add_foot(const Grid<dim>  &grid,
+                             const Cell<dim>  &near,
                              const Point<dim> &foot,
                              const double      area,
                              const Sum         sum)
   {
-    const unsigned int c = grid.find_cell(foot);
-    if (c >= grid.cells().size())
-      return;
-    const Cell<dim> &cell  = grid.cells()[c];
+    const Cell<dim> *found = &near;
+    if (!contains(near, foot))
+      {
+        const unsigned int c = grid.find_cell(foot);
+        if (c >= grid.cells().size())
+          return;
+        found = &grid.cells()[c];
+      }
+    const Cell<dim> &cell  = *found;
     const auto       nodes = cell.nodes();
     Point<dim>       x     = foot;
     for (unsigned int d = 0; d < dim; ++d)
@@ -242,36 +255,17 @@ namespace talus
 
 
 
+  /// Share of an area that boxes of the section @p sum cover, at a node with
+  /// volume fraction @p f of soil [-]. @p area: covered at least, m^(dim-1).
   template <int dim>
-  void
-  BedCoverage<dim>::find_shares(const State<dim>        &state,
-                                const SolidAtNodes<dim> &solid,
-                                const VolumeFraction    &volume_fraction)
+  double
+  BedCoverage<dim>::share(const double sum, const double area, const double f)
   {
-    const auto share = [](double &sum, const double area, const double f) {
-      const double s =
-        std::clamp((f - nearly_full) / (full - nearly_full), 0., 1.);
-      sum = (area > 0 ? std::max(s, std::min(1., sum / (covered * area))) : 0.);
-    };
-    constexpr unsigned int bottom_face = 2;
-    const Grid<dim>       &grid        = state.grid;
-    for (const unsigned int node : state.nodes.active_nodes())
-      {
-        const double f         = volume_fraction(node);
-        double      &on_bottom = sums_[width * node + bottom];
-        double      &on_facets = sums_[width * node + facets];
-        if (f == 0)
-          {
-            on_bottom = on_facets = 0;
-            continue;
-          }
-        share(on_bottom,
-              (grid.faces_of_node(node) >> bottom_face) & 1
-                ? grid.face_share(bottom_face, node).area
-                : 0.,
-              f);
-        share(on_facets, solid.exists() ? solid.min_covered_area(node) : 0., f);
-      }
+    if (f == 0)
+      return 0.;
+    const double by_fraction =
+      std::clamp((f - nearly_full) / (full - nearly_full), 0., 1.);
+    return std::max(by_fraction, std::min(1., sum / (covered * area)));
   }
 
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace talus
 {
@@ -10,10 +11,6 @@ namespace talus
 
   namespace
   {
-    /// Cells on either side of a cell whose vector areas tell the normal: the
-    /// volume fraction falls from one to zero within two cells along the normal.
-    constexpr int reach = 2;
-
     /// Vector area of a column of cells, as a share of the face of a cell, from
     /// which on it is a surface. Less is noise of boxes that do not tile the soil,
     /// or a few points on their own.
@@ -23,10 +20,24 @@ namespace talus
     /// is passed over; from twice as much on it counts.
     constexpr double min_area_in_cell = 1e-4;
 
+    /// Vector area where there is no cell.
+    constexpr std::array<double, 3> zeros = {};
+
     double
     square(const double x)
     {
       return x * x;
+    }
+
+    /// Weight of a vector area in the sum over a row of cells, from its product
+    /// with the own one and the product of the squares of their lengths [-]: the
+    /// fourth power of the cosine, zero from a right angle on. Free of branches,
+    /// since the signs inside the soil are those of noise.
+    double
+    weight_by_angle(const double product, const double squares)
+    {
+      return square(square(std::max(0., product)) /
+                    std::max(squares, std::numeric_limits<double>::min()));
     }
 
     /// Area of a face of a cell, m^(dim-1).
@@ -35,6 +46,58 @@ namespace talus
     face_of(const Cell<dim> &cell)
     {
       return dim == 2 ? cell.size : cell.size * cell.size;
+    }
+
+    template <int dim>
+    double
+    norm_square(const std::array<double, dim> &x)
+    {
+      double result = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        result += x[d] * x[d];
+      return result;
+    }
+
+    // Two cells on either side, since the volume fraction falls from one to zero
+    // within two cells along the normal. The lowest vertex of a cell above is the
+    // own lowest one, moved; the highest vertex of a cell below likewise. Plain
+    // numbers stay in registers, tensors would go through memory.
+    /// Add the vector areas of the cells along @p axis to @p sum, the own one of
+    /// @p cell, each weighted by the fourth power of the cosine to the own one,
+    /// m^(dim-1). @p areas: two vector areas by node, those of the cells whose
+    /// lowest and highest vertex the node is. Cells beyond the mesh and of another
+    /// size count as zero.
+    template <int dim>
+    inline void
+    add_column(const double *const      areas,
+               const Cell<dim>         &cell,
+               const unsigned int       axis,
+               std::array<double, dim> &sum)
+    {
+      constexpr unsigned int lowest  = patch_of_vertex<dim>(0);
+      constexpr unsigned int highest = patch_of_vertex<dim>(power(2, dim) - 1);
+      const unsigned int     stride  = power(4, axis);
+      const std::array<double, dim> own        = sum;
+      const double                  own_square = norm_square<dim>(own);
+      const auto add = [&](const unsigned int node, const unsigned int begin) {
+        const double *const area =
+          node == numbers::invalid_unsigned_int
+            ? zeros.data()
+            : areas + std::size_t(2 * dim) * node + begin;
+        double product = 0, squares = 0;
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            product += area[d] * own[d];
+            squares += area[d] * area[d];
+          }
+        const double weight = weight_by_angle(product, squares * own_square);
+        for (unsigned int d = 0; d < dim; ++d)
+          sum[d] += weight * area[d];
+      };
+      add(cell.patch[highest - 2 * stride], dim);
+      add(cell.patch[highest - stride], dim);
+      add(cell.patch[lowest + stride], 0);
+      add(cell.patch[lowest + 2 * stride], 0);
     }
   } // namespace
 
@@ -64,6 +127,7 @@ namespace talus
     vector_areas_.assign(grid.cells().size(), Tensor<1, dim>());
     is_listed_.assign(grid.cells().size(), 0);
     filled_nodes_.clear();
+    soil_nodes_.clear();
     listed_cells_.clear();
     facets_.clear();
   }
@@ -76,56 +140,34 @@ namespace talus
                          const FacetContact<dim> &contact)
   {
     const Grid<dim> &grid = state.grid;
-    clear(grid);
+    for (const unsigned int node : filled_nodes_)
+      std::fill_n(record(node), width, 0.);
+    filled_nodes_.clear();
+    facets_.clear();
     solid_.update(grid, contact);
     fill_records(state);
     list_cells(state);
     find_vector_areas(grid);
-    for (const unsigned int c : listed_cells_)
-      if (const double excess =
-            vector_areas_[c].norm() /
-              (min_area_in_cell * face_of<dim>(grid.cells()[c])) -
-            1.;
-          c < grid.n_owned_cells() && excess > 0)
-        {
-          SurfaceFacet<dim> facet;
-          if (!set_surface(grid.cells()[c], vector_areas_[c], facet))
-            continue;
-          facet.vector_area *= std::min(1., excess);
-          facet.node = grid.cells()[c].nodes();
-          set_soil(facet);
-          facets_.push_back(facet);
-        }
-  }
-
-
-
-  /// Forget the last step.
-  template <int dim>
-  void
-  FreeSurface<dim>::clear(const Grid<dim> &grid)
-  {
-    for (const unsigned int node : filled_nodes_)
-      std::fill_n(record(node), width, 0.);
-    for (const unsigned int c : listed_cells_)
+    for (const unsigned int c : surface_cells_)
       {
-        vector_areas_[c] = Tensor<1, dim>();
-        is_listed_[c]    = 0;
-        const auto nodes = grid.cells()[c].nodes();
-        for (const unsigned int node : {nodes.front(), nodes.back()})
-          std::fill_n(areas_of_nodes_.begin() +
-                        std::size_t(width_of_areas) * node,
-                      width_of_areas,
-                      0.);
+        const Cell<dim>   &cell     = grid.cells()[c];
+        const double       min_area = min_area_in_cell * face_of<dim>(cell);
+        SurfaceFacet<dim> &facet    = facets_.emplace_back();
+        if (!set_surface(cell, vector_areas_[c], facet))
+          {
+            facets_.pop_back();
+            continue;
+          }
+        if (vector_areas_[c].norm_square() < square(2. * min_area))
+          facet.vector_area *= vector_areas_[c].norm() / min_area - 1.;
+        facet.node = cell.nodes();
+        set_soil(facet);
       }
-    filled_nodes_.clear();
-    listed_cells_.clear();
-    facets_.clear();
   }
 
 
 
-  /// Velocities are those that the points bring along. Collective.
+  /// Momenta are those that the points bring along. Collective.
   template <int dim>
   void
   FreeSurface<dim>::fill_records(const State<dim> &state)
@@ -140,7 +182,7 @@ namespace talus
           to[mass]               = nodes.mass(node);
           const Tensor<1, dim> p = nodes.momentum(node);
           for (unsigned int d = 0; d < dim; ++d)
-            to[velocity + d] = p[d] / to[mass];
+            to[momentum + d] = p[d];
           filled_nodes_.push_back(node);
         }
     coverage_.find(state, solid_, [this](const unsigned int node) {
@@ -148,8 +190,9 @@ namespace talus
     });
     for (const unsigned int node : filled_nodes_)
       {
-        record(node)[facets_covered] = coverage_.of_facets(node);
-        record(node)[bottom]         = coverage_.of_bottom(node);
+        double *const to   = record(node);
+        to[facets_covered] = coverage_.of_facets(node, to[fraction], solid_);
+        to[bottom]         = coverage_.of_bottom(node, to[fraction]);
       }
     exchange_.copy_to_ghosts(records_.data());
     fill_hanging_records(state.grid);
@@ -168,16 +211,8 @@ namespace talus
         std::fill_n(to, width, 0.);
         filled_nodes_.push_back(hanging.node);
         for (const auto &[master, weight] : hanging.masters)
-          {
-            const double *const from = record(master);
-            for (const unsigned int i :
-                 {fraction, facets_covered, bottom, mass})
-              to[i] += weight * from[i];
-            for (unsigned int d = 0; d < dim; ++d)
-              to[velocity + d] += weight * from[mass] * from[velocity + d];
-          }
-        for (unsigned int d = 0; d < dim && to[mass] > 0; ++d)
-          to[velocity + d] /= to[mass];
+          for (unsigned int i = 0; i < width; ++i)
+            to[i] += weight * record(master)[i];
       }
   }
 
@@ -185,7 +220,8 @@ namespace talus
 
   // Of nodes with soil, those this rank owns and ghosts, the cells around; so the
   // cost follows the soil, and the order that of the active nodes, which is the
-  // same in a resumed run.
+  // same in a resumed run. As long as the nodes are those of the previous step,
+  // so are the cells.
   template <int dim>
   void
   FreeSurface<dim>::list_cells(const State<dim> &state)
@@ -195,14 +231,41 @@ namespace talus
          ++node)
       if (record(node)[fraction] > 0)
         filled_nodes_.push_back(node);
+    soil_nodes_.swap(previous_soil_nodes_);
+    soil_nodes_.clear();
     for (const unsigned int node : filled_nodes_)
       if (record(node)[fraction] > 0)
-        for (unsigned int i = first_cell_[node]; i < first_cell_[node + 1]; ++i)
-          if (const unsigned int c = cells_[i]; !is_listed_[c])
-            {
-              is_listed_[c] = 1;
-              listed_cells_.push_back(c);
-            }
+        soil_nodes_.push_back(node);
+    if (soil_nodes_ == previous_soil_nodes_)
+      return;
+    clear_cells(grid);
+    for (const unsigned int node : soil_nodes_)
+      for (unsigned int i = first_cell_[node]; i < first_cell_[node + 1]; ++i)
+        if (const unsigned int c = cells_[i]; !is_listed_[c])
+          {
+            is_listed_[c] = 1;
+            listed_cells_.push_back(c);
+          }
+  }
+
+
+
+  template <int dim>
+  void
+  FreeSurface<dim>::clear_cells(const Grid<dim> &grid)
+  {
+    for (const unsigned int c : listed_cells_)
+      {
+        vector_areas_[c] = Tensor<1, dim>();
+        is_listed_[c]    = 0;
+        const auto nodes = grid.cells()[c].nodes();
+        for (const unsigned int node : {nodes.front(), nodes.back()})
+          std::fill_n(areas_of_nodes_.begin() +
+                        std::size_t(width_of_areas) * node,
+                      width_of_areas,
+                      0.);
+      }
+    listed_cells_.clear();
   }
 
 
@@ -213,11 +276,16 @@ namespace talus
   void
   FreeSurface<dim>::find_vector_areas(const Grid<dim> &grid)
   {
+    surface_cells_.clear();
     for (const unsigned int c : listed_cells_)
       {
         const Cell<dim> &cell  = grid.cells()[c];
         const auto       nodes = cell.nodes();
         vector_areas_[c]       = integrate_gradient(grid, cell);
+        if (c < grid.n_owned_cells() &&
+            vector_areas_[c].norm_square() >
+              square(min_area_in_cell * face_of<dim>(cell)))
+          surface_cells_.push_back(c);
         for (unsigned int d = 0; d < dim; ++d)
           {
             areas_of_nodes_[width_of_areas * nodes.front() + d] =
@@ -279,66 +347,47 @@ namespace talus
 
 
 
-  /// Vector area of the cell @p step cells along @p axis, m^(dim-1); zero beyond
-  /// the mesh and where cells have another size.
-  template <int dim>
-  Tensor<1, dim>
-  FreeSurface<dim>::area_at(const Cell<dim>   &cell,
-                            const unsigned int axis,
-                            const int          step) const
-  {
-    // The lowest vertex of a cell above is the own lowest one, moved; so is the
-    // highest vertex of a cell below.
-    const unsigned int own =
-      patch_of_vertex<dim>(step > 0 ? 0 : power(2, dim) - 1);
-    const unsigned int node = cell.patch[own + step * int(power(4, axis))];
-    Tensor<1, dim>     result;
-    if (node != numbers::invalid_unsigned_int)
-      for (unsigned int d = 0; d < dim; ++d)
-        result[d] =
-          areas_of_nodes_[width_of_areas * node + (step > 0 ? 0 : dim) + d];
-    return result;
-  }
-
-
-
   // The sum of the vector areas along an axis through the whole fall of the volume
   // fraction has the direction of the surface, where the gradient in each single
   // cell does not: its components are differences over another stencil. The column
   // along the axis that is nearest to the normal crosses the surface within the
   // fewest cells. Weights by the angle between two cells leave out the other side
   // of a thin sheet, and what lies around an edge.
-  /// Set normal and vector area of a facet from @p own, the vector area of the
+  /// Set normal and vector area of a facet from @p own_area, the vector area of the
   /// surface in its cell, m^(dim-1). Returns whether there is a surface.
   template <int dim>
   bool
   FreeSurface<dim>::set_surface(const Cell<dim>      &cell,
-                                const Tensor<1, dim> &own,
+                                const Tensor<1, dim> &own_area,
                                 SurfaceFacet<dim>    &facet) const
   {
-    double area_of_column = 0, sum = 0;
+    double                  area_of_column = 0, sum = 0;
+    std::array<double, dim> n = {}, own;
+    for (unsigned int d = 0; d < dim; ++d)
+      own[d] = own_area[d];
     for (unsigned int axis = 0; axis < dim; ++axis)
       {
-        Tensor<1, dim> column = own;
-        for (int step = -reach; step <= reach; ++step)
-          if (step != 0)
-            if (const Tensor<1, dim> other = area_at(cell, axis, step);
-                other * own > 0)
-              column += square(square(other * own) /
-                               (other.norm_square() * own.norm_square())) *
-                        other;
-        const double length = column.norm();
-        const double weight = square(square(column[axis] / length));
-        facet.normal += weight / length * column;
-        area_of_column += weight * length;
+        std::array<double, dim> column = own;
+        add_column<dim>(areas_of_nodes_.data(), cell, axis, column);
+        const double square_of_length = norm_square<dim>(column);
+        const double inverse          = 1. / std::sqrt(square_of_length);
+        const double weight           = square(square(column[axis] * inverse));
+        const double factor           = weight * inverse;
+        for (unsigned int d = 0; d < dim; ++d)
+          n[d] += factor * column[d];
+        area_of_column += factor * square_of_length;
         sum += weight;
       }
-    const double length = facet.normal.norm();
+    const double length = std::sqrt(norm_square<dim>(n));
     if (length == 0)
       return false;
-    facet.normal /= length;
-    const double full = min_area_of_surface * sum * face_of<dim>(cell);
-    facet.vector_area = std::min(1., area_of_column / full) * own;
+    const double full  = min_area_of_surface * sum * face_of<dim>(cell);
+    const double share = std::min(1., area_of_column / full);
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        facet.normal[d]      = n[d] / length;
+        facet.vector_area[d] = share * own[d];
+      }
     return facet.vector_area * facet.normal > 0;
   }
 
@@ -356,11 +405,12 @@ namespace talus
       sum += record(node)[mass];
     for (unsigned int v = 0; v < facet.node.size(); ++v)
       {
-        facet.share[v] = record(facet.node[v])[mass] / sum;
+        const double *const node = record(facet.node[v]);
+        facet.share[v]           = node[mass] / sum;
         for (unsigned int d = 0; d < dim; ++d)
-          facet.velocity[d] +=
-            facet.share[v] * record(facet.node[v])[velocity + d];
+          facet.velocity[d] += node[momentum + d];
       }
+    facet.velocity /= sum;
   }
 
 

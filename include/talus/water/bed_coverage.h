@@ -26,30 +26,35 @@ namespace talus
     void
     prepare(const Grid<dim> &grid);
 
-    /// Find the shares from the boxes of the points. Collective.
+    /// Sum the sections of the boxes that lie on the bed. Collective.
     void
     find(const State<dim>        &state,
          const SolidAtNodes<dim> &solid,
          const VolumeFraction    &volume_fraction);
 
-    /// Covered share of the lower face of the mesh at an owned node [-]; zero at
-    /// nodes off the face.
+    /// Covered share of the lower face of the mesh at an owned node with volume
+    /// fraction @p f of soil [-]; zero at nodes off the face.
     double
-    of_bottom(const unsigned int node) const
+    of_bottom(const unsigned int node, const double f) const
     {
-      return sums_[width * node + bottom];
+      return area_of_bottom_[node] > 0
+               ? share(sums_[width * node + bottom], area_of_bottom_[node], f)
+               : 0.;
     }
 
-    /// Covered share of the facets around an owned node [-]; zero at nodes off the
-    /// facets.
+    /// Covered share of the facets of @p solid around an owned node with volume
+    /// fraction @p f of soil [-]; zero at nodes off the facets.
     double
-    of_facets(const unsigned int node) const
+    of_facets(const unsigned int       node,
+              const double             f,
+              const SolidAtNodes<dim> &solid) const
     {
-      return sums_[width * node + facets];
+      const double area = solid.exists() ? solid.min_covered_area(node) : 0.;
+      return area > 0 ? share(sums_[width * node + facets], area, f) : 0.;
     }
 
   private:
-    // By node: covered areas, m^(dim-1), then shares of the whole [-].
+    // By node: covered areas, m^(dim-1).
     enum Sum
     {
       bottom,
@@ -66,8 +71,12 @@ namespace talus
 
     void
     clear(const Grid<dim> &grid);
+    static double
+    share(double sum, double area, double f);
     bool
-    is_full(const Cell<dim> &cell) const;
+    is_full(const Grid<dim>      &grid,
+            const Cell<dim>      &cell,
+            const VolumeFraction &volume_fraction) const;
     bool
     find_plane(const Cell<dim>          &cell,
                const SolidAtNodes<dim>  &solid,
@@ -76,23 +85,19 @@ namespace talus
     void
     add_box(const State<dim> &state,
             unsigned int      p,
-            double            cell_size,
+            const Cell<dim>  &cell,
             const Plane      &plane,
             Sum               sum);
     void
-    add_foot(const Grid<dim>          &grid,
-             const dealii::Point<dim> &foot,
-             double                    area,
-             Sum                       sum);
-    void
-    find_shares(const State<dim>        &state,
-                const SolidAtNodes<dim> &solid,
-                const VolumeFraction    &volume_fraction);
-
-    std::vector<unsigned char> is_at_bottom_; ///< by owned cell
-    std::vector<unsigned char> is_full_;      ///< by node
-    std::vector<double>        sums_;         ///< by node
-    std::vector<unsigned int>  touched_;      ///< nodes of the last step
+                               add_foot(const Grid<dim>          &grid,
+                                        const Cell<dim>          &near,
+                                        const dealii::Point<dim> &foot,
+                                        double                    area,
+                                        Sum                       sum);
+    std::vector<unsigned char> is_at_bottom_;   ///< by owned cell
+    std::vector<double>        area_of_bottom_; ///< by owned node, m^(dim-1)
+    std::vector<double>        sums_;           ///< by node
+    std::vector<unsigned int>  touched_;        ///< nodes of the last step
     NodalExchange<dim>         exchange_;
   };
 } // namespace talus

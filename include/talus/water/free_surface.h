@@ -73,15 +73,15 @@ namespace talus
 
     // By node: volume fraction of soil in the room that obstacles leave [-],
     // covered shares of facets and of the lower face of the mesh [-], mass [kg]
-    // and velocity [m/s].
+    // and momentum [kg m/s].
     enum Record
     {
       fraction,
       facets_covered,
       bottom,
       mass,
-      velocity,
-      width = velocity + dim
+      momentum,
+      width = momentum + dim
     };
 
     /// By node: vector areas of the cells whose lowest and highest vertex the
@@ -101,7 +101,7 @@ namespace talus
     }
 
     void
-    clear(const Grid<dim> &grid);
+    clear_cells(const Grid<dim> &grid);
     void
     fill_records(const State<dim> &state);
     void
@@ -114,11 +114,9 @@ namespace talus
     covered_share_of_facets(const NodesOfCell &nodes) const;
     dealii::Tensor<1, dim>
     integrate_gradient(const Grid<dim> &grid, const Cell<dim> &cell) const;
-    dealii::Tensor<1, dim>
-    area_at(const Cell<dim> &cell, unsigned int axis, int step) const;
     bool
     set_surface(const Cell<dim>              &cell,
-                const dealii::Tensor<1, dim> &own,
+                const dealii::Tensor<1, dim> &own_area,
                 SurfaceFacet<dim>            &facet) const;
     void
     set_soil(SurfaceFacet<dim> &facet) const;
@@ -129,8 +127,10 @@ namespace talus
     NodalExchange<dim>         exchange_, exchange_of_areas_;
     std::vector<double>        records_;
     std::vector<unsigned int>  filled_nodes_; ///< whose records are not zero
-    std::vector<unsigned int>  listed_cells_; ///< that touch a filled node
-    std::vector<unsigned char> is_listed_;    ///< by cell
+    std::vector<unsigned int>  soil_nodes_, previous_soil_nodes_; ///< f > 0
+    std::vector<unsigned int>  listed_cells_;  ///< that touch a filled node
+    std::vector<unsigned int>  surface_cells_; ///< that may have a facet
+    std::vector<unsigned char> is_listed_;     ///< by cell
     std::vector<dealii::Tensor<1, dim>> vector_areas_;   ///< by cell
     std::vector<double>                 areas_of_nodes_; ///< by node
     std::vector<SurfaceFacet<dim>>      facets_;

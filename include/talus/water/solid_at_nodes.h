@@ -43,7 +43,7 @@ namespace talus
     double
     volume_fraction(const unsigned int node) const
     {
-      return records_[width * node + fraction];
+      return exists_ ? records_[width * node + fraction] : 0.;
     }
 
     /// Area of the facets around a node, weighted by its shape function,
