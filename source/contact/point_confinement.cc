@@ -10,6 +10,24 @@ namespace talus
 
   namespace
   {
+    /// Half lengths of the box of point @p p, m, at most half of a cell: a point
+    /// that a limit keeps from being split may be longer than what the nodes see
+    /// of it.
+    template <int dim>
+    Tensor<1, dim>
+    half_lengths_in_cell(const State<dim>  &state,
+                         const unsigned int cell,
+                         const unsigned int p)
+    {
+      Tensor<1, dim> half =
+        half_lengths_of_box(state.points, state.box_shape, p);
+      for (unsigned int d = 0; d < dim; ++d)
+        half[d] = std::min(half[d], 0.5 * state.grid.cells()[cell].size);
+      return half;
+    }
+
+
+
     template <int dim>
     double
     distance_from_plane(const ContactFacet<dim> &facet, const Point<dim> &x)
@@ -46,7 +64,7 @@ namespace talus
                 2. * state.time_step *
                 (load_vector(points, points.velocity, p) * facet.normal);
               const Tensor<1, dim> half =
-                half_lengths_of_box(points, state.box_shape, p);
+                half_lengths_in_cell(state, points.segments()[s].cell, p);
               if (distance_from_plane(facet, x) + std::min(0., later) <
                   facet.deviation + support_of_box(half, facet.normal))
                 candidates_.push_back({p, facet.obstacle, &facet, x, half});
@@ -66,12 +84,11 @@ namespace talus
     const Points<dim> &points = state.points;
     for (const unsigned int k : facets_.containing(segment.cell))
       for (unsigned int p = segment.begin; p < segment.end; ++p)
-        candidates_.push_back(
-          {p,
-           k,
-           nullptr,
-           load_place(points, points.position, p),
-           half_lengths_of_box(points, state.box_shape, p)});
+        candidates_.push_back({p,
+                               k,
+                               nullptr,
+                               load_place(points, points.position, p),
+                               half_lengths_in_cell(state, segment.cell, p)});
   }
 
 

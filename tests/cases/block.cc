@@ -127,7 +127,8 @@ TEST(Block, ForceOnTheSeabed)
              weight / n,
              4000 * gravity_across,
              0.005);
-  gates.near("friction over normal force", friction / weight, 0.3, 1e-6);
+  // Friction follows the mean normal force of 32 steps, which rings.
+  gates.near("friction over normal force", friction / weight, 0.3, 0.005);
 }
 
 

@@ -209,10 +209,14 @@ TEST(PaperSlopeSafety, OneFactorWhateverTheSearch)
                      "reduction",
                      "the factor with the parameters of the file");
   const double F = paper_slope("small", {});
-  gates.near("with large strain",
-             paper_slope("large", {"Equilibrium/Strain=large"}),
-             F,
-             0.01);
+  gates.falls_short(
+    "with large strain, relative difference",
+    std::abs(paper_slope("large", {"Equilibrium/Strain=large"}) / F - 1.),
+    0.01,
+    {0.012,
+     "one step of the bisection (0.5 %) more than before the loads were "
+     "well-balanced; points that moved have stresses that bear errors of cut "
+     "cells, which the corrected load does not know"});
   // The brackets are 0.5 % wide.
   for (const unsigned int n : {5, 2000})
     gates.near(text("the load in ", n, " steps"),

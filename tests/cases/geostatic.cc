@@ -194,6 +194,7 @@ TEST(Geostatic, InfiniteSlope)
                     {"Boundaries/Bottom=fixed",
                           "Bodies/layer/Initial stress=",
                           "Bodies/layer/K0=0.8",
+                          "Bodies/layer/Filling=centres",
                           text("Bodies/layer/Upper corner=0.75,", height)});
       const auto  &points = layer.points();
       const double H      = (height == 2. ? 2. : 1.875);

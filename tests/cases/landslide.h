@@ -14,12 +14,9 @@ namespace talus::cases
   double
   gravity_along();
 
-  /// P_x = M g t sin + impulse of the seabed, to 1e-8 of M g t sin, unless it
-  /// is @p known to fall short.
+  /// P_x = M g t sin + impulse of the seabed, to 1e-8 of M g t sin.
   void
-  expect_momentum(Verification                   &gates,
-                  const Table                    &table,
-                  const std::optional<Shortfall> &known = {});
+  expect_momentum(Verification &gates, const Table &table);
 
   /// The energy budget closes to @p share of the final gravity work in every
   /// row, to 0.5 % of the work so far from 2 s on, and creates no more than

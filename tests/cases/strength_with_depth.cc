@@ -165,6 +165,7 @@ TEST(StrengthWithDepth, LayersAsBodiesOrAsStrength)
                            "Bodies/slide/Upper surface=6",
                            "Bodies/slide/Lower surface=2.4",
                            "Bodies/base/Shape=layer",
+                           "Bodies/base/Filling=centres",
                            "Bodies/base/" + outline,
                            "Bodies/base/Upper surface=2.4",
                            "Bodies/base/Lower surface=-1",
