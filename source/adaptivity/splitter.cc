@@ -41,23 +41,15 @@ namespace talus
     add_parameter("Maximum generation",
                   maximum_generation_,
                   "Number of splits a point may have behind it [-]. The "
-                  "default does not bound a slide that thins to a tenth of a "
-                  "cell (11 splits), but shear on a base without slip, which "
-                  "splits without end. A point at the limit is not split: "
-                  "its box is clipped, and soil that stretches on may tear. "
+                  "default keeps a slide whole that thins to a fifth of a "
+                  "cell; thinner sheets need more. Violent shear and spray "
+                  "split points as often as allowed, and light points are "
+                  "thrown far. A point at the limit is not split: its box is "
+                  "clipped, and soil that stretches on may tear. "
                   "These points are counted in statistics.csv, and log.txt "
                   "tells when there are some.",
                   this->prm,
                   Patterns::Integer(0));
-    add_parameter(
-      "Maximum points per cell",
-      maximum_points_per_cell_,
-      "A point with three or more splits behind it is split only in "
-      "cells with fewer points than this [-]: a cell with as many "
-      "does not tear, and violent shear would split points without "
-      "end. 0: 16 in 2-D, 64 in 3-D.",
-      this->prm,
-      Patterns::Integer(0));
     add_parameter("Maximum number of points",
                   maximum_points_,
                   "The run stops with an error before there are more points "
@@ -271,42 +263,6 @@ namespace talus
 
 
 
-  template <int dim>
-  bool
-  Splitter<dim>::is_crowded(const Points<dim> &points,
-                            const unsigned int s) const
-  {
-    const auto &segments = points.segments();
-    const auto  in_cell  = [&](const unsigned int i) {
-      return i < segments.size() && segments[i].cell == segments[s].cell;
-    };
-    unsigned int first = s, last = s;
-    while (first > 0 && in_cell(first - 1))
-      --first;
-    while (in_cell(last + 1))
-      ++last;
-    const unsigned int maximum =
-      (maximum_points_per_cell_ > 0 ? maximum_points_per_cell_
-                                    : power(4, dim));
-    return segments[last].end - segments[first].begin >= maximum;
-  }
-
-
-
-  template <int dim>
-  bool
-  Splitter<dim>::may_split_by_number(const Points<dim> &points,
-                                     const unsigned int p,
-                                     const bool         is_crowded) const
-  {
-    constexpr double n_always   = 3; // splits, whatever the cell holds
-    const double     generation = points.data(points.generation)[p];
-    return generation < maximum_generation_ &&
-           (generation < n_always || !is_crowded);
-  }
-
-
-
   // Looked at when a row of statistics is due, and not in the step. A point
   // that may be split counts nowhere: the next step splits it.
   template <int dim>
@@ -318,12 +274,9 @@ namespace talus
     UnsplitPoints count;
     if (!enabled_)
       return count;
-    for (unsigned int s = 0; s < points.segments().size(); ++s)
-      for (unsigned int p = points.segments()[s].begin;
-           p < points.segments()[s].end;
-           ++p)
+    for (const Segment &segment : points.segments())
+      for (unsigned int p = segment.begin; p < segment.end; ++p)
         {
-          const Segment     &segment = points.segments()[s];
           double             cell_size;
           const unsigned int axes =
             required_axes(points, grid, p, rule, segment.cell, cell_size);
@@ -331,14 +284,11 @@ namespace talus
             count.at_length_limit += is_stretched(points, p);
           else if (points.data(points.generation)[p] >= maximum_generation_)
             ++count.at_generation_limit;
-          else if (!may_split_by_number(points, p, is_crowded(points, s)))
-            ++count.in_crowded_cells;
           else if (!children_may_stay(points, p, axes, cell_size, grid, rule))
             ++count.at_mesh_limit;
         }
     for (unsigned long *number : {&count.at_generation_limit,
                                   &count.at_mesh_limit,
-                                  &count.in_crowded_cells,
                                   &count.at_length_limit})
       *number = Utilities::MPI::sum(*number, grid.communicator());
     return count;
@@ -434,14 +384,14 @@ namespace talus
         if (!may_exceed(
               points, segment.begin, segment.end, least_size(segment)))
           continue;
-        const bool cell_is_crowded = is_crowded(points, s);
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
             double             cell_size;
             const unsigned int axes =
               required_axes(points, grid, p, rule, segment.cell, cell_size);
             // A point at the limit goes on with a clipped box: count_unsplit().
-            if (axes != 0 && may_split_by_number(points, p, cell_is_crowded) &&
+            if (axes != 0 &&
+                points.data(points.generation)[p] < maximum_generation_ &&
                 children_may_stay(points, p, axes, cell_size, grid, rule))
               marked_.push_back({p, axes});
           }
@@ -633,7 +583,6 @@ namespace talus
     const UnsplitPoints unsplit =
       count_unsplit(state.points, state.grid, state.box_shape.rule);
     add("points at generation limit", unsplit.at_generation_limit);
-    add("points in crowded cells", unsplit.in_crowded_cells);
     add("points at mesh limit", unsplit.at_mesh_limit);
     add("points at length limit", unsplit.at_length_limit);
     list.push_back({"split ledger",

@@ -93,20 +93,40 @@ namespace talus
 
 
 
+  // What one surface takes back may lead into another one: soil that runs down a
+  // bed against a structure would be held by the structure and sink into the bed.
+  // So points that were moved are looked at again.
   template <int dim>
   void
   PointConfinement<dim>::confine(State<dim> &state)
   {
-    Points<dim> &points = state.points;
-    for (const Candidate &candidate : candidates_)
+    constexpr unsigned int     n_passes = 3;
+    Points<dim>               &points   = state.points;
+    std::vector<unsigned int> &listed   = state.workspace.points_out_of_cell();
+    const std::size_t          n_before = listed.size();
+    for (unsigned int pass = 0; pass < n_passes; ++pass)
       {
-        const unsigned int p = candidate.point;
-        Point<dim>         x = load_place(points, points.position, p);
-        if (!confine(candidate, state.time, state.time_step, x))
-          continue;
-        for (unsigned int d = 0; d < dim; ++d)
-          points.data(points.position, d)[p] = x[d];
-        state.workspace.points_out_of_cell().push_back(p);
+        bool has_moved_one = false;
+        for (const Candidate &candidate : candidates_)
+          {
+            const unsigned int p         = candidate.point;
+            const auto         is_listed = [&]() {
+              return std::find(listed.begin() + n_before, listed.end(), p) !=
+                     listed.end();
+            };
+            if (pass > 0 && !is_listed())
+              continue;
+            Point<dim> x = load_place(points, points.position, p);
+            if (!confine(candidate, state.time, state.time_step, x))
+              continue;
+            for (unsigned int d = 0; d < dim; ++d)
+              points.data(points.position, d)[p] = x[d];
+            has_moved_one = true;
+            if (!is_listed())
+              listed.push_back(p);
+          }
+        if (!has_moved_one)
+          return;
       }
   }
 

@@ -64,6 +64,7 @@ TEST(CapWithDepth, WedgeOnASeabed)
     run<2>("verification/block-on-incline.prm",
            "cap-with-depth-seabed",
            {"End time=1.2",
+            "Grid/Cell size=0.125",
             "Bodies/block/Shape=polygon",
             wedge(0.),
             "Boundaries/Seabed/Friction coefficient=10",

@@ -117,7 +117,7 @@ namespace
                          const double       slope = 0)
   {
     const Table forces = forces_in(folder);
-    const auto &below = forces["bed deepest point [cells]"];
+    const auto &below  = forces["bed deepest point [cells]"];
     gates.at_most("momentum that the bed does not account for / (M g t)",
                   unexplained_momentum(table, forces, {"bed"}, slope),
                   1e-6);

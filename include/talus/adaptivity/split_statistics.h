@@ -27,8 +27,6 @@ namespace talus
     /// Points stretched beyond `Threshold` along an axis, but not longer than
     /// `Minimum length`. Their boxes fit into their cells.
     unsigned long at_length_limit = 0;
-    /// In cells with 'Maximum points per cell', after three splits or more.
-    unsigned long in_crowded_cells = 0;
   };
 } // namespace talus
 

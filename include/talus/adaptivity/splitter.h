@@ -182,22 +182,15 @@ namespace talus
     is_stretched(const Points<dim> &points, unsigned int p) const;
     void
     check_budget(const Points<dim> &points, std::size_t n_points) const;
-    bool
-    is_crowded(const Points<dim> &points, unsigned int s) const;
-    bool
-    may_split_by_number(const Points<dim> &points,
-                        unsigned int       p,
-                        bool               is_crowded) const;
     void
     split(Points<dim> &points, BoxRule rule, unsigned int p, unsigned int axes);
 
-    bool         enabled_                 = true;
-    double       threshold_               = 1.4;
-    std::string  directions_              = "stretched";
-    double       minimum_length_          = 0.7;
-    unsigned int maximum_generation_      = 16; // stretched by 65 536
-    unsigned int maximum_points_          = 10000000;
-    unsigned int maximum_points_per_cell_ = 0; // see its text
+    bool         enabled_            = true;
+    double       threshold_          = 1.4;
+    std::string  directions_         = "stretched";
+    double       minimum_length_     = 0.7;
+    unsigned int maximum_generation_ = 8;
+    unsigned int maximum_points_     = 10000000;
 
     struct Violation
     {
