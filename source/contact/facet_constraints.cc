@@ -160,8 +160,8 @@ namespace talus
 
 
 
-  // It is impulses that are averaged, not pressures: their sum is kept while soil
-  // slides from facet to facet, and with it the mean force.
+  // Impulses are averaged, not pressures: their sum is kept while soil slides from
+  // facet to facet, and with it the mean force.
   template <int dim>
   double
   FacetConstraints<dim>::averaging_weight(

@@ -93,9 +93,9 @@ namespace talus
 
 
 
-  // What one surface takes back may lead into another one: soil that runs down a
-  // bed against a structure would be held by the structure and sink into the bed.
-  // So points that were moved are looked at again.
+  // The correction by one surface may lead into another surface: soil that runs
+  // down a bed against a structure would be held by the structure and sink into
+  // the bed. So points that were moved are looked at again.
   template <int dim>
   void
   PointConfinement<dim>::confine(State<dim> &state)

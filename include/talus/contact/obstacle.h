@@ -102,7 +102,7 @@ namespace talus
         maximum_shear_stress_->set_depth(depth);
     }
 
-    /// What resists sliding along the surface.
+    /// Return the law of friction along the surface.
     const InterfaceFriction &
     friction() const
     {
