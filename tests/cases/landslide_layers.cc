@@ -40,6 +40,7 @@ namespace
         result.push_back(path + "Shape=polygon");
         result.push_back(path + "Vertices=" + vertices.str());
         result.push_back(path + "Material=clay");
+        result.push_back(path + "Filling=centres");
       }
     result.push_back("Bodies/Names=" + names.str());
     return result;
