@@ -60,7 +60,7 @@ namespace talus
       find_equilibrium();
     else
       reduce_strength();
-    if (stages_.dynamics_follows())
+    if (stages_.next_is_last_static())
       let_weight_act();
     state_.workspace.clear();
     stages_.count_one();

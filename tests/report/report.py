@@ -5,6 +5,7 @@ Usage: report.py TALUS ROOT FOLDER [SUITE]
 """
 
 import fcntl
+import math
 import os
 import re
 import shutil
@@ -311,7 +312,8 @@ class Slopes(ReportCase):
         thickness, final = grids["maximum-thickness"].values, grids["final-thickness"].values
         self.assertTrue(numpy.all(thickness[final > 0] >= final[final > 0]))
         shear = grids["maximum-bed-shear"].values
-        self.assertLess(numpy.nanmax(shear), 1.05 * 4e3)
+        # The bed is inclined by up to 20 degrees there.
+        self.assertLess(numpy.nanmax(shear), 4e3 / math.cos(math.radians(20)))
         self.assertGreater(numpy.nanmedian(shear[shear > 0]), 0.5 * 4e3)
         # The canyon leads the slide down the slope, to the east.
         east, _ = mass.place(*numpy.unravel_index(numpy.nanargmax(mass.values),

@@ -48,11 +48,12 @@ namespace talus
       return n_done_ < stages_.size() && stages_[n_done_] != Stage::dynamics;
     }
 
-    /// Whether the one after the next one is the dynamics.
+    /// Whether no other static stage comes after the next one, so that a run may
+    /// go on with the dynamics from there, now or when it is resumed.
     bool
-    dynamics_follows() const
+    next_is_last_static() const
     {
-      return n_done_ + 1 < stages_.size() &&
+      return n_done_ + 1 >= stages_.size() ||
              stages_[n_done_ + 1] == Stage::dynamics;
     }
 
