@@ -213,6 +213,7 @@ class Ranks(Runs):
             # 16 points become 64, on no rank of several more than 40.
             result = self.start(f"ranks-{n_ranks}", n_ranks,
                                 ["Splitting/Maximum number of points=40",
+                                 "Splitting/Directions=all",
                                  "Splitting/Threshold=1.01",
                                  "Splitting/Minimum length=0", "End time=0.1",
                                  "Bodies/block/Initial velocity=10*(x-2); 0"],
