@@ -106,7 +106,7 @@ TEST(LandslideUnsplit, FracturesAndStillBalances)
                          "landslide-unsplit-right-stretch",
                          unsplit_slide +
                            Overrides{"Transfer/Box rule=right stretch"}),
-                  2);
+                  1);
 }
 
 
