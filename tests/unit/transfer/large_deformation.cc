@@ -86,10 +86,8 @@ namespace
             continue;
           }
         EXPECT_NEAR(now.norm(), 500., 1.);
-        // Round-off of six products in the determinant that was given.
-        EXPECT_NEAR(determinant(now),
-                    determinant(F[p]),
-                    4e-15 * F[p].norm_square());
+        // The volume that F was made with, but for the round-off of its entries.
+        EXPECT_NEAR(determinant(now), 0.9, 4e-15 * F[p].norm_square());
         // M = now F^-1 is symmetric: it does not turn the material.
         const Tensor<2, dim> M = now * invert(F[p]);
         EXPECT_LT((M - transpose(M)).norm(), 1e-6 * M.norm());
