@@ -259,8 +259,9 @@ namespace talus
 
 
 
-  /// Where cells of several sizes meet, or domains are not boxes: the weights of
-  /// the nodes on the face, divided by their sum, are the means along the face.
+  /// Add the area of a box where cells of several sizes meet, or of a convected
+  /// domain: the weights of the nodes on the face, divided by their sum, are the
+  /// means along the face.
   template <int dim>
   void
   SeabedCoverage<dim>::add_by_weights(const State<dim>  &state,

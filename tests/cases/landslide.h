@@ -6,7 +6,6 @@
 #include "verification.h"
 
 /// What must hold for the landslide of the paper, whatever the method.
-#include <optional>
 
 namespace talus::cases
 {
