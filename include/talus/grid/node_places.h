@@ -17,8 +17,8 @@ namespace talus
   places_of_owned_nodes(const Grid<dim> &grid);
 
   /// Names of the places of the nodes this rank owns on faces of the mesh, by
-  /// node, and 0 for all others. Names do not depend on mesh and ranks. A node on a periodic face has the name of its twin on the
-  /// lower face.
+  /// node, and 0 for all others. Names do not depend on mesh and ranks. A node on
+  /// a periodic face has the name of its twin on the lower face.
   template <int dim>
   std::vector<unsigned long>
   keys_of_face_nodes(const Grid<dim> &grid);

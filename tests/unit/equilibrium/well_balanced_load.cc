@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The suite works on any number of ranks; ctest runs it on 1 and 3.
+#include <talus/grid/node_places.h>
 #include <talus/points/points_kernel.h>
 
 #include "equilibrium_setup.h"
@@ -259,7 +260,7 @@ namespace well_balanced_load_test
     WellBalancedLoad<2> load;
     load.compute(problem, parts.weights, facets, parts.unknowns);
     EXPECT_GT(load.n_nodes_without(), 0u);
-    const auto places = places_of_nodes(block.grid);
+    const auto places = places_of_owned_nodes(block.grid);
     for (const unsigned int node : parts.unknowns.active_nodes())
       for (unsigned int d = 0; d < 2; ++d)
         {
