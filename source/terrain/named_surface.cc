@@ -3,6 +3,7 @@
 #include <talus/geometry/outline_surface.h>
 #include <talus/geometry/terrain.h>
 #include <talus/io/files.h>
+#include <talus/io/geojson.h>
 #include <talus/io/map_projection.h>
 #include <talus/io/raster_file.h>
 #include <talus/terrain/named_surface.h>
@@ -26,7 +27,8 @@ namespace talus
                   "ASCII grid, netCDF-4 (GEBCO, GMT) or, if talus was built "
                   "with GDAL, GeoTIFF; in metres, or in degrees with a "
                   "`Projection`. In 3-D x is the easting and -z "
-                  "the northing, from 'Grid/Origin' on.");
+                  "the northing, from 'Grid/Origin' on. Or, 3-D only, the "
+                  "polygon of a GeoJSON file (.geojson), as an `Outline`.");
     add_parameter("Projection",
                   projection_,
                   "Of a raster in degrees (WGS 84): the map in metres that it "
@@ -198,6 +200,52 @@ namespace talus
 
 
 
+  template <>
+  std::shared_ptr<const Surface<2>>
+  NamedSurface<2>::read_outline_file(const std::filesystem::path & /*file*/,
+                                     const Point<3> & /*origin*/) const
+  {
+    AssertThrow(false,
+                ExcUser(text(path("File"),
+                             " is the outline of an area in plan, but the "
+                             "simulation is two-dimensional. Limit the surface "
+                             "by an expression in x.")));
+    return nullptr;
+  }
+
+
+
+  template <>
+  std::shared_ptr<const Surface<3>>
+  NamedSurface<3>::read_outline_file(const std::filesystem::path &file,
+                                     const Point<3>              &origin) const
+  {
+    protect_input(file);
+    GeojsonPolygon polygon = read_geojson_polygon(file);
+    AssertThrow(polygon.is_in_degrees != projection_.empty(),
+                ExcUser(
+                  text("The outline '",
+                       file_,
+                       polygon.is_in_degrees
+                         ? "' is in degrees. Say to which map it is to be "
+                           "brought: "
+                         : "' is on a map in metres. Remove ",
+                       path("Projection"),
+                       polygon.is_in_degrees ? ", such as UTM 33N." : ".")));
+    if (polygon.is_in_degrees)
+      {
+        const MapProjection map(path("Projection"), projection_);
+        for (Point<2> &corner : polygon.corners)
+          corner = map.forward(corner);
+      }
+    for (Point<2> &corner : polygon.corners)
+      corner = Point<2>(corner[0] - origin[0], origin[1] - corner[1]);
+    return std::make_shared<OutlineSurface>("The outline '" + file_ + "'",
+                                            polygon.corners);
+  }
+
+
+
   template <int dim>
   void
   NamedSurface<dim>::check_entries() const
@@ -228,6 +276,8 @@ namespace talus
   {
     if (!outline_.empty())
       return read_outline(origin);
+    if (is_geojson(file_))
+      return read_outline_file(file(folder), origin);
     const auto corners = section();
     Raster     raster  = read_file(file(folder));
     return std::make_shared<Terrain<dim>>(std::make_shared<const HeightField>(
