@@ -210,6 +210,19 @@ class Interrupted(ReportCase):
         self.assertIn("It was killed", self.report(folder).said("notices"))
 
 
+    def test_empty_tables(self):
+        """As a full disk leaves them: each is told."""
+        folder = self.slide("empty")
+        header, _ = (folder / "profile.csv").read_text().split("\n", 1)
+        for content, size in (("", 0), (header[:20], 20), (header + "\n", len(header) + 1)):
+            for name in ("profile.csv", "lines.csv", "obstacles.csv"):
+                (folder / name).write_text(content)
+            page = self.report(folder)
+            self.assertNotIn("thalweg", page.sections)
+            for name in ("profile.csv", "lines.csv", "obstacles.csv"):
+                self.assertIn(f"{name} has no complete row ({size} bytes)", page.said("notices"))
+
+
 class Maps(ReportCase):
     def write_grid(self, folder, name, values, columns=3):
         folder.mkdir(exist_ok=True)

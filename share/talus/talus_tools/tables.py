@@ -43,6 +43,16 @@ def is_row_of_numbers(row, n_columns):
         return False
 
 
+def header(path):
+    """Names of the columns; nothing where the first line is not complete yet."""
+    try:
+        with open(path, newline="", encoding="utf-8", errors="replace") as stream:
+            line = stream.readline()
+    except OSError:
+        return []
+    return next(csv.reader([line])) if line.endswith("\n") else []
+
+
 def read_table(path):
     """Read a table. A last line that is cut off, as one that is being written, is
     left out, which the table tells in `left_out`; any other is an error."""

@@ -6,6 +6,7 @@ import os
 import numpy
 
 from talus_tools.hdf5 import h5py
+from talus_tools.report.run import has_rows
 from talus_tools.units import plain, show, unit_of
 
 # Shares above which a budget is not closed well enough to be left unsaid.
@@ -166,6 +167,19 @@ def cut_off(run):
             for name, table in run.tables.items() if table and table.left_out]
 
 
+def empty_tables(run):
+    """Tables that a run made and did not fill, as on a disk that is full."""
+    names = list(run.empty)
+    if run.has("lines.csv") and not has_rows(run.path("lines.csv")):
+        names.append("lines.csv")
+    # At the start of a run a table may have its header only.
+    if len(run.statistics) == 1:
+        names = [name for name in names if os.path.getsize(run.path(name)) == 0]
+    return [f"{name} has no complete row ({os.path.getsize(run.path(name))} bytes), so that its "
+            "section is missing here. A full disk or a copy that was cut off leaves such files."
+            for name in names]
+
+
 def without_h5py(run):
     """Pictures that this Python cannot make."""
     return [] if h5py or not run.has("points.xdmf") else [
@@ -184,5 +198,5 @@ def remarks(run):
 def notices(run):
     """All of them, the gravest first."""
     checks = (unfinished, mass, energy, fracture, split_limits, ledger, below_surface,
-              contact_area, moving, cut_off, without_h5py, remarks)
+              contact_area, moving, cut_off, empty_tables, without_h5py, remarks)
     return [sentence for check in checks for sentence in check(run)]

@@ -33,11 +33,18 @@ def read_text(path):
         raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
 
 
+def has_rows(path):
+    """Whether a table has a complete line below its header."""
+    with open(path, "rb") as stream:
+        return stream.readline().endswith(b"\n") and stream.readline().endswith(b"\n")
+
+
 class Run:
-    """Tables, parameters and log of a run; a table that is not there is None."""
+    """Tables, parameters and log of a run; a table that is not there is None. `empty`: names
+    of the tables that have no complete row."""
 
     def __init__(self, folder):
-        self.folder = folder
+        self.folder, self.empty = folder, []
         self.check_folder()
         self.tables = {name: self.read(name + ".csv") for name in
                        ("statistics", "profile", "obstacles", "boundaries", "newton", "maps",
@@ -82,9 +89,10 @@ class Run:
         path = self.path(name)
         if not os.path.isfile(path):
             return None
-        with open(path, "rb") as stream:
-            has_rows = name == "statistics.csv" or len(stream.read(1 << 16).split(b"\n")) > 2
-        return read_table(path) if has_rows else None
+        if name != "statistics.csv" and not has_rows(path):
+            self.empty.append(name)
+            return None
+        return read_table(path)
 
     def series(self, name):
         """Fields by time, of VTU or HDF5 files; None where there are none that can be read."""
