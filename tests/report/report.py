@@ -16,12 +16,16 @@ import unittest
 import xml.etree.ElementTree
 
 import numpy
+from PIL import Image
 
 from tools_case import COARSE, ROOT, TALUS, Case, main, read_csv
 
 from talus_tools.errors import UserError
 from talus_tools.esri import read_grid
 from talus_tools.hdf5 import h5py
+from talus_tools.report.film import entries, painted, palette_image, rasters
+from talus_tools.report.places import routes_of, stations_of
+from talus_tools.report.run import Run
 from talus_tools.report.write import write_report
 
 ALWAYS = ["notices", "what-was-run", "runout", "thalweg", "mass", "momentum", "energy", "fracture",
@@ -66,7 +70,11 @@ class Report(ReportCase):
     def test_2d_run_has_the_numbers_of_its_tables(self):
         folder = self.slide("slope")
         page = self.report(folder)
-        self.assert_has(page, "soil")
+        self.assert_has(page, "soil", "motion")
+        # Results first, settings last.
+        order = list(page.sections)
+        self.assertEqual([order[1], order[-2], order[-1]], ["motion", "log", "what-was-run"])
+        self.assertLess(order.index("runout"), order.index("mass"))
         last = read_csv(folder / "statistics.csv")[-1]
         cells = [e.get("data-value") for e in page.sections["runout"].iter("td")
                  if e.get("data-column") == "front x [m]"]
@@ -93,15 +101,17 @@ class Report(ReportCase):
         self.assertEqual(page.text, Page(folder).text)
         other = self.report(self.slide("hdf5", "Output/Format=hdf5"))
         if h5py:
-            self.assert_has(other, "soil")
+            self.assert_has(other, "soil", "motion")
             self.assertEqual(page.pictures("soil"), other.pictures("soil"))
+            self.assertEqual(page.pictures("motion"), other.pictures("motion"))
         else:
             self.assert_has(other)
             self.assertIn("h5py was not found", other.said("notices"))
 
     def needs_nothing_else(self, page):
         outside = re.sub(r"base64,[\w+/=]*", "", page.text)
-        for word in ("http:", "https:", "<script", "<link", "@import", "url("):
+        for word in ("http:", "https:", "<script ", "<link", "@import", "url(", "fetch(",
+                     "XMLHttpRequest", "import("):
             self.assertNotIn(word, outside)
 
     def test_without_runout_and_fields(self):
@@ -109,6 +119,7 @@ class Report(ReportCase):
                                       "Output/Write grid=false"))
         self.assertNotIn("thalweg", page.sections)
         self.assertNotIn("soil", page.sections)
+        self.assertNotIn("motion", page.sections)
         self.assertNotIn("front x [m]", page.values)
 
     def test_obstacles_and_faces(self):
@@ -117,7 +128,8 @@ class Report(ReportCase):
                             "Output/Boxes as cells=false",
                             "Boundaries/Write forces=true")
         page = self.report(folder)
-        self.assert_has(page, "soil", "obstacles", "faces")
+        self.assert_has(page, "soil", "motion", "obstacles", "faces")
+        self.assertIn("largest force on pipe", "".join(page.root.itertext()))
         forces = [float(row["pipe force x [N]"]) for row in read_csv(folder / "obstacles.csv")]
         self.assertGreater(max(forces), 0)
         self.assertEqual(float(page.values["pipe force x [N]"]), max(forces))
@@ -153,7 +165,7 @@ class Report(ReportCase):
         folder = self.slide("3d", "Output/Boxes as cells=false", "Grid/Cell size=0.8",
                             "End time=0.1", file="landslide-3d.prm")
         page = self.report(folder)
-        self.assert_has(page, "soil")
+        self.assert_has(page, "soil", "motion")
         self.assertIn("Section at z =", page.said("soil"))
         self.assertEqual(page.said("what-was-run").count("not known"), 0)
 
@@ -265,7 +277,70 @@ class Maps(ReportCase):
         self.assertIn("cable maximum thickness 0.75 m 10 m", page.said("lines"))
         self.assertIn("maximum thickness 2.5 m x = 1 m", page.said("maps"))
         self.assertEqual(page.values["A speed [m/s]"], "3.5")
-        self.assertIn("A 2 thickness 0 m 0 s never", page.said("stations"))
+        self.assertNotIn("A 2 thickness", page.said("stations"))
+        self.assertIn("No soil reached the station A 2.", page.said("stations"))
+
+
+def centre(grid, values):
+    """Easting and northing of the centre of what a grid holds."""
+    weights = numpy.nan_to_num(values)
+    places = grid.place(*numpy.indices(values.shape))
+    return [numpy.sum(place * weights) / weights.sum() for place in places]
+
+
+class Films(Case):
+    """Frames of the slider and of talus-animate."""
+
+    def test_painted_area(self):
+        """Parallelograms cover their area, without holes, whatever their size."""
+        for size in (0.5, 2.0, 11.0):
+            x, y = numpy.meshgrid(numpy.arange(0, 22, size), numpy.arange(0, 22, size))
+            corner = numpy.stack([x.ravel(), y.ravel()], axis=-1)[:, None]
+            quads = corner + size * numpy.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+            index = painted(numpy.zeros((60, 80), dtype=numpy.uint8), quads,
+                            numpy.full(len(quads), 7, dtype=numpy.uint8), (-9, 31, -5, 25))
+            self.assertTrue(numpy.all(index[7:49, 19:61] == 7), size)
+            self.assertAlmostEqual(numpy.count_nonzero(index), 4 * 22**2, delta=4 * 45)
+
+    def test_colours(self):
+        """No soil is transparent, the largest value has the last colour, and no value is drawn
+        as a structure."""
+        index = entries(numpy.array([numpy.nan, 0, 1e-9, 5, 10, 1000]), 10)
+        self.assertEqual(index.tolist(), [0, 0, 1, 127, 254, 254])
+        image = palette_image(index[None], "viridis").convert("RGB")
+        self.assertEqual(image.getpixel((4, 0)), (253, 231, 36))
+
+    def test_animate(self):
+        """One picture per time of the fields, each different from the one before."""
+        folder = self.slide("film")
+        film = folder / "film.gif"
+        result = self.tool("talus-animate", folder, "--output", film, "--fps", 5)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        with Image.open(film) as gif:
+            self.assertEqual(gif.n_frames, len(list(folder.glob("points-*.vtu"))))
+            gif.seek(1)
+            self.assertEqual(gif.info["duration"], 200)
+            pictures = []
+            for k in range(gif.n_frames):
+                gif.seek(k)
+                pictures.append(numpy.asarray(gif.convert("RGB")).astype(int))
+        for one, other in zip(pictures, pictures[1:]):
+            self.assertGreater(numpy.count_nonzero(numpy.abs(one - other).max(axis=2) > 30), 500)
+        # Where there is ffmpeg it makes a film, too; else the GIF is what is made.
+        result = self.tool("talus-animate", folder, "--most", 3)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        name = "animation.mp4" if shutil.which("ffmpeg") else "animation.gif"
+        self.assertIn(f"3 pictures are in {folder / name}", result.stdout)
+        self.assertGreater(os.path.getsize(folder / name), 5000)
+
+    def test_animate_refuses(self):
+        folder = self.slide("still", "Output/Write points=false", "Output/Runout=false")
+        self.assert_sentence(self.tool("talus-animate", folder), "no fields at two times")
+        for options, words in ((("--output", "film.avi"), "film.avi"), (("--fps", "0"), "--fps 0"),
+                               (("--most", "1"), "--most 1")):
+            self.assert_sentence(self.tool("talus-animate", folder, *options), words)
+        self.assert_sentence(self.tool("talus-animate", folder, "--output", "film.mp4",
+                                       env={"PATH": "/nowhere"}), "ffmpeg", ".gif")
 
 
 class Slopes(ReportCase):
@@ -285,11 +360,49 @@ class Slopes(ReportCase):
                    if float(row["time [s]"]) >= time)
         return float(row["energy remainder [J]"]) / float(row["gravity work [J]"])
 
+    def assert_first_look(self, page):
+        """Three maps with what the reader knows the place by; the others are folded."""
+        maps = page.sections["maps"]
+        folded = [e for d in maps.iter("details") for e in d.iter("img")]
+        shown = [e.get("alt") for e in maps.iter("img") if e not in folded]
+        self.assertEqual([alt.split(" over ")[0] for alt in shown],
+                         ["Maximum thickness", "Maximum speed", "Arrival time 0.5 m"])
+        self.assertGreater(len(folded), 5)
+        for alt in shown:
+            self.assertIn("red outline: release area; violet: pipeline; triangles: stations",
+                          alt.lower())
+        self.assertIn("No soil reached the stations canyon, flat.", page.said("stations"))
+
+    def assert_places(self, folder):
+        """Of 'Stations/Points' and 'Lines' and 'Grid/Origin = 512000, 6742800'."""
+        run = Run(str(folder))
+        self.assertEqual({name: tuple(place) for name, place in stations_of(run).items()},
+                         {"canyon": (514200, 6741450), "flat": (515000, 6741450)})
+        route = routes_of(run)["pipeline"]
+        self.assertEqual((tuple(route[0]), tuple(route[-1])),
+                         ((515000, 6742200), (515000, 6740700)))
+        # The soil of a frame covers the same area as in the map at that time.
+        (time,), cells = [40], read_grid(folder / "maps" / "final-thickness.asc")
+        table = Run(str(folder)).tables["profile"]
+        times = numpy.unique(table["time [s]"])
+        self.assertGreaterEqual(times[-1], time)
+        (thickness, _), grid = rasters(run, times[-1:])
+        self.assertAlmostEqual(numpy.nansum(thickness) * grid.dx * grid.dy
+                               / (numpy.nansum(cells.values) * cells.dx * cells.dy), 1, delta=1e-3)
+        for axis in (0, 1):
+            self.assertAlmostEqual(centre(grid, thickness[0])[axis],
+                                   centre(cells, cells.values)[axis], delta=1)
+
     def test_section(self):
         folder = self.run_slope("slope", "Grid/Cell size=8", "End time=115",
                                 "Output/Field interval=20")
         page = self.report(folder)
-        self.assert_has(page, "soil", "maps", "stations", "obstacles")
+        self.assert_has(page, "soil", "motion", "maps", "stations", "obstacles")
+        # The bed falls by 200 m, the soil is some 10 m thick.
+        for section in ("motion", "thalweg"):
+            self.assertRegex(page.said(section), "drawn [2-9] times as large as heights")
+        self.assertIn("largest force on structure", "".join(page.root.itertext()))
+        self.assertNotIn("largest force on bed", "".join(page.root.itertext()))
         columns = read_csv(folder / "maps.csv")
         width = float(columns[1]["x [m]"]) - float(columns[0]["x [m]"])
         self.assert_mass(folder, sum(float(c["final mass [kg/m^2]"]) for c in columns) * width)
@@ -314,8 +427,9 @@ class Slopes(ReportCase):
         folder = self.run_slope("slope-3d", "Grid/Cell size=20", "End time=40",
                                 "Output/Field interval=20")
         page = self.report(folder)
-        self.assert_has(page, "soil", "maps", "stations", "lines", "obstacles")
-        self.assertGreaterEqual(len(page.pictures("maps")), 5)
+        self.assert_has(page, "soil", "motion", "maps", "stations", "lines", "obstacles")
+        self.assert_first_look(page)
+        self.assert_places(folder)
 
         grids = {file.stem: read_grid(file) for file in (folder / "maps").glob("*.asc")}
         mass = grids["final-mass"]
@@ -355,20 +469,51 @@ class Refused(Case):
         self.assertFalse((folder / "report.html").exists())
 
 
+# Moves the slider of a page as a hand would, and plays it from there.
+MOVE = """<script>
+const input = document.querySelector("input[type=range]");
+input.value = WHERE;
+input.dispatchEvent(new Event("input"));
+if (PLAY) { document.querySelector(".slider button").click(); }
+</script></body>"""
+
+
+@unittest.skipUnless(shutil.which("chromium"), "SKIPPED: chromium was not found, so no browser "
+                     "has drawn the page")
 class Browser(Case):
-    @unittest.skipUnless(shutil.which("chromium"), "SKIPPED: chromium was not found, so no browser "
-                         "has drawn the page")
+    def chromium(self, page, *options):
+        """What chromium prints of a page."""
+        return subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu",
+                               f"--user-data-dir={self.folder / 'profile'}", *options,
+                               page.as_uri()], check=True, timeout=100, capture_output=True,
+                              text=True).stdout
+
+    def moved(self, folder, where, play=False):
+        """Times of the frames that are shown, and the words beside the slider, after a move."""
+        page = folder / "moved.html"
+        page.write_text((folder / "report.html").read_text().replace(
+            "</body>", MOVE.replace("WHERE", str(where)).replace("PLAY", str(play).lower())))
+        found = self.chromium(page, "--virtual-time-budget=10000", "--dump-dom")
+        frames = re.findall(r'<img class="frame"[^>]*alt="([^"]*)"([^>]*)>', found)
+        self.assertGreaterEqual(len(frames), 2)
+        return ([alt for alt, rest in frames if "hidden" not in rest],
+                re.search(r"<output>([^<]*)</output>", found)[1])
+
     def test_chromium_draws_it(self):
         folder = self.slide("slope")
         self.assertEqual(self.tool("talus-report", folder).returncode, 0)
         picture = self.folder / "page.png"
-        subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu",
-                        f"--user-data-dir={self.folder / 'profile'}",
-                        f"--screenshot={picture}", "--window-size=1200,4000",
-                        (folder / "report.html").as_uri()], check=True, timeout=60,
-                       capture_output=True)
+        self.chromium(folder / "report.html", f"--screenshot={picture}",
+                      "--window-size=1200,4000")
         # An empty page of this size has 20 kB.
         self.assertGreater(os.path.getsize(picture), 100_000)
+
+        times = re.findall("<li>(t = [^<]* s)</li>", (folder / "report.html").read_text())
+        self.assertEqual(times[0], "t = 0 s")
+        for where in (0, 2, len(times) - 1):
+            self.assertEqual(self.moved(folder, where), ([times[where]], times[where]))
+        # Played from the first time it stops at the last one.
+        self.assertEqual(self.moved(folder, 0, play=True), ([times[-1]], times[-1]))
 
 
 if __name__ == "__main__":

@@ -7,6 +7,8 @@ import numpy
 
 from talus_tools.errors import UserError
 
+LINE = "line"  # column of lines.csv with the names
+
 
 class Table:
     """Columns by name, as numbers; the text of the last row as it was written."""
@@ -77,3 +79,21 @@ def read_table(path):
         raise UserError(f"'{path}' has no complete row yet. A run writes the first one when it "
                         "starts to move; wait for it, or look for its error in log.txt.")
     return Table(path, names, rows, left_out)
+
+
+def read_lines(path):
+    """{line: {column: values}} of a table whose column `line` says which line a row belongs
+    to; without one all rows are of one line. Incomplete rows are left out."""
+    with open(path, newline="", encoding="utf-8") as stream:
+        names, *rows = list(csv.reader(stream)) or [[]]
+    groups = {}
+    for row in rows:
+        if len(row) == len(names):
+            entry = dict(zip(names, row))
+            groups.setdefault(entry.pop(LINE, "").strip(), []).append(entry)
+    try:
+        return {line: {name: numpy.array([number(entry[name]) for entry in entries])
+                       for name in entries[0]} for line, entries in groups.items()}
+    except ValueError as error:
+        raise UserError(f"'{path}' is no table of talus: in every column but '{LINE}' numbers "
+                        f"are expected ({error}).") from error

@@ -5,6 +5,7 @@ import dataclasses
 
 import numpy
 
+from talus_tools.report.places import structure_names
 from talus_tools.report.sections.forces import names_of
 from talus_tools.units import plain, show, unit_of
 
@@ -34,9 +35,11 @@ def safety(run):
 
 
 def forces(run):
-    """The largest force on each of the first obstacles."""
+    """The largest force on each of the first structures."""
     table, result = run.tables["obstacles"], []
-    for name in names_of(table)[:2] if table else []:
+    names = [name for name in names_of(table) if name in structure_names(run).values()
+             ] if table else []
+    for name in names[:2]:
         force = numpy.sqrt(sum(table[f"{name} force {axis} [N]"]**2
                                for axis in "xyz"[:run.dimension]))
         result.append(tile(f"largest force on {name}", force.max(), unit_of("[N]", run.dimension),

@@ -4,10 +4,10 @@
 import os
 
 from talus_tools.errors import UserError
+from talus_tools.report.contents import SECTIONS
 from talus_tools.report.headline import headline
 from talus_tools.report.notices import notices
 from talus_tools.report.run import HERE, Run, read_text
-from talus_tools.report.sections import SECTIONS
 from talus_tools.units import plain
 
 try:
@@ -33,6 +33,7 @@ def render(run):
     sections = [section for section in (make(run) for make in SECTIONS) if section]
     return environment.get_template("report.html").render(
         style=read_text(os.path.join(HERE, "report.css")),
+        script=read_text(os.path.join(HERE, "slider.js")),
         name=os.path.basename(os.path.abspath(run.folder)),
         title=run.title or os.path.basename(os.path.abspath(run.folder)), subtitle=subtitle(run),
         finished=run.is_finished(), notices=notices(run), tiles=headline(run), sections=sections,
