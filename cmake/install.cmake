@@ -15,7 +15,8 @@ install(TARGETS talus_library LIBRARY
 install(DIRECTORY prm DESTINATION share/talus COMPONENT program)
 install(FILES doc/parameters.prm DESTINATION share/doc/talus COMPONENT program)
 # Reports and studies; they compare with the reference of all parameters.
-install(PROGRAMS share/talus/talus-report share/talus/talus-study
+install(PROGRAMS share/talus/talus-report share/talus/talus-study share/talus/talus-animate
+    share/talus/talus-compare
   DESTINATION bin COMPONENT program)
 install(DIRECTORY share/talus/talus_tools DESTINATION share/talus
   COMPONENT program PATTERN __pycache__ EXCLUDE)
@@ -34,7 +35,7 @@ add_custom_command(OUTPUT ${completion}
 add_custom_target(manual ALL DEPENDS ${manual} ${completion})
 install(FILES ${manual} DESTINATION share/man/man1 COMPONENT program)
 # Those of the tools say what `--help` does, but need none of Python's modules.
-foreach(tool talus-report talus-study)
+foreach(tool talus-report talus-study talus-animate talus-compare)
   set(page ${CMAKE_BINARY_DIR}/${tool}.1.gz)
   execute_process(COMMAND ${TALUS_GZIP} -9nc ${CMAKE_SOURCE_DIR}/doc/man/${tool}.1
     OUTPUT_FILE ${page} COMMAND_ERROR_IS_FATAL ANY)

@@ -11,6 +11,7 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import time
 import unittest
 import xml.etree.ElementTree
@@ -18,8 +19,9 @@ import xml.etree.ElementTree
 import numpy
 from PIL import Image
 
-from tools_case import COARSE, ROOT, TALUS, Case, main, read_csv
+from tools_case import COARSE, ROOT, SHARE, TALUS, Case, main, read_csv
 
+from talus_tools.compare.pair import on_cells_of
 from talus_tools.errors import UserError
 from talus_tools.esri import read_grid
 from talus_tools.hdf5 import h5py
@@ -33,10 +35,10 @@ ALWAYS = ["notices", "what-was-run", "runout", "thalweg", "mass", "momentum", "e
 
 
 class Page:
-    """What a report says; it is XML, too."""
+    """What a report or comparison says; it is XML, too."""
 
-    def __init__(self, folder):
-        self.text = (folder / "report.html").read_text()
+    def __init__(self, folder, name="report.html"):
+        self.text = (folder / name).read_text()
         body = self.text.replace("<!DOCTYPE html>", "", 1)
         body = re.sub(r'<(meta [^>]*[^/])>', r'<\1 />', body)
         self.root = xml.etree.ElementTree.fromstring(body)
@@ -255,6 +257,7 @@ class Maps(ReportCase):
         # The easternmost cell of the middle row; two cells have soil.
         self.assertIn("4.25 m E 412050, N 6538030 800 m²", page.said("maps"))
         self.assertIn("erosion nowhere", page.said("maps"))
+        self.assert_styles(maps)
         self.write_grid(maps, "erosion", [1] * 6)
         with self.assertRaisesRegex(UserError, "erosion.* other cells"):
             write_report(str(folder))
@@ -262,6 +265,23 @@ class Maps(ReportCase):
                                           "cellsize 20\n1 2 3")
         with self.assertRaisesRegex(UserError, "erosion.* 3 values; 3 rows of 3"):
             write_report(str(folder))
+
+    def assert_styles(self, maps):
+        """A style of QGIS beside each raster, with the limits of the values; one that a user has
+        changed stays."""
+        self.assertEqual({p.stem for p in maps.glob("*.qml")}, {p.stem for p in maps.glob("*.asc")})
+        root = xml.etree.ElementTree.parse(maps / "maximum-thickness.qml").getroot()
+        items = [float(item.get("value")) for item in root.iter("item")]
+        self.assertEqual((items[0], len(items)), (0, 9))
+        self.assertAlmostEqual(items[-1], numpy.percentile([1, 4.25], 99.5))
+        root = xml.etree.ElementTree.parse(maps / "ground.qml").getroot()
+        self.assertEqual(root.find("pipe/rasterrenderer").get("type"), "hillshade")
+        own = "<!DOCTYPE qgis><qgis/>"
+        (maps / "ground.qml").write_text(own)
+        (maps / "erosion.qml").unlink()
+        write_report(str(maps.parent))
+        self.assertEqual((maps / "ground.qml").read_text(), own)
+        self.assertTrue((maps / "erosion.qml").exists())
 
     def test_lines_over_x_and_stations(self):
         folder = self.slide("2d")
@@ -341,6 +361,110 @@ class Films(Case):
             self.assert_sentence(self.tool("talus-animate", folder, *options), words)
         self.assert_sentence(self.tool("talus-animate", folder, "--output", "film.mp4",
                                        env={"PATH": "/nowhere"}), "ffmpeg", ".gif")
+
+
+class Compare(Case):
+    """talus-compare."""
+
+    def compare(self, a, b):
+        page = self.folder / "compare.html"
+        result = self.tool("talus-compare", a, b, "--output", page)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return Page(self.folder, page.name)
+
+    def test_numbers_and_histories(self):
+        a = self.slide("a")
+        b = self.slide("b", "Materials/mud/Undrained shear strength=1000", "End time=3")
+        page = self.compare(a, b)
+        tables = [read_csv(folder / "statistics.csv") for folder in (a, b)]
+        fronts = [float(table[-1]["front x [m]"]) for table in tables]
+        self.assertEqual(float(page.values["A front at the end"]), fronts[0])
+        self.assertEqual(float(page.values["B − A front at the end"]), fronts[1] - fronts[0])
+        self.assertIn("Materials / mud / Undrained shear strength 2e3 1000",
+                      page.said("differing"))
+        self.assertIn("B at t = 3 s: numbers and maps “at the end” are those of different times",
+                      page.said("numbers"))
+        # The largest distance of the fronts at a time of A that B has, too.
+        times, values = ([[float(row[name]) for row in table] for table in tables]
+                         for name in ("time [s]", "front x [m]"))
+        distance = [other - own for time, own, other in
+                    zip(times[0], values[0], numpy.interp(times[0], times[1], values[1]))
+                    if time <= times[1][-1]]
+        self.assertEqual(float(page.values["B − A front x [m]"]),
+                         max(distance, key=abs))
+        self.assertEqual(len(page.pictures("histories")), 1)
+        self.assertNotIn("<script", page.text)
+
+        same = self.compare(a, a)
+        self.assertIn("program and parameters are the same", same.said("differing"))
+        self.assertEqual({float(value) for column, value in same.values.items()
+                          if column.startswith("B − A")}, {0})
+
+    def test_maps(self):
+        """Cells of 20 m, and others of 10 m that cover a part of them."""
+        a = self.slide("3d", "Grid/Cell size=0.8", "End time=0.1", file="landslide-3d.prm")
+        b = self.folder / "3d-b"
+        shutil.copytree(a, b)
+        for folder, size, west, south, ground, thickness in (
+                (a, 20, 412000, 6538000, [-1, -2, -3, -4], [0, 4, 0, -9999]),
+                (b, 10, 412024, 6537996, [-2] * 4, [1.5, 0, -9999, 3])):
+            (folder / "maps").mkdir()
+            for name, values in (("ground", ground), ("maximum-thickness", thickness)):
+                (folder / "maps" / f"{name}.asc").write_text(
+                    f"ncols 2\nnrows 2\nxllcorner {west}\nyllcorner {south}\ncellsize {size}\n"
+                    "NODATA_value -9999\n" + " ".join(map(str, values)))
+        # Of the centres of A's cells only the south-eastern one is in a cell of B, the
+        # north-western one.
+        grids = [read_grid(folder / "maps" / "maximum-thickness.asc") for folder in (a, b)]
+        taken = on_cells_of(*grids).values
+        numpy.testing.assert_array_equal(taken, [[numpy.nan, numpy.nan], [numpy.nan, 1.5]])
+        page = self.compare(a, b)
+        self.assertIn("The rasters differ", page.said("maps"))
+        self.assertIn("maximum thickness 4 m 1.5 m −4 m E 412030, N 6538030 0 %",
+                      page.said("maps"))
+
+    def test_refused(self):
+        plane = self.slide("plane")
+        space = self.slide("space", "Grid/Cell size=0.8", "End time=0.1", file="landslide-3d.prm")
+        self.assert_sentence(self.tool("talus-compare", plane, space), "2 dimensions",
+                             "same dimension")
+        self.assert_sentence(self.tool("talus-compare", plane, self.folder), "parameters.prm")
+        self.assert_sentence(self.tool("talus-compare", plane, plane, "--output",
+                                       self.folder / "none" / "page.html"), "cannot be written")
+
+
+class Others(Case):
+    """What is in share/talus for other programs."""
+
+    def test_read_run(self):
+        folder = self.slide("slope")
+        result = subprocess.run([sys.executable, SHARE / "examples" / "read_run.py", folder],
+                                capture_output=True, text=True, timeout=100, cwd=self.folder,
+                                check=True)
+        table = read_csv(folder / "statistics.csv")
+        largest = max(table, key=lambda row: abs(float(row["centre velocity x [m/s]"])))
+        self.assertIn(f"{float(largest['centre velocity x [m/s]']):.4g} m/s at t = "
+                      f"{float(largest['time [s]']):.4g} s", result.stdout)
+        self.assertIn(f"{table[-1]['points']} points at t = 4 s", result.stdout)
+        self.assertIn(f"x = {float(table[-1]['centre x [m]']):.4g} m", result.stdout)
+        self.assertGreater(os.path.getsize(self.folder / "read_run.png"), 10_000)
+
+    @unittest.skipUnless(shutil.which("pvpython") and shutil.which("xvfb-run"), "SKIPPED: pvpython "
+                         "or xvfb-run was not found, so ParaView has not drawn a run")
+    def test_paraview(self):
+        folder = self.slide("slope", "Output/Boxes as cells=false", "Grid/Cell size=10",
+                            "End time=20", "Output/Field interval=10", file="slope.prm")
+        picture = self.folder / "view.png"
+        result = subprocess.run(["xvfb-run", "-a", "pvpython", SHARE / "paraview.py", folder,
+                                 picture, "20"], capture_output=True, text=True, timeout=200,
+                                check=False)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        with Image.open(picture) as image:
+            pixels = numpy.asarray(image.convert("RGB")).astype(int).reshape(-1, 3)
+        # Soil in more than one colour of its scale, and the dark line of the bed.
+        soil = numpy.unique(pixels[numpy.ptp(pixels, axis=1) > 60] // 16, axis=0)
+        self.assertGreater(len(soil), 8)
+        self.assertGreater(numpy.count_nonzero(pixels.max(axis=1) < 60), 1000)
 
 
 class Slopes(ReportCase):

@@ -17,11 +17,12 @@ class Tile:
     text: str
     value: str
     sentence: str
+    unit: str = ""
 
 
 def tile(name, value, unit, sentence):
     """The number as text and with all its digits."""
-    return Tile(name, show(value, unit), repr(float(value)), sentence)
+    return Tile(name, show(value, unit), repr(float(value)), sentence, unit)
 
 
 def safety(run):
