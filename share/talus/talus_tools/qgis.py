@@ -21,6 +21,7 @@ FRAME = """<!DOCTYPE qgis PUBLIC 'http://mrcc.com/qgis.dtd' 'SYSTEM'>
     <provider><resampling enabled="true" maxOversampling="2" \
 zoomedInResamplingMethod="{zoomed_in}" zoomedOutResamplingMethod="bilinear"/></provider>
     {renderer}
+    <resamplingStage>provider</resamplingStage>
   </pipe>
   <blendMode>0</blendMode>
 </qgis>
