@@ -48,6 +48,7 @@ namespace talus
     {
       static const std::vector<ConditionKind<dim>> list = {
         {"free", nullptr},
+        {"outflow", nullptr},
         {"periodic", nullptr},
         {"traction", make<TractionCondition<dim>, dim>},
         {"velocity", make<VelocityCondition<dim>, dim>},
@@ -383,7 +384,8 @@ namespace talus
           face_names[face],
           names_[face],
           "Condition on this face of the mesh: 'free' (a point that crosses it "
-          "has left, which is an error), 'roller' (no motion along the "
+          "has left, which is an error), 'outflow' (the same, but the point is "
+          "taken out of the run, and counted), 'roller' (no motion along the "
           "normal), 'fixed' (no motion), 'seabed' (contact with friction, see "
           "the section Seabed), 'periodic' (what leaves here enters through "
           "the opposite face, which must be periodic, too), 'velocity' or "

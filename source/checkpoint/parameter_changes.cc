@@ -64,7 +64,10 @@ namespace talus
         return false;
       // A run may be continued to a later time, and to more points.
       for (const std::string name :
-           {"Title", "End time", "Splitting/Maximum number of points"})
+           {"Title",
+            "End time",
+            "End when at rest",
+            "Splitting/Maximum number of points"})
         if (path == name)
           return true;
       for (const std::string section :

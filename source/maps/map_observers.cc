@@ -2,6 +2,7 @@
 #include <talus/maps/lines.h>
 #include <talus/maps/map_observers.h>
 #include <talus/maps/maps.h>
+#include <talus/maps/runout.h>
 #include <talus/maps/stations.h>
 
 namespace talus
@@ -13,6 +14,7 @@ namespace talus
     const auto settings = std::make_shared<MapSettings>();
     const auto list     = std::make_shared<StationList<dim>>();
     output.add_field_observer(std::make_unique<Maps<dim>>(problem, settings));
+    output.add_row_observer(std::make_unique<Runout<dim>>(problem.origin()));
     output.add_row_observer(std::make_unique<Stations<dim>>(problem, list));
     output.add_field_observer(
       std::make_unique<Lines<dim>>(problem, settings, list));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/terrain/plan_place.h>
 #include <talus/maps/station_list.h>
 
 #include <deal.II/base/utilities.h>
@@ -48,40 +49,6 @@ namespace talus
                   "N_p of that estimate [-].",
                   this->prm,
                   Patterns::Double(0., 1e3));
-  }
-
-
-
-  template <int dim>
-  Point<dim>
-  StationList<dim>::parse_place(const std::string &entry,
-                                const std::string &place,
-                                const Point<3>    &origin) const
-  {
-    const auto numbers = Utilities::split_string_list(place, ',');
-    AssertThrow(
-      numbers.size() == dim - 1 &&
-        std::all_of(numbers.begin(),
-                    numbers.end(),
-                    [](const std::string &n) {
-                      return Patterns::Double().match(n);
-                    }),
-      ExcUser(text("'Stations/",
-                   entry,
-                   "' contains '",
-                   place,
-                   "', where ",
-                   dim == 2 ? "one number, x," : "two numbers, x and z,",
-                   " were expected. Write name: place, separated by '|'.")));
-    Point<dim> x;
-    for (unsigned int a = 0; a < numbers.size(); ++a)
-      x[a == 0 ? 0 : dim - 1] = Utilities::string_to_double(numbers[a]);
-    if (coordinates_ == "map")
-      {
-        x[0] -= origin[0];
-        x[dim - 1] = origin[1] - x[dim - 1];
-      }
-    return x;
   }
 
 
@@ -140,7 +107,12 @@ namespace talus
         for (const std::string &place :
              Utilities::split_string_list(item.substr(colon + 1), ';'))
           {
-            Point<dim> x = parse_place(entry, place, origin);
+            Point<dim> x = parse_plan_place<dim>("Stations/" + entry,
+                                                 place,
+                                                 coordinates_ == "map"
+                                                   ? PlanCoordinates::map
+                                                   : PlanCoordinates::mesh,
+                                                 origin);
             x[1]         = domain.lower[1];
             AssertThrow(domain.contains(x),
                         ExcUser(text("'Stations/",

@@ -65,7 +65,8 @@ namespace talus
     {
       nothing,
       water,
-      merging
+      merging,
+      outflow
     };
 
 
@@ -81,7 +82,7 @@ namespace talus
     };
 
     /// The terms but for what they leave, in the order of their columns.
-    constexpr std::array<Term, 11> terms = {
+    constexpr std::array<Term, 12> terms = {
       {{"kinetic energy", &EnergyTerms::kinetic},
        {"grid kinetic energy", &EnergyTerms::grid_kinetic},
        {"elastic energy", &EnergyTerms::elastic},
@@ -92,7 +93,8 @@ namespace talus
        {"gravity work", &EnergyTerms::gravity},
        {"drag work", &EnergyTerms::drag, Needs::water},
        {"added mass kinetic energy", &EnergyTerms::added, Needs::water},
-       {"merging work", &EnergyTerms::merging, Needs::merging}}};
+       {"merging work", &EnergyTerms::merging, Needs::merging},
+       {"outflow energy", &EnergyTerms::outflow, Needs::outflow}}};
 
 
 
@@ -102,6 +104,7 @@ namespace talus
     {
       return term.needs == Needs::water     ? !state.added_mass.empty()
              : term.needs == Needs::merging ? state.may_merge
+             : term.needs == Needs::outflow ? state.outflow.is_open()
                                             : true;
     }
 
@@ -126,6 +129,7 @@ namespace talus
       result.gravity      = state.works.gravity;
       result.drag         = state.works.drag;
       result.merging      = state.works.merging;
+      result.outflow      = state.outflow.energy();
       result.added        = kinetic_energy_of_added_mass(state);
       for (const Term &term : terms)
         result.*term.value =
@@ -161,7 +165,7 @@ namespace talus
       (now.elastic - start_.elastic) - (now.plastic - start_.plastic) -
       (now.friction - start_.friction) - (now.contact - start_.contact) -
       (now.damping - start_.damping) - (now.drag - start_.drag) -
-      (now.added - start_.added) - now.merging;
+      (now.added - start_.added) - now.merging - now.outflow;
     return now;
   }
 
@@ -188,8 +192,8 @@ namespace talus
   EnergyBudget<dim>::list_state(StateList &list)
   {
     for (const Term &term : terms)
-      // Nothing is merged before the start.
-      if (term.needs != Needs::merging)
+      // Nothing is merged, and nothing leaves, before the start.
+      if (term.needs != Needs::merging && term.needs != Needs::outflow)
         list.add(std::string(term.name) + " at the start",
                  "J",
                  start_.*term.value,

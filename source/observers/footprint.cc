@@ -87,26 +87,31 @@ namespace talus
       }
 
       /// Call action(first, last) for each box: the columns whose middles lie
-      /// under it.
+      /// under it. A box that has grown longer than its cell acts over the length
+      /// of the cell only.
       template <typename Action>
       void
       for_each_box(const State<dim> &state, const Action &action) const
       {
         const Points<dim> &points = state.points;
-        for (unsigned int p = 0; p < points.size(); ++p)
-          {
-            const auto half = half_lengths_of_box(points, state.box_shape, p);
-            Columns    first, last;
-            for (unsigned int d = 0; d < dim - 1; ++d)
-              {
-                const unsigned int a = axis(d);
-                const double       x =
-                  points.data(points.position, a)[p] - origin_[a];
-                first[d] = std::lround(std::ceil((x - half[a]) / width_ - 0.5));
-                last[d] = std::lround(std::floor((x + half[a]) / width_ - 0.5));
-              }
-            action(first, last);
-          }
+        for (const Segment &segment : points.segments())
+          for (unsigned int p = segment.begin; p < segment.end; ++p)
+            {
+              const double half_cell =
+                0.5 * state.grid.cells()[segment.cell].size;
+              const auto half = half_lengths_of_box(points, state.box_shape, p);
+              Columns    first, last;
+              for (unsigned int d = 0; d < dim - 1; ++d)
+                {
+                  const unsigned int a = axis(d);
+                  const double       x =
+                    points.data(points.position, a)[p] - origin_[a];
+                  const double reach = std::min(half[a], half_cell);
+                  first[d] = std::lround(std::ceil((x - reach) / width_ - 0.5));
+                  last[d] = std::lround(std::floor((x + reach) / width_ - 0.5));
+                }
+              action(first, last);
+            }
       }
 
       /// Find the range of columns under the boxes of all ranks. Collective.

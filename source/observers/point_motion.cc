@@ -63,7 +63,8 @@ namespace talus
 
 
 
-    /// The same over all ranks. Collective.
+    /// The same over all ranks; without points, places are not numbers.
+    /// Collective.
     template <int dim>
     PointSums<dim>
     sum_over_points(const Points<dim> &points, const MPI_Comm communicator)
@@ -77,6 +78,9 @@ namespace talus
       sum.rear           = Utilities::MPI::min(sum.rear, communicator);
       sum.top            = Utilities::MPI::max(sum.top, communicator);
       sum.maximum_speed  = Utilities::MPI::max(sum.maximum_speed, communicator);
+      if (sum.n_points == 0)
+        sum.front = sum.rear = sum.top =
+          std::numeric_limits<double>::quiet_NaN();
       return sum;
     }
 
@@ -144,7 +148,8 @@ namespace talus
         lower = Utilities::MPI::min(lower, communicator);
         upper = Utilities::MPI::max(upper, communicator);
         if (!(lower < upper))
-          return upper;
+          return lower > upper ? std::numeric_limits<double>::quiet_NaN() :
+                                 upper;
 
         // The largest x would be in a bin beyond the last.
         const auto bin = [&](const Candidate &c) {

@@ -206,15 +206,27 @@ namespace talus
 
 
 
-  /// A free face holds nothing, so it may lie farther out than asked for.
+  /// A free face holds nothing, so it may lie farther out than asked for. At a
+  /// face of outflow the place says which soil is counted.
   template <int dim>
   std::array<bool, 2 * dim>
   Problem<dim>::faces_that_may_move() const
   {
     std::array<bool, 2 * dim> result;
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      result[face] = boundaries.is_free(face);
+      result[face] = boundaries.is_free(face) && !boundaries.is_outflow(face);
     return result;
+  }
+
+
+
+  template <int dim>
+  double
+  Problem<dim>::time_of_last_change() const
+  {
+    if (obstacles.move() || boundaries.has_expressions())
+      return std::numeric_limits<double>::infinity();
+    return std::max(trigger.end_time(), loading.time_of_last_change());
   }
 
 

@@ -148,12 +148,17 @@ namespace talus
   void
   BackgroundMesh<dim>::prepare_cells()
   {
-    // In cells. Through a free face a point leaves the mesh, which is an error.
+    // In cells. Through a free face a point leaves the mesh, which is an error
+    // where the face is not one of outflow.
     std::array<double, 2 * dim> may_lie_outside;
-    const auto                  is_free = problem_.faces_that_may_move();
+    std::array<bool, 2 * dim>   is_outflow;
     for (unsigned int face = 0; face < 2 * dim; ++face)
-      may_lie_outside[face] = (is_free[face] ? 0. : 0.5);
+      {
+        may_lie_outside[face] = (problem_.boundaries.is_free(face) ? 0. : 0.5);
+        is_outflow[face]      = problem_.boundaries.is_outflow(face);
+      }
     relocation_.allow_outside(may_lie_outside);
+    state_.outflow.open(is_outflow);
 
     state_.grid.prepare();
     relocation_.rebuild(state_.points, state_.grid);
@@ -268,9 +273,21 @@ namespace talus
   void
   BackgroundMesh<dim>::relocate()
   {
-    PhaseTimer::Scope scope(timer_, "relocation");
+    PhaseTimer::Scope  scope(timer_, "relocation");
+    const Points<dim> &points = state_.points;
+    const auto         leaves = [&](const unsigned int p) {
+      if (!state_.outflow.is_beyond(load_place(points, points.position, p),
+                                    state_.grid.domain()))
+        return false;
+      state_.outflow.book(points, p, state_.added_mass);
+      return true;
+    };
     if (relocation_.update_points_out_of_cell(
-          state_.points, state_.grid, state_.workspace.points_out_of_cell()))
+          state_.points,
+          state_.grid,
+          state_.workspace.points_out_of_cell(),
+          state_.outflow.is_open() ? typename Relocation<dim>::Leaves(leaves)
+                                   : nullptr))
       state_.nodes.activate(state_.grid, relocation_.occupied_cells());
   }
 

@@ -45,6 +45,10 @@ namespace talus
                   "The simulation runs from time 0 to this time [s].",
                   this->prm,
                   Patterns::Double(0.));
+    add_parameter("End when at rest",
+                  ends_at_rest_,
+                  "Whether a slide that has come to rest ends the run before "
+                  "the end time; the section Rest says what rest is.");
     output_.add_row_observer(
       std::make_unique<ObstacleForces<dim>>(problem_.contact));
     output_.add_row_observer(
@@ -61,6 +65,8 @@ namespace talus
       note_contact_area(list);
       scheme_.splitter().list_quantities(state, list);
       scheme_.merger().list_quantities(state, list);
+      rest_.list_quantities(list);
+      state.outflow.list_quantities(state.communicator(), list);
       problem_.water.list_quantities(state,
                                      -problem_.loading.gravity()[1],
                                      list);
@@ -292,11 +298,13 @@ namespace talus
     while (!is_finished())
       {
         const RunRequest request = scheme_.advance(end_time_, local_request());
-        if (output_.observe(state_, state_.time >= end_time_))
+        rest_.update(state_, problem_.time_of_last_change());
+        if (output_.observe(state_, is_finished()))
           note_time_step();
         if (handle_request(request))
           return false;
       }
+    note_end();
     output_.check_complete(state_.communicator());
     log_.say(LogLevel::info,
              "A report of this run: talus-report " + output_.folder());
@@ -345,12 +353,28 @@ namespace talus
 
 
 
-  /// A run without dynamics ends where it begins.
+  /// To the log, how the dynamics ended.
+  template <int dim>
+  void
+  Simulation<dim>::note_end()
+  {
+    if (const std::string sentence = rest_.sentence(state_.time, end_time_);
+        !sentence.empty())
+      log_.say(LogLevel::result, sentence);
+  }
+
+
+
+  /// A run without dynamics ends where it begins, s.
   template <int dim>
   double
   Simulation<dim>::end_of_run() const
   {
-    return static_stages_.stages().contain(Stage::dynamics) ? end_time_ : 0.;
+    if (!static_stages_.stages().contain(Stage::dynamics))
+      return 0.;
+    return ends_at_rest_ && rest_.is_at_rest()
+             ? std::min(state_.time, end_time_)
+             : end_time_;
   }
 
 
@@ -522,6 +546,7 @@ namespace talus
     scheme_.splitter().list_state(list);
     scheme_.merger().list_state(list);
     static_stages_.list_state(list);
+    rest_.list_state(list);
     output_.list_state(list);
     return list;
   }

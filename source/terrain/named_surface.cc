@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/geometry/outline_surface.h>
 #include <talus/geometry/terrain.h>
 #include <talus/io/files.h>
 #include <talus/io/map_projection.h>
 #include <talus/io/raster_file.h>
 #include <talus/terrain/named_surface.h>
+#include <talus/terrain/plan_place.h>
 #include <talus/terrain/project_raster.h>
 
 #include <deal.II/base/utilities.h>
@@ -56,6 +58,19 @@ namespace talus
                   expression_,
                   "In place of a file: the height as an expression in x (, z) "
                   "and the surfaces listed before this one [m].");
+    add_parameter("Outline",
+                  outline_,
+                  "3-D only, in place of a file: corners 'x, z; x, z; ...' of "
+                  "an area in plan [m]. The surface is as high as the place is "
+                  "distant from the outline [m], above zero inside and below "
+                  "zero outside: for expressions such as the slip surface "
+                  "'mudline - min(15, max(0, outline))' of a release area "
+                  "15 m deep, with sides of 45 degrees.");
+    add_parameter("Coordinates",
+                  coordinates_,
+                  "'map': the corners of the outline are easting, northing.",
+                  this->prm,
+                  Patterns::Selection("mesh|map"));
   }
 
 
@@ -148,18 +163,71 @@ namespace talus
 
 
 
+  template <>
+  std::shared_ptr<const Surface<2>>
+  NamedSurface<2>::read_outline(const Point<3> & /*origin*/) const
+  {
+    AssertThrow(false,
+                ExcUser(text(path("Outline"),
+                             " is given, but the simulation is "
+                             "two-dimensional, where there is no area in plan. "
+                             "Limit the surface by an expression in x.")));
+    return nullptr;
+  }
+
+
+
+  template <>
+  std::shared_ptr<const Surface<3>>
+  NamedSurface<3>::read_outline(const Point<3> &origin) const
+  {
+    std::vector<Point<2>> corners;
+    for (const auto &place : Utilities::split_string_list(outline_, ';'))
+      {
+        const Point<3> x =
+          parse_plan_place<3>("Surfaces/" + name_ + "/Outline",
+                              place,
+                              coordinates_ == "map" ? PlanCoordinates::map
+                                                    : PlanCoordinates::mesh,
+                              origin);
+        corners.emplace_back(x[0], x[2]);
+      }
+    return std::make_shared<OutlineSurface>("The outline in " + path("Outline"),
+                                            corners);
+  }
+
+
+
+  template <int dim>
+  void
+  NamedSurface<dim>::check_entries() const
+  {
+    const unsigned int n_given =
+      !file_.empty() + !expression_.empty() + !outline_.empty();
+    AssertThrow(n_given == 1,
+                ExcUser(text("The section Surfaces/",
+                             name_,
+                             " has ",
+                             n_given == 0 ? "none" : "more than one",
+                             " of the entries `File`, `Expression` and "
+                             "`Outline`. Give one of them.")));
+    AssertThrow(coordinates_ == "mesh" || !outline_.empty(),
+                ExcUser(text(path("Coordinates"),
+                             " is '",
+                             coordinates_,
+                             "', which is for an `Outline`, but there is none. "
+                             "Remove the entry.")));
+  }
+
+
+
   template <int dim>
   std::shared_ptr<const Surface<dim>>
   NamedSurface<dim>::read(const std::filesystem::path &folder,
                           const Point<3>              &origin) const
   {
-    AssertThrow(file_.empty() != expression_.empty(),
-                ExcUser(
-                  text("The section Surfaces/",
-                       name_,
-                       " has ",
-                       file_.empty() ? "neither `File` nor" : "both `File` and",
-                       " `Expression`. Give one of the two.")));
+    if (!outline_.empty())
+      return read_outline(origin);
     const auto corners = section();
     Raster     raster  = read_file(file(folder));
     return std::make_shared<Terrain<dim>>(std::make_shared<const HeightField>(

@@ -91,9 +91,9 @@ namespace talus
     for (const auto &named : named_)
       {
         check_name(named->name());
-        // Reading also says what is wrong with the entries.
+        named->check_entries();
         surfaces_.emplace_back(named->name(),
-                               named->is_expression() && !named->has_file()
+                               named->is_expression()
                                  ? surface(named->path("Expression"),
                                            named->expression())
                                  : named->read(folder, origin));

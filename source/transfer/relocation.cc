@@ -167,16 +167,23 @@ namespace talus
 
 
 
-  /// Note point @p p of @p segment if it belongs to another cell now.
+  /// Note point @p p of @p segment if it belongs to another cell now, or leaves
+  /// the run.
   template <int dim>
   void
   Relocation<dim>::look_for(Points<dim>       &points,
                             const Grid<dim>   &grid,
                             const Segment     &segment,
-                            const unsigned int p)
+                            const unsigned int p,
+                            const Leaves      &leaves)
   {
     if (all_inside(points, {0, 0, p, p + 1}, grid.cells()[segment.cell]))
       return;
+    if (leaves && leaves(p))
+      {
+        leaving_.push_back(p);
+        return;
+      }
     if (grid.periodicity().any())
       wrap(points, grid.periodicity(), p);
     const unsigned int c = locate(points, grid, p, segment.cell);
@@ -196,7 +203,7 @@ namespace talus
     for (const Segment &segment : points.segments())
       if (!all_inside(points, segment, grid.cells()[segment.cell]))
         for (unsigned int p = segment.begin; p < segment.end; ++p)
-          look_for(points, grid, segment, p);
+          look_for(points, grid, segment, p, {});
   }
 
 
@@ -210,7 +217,8 @@ namespace talus
   Relocation<dim>::find_changes_out_of_cell(
     Points<dim>               &points,
     const Grid<dim>           &grid,
-    std::vector<unsigned int> &out_of_cell)
+    std::vector<unsigned int> &out_of_cell,
+    const Leaves              &leaves)
   {
     std::sort(out_of_cell.begin(), out_of_cell.end());
     out_of_cell.erase(std::unique(out_of_cell.begin(), out_of_cell.end()),
@@ -222,7 +230,7 @@ namespace talus
           std::partition_point(segment,
                                points.segments().end(),
                                [p](const Segment &s) { return s.end <= p; });
-        look_for(points, grid, *segment, p);
+        look_for(points, grid, *segment, p, leaves);
       }
   }
 
@@ -233,10 +241,16 @@ namespace talus
   template <int dim>
   void
   Relocation<dim>::find_appended_changes(Points<dim>     &points,
-                                         const Grid<dim> &grid)
+                                         const Grid<dim> &grid,
+                                         const Leaves    &leaves)
   {
     for (unsigned int p = points.n_sorted(); p < points.size(); ++p)
       {
+        if (leaves && leaves(p))
+          {
+            leaving_.push_back(p);
+            continue;
+          }
         if (grid.periodicity().any())
           wrap(points, grid.periodicity(), p);
         changes_.push_back(
@@ -254,8 +268,9 @@ namespace talus
   Relocation<dim>::find_all_changes(Points<dim> &points, const Grid<dim> &grid)
   {
     changes_.clear();
+    leaving_.clear();
     find_sorted_changes(points, grid);
-    find_appended_changes(points, grid);
+    find_appended_changes(points, grid, {});
   }
 
 
@@ -319,12 +334,14 @@ namespace talus
   Relocation<dim>::update_points_out_of_cell(
     Points<dim>               &points,
     const Grid<dim>           &grid,
-    std::vector<unsigned int> &out_of_cell)
+    std::vector<unsigned int> &out_of_cell,
+    const Leaves              &leaves)
   {
     changes_.clear();
-    find_changes_out_of_cell(points, grid, out_of_cell);
+    leaving_.clear();
+    find_changes_out_of_cell(points, grid, out_of_cell, leaves);
     out_of_cell.clear();
-    find_appended_changes(points, grid);
+    find_appended_changes(points, grid, leaves);
     return send_and_sort_in(points, grid);
   }
 
@@ -337,7 +354,7 @@ namespace talus
   Relocation<dim>::send_and_sort_in(Points<dim> &points, const Grid<dim> &grid)
   {
     send_departed(points, grid);
-    if (changes_.empty() && outgoing_.empty())
+    if (changes_.empty() && outgoing_.empty() && leaving_.empty())
       return false;
     return sort_in(points);
   }
@@ -357,15 +374,21 @@ namespace talus
       // Appended points are in no segment that they could leave.
       if (point.index < points.n_sorted())
         departed_.push_back(point.index);
+    for (const unsigned int p : leaving_)
+      if (p < points.n_sorted())
+        departed_.push_back(p);
     reordering_.merge(points.segments(), changes_, departed_);
-    AssertThrow(reordering_.n_points() + outgoing_.size() == points.size(),
+    AssertThrow(reordering_.n_points() + outgoing_.size() + leaving_.size() ==
+                  points.size(),
                 ExcMessage(text("Points were lost or counted twice: ",
                                 points.size(),
                                 " before sorting, ",
                                 reordering_.n_points(),
-                                " after, and ",
+                                " after, ",
                                 outgoing_.size(),
-                                " went to other ranks.")));
+                                " went to other ranks, and ",
+                                leaving_.size(),
+                                " left the mesh by an outflow face.")));
     reordering_.apply(points);
     // At the start and after a change of the mesh all points move, in a step
     // only a few: the long lists would be a waste of memory.
@@ -415,6 +438,7 @@ namespace talus
     AssertDimension(cells.size(), points.size());
     points.forget_order();
     changes_.clear();
+    leaving_.clear();
     outgoing_.clear();
     for (unsigned int p = 0; p < points.size(); ++p)
       changes_.push_back(

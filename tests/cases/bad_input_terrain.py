@@ -72,9 +72,9 @@ class BadInputTerrain(Case):
         layer = ["Bodies/block/Shape=layer", "Bodies/block/Lower surface=0"]
         for settings, *words in (
                 (["Surfaces/Names=x"], "'Surfaces/Names' lists 'x'", "word"),
-                (["Surfaces/Names=bed"], "neither `File` nor `Expression`"),
+                (["Surfaces/Names=bed"], "none of the entries `File`, `Expression` and `Outline`"),
                 (self.FILE + ["Surfaces/bed/Expression=1"],
-                 "both `File` and `Expression`"),
+                 "more than one of the entries"),
                 (self.BED + ["Surfaces/bed/File=bed.asc"],
                  "'Surfaces/bed/Section'", "two corners"),
                 (self.FILE + ["Surfaces/bed/Section=0,0; 1"],

@@ -192,6 +192,27 @@ class MeshThatChanges(KillAndResume):
                            "Output/Format=hdf5"]
 
 
+class SoilLeaves(Case):
+    """A block that leaves through a face of outflow, resumed in the middle of it."""
+
+    file = "verification/block-on-incline.prm"
+    settings = ["Grid/Upper corner=4, 2", "Boundaries/Right=outflow", "End time=2",
+                "Output/Field interval=0.1"]
+
+    def test_resumed_while_it_leaves(self):
+        self.make_reference()
+        self.assert_ends(self.run_talus("run", ["Checkpoint/Step interval=1900",
+                                                "Checkpoint/At the end=false"]))
+        text = (self.folder / "run" / "statistics.csv").read_text()
+        names, *rows = [line.split(",") for line in text.splitlines()]
+        column = {name: [float(row[i]) for row in rows] for i, name in enumerate(names)}
+        left = [mass for step, mass in zip(column["step"], column["outflow mass [kg]"])
+                if step <= int(self.newest("run")[0])]
+        self.assertTrue(0 < left[-1] < column["outflow mass [kg]"][-1])
+        self.assert_ends(self.run_talus("run", [], ["--resume"]))
+        self.assert_as_undisturbed("run")
+
+
 class PointsMerged(KillAndResume):
     """Points that are split and merged in turn."""
 

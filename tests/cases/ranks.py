@@ -136,6 +136,19 @@ class Ranks(Runs):
         for n_ranks in (2, 4):
             self.assert_same(self.run_on(n_ranks, settings), alone)
 
+    def test_outflow(self):
+        """Soil that leaves, and its way in plan."""
+        settings = TERSE + ["Grid/Upper corner=4, 2", "Boundaries/Right=outflow",
+                            "End time=1.6"]
+        file = "verification/block-on-incline.prm"
+        alone = self.run_on(1, settings, file)
+        self.assertGreater(alone["outflow mass [kg]"][-1], 1000)
+        runout = read_table(self.folder / "ranks-1" / "runout.csv")
+        for n_ranks in (2, 4):
+            self.assert_same(self.run_on(n_ranks, settings, file), alone)
+            self.assert_same(read_table(self.folder / f"ranks-{n_ranks}" / "runout.csv"),
+                             runout)
+
     def test_obstacles(self):
         """A seabed through a mesh that changes; a pipe that moves."""
         slide = "landslide-inclined.prm"

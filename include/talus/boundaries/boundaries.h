@@ -9,6 +9,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
 #include <memory>
@@ -46,11 +47,28 @@ namespace talus
     void
     locate_nodes(const Grid<dim> &grid);
 
-    /// Whether nothing is there; a point that crosses the face has left.
+    /// Whether nothing is there: a point that crosses the face has left.
     bool
     is_free(const unsigned int face) const
     {
-      return names_[face] == "free";
+      return names_[face] == "free" || is_outflow(face);
+    }
+
+    /// Whether points that cross the face are taken out of the run and counted;
+    /// at other free faces a point that leaves is an error.
+    bool
+    is_outflow(const unsigned int face) const
+    {
+      return names_[face] == "outflow";
+    }
+
+    /// Whether velocities or tractions of a face follow expressions.
+    bool
+    has_expressions() const
+    {
+      return std::any_of(names_.begin(), names_.end(), [](const auto &name) {
+        return name == "velocity" || name == "traction";
+      });
     }
 
     bool

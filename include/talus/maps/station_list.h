@@ -68,10 +68,6 @@ namespace talus
           const std::string      &value,
           const Box<dim>         &domain,
           const dealii::Point<3> &origin) const;
-    dealii::Point<dim>
-    parse_place(const std::string      &entry,
-                const std::string      &place,
-                const dealii::Point<3> &origin) const;
 
     std::string   points_      = "";
     std::string   lines_       = "";

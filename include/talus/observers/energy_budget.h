@@ -23,6 +23,7 @@ namespace talus
     double drag    = 0; ///< taken by the drag of water so far
     double added   = 0; ///< kinetic energy of the added mass of water
     double merging = 0; ///< taken by merging points so far
+    double outflow = 0; ///< taken along by points that left the mesh so far
     double gravity = 0; ///< work of weight and body forces so far
     /// What the other terms leave of the gravity work since the start;
     /// positive if energy was lost, negative if some was created.
@@ -34,7 +35,7 @@ namespace talus
   /// The energy budget
   ///   remainder = gravity work - change of kinetic energy - change of elastic
   ///   energy - plastic work - friction work - contact work - damping work - drag
-  ///   work - merging work,
+  ///   work - merging work - outflow energy,
   /// every term counted from the start. It is the points' kinetic energy that
   /// enters, with that of the water that moves with them, so the remainder
   /// holds what the transfer dissipates.

@@ -40,6 +40,13 @@ namespace talus
     double
     gravity_factor(double t) const;
 
+    /// Time of the last row of the table in the run, s; 0 without a table.
+    double
+    last_time() const
+    {
+      return table_ ? start_time_ + table_->last_time() : 0.;
+    }
+
     /// The table, if there is one, must be the same when the run is resumed.
     void
     list_state(StateList &list) const;

@@ -9,6 +9,8 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <algorithm>
+#include <limits>
 #include <memory>
 
 namespace talus
@@ -49,6 +51,16 @@ namespace talus
     /// Share of it that acts at time @p t, s.
     double
     share_of_gravity(double t) const;
+
+    /// When the accelerations stop to change in time, s; infinity if there is a
+    /// body force by expression.
+    double
+    time_of_last_change() const
+    {
+      return expression_
+               ? std::numeric_limits<double>::infinity()
+               : std::max(gravity_.ramp_time, ground_motion_.last_time());
+    }
 
     void
     list_state(StateList &list) const

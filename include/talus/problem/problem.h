@@ -55,7 +55,8 @@ namespace talus
       return initial_velocity_time_ == "half step";
     }
 
-    /// Whether each face of the mesh may be moved outwards: those that are free.
+    /// Whether each face of the mesh may be moved outwards: those that are free,
+    /// and not of outflow.
     std::array<bool, 2 * dim>
     faces_that_may_move() const;
 
@@ -102,6 +103,11 @@ namespace talus
       boundaries.scale_seabed_strength(factor);
       obstacles.scale_strength(factor);
     }
+
+    /// When loads and strengths stop to change in time, s; infinity if an
+    /// obstacle moves, or where walls or tractions follow expressions.
+    double
+    time_of_last_change() const;
 
     /// Sentences for the log at the start of a run on cells of @p cell_size m.
     std::vector<std::string>

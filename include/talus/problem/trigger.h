@@ -66,6 +66,15 @@ namespace talus
       return 1. - progress(t) * (1. - seabed_fraction_);
     }
 
+    /// When strengths have fallen as far as they will, s; 0 without a trigger.
+    double
+    end_time() const
+    {
+      return changes_strength() || seabed_fraction_ != 1.
+               ? start_time_ + duration_
+               : 0.;
+    }
+
     /// What the log should say of it: a sentence, or nothing.
     std::string
     note() const;

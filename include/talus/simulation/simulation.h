@@ -8,6 +8,7 @@
 #include <talus/problem/problem.h>
 #include <talus/simulation/background_mesh.h>
 #include <talus/simulation/explicit_scheme.h>
+#include <talus/simulation/rest_detector.h>
 #include <talus/simulation/static_stages.h>
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
@@ -50,7 +51,8 @@ namespace talus
     void
     check_output_folder() const;
 
-    /// From the start, or the checkpoint, to the end time, with output. Returns
+    /// From the start, or the checkpoint, to the end of the run, with output:
+    /// the end time, or when the soil is at rest or has left the mesh. Returns
     /// false if the run was stopped before that, by a signal or by its limit of
     /// wall time; then resume() can go on.
     bool
@@ -125,6 +127,8 @@ namespace talus
     note_time_step();
     bool
     is_finished() const;
+    void
+    note_end();
     double
     end_of_run() const;
     StateList
@@ -137,9 +141,10 @@ namespace talus
     write_checkpoint();
 
     // Parameters
-    std::string  title_     = "";
-    unsigned int dimension_ = dim;
-    double       end_time_  = 1.;
+    std::string  title_        = "";
+    unsigned int dimension_    = dim;
+    double       end_time_     = 1.;
+    bool         ends_at_rest_ = true;
 
     PhaseTimer          timer_;
     Log                 log_;
@@ -150,9 +155,10 @@ namespace talus
     ExplicitScheme<dim> scheme_;
     Output<dim>         output_;
     StaticStages<dim>   static_stages_;
+    RestDetector<dim>   rest_;
     Checkpoint<dim>     checkpoint_;
     FoundCheckpoint     resumed_from_; ///< no path in a run from the start
-    bool has_noted_contact_area_ = false;
+    bool                has_noted_contact_area_ = false;
   };
 } // namespace talus
 

@@ -7,6 +7,7 @@
 #include <talus/points/points.h>
 #include <talus/points/step_workspace.h>
 #include <talus/transfer/box_shape.h>
+#include <talus/transfer/outflow.h>
 
 namespace talus
 {
@@ -38,6 +39,7 @@ namespace talus
       works.list_state(list);
       if (may_merge)
         list.add("merging work", "J", works.merging, Reduction::sum);
+      outflow.list_state(list);
     }
 
     Points<dim>        points;
@@ -46,6 +48,7 @@ namespace talus
     NodalFields<dim>   nodes;
     BoxShape           box_shape;     ///< how the boxes of the points deform
     Works<dim>         works;         ///< so far
+    Outflow<dim>       outflow;       ///< so far
     double             time      = 0; ///< s
     double             time_step = 0; ///< of the last step, s
     unsigned long      step      = 0; ///< number of steps so far

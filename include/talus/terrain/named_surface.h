@@ -15,8 +15,8 @@
 
 namespace talus
 {
-  /// A surface that the user has given a name to: the raster of a file or an
-  /// expression.
+  /// A surface that the user has given a name to: the raster of a file, an
+  /// expression, or the distance from an outline.
   template <int dim>
   class NamedSurface : public dealii::ParameterAcceptor
   {
@@ -68,8 +68,12 @@ namespace talus
       return "'Surfaces/" + name_ + "/" + entry + "'";
     }
 
-    /// Read the raster, from @p folder. @p origin of the mesh on the map:
-    /// easting, northing, height, m. Throws ExcUser.
+    /// Throw ExcUser unless the user has said in one way what the surface is.
+    void
+    check_entries() const;
+
+    /// Read the raster, from @p folder, or the outline. @p origin of the mesh on
+    /// the map: easting, northing, height, m. Throws ExcUser.
     std::shared_ptr<const Surface<dim>>
     read(const std::filesystem::path &folder,
          const dealii::Point<3>      &origin) const;
@@ -79,14 +83,18 @@ namespace talus
     section() const;
     Raster
     read_file(const std::filesystem::path &file) const;
+    std::shared_ptr<const Surface<dim>>
+    read_outline(const dealii::Point<3> &origin) const;
 
     std::string name_;
-    std::string file_       = "";
-    std::string units_      = "guess";
-    std::string projection_ = "";
-    double      cell_size_  = 0.;
-    std::string section_    = "";
-    std::string expression_ = "";
+    std::string file_        = "";
+    std::string units_       = "guess";
+    std::string projection_  = "";
+    double      cell_size_   = 0.;
+    std::string section_     = "";
+    std::string expression_  = "";
+    std::string outline_     = "";
+    std::string coordinates_ = "mesh";
   };
 } // namespace talus
 

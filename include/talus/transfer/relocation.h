@@ -8,6 +8,7 @@
 #include <talus/transfer/point_exchange.h>
 
 #include <array>
+#include <functional>
 #include <vector>
 
 namespace talus
@@ -38,13 +39,19 @@ namespace talus
     bool
     update(Points<dim> &points, const Grid<dim> &grid);
 
+    /// Whether the point of this index leaves the run. Asked once for each point
+    /// that left its cell, in the order of the indices.
+    using Leaves = std::function<bool(unsigned int)>;
+
     /// The same if only these points can have left their cell, in any order,
     /// some perhaps twice; see StepWorkspace::points_out_of_cell(). The list is
-    /// empty afterwards.
+    /// empty afterwards. Points that @p leaves says so of are taken out of
+    /// @p points; no point, if it is empty.
     bool
     update_points_out_of_cell(Points<dim>               &points,
                               const Grid<dim>           &grid,
-                              std::vector<unsigned int> &out_of_cell);
+                              std::vector<unsigned int> &out_of_cell,
+                              const Leaves              &leaves = {});
 
     /// The same after the mesh changed: nothing is known of the old cells.
     void
@@ -80,15 +87,19 @@ namespace talus
     look_for(Points<dim>     &points,
              const Grid<dim> &grid,
              const Segment   &segment,
-             unsigned int     p);
+             unsigned int     p,
+             const Leaves    &leaves);
     void
     find_sorted_changes(Points<dim> &points, const Grid<dim> &grid);
     void
     find_changes_out_of_cell(Points<dim>               &points,
                              const Grid<dim>           &grid,
-                             std::vector<unsigned int> &out_of_cell);
+                             std::vector<unsigned int> &out_of_cell,
+                             const Leaves              &leaves);
     void
-    find_appended_changes(Points<dim> &points, const Grid<dim> &grid);
+    find_appended_changes(Points<dim>     &points,
+                          const Grid<dim> &grid,
+                          const Leaves    &leaves);
     void
     find_all_changes(Points<dim> &points, const Grid<dim> &grid);
     bool
@@ -110,7 +121,8 @@ namespace talus
     // Kept between calls so that a step does not allocate.
     std::vector<CellChange>                                 changes_;
     std::vector<typename PointExchange<dim>::OutgoingPoint> outgoing_;
-    std::vector<unsigned int> departed_; ///< indices of the outgoing
+    std::vector<unsigned int> leaving_;  ///< points that leave the run
+    std::vector<unsigned int> departed_; ///< indices of outgoing and leaving
     std::vector<unsigned int> formerly_occupied_cells_;
   };
 } // namespace talus

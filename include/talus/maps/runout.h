@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_maps_runout_h
+#define talus_maps_runout_h
+
+#include <talus/maps/column_sums.h>
+#include <talus/maps/plan_path.h>
+#include <talus/observers/table_observer.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// What the user wants of runout.csv, section Runout.
+  class RunoutSettings : public dealii::ParameterAcceptor
+  {
+  public:
+    RunoutSettings();
+
+    /// Corners of the user's path in the plan of a mesh with its origin at
+    /// @p origin on the map, m; empty if the path is that of the soil. Throws
+    /// ExcUser.
+    std::vector<dealii::Point<2>>
+    corners(unsigned int dim, const dealii::Point<3> &origin) const;
+
+    /// Thickness, m, from which soil counts on a mesh with cells of @p h, m.
+    double
+    smallest_thickness(const double h) const
+    {
+      return smallest_thickness_ > 0. ? smallest_thickness_ : 0.1 * h;
+    }
+
+  private:
+    std::string path_               = "";
+    std::string coordinates_        = "mesh";
+    double      smallest_thickness_ = 0.;
+  };
+
+
+
+  /// runout.csv: where the slide is along its way in plan, whatever the direction
+  /// of the way, a row whenever one of the statistics is due.
+  ///
+  /// The way is a polyline of the user, or that of the centre of mass so far,
+  /// from its place at the start. Front and rear are the outermost of the
+  /// columns, as wide as a cell, in which soil is thicker than `Runout/Smallest
+  /// thickness`; runout is how far the front is beyond that of the start, both
+  /// measured along the way of now.
+  template <int dim>
+  class Runout : public TableObserver<dim>
+  {
+  public:
+    /// @p origin of the mesh on the map, m, must outlive it.
+    explicit Runout(const dealii::Point<3> &origin);
+
+    bool
+    is_enabled(const OutputSettings &settings) const override
+    {
+      return settings.write_runout;
+    }
+
+    void
+    check(const State<dim> &state) const override;
+
+    void
+    begin(const OutputSettings &settings,
+          const State<dim>     &state,
+          Beginning             beginning) override;
+
+    /// Note where the soil lies, and the first corner of its way.
+    void
+    start(const State<dim> &state) override;
+
+    void
+    observe(const State<dim> &state) override;
+
+    void
+    list_state(StateList &list) override;
+
+  private:
+    struct Centre
+    {
+      dealii::Point<2> place; ///< in plan, m
+      double           speed; ///< in plan, m/s
+    };
+
+    std::vector<std::string>
+    columns(const OutputSettings &settings,
+            const State<dim>     &state) const override;
+    dealii::Point<2>
+    in_plan(const dealii::Point<dim> &x) const;
+    Centre
+    centre_of_mass(const State<dim> &state) const;
+    void
+    extend_way(const dealii::Point<2> &centre, double h);
+    std::vector<dealii::Point<2>>
+    way_until(const dealii::Point<2> &centre, double h) const;
+    std::vector<double>
+    row(const State<dim> &state, const Centre &centre) const;
+
+    const dealii::Point<3>          &origin_;
+    RunoutSettings                   settings_;
+    std::unique_ptr<ColumnSums<dim>> sums_;
+    std::vector<dealii::Point<2>>    user_path_; ///< m; may be empty
+    std::vector<dealii::Point<2>>    way_; ///< of the centre of mass so far, m
+    std::vector<unsigned int>        release_; ///< columns; of the first rank
+  };
+} // namespace talus
+
+#endif

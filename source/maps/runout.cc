@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/agreement.h>
+#include <talus/base/errors.h>
+#include <talus/terrain/plan_place.h>
+#include <talus/maps/runout.h>
+
+#include <deal.II/base/mpi.h>
+#include <deal.II/base/patterns.h>
+#include <deal.II/base/utilities.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// The way of the centre of mass has corners at this distance, in cells.
+    constexpr double distance_of_corners = 4.;
+  } // namespace
+
+
+
+  RunoutSettings::RunoutSettings()
+    : ParameterAcceptor("/Runout")
+  {
+    add_parameter(
+      "Path",
+      path_,
+      "3-D only: corners of the line in plan along which front, "
+      "rear and runout in runout.csv are measured, 'x, z; x, z; "
+      "...' [m], such as a thalweg. Empty: the way of the centre of "
+      "mass so far.");
+    add_parameter("Coordinates",
+                  coordinates_,
+                  "'map': the path has easting and northing in place of x and "
+                  "z.",
+                  this->prm,
+                  Patterns::Selection("mesh|map"));
+    add_parameter("Smallest thickness",
+                  smallest_thickness_,
+                  "Where soil is thinner it is neither front nor rear, and its "
+                  "speed does not count [m]. 0: a tenth of 'Grid/Cell size'.",
+                  this->prm,
+                  Patterns::Double(0.));
+  }
+
+
+
+  std::vector<Point<2>>
+  RunoutSettings::corners(const unsigned int dim, const Point<3> &origin) const
+  {
+    AssertThrow(dim == 3 || (path_.empty() && coordinates_ == "mesh"),
+                ExcUser("'Runout/Path' or 'Runout/Coordinates' is given, but "
+                        "the simulation is two-dimensional, where all ways lie "
+                        "along x. Remove the entry."));
+    std::vector<Point<2>> result;
+    for (const std::string &place : Utilities::split_string_list(path_, ';'))
+      {
+        const Point<3> x =
+          parse_plan_place<3>("Runout/Path",
+                              place,
+                              coordinates_ == "map" ? PlanCoordinates::map
+                                                    : PlanCoordinates::mesh,
+                              origin);
+        const Point<2> corner(x[0], x[2]);
+        AssertThrow(result.empty() || corner.distance(result.back()) > 0.,
+                    ExcUser("'Runout/Path' has the corner '" + place +
+                            "' twice in succession. Remove one of them."));
+        result.push_back(corner);
+      }
+    AssertThrow(result.size() != 1,
+                ExcUser("'Runout/Path' has one corner only, '" + path_ +
+                        "', where two or more were expected, separated by "
+                        "semicolons."));
+    return result;
+  }
+
+
+
+  template <int dim>
+  Runout<dim>::Runout(const Point<3> &origin)
+    : TableObserver<dim>("runout.csv")
+    , origin_(origin)
+  {}
+
+
+
+  template <int dim>
+  void
+  Runout<dim>::check(const State<dim> & /*state*/) const
+  {
+    settings_.corners(dim, origin_);
+  }
+
+
+
+  template <int dim>
+  void
+  Runout<dim>::begin(const OutputSettings &settings,
+                     const State<dim>     &state,
+                     const Beginning       beginning)
+  {
+    const Box<dim> domain = state.grid.domain_before_growth();
+    const double   h      = state.grid.cell_size();
+    std::array<typename LatticeColumns<dim>::Axis, dim - 1> axes;
+    for (unsigned int a = 0; a < dim - 1; ++a)
+      {
+        const unsigned int d = axis_of_plan<dim>(a);
+        // Round-off must not add a column.
+        axes[a] = {domain.lower[d],
+                   h,
+                   static_cast<unsigned int>(
+                     std::max(1., std::ceil(domain.length(d) / h - 1e-9)))};
+      }
+    sums_ = std::make_unique<ColumnSums<dim>>(
+      std::make_shared<LatticeColumns<dim>>(axes));
+    user_path_ = settings_.corners(dim, origin_);
+    TableObserver<dim>::begin(settings, state, beginning);
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Runout<dim>::columns(const OutputSettings & /*settings*/,
+                       const State<dim> & /*state*/) const
+  {
+    return {"time [s]",
+            "runout [m]",
+            "front along path [m]",
+            "rear along path [m]",
+            "centre along path [m]",
+            "speed of the centre [m/s]",
+            "largest depth-mean speed [m/s]",
+            dim == 2 ? "length in plan [m]" : "area in plan [m^2]"};
+  }
+
+
+
+  template <int dim>
+  Point<2>
+  Runout<dim>::in_plan(const Point<dim> &x) const
+  {
+    return dim == 2 ? Point<2>(x[0], 0.) : Point<2>(x[0], x[dim - 1]);
+  }
+
+
+
+  /// Collective.
+  template <int dim>
+  typename Runout<dim>::Centre
+  Runout<dim>::centre_of_mass(const State<dim> &state) const
+  {
+    const Points<dim>  &points = state.points;
+    std::vector<double> sums(5, 0.); // mass; times place, and times velocity
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const double mass     = points.data(points.mass)[p];
+        const auto   place    = in_plan(load_place(points, points.position, p));
+        const auto   velocity = in_plan(load_place(points, points.velocity, p));
+        sums[0] += mass;
+        for (unsigned int a = 0; a < 2; ++a)
+          {
+            sums[1 + a] += mass * place[a];
+            sums[3 + a] += mass * velocity[a];
+          }
+      }
+    Utilities::MPI::sum(sums, state.communicator(), sums);
+    Centre centre;
+    centre.place = Point<2>(sums[1], sums[2]) / sums[0];
+    centre.speed = std::hypot(sums[3], sums[4]) / sums[0];
+    return centre;
+  }
+
+
+
+  template <int dim>
+  void
+  Runout<dim>::start(const State<dim> &state)
+  {
+    way_ = {centre_of_mass(state).place};
+    sums_->sum_soil(state);
+    sums_->sum_over_ranks(state.communicator());
+    release_.clear();
+    const double least = settings_.smallest_thickness(state.grid.cell_size());
+    if (is_first_rank(state.communicator()))
+      for (const unsigned int column : sums_->with_soil())
+        if (sums_->thickness(column) >= least)
+          release_.push_back(column);
+  }
+
+
+
+  template <int dim>
+  void
+  Runout<dim>::extend_way(const Point<2> &centre, const double h)
+  {
+    if (centre.distance(way_.back()) >= distance_of_corners * h)
+      way_.push_back(centre);
+  }
+
+
+
+  /// Where the centre is close to the last corner, as that of a slide at rest may
+  /// be for long, the segment between them would have any direction.
+  template <int dim>
+  std::vector<Point<2>>
+  Runout<dim>::way_until(const Point<2> &centre, const double h) const
+  {
+    std::vector<Point<2>> way = way_;
+    while (way.size() > 1 &&
+           centre.distance(way.back()) < 0.5 * distance_of_corners * h)
+      way.pop_back();
+    if (centre.distance(way.back()) > 0.)
+      way.push_back(centre);
+    return way;
+  }
+
+
+
+  /// Zeros where there is no way yet. Of the first rank.
+  template <int dim>
+  std::vector<double>
+  Runout<dim>::row(const State<dim> &state, const Centre &centre) const
+  {
+    const double h     = state.grid.cell_size();
+    const double least = settings_.smallest_thickness(h);
+    const auto   way =
+      user_path_.empty() ? way_until(centre.place, h) : user_path_;
+    std::vector<double> result = {
+      state.time, 0., 0., 0., 0., centre.speed, 0., 0.};
+    if (way.size() < 2)
+      return result;
+    const PlanPath path(way);
+    const auto     chainage = [&](const unsigned int column) {
+      return path.chainage(in_plan(sums_->columns().centre(column)));
+    };
+    double front = std::numeric_limits<double>::quiet_NaN(), rear = front,
+           front_at_start = front;
+    for (const unsigned int column : release_)
+      front_at_start = std::fmax(front_at_start, chainage(column));
+    for (const unsigned int column : sums_->with_soil())
+      if (sums_->thickness(column) >= least)
+        {
+          front = std::fmax(front, chainage(column));
+          rear  = std::fmin(rear, chainage(column));
+          result[6] =
+            std::max(result[6],
+                     in_plan(Point<dim>(sums_->velocity(column))).norm());
+          result[7] += sums_->columns().area();
+        }
+    // To the outer edges of the outermost columns.
+    result[1] = front - front_at_start;
+    result[2] = front + 0.5 * h;
+    result[3] = rear - 0.5 * h;
+    result[4] = path.chainage(centre.place);
+    return result;
+  }
+
+
+
+  template <int dim>
+  void
+  Runout<dim>::observe(const State<dim> &state)
+  {
+    const Centre centre = centre_of_mass(state);
+    sums_->sum_soil(state);
+    sums_->sum_over_ranks(state.communicator());
+    if (is_first_rank(state.communicator()))
+      this->add_rows(state, {row(state, centre)});
+    extend_way(centre.place, state.grid.cell_size());
+  }
+
+
+
+  /// All ranks know the way; that of the first one is saved.
+  template <int dim>
+  void
+  Runout<dim>::list_state(StateList &list)
+  {
+    TableObserver<dim>::list_state(list);
+    list.add_table({"way of the centre of mass",
+                    "x [m], z [m]",
+                    2,
+                    [this]() {
+                      std::vector<double> rows;
+                      if (is_first_rank(MPI_COMM_WORLD))
+                        for (const Point<2> &corner : way_)
+                          rows.insert(rows.end(), {corner[0], corner[1]});
+                      return rows;
+                    },
+                    [this](const std::vector<double> &rows) {
+                      way_.clear();
+                      for (std::size_t i = 0; i + 1 < rows.size(); i += 2)
+                        way_.emplace_back(rows[i], rows[i + 1]);
+                    }});
+    list.add_table({"columns with soil at the start",
+                    "column",
+                    1,
+                    [this]() {
+                      return std::vector<double>(release_.begin(),
+                                                 release_.end());
+                    },
+                    [this](const std::vector<double> &rows) {
+                      release_.assign(rows.begin(), rows.end());
+                    }});
+  }
+
+
+
+  template class Runout<2>;
+  template class Runout<3>;
+} // namespace talus

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/simulation/rest_detector.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+
+namespace talus
+{
+  using namespace dealii;
+
+  template <int dim>
+  RestDetector<dim>::RestDetector()
+    : ParameterAcceptor("/Rest")
+  {
+    add_parameter("Kinetic energy ratio",
+                  ratio_,
+                  "Soil is at rest when the kinetic energy of the background "
+                  "grid is less than this share of its maximum so far, for the "
+                  "'Duration' below [-].",
+                  this->prm,
+                  Patterns::Double(0., 1.));
+    add_parameter("Duration",
+                  duration_,
+                  "For how long the energy must stay small, and the outermost "
+                  "points must not move in plan by more than a fiftieth of the "
+                  "smallest cell [s].",
+                  this->prm,
+                  Patterns::Double(1e-6));
+  }
+
+
+
+  /// Whether the root mean square of the displacements, weighted by mass, is
+  /// larger than the smallest cell. Collective.
+  template <int dim>
+  bool
+  RestDetector<dim>::has_slid(const State<dim> &state) const
+  {
+    const Points<dim>  &points = state.points;
+    std::vector<double> sums(2, 0.); // kg m^2, kg
+    for (unsigned int p = 0; p < points.size(); ++p)
+      {
+        const double mass = points.data(points.mass)[p];
+        sums[0] += mass * load_place(points, points.position, p)
+                            .distance_square(
+                              load_place(points, points.initial_position, p));
+        sums[1] += mass;
+      }
+    Utilities::MPI::sum(sums, state.communicator(), sums);
+    const double h = state.grid.finest_size();
+    return sums[0] > h * h * sums[1];
+  }
+
+
+
+  template <int dim>
+  typename RestDetector<dim>::Extent
+  RestDetector<dim>::extent_in_plan(const State<dim> &state) const
+  {
+    const Points<dim>  &points = state.points;
+    std::vector<double> largest(2 * dim, std::numeric_limits<double>::lowest());
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != 1)
+        {
+          const double *const x = points.data(points.position, d);
+          for (unsigned int p = 0; p < points.size(); ++p)
+            {
+              largest[2 * d]     = std::max(largest[2 * d], -x[p]);
+              largest[2 * d + 1] = std::max(largest[2 * d + 1], x[p]);
+            }
+        }
+    Utilities::MPI::max(largest, state.communicator(), largest);
+    Extent extent;
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != 1)
+        {
+          extent.lower[d] = -largest[2 * d];
+          extent.upper[d] = largest[2 * d + 1];
+        }
+    return extent;
+  }
+
+
+
+  template <int dim>
+  bool
+  RestDetector<dim>::has_kept_still(const Extent &extent,
+                                    const double  length) const
+  {
+    bool is_still = true;
+    for (unsigned int d = 0; d < dim; ++d)
+      is_still = is_still &&
+                 std::abs(extent.lower[d] - extent_.lower[d]) <= length &&
+                 std::abs(extent.upper[d] - extent_.upper[d]) <= length;
+    return is_still;
+  }
+
+
+
+  template <int dim>
+  void
+  RestDetector<dim>::update(const State<dim> &state, const double last_change)
+  {
+    // Without points a step would go on to the end of the run.
+    if (state.time < next_look_ && !state.outflow.is_open())
+      return;
+    next_look_ = state.time + 0.1 * duration_;
+    has_left_ =
+      Utilities::MPI::sum(1. * state.points.size(), state.communicator()) == 0;
+    if (has_left_)
+      {
+        is_at_rest_ = true;
+        return;
+      }
+    energy_ =
+      Utilities::MPI::sum(state.nodes.kinetic_energy(), state.communicator());
+    peak_energy_ = std::max(peak_energy_, energy_);
+    has_slid_    = has_slid_ || has_slid(state);
+    if (!has_slid_ || state.time < last_change ||
+        energy_ > ratio_ * peak_energy_)
+      {
+        quiet_since_ = std::numeric_limits<double>::max();
+        is_at_rest_  = false;
+        return;
+      }
+    const Extent extent = extent_in_plan(state);
+    if (quiet_since_ > state.time ||
+        !has_kept_still(extent, 0.02 * state.grid.finest_size()))
+      {
+        quiet_since_ = state.time;
+        extent_      = extent;
+      }
+    is_at_rest_ = state.time >= quiet_since_ + duration_;
+  }
+
+
+
+  template <int dim>
+  std::string
+  RestDetector<dim>::sentence(const double time, const double end_time) const
+  {
+    if (has_left_)
+      return text("All soil has left the mesh through faces of outflow by t = ",
+                  time,
+                  " s.");
+    if (!has_slid_)
+      return "";
+    if (!is_at_rest_)
+      return text(std::setprecision(4),
+                  "The soil still moves at the end of the run, t = ",
+                  time,
+                  " s: its kinetic energy is ",
+                  peak_energy_ > 0. ? energy_ / peak_energy_ : 0.,
+                  " of the maximum, where less than ",
+                  ratio_,
+                  " for ",
+                  duration_,
+                  " s would be rest. The runout is not final: go on with a "
+                  "later 'End time' and --resume.");
+    const std::string rest = text(std::setprecision(6),
+                                  "The soil is at rest since t = ",
+                                  quiet_since_,
+                                  " s");
+    return time < end_time ? text(std::setprecision(6),
+                                  rest,
+                                  ", so that the run ends at t = ",
+                                  time,
+                                  " s, before 'End time' = ",
+                                  end_time,
+                                  " s ('End when at rest').")
+                           : rest + ".";
+  }
+
+
+
+  template <int dim>
+  void
+  RestDetector<dim>::list_quantities(Quantities &list) const
+  {
+    list.push_back({"at rest", "", is_at_rest_ ? 1. : 0.});
+  }
+
+
+
+  template <int dim>
+  void
+  RestDetector<dim>::list_state(StateList &list)
+  {
+    list.add("next look for rest", "s", next_look_, Reduction::equal);
+    list.add("largest grid kinetic energy",
+             "J",
+             peak_energy_,
+             Reduction::equal);
+    list.add("grid kinetic energy at the last look for rest",
+             "J",
+             energy_,
+             Reduction::equal);
+    list.add("quiet since", "s", quiet_since_, Reduction::equal);
+    list.add_components(
+      "lower end of quiet soil", "m", extent_.lower, dim, Reduction::equal);
+    list.add_components(
+      "upper end of quiet soil", "m", extent_.upper, dim, Reduction::equal);
+    list.add("has slid", "-", has_slid_, Reduction::equal);
+    list.add("has left", "-", has_left_, Reduction::equal);
+    list.add("is at rest", "-", is_at_rest_, Reduction::equal);
+  }
+
+
+
+  template class RestDetector<2>;
+  template class RestDetector<3>;
+} // namespace talus
