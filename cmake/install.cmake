@@ -20,8 +20,9 @@ install(PROGRAMS share/talus/talus-report share/talus/talus-study share/talus/ta
   DESTINATION bin COMPONENT program)
 install(DIRECTORY share/talus/talus_tools DESTINATION share/talus
   COMPONENT program PATTERN __pycache__ EXCLUDE)
-install(FILES share/talus/study-example.prm doc/parameters.prm
+install(FILES share/talus/study-example.prm share/talus/paraview.py doc/parameters.prm
   DESTINATION share/talus COMPONENT program)
+install(DIRECTORY share/talus/examples DESTINATION share/talus COMPONENT program)
 
 # Made by the program itself from its list of options.
 find_program(TALUS_GZIP gzip REQUIRED)

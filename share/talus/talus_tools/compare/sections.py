@@ -16,9 +16,11 @@ from talus_tools.report.sections.thalweg import ground_of, magnification, thickn
 from talus_tools.units import plain, scaled, show, unit_of
 
 STYLES = ({"color": BLUE}, {"color": RED, "ls": "--"})
-# Columns of statistics.csv over time.
-HISTORIES = ("front x [m]", "front of 99.5 % mass x [m]", "centre velocity x [m/s]",
-             "maximum speed [m/s]", "kinetic energy [J]", "friction work [J]")
+# Columns over time by table.
+HISTORIES = {"runout": ("front along path [m]", "rear along path [m]",
+                        "speed of the centre [m/s]"),
+             "statistics": ("front x [m]", "centre velocity x [m/s]", "maximum speed [m/s]",
+                            "kinetic energy [J]", "friction work [J]", "gravity work [J]")}
 DIFFERENCE = "B − A"
 
 
@@ -60,10 +62,12 @@ def differing(pair):
 
 def time_histories(pair):
     """Histories of both over time, with the largest distance between them."""
-    tables = pair.tables("statistics")
-    names = [name for name in HISTORIES if all(name in table for table in tables)]
-    return Section("histories", "Histories", "Of the slide as a whole.",
-                   curves(pair, tables, names, "time [s]"))
+    parts = []
+    for file, columns in HISTORIES.items():
+        tables = pair.tables(file)
+        names = [name for name in columns if tables and all(name in table for table in tables)]
+        parts += curves(pair, tables, names, "time [s]")
+    return Section("histories", "Histories", "Of the slide as a whole.", parts)
 
 
 def curves(pair, tables, names, along):

@@ -9,7 +9,7 @@ import numpy
 from matplotlib import colormaps
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
-from PIL import Image
+from PIL import Image, ImageDraw
 
 from talus_tools.esri import Grid
 from talus_tools.report.page import STYLE, WIDTH, plt, saved
@@ -193,39 +193,34 @@ def plan_film(run, most):
 # --- In section, from the points.
 
 def painted(index, quads, colors, window):
-    """Paint quadrilaterals, shape (n, 4, 2), into an image of palette entries: each by a grid
-    of samples that is as fine as its pixels."""
+    """Paint quadrilaterals, shape (n, 4, 2), into an image of palette entries: small ones by
+    samples as fine as pixels, which is fast for many, large ones as polygons."""
     x0, x1, y0, y1 = window
     rows, columns = index.shape
-    places = (quads - (x0, y0)) / (x1 - x0, y1 - y0) * (columns, rows)
-    size = numpy.ptp(places, axis=1).max(axis=1) if len(places) else numpy.zeros(0)
-    for low in 2 ** numpy.arange(0, 12):
-        # Those of about the same size together: the samples of large ones are many.
-        mine = (size > (low if low > 1 else -1)) & (size <= 2 * low)
-        s = (numpy.arange(2 * low + 1) + 0.5) / (2 * low + 1)
-        a, b = numpy.meshgrid(s, s)
-        weights = numpy.stack([(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b]).reshape(4, -1)
-        for some in numpy.array_split(numpy.flatnonzero(mine), 1 + mine.sum() * a.size // 2**20):
-            p = numpy.einsum("qcd,cs->qsd", places[some], weights).astype(int)
-            keep = ((p >= 0) & (p < (columns, rows))).all(axis=2)
-            color = numpy.broadcast_to(colors[some, None], keep.shape)
-            index[rows - 1 - p[..., 1][keep], p[..., 0][keep]] = color[keep]
-    return index
+    places = (quads - (x0, y0)) / (x1 - x0, y0 - y1) * (columns, rows) + (0, rows)
+    is_large = numpy.ptp(places, axis=1).max(axis=1, initial=0) > 3
+    a, b = numpy.meshgrid(*2 * [(numpy.arange(4) + 0.5) / 4])
+    weights = numpy.stack([(1 - a) * (1 - b), a * (1 - b), a * b, (1 - a) * b]).reshape(4, -1)
+    p = numpy.einsum("qcd,cs->qsd", places[~is_large], weights).astype(int).reshape(-1, 2)
+    keep = ((p >= 0) & (p < (columns, rows))).all(axis=1)
+    index[p[keep, 1], p[keep, 0]] = numpy.repeat(colors[~is_large], weights.shape[1])[keep]
+    image = Image.fromarray(index)
+    draw = ImageDraw.Draw(image)
+    for place, color in zip(places[is_large].reshape(-1, 8).tolist(), colors[is_large].tolist()):
+        draw.polygon(place, fill=color)
+    return numpy.array(image)
 
 
 def painted_lines(index, lines, window):
     """Paint lines, shape (n, 2, 2), two pixels thick."""
     x0, x1, y0, y1 = window
     rows, columns = index.shape
-    places = (lines - (x0, y0)) / (x1 - x0, y1 - y0) * (columns, rows)
-    for start, end in places:
-        n = int(2 * numpy.abs(end - start).max()) + 2
-        p = (start + numpy.linspace(0, 1, min(n, 8 * columns))[:, None] * (end - start)).astype(int)
-        for shift in (0, 1):
-            q = p - (0, shift)
-            q = q[((q >= 0) & (q < (columns, rows))).all(axis=1)]
-            index[rows - 1 - q[:, 1], q[:, 0]] = LINE
-    return index
+    places = (lines - (x0, y0)) / (x1 - x0, y0 - y1) * (columns, rows) + (0, rows)
+    image = Image.fromarray(index)
+    draw = ImageDraw.Draw(image)
+    for place in places.reshape(-1, 4).tolist():
+        draw.line(place, fill=LINE, width=2)
+    return numpy.array(image)
 
 
 def canvas(stage):
@@ -263,7 +258,7 @@ def points_film(run, most):
                         numpy.maximum(entries(values[SPEED], largest), 1), window)
         if surfaces:
             lines, _ = surfaces.read(surfaces.nearest(time))
-            painted_lines(index, cut_surface(lines, None), window)
+            index = painted_lines(index, cut_surface(lines, None), window)
         frames.append(palette_image(index, "viridis"))
     caption = ("The soil, coloured by speed. " + exaggeration(window, stage.size[1])
                + (" Black: surfaces of obstacles." if surfaces else ""))

@@ -49,10 +49,21 @@ def forces(run):
     return result
 
 
-def headline(run):
-    """At most eight tiles."""
-    table = run.statistics
-    result = safety(run)
+def runout(run):
+    """Runout and speed along the way of the slide, whatever its direction."""
+    table = run.tables["runout"]
+    speed = table["speed of the centre [m/s]"]
+    result = [tile("runout", table["runout [m]"][-1], "m",
+                   "Of the front from its start, along the way of the slide.")]
+    if speed.any():
+        result.append(tile("largest velocity", speed.max(), "m/s", "Of the centre of mass, at t = "
+                           f"{plain(table['time [s]'][speed.argmax()])} s."))
+    return result
+
+
+def along_x(run):
+    """The same along x, of runs without runout.csv."""
+    table, result = run.statistics, []
     if "front x [m]" in table:
         front = table["front x [m]"]
         result.append(tile("front at the end", front[-1], "m",
@@ -63,6 +74,12 @@ def headline(run):
     if velocity.any():
         result.append(tile("largest velocity", velocity[at], "m/s",
                            f"Of the centre of mass, at t = {plain(table['time [s]'][at])} s."))
+    return result
+
+
+def headline(run):
+    """At most eight tiles."""
+    result = safety(run) + (runout(run) if run.tables["runout"] else along_x(run))
     if run.tables["profile"]:
         profile = run.tables["profile"]
         last = profile["time [s]"] == profile["time [s]"][-1]

@@ -34,12 +34,17 @@ class Log:
                          self.safety)
         return (float(found[2]), found[1].strip()) if found else None
 
+    def last_event(self):
+        """The last line that says that the run stopped, was resumed, or came to its end."""
+        lines = [line for line in self.text.splitlines()
+                 if line.startswith(("Stopped at t = ", "Resumed at t = ", ENDED))]
+        return lines[-1] if lines else ""
+
     def has_ended(self):
         """Whether the run came to its end."""
-        return any(line.startswith(ENDED) for line in self.text.splitlines())
+        return self.last_event().startswith(ENDED)
 
     def stopped(self):
-        """The last line that says that the run was stopped, unless it was resumed later."""
-        last = [line for line in self.text.splitlines()
-                if line.startswith(("Stopped at t = ", "Resumed at t = "))][-1:]
-        return last[0] if last and last[0].startswith("Stopped") else ""
+        """The line that says that the run was stopped, unless it was resumed later."""
+        line = self.last_event()
+        return line if line.startswith("Stopped") else ""

@@ -69,12 +69,23 @@ def energy(run):
 
 def mass(run):
     """Points that were lost or made."""
-    values = run.statistics["mass [kg]"]
+    values = run.statistics["mass [kg]"] + run.outflow("mass", "kg")
     change = numpy.abs(values - values[0]).max()
     if change <= MASS * values[0]:
         return []
     return [f"The mass changed by up to {show(change, unit_of('[kg]', run.dimension))}, "
             f"{plain(100 * change / values[0], 3)} % of that at the start: soil was lost or made."]
+
+
+def left(run):
+    """Soil that left through outflow faces is no part of fronts and deposits."""
+    mass_left = run.outflow("mass", "kg")[-1]
+    if mass_left <= 0:
+        return []
+    start = run.statistics["mass [kg]"][0]
+    return [f"{plain(100 * mass_left / start, 3)} % of the soil left the mesh through faces of "
+            f"outflow ({show(mass_left, unit_of('[kg]', run.dimension))}). Deposit and runout are "
+            "those of the rest."]
 
 
 def fracture(run):
@@ -197,6 +208,6 @@ def remarks(run):
 
 def notices(run):
     """All of them, the gravest first."""
-    checks = (unfinished, mass, energy, fracture, split_limits, ledger, below_surface,
+    checks = (unfinished, mass, left, energy, fracture, split_limits, ledger, below_surface,
               contact_area, moving, cut_off, empty_tables, without_h5py, remarks)
     return [sentence for check in checks for sentence in check(run)]

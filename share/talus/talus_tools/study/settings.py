@@ -27,7 +27,7 @@ ENTRIES = {
 MEMBER, STATUS, HASH, REASON = "member", "status", "hash", "reason"
 # Tables of talus whose columns are all numbers.
 TABLES = ("statistics.csv", "profile.csv", "obstacles.csv", "boundaries.csv", "newton.csv",
-          "maps.csv", "stations.csv")
+          "maps.csv", "stations.csv", "runout.csv")
 TAKES = ("final", "maximum", "minimum")
 KINDS = ("Latin hypercube", "grid")
 # Numbers that each distribution needs, all in the unit of the parameter.
