@@ -185,10 +185,9 @@ class Settings:
                 numbers[key] = found[0]
         elif not values:
             raise self.error(start + "Values", "the numbers of the grid, separated by commas,")
-        before, _, behind = self.get(start + "Template").partition("{}")
-        if "{}" not in self.get(start + "Template") or set(before + behind) & set("{}"):
+        if self.get(start + "Template").count("{}") != 1:
             raise self.error(start + "Template", "a text with {} once, which stands for the "
-                             "varied number, and no other braces,")
+                             "varied number,")
         return Varied(name, self.needed(start + "Parameter"), self.get(start + "Template"),
                       distribution, numbers, values)
 
