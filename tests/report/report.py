@@ -25,6 +25,7 @@ from talus_tools.compare.pair import on_cells_of
 from talus_tools.errors import UserError
 from talus_tools.esri import read_grid
 from talus_tools.hdf5 import h5py
+from talus_tools.parameters import Defaults
 from talus_tools.report.film import entries, painted, palette_image, rasters
 from talus_tools.report.places import routes_of, stations_of
 from talus_tools.report.run import Run
@@ -162,6 +163,19 @@ class Report(ReportCase):
         factor = re.search(r"factor of safety is ([\d.]+)", (folder / "log.txt").read_text())[1]
         self.assertIn(factor.rstrip("."), page.said("safety"))
         self.assertEqual(len(page.pictures("safety")), 1)
+
+    def test_defaults_of_obstacles(self):
+        """By their own section of the reference; what it lacks, by that of bodies."""
+        reference = self.folder / "reference.prm"
+        body = "subsection Bodies\nsubsection soil\nset Shape = box\nset Radius = 1\nend\nend\n"
+        obstacle = ("subsection Obstacles\nsubsection wall\nset Shape = ball\n"
+                    "set Friction coefficient = 0.3\nend\nend\n")
+        for text, shape, friction in ((body, "box", None), (body + obstacle, "ball", "0.3")):
+            reference.write_text(text)
+            defaults = Defaults(reference)
+            self.assertEqual([defaults.of(f"Obstacles/pipe/{name}", {}) for name in
+                              ("Shape", "Radius", "Friction coefficient")],
+                             [shape, "1", friction])
 
     def test_3d(self):
         folder = self.slide("3d", "Output/Boxes as cells=false", "Grid/Cell size=0.8",

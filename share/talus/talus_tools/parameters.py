@@ -94,7 +94,7 @@ class Defaults:
         elif len(parts) == 3 and parts[0] in ("Bodies", "Obstacles", "Surfaces"):
             # Obstacles have the shapes of bodies, which a reference may have alone.
             sections = [parts[0]] + ["Bodies"] * (parts[0] == "Obstacles")
-            return next((self.entries[key] for key in self.entries for section in sections
+            return next((self.entries[key] for section in sections for key in self.entries
                          if key.count("/") == 2 and key.startswith(section + "/")
                          and key.endswith("/" + parts[2])), None)
         elif parts[0] == "Boundaries":
