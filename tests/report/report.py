@@ -13,6 +13,7 @@ import signal
 import subprocess
 import sys
 import time
+import types
 import unittest
 import xml.etree.ElementTree
 
@@ -375,6 +376,16 @@ class Films(Case):
             self.assert_sentence(self.tool("talus-animate", folder, *options), words)
         self.assert_sentence(self.tool("talus-animate", folder, "--output", "film.mp4",
                                        env={"PATH": "/nowhere"}), "ffmpeg", ".gif")
+
+
+class Places(unittest.TestCase):
+    def test_stations_by_mesh_and_map(self):
+        for coordinates, place in (("mesh", "200, 50"), ("map", "1200, 1950")):
+            run = types.SimpleNamespace(entries={
+                "Grid/Origin": "1000, 2000, -5", "Stations/Coordinates": coordinates,
+                "Stations/Points": f"A: {place} | B 2: {place}"})
+            self.assertEqual({name: tuple(at) for name, at in stations_of(run).items()},
+                             {"A": (1200, 1950), "B 2": (1200, 1950)})
 
 
 class Compare(Case):

@@ -15,5 +15,5 @@ from talus_tools.report.sections.stations import stations
 from talus_tools.report.sections.thalweg import thalweg
 
 # Results first, then how far they can be trusted, then what was run.
-SECTIONS = [safety, maps, motion, runout, obstacles, stations, lines, thalweg, soil, faces, fracture,
-            mass, momentum, energy, remarks, parameters]
+SECTIONS = [safety, maps, motion, runout, obstacles, stations, lines, thalweg, soil, faces,
+            fracture, mass, momentum, energy, remarks, parameters]

@@ -29,14 +29,13 @@ def on_map(run, x, z):
 
 
 def stations_of(run):
-    """{name: (easting, northing)} of 'Stations/Points'; those that are not given by x and z
-    are left out."""
-    result = {}
+    """{name: (easting, northing)} of 'Stations/Points'; what is no place is left out."""
+    result, is_on_map = {}, run.entries.get("Stations/Coordinates", "mesh") == "map"
     for part in run.entries.get("Stations/Points", "").split("|"):
         name, _, place = part.partition(":")
         values = numbers(place) if place.strip() else None
         if values and len(values) == 2:
-            result[name.strip()] = on_map(run, *values)
+            result[name.strip()] = numpy.array(values) if is_on_map else on_map(run, *values)
     return result
 
 

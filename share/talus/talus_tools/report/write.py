@@ -62,5 +62,6 @@ def write_report(folder):
         write_page(path, render(run))
         write_styles(run)
     except OSError as error:
-        raise UserError(f"'{error.filename or path}' cannot be written: {error.strerror}.") from error
+        raise UserError(f"'{error.filename or path}' cannot be written: "
+                        f"{error.strerror}.") from error
     return path, notices(run)

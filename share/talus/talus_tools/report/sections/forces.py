@@ -8,9 +8,8 @@ from talus_tools.report.page import (BLUE, COLORS, RED, Cell, Folded, Lines, Row
 from talus_tools.report.places import structure_names
 from talus_tools.units import largest, scaled, show, unit_of
 
-HEAD = ["quantity", "largest mean over a row", "at t =", "largest running mean", "largest in any step",
-        "mean over the run",
-        "what it means"]
+HEAD = ["quantity", "largest mean over a row", "at t =", "largest running mean",
+        "largest in any step", "mean over the run", "what it means"]
 AXES = {"x": "Along the slope: drag; positive where the soil pushes along x.",
         "y": "Across the slope: negative presses down, positive lifts.",
         "z": "Sideways."}
