@@ -155,6 +155,36 @@ class Report(ReportCase):
         self.assertIn("cannot be split", page.said("log"))
         self.assertEqual((folder / "log.txt").read_text().count("cannot be split"), 1)
 
+    def test_end_at_rest(self):
+        """A run that ends before its end time, since the soil is at rest, has finished."""
+        folder = self.slide("rest", "End time=200", "Output/Write points=false",
+                            "Output/Write grid=false")
+        last = read_csv(folder / "statistics.csv")[-1]
+        self.assertLess(float(last["time [s]"]), 100)
+        page = self.report(folder)
+        self.assertNotIn("has not finished", page.said("notices"))
+        self.assertNotIn("still moves", page.said("notices"))
+        runout = read_csv(folder / "runout.csv")
+        values = [e.get("data-value") for e in page.sections["runout"].iter("td")
+                  if e.get("data-column") == "runout [m]"]
+        self.assertEqual(float(values[1]), float(runout[-1]["runout [m]"]))
+        tiles = "".join(page.root.itertext())
+        self.assertIn("Of the front from its start, along the way of the slide", tiles)
+
+    def test_outflow(self):
+        """Soil that left is told, and no error of mass."""
+        folder = self.slide("outflow", "Grid/Upper corner=54, 6", "Boundaries/Right=outflow",
+                            "End time=8")
+        last = read_csv(folder / "statistics.csv")[-1]
+        left = float(last["outflow mass [kg]"])
+        self.assertGreater(left, 0)
+        page = self.report(folder)
+        self.assertRegex(page.said("notices"), r"[\d.]+ % of the soil left the mesh")
+        self.assertNotIn("soil was lost or made", page.said("notices"))
+        self.assertEqual(float(page.values["outflow mass [kg]"]), left)
+        self.assertIn("The mass, with what left,", page.said("mass"))
+        self.assertIn("impulse of outflow", page.said("momentum"))
+
     def test_stages(self):
         folder = self.slide("stages", "Stages=equilibrium, strength reduction",
                             "Materials/mud/Undrained shear strength=8e3",
@@ -402,9 +432,10 @@ class Compare(Case):
         b = self.slide("b", "Materials/mud/Undrained shear strength=1000", "End time=3")
         page = self.compare(a, b)
         tables = [read_csv(folder / "statistics.csv") for folder in (a, b)]
-        fronts = [float(table[-1]["front x [m]"]) for table in tables]
-        self.assertEqual(float(page.values["A front at the end"]), fronts[0])
-        self.assertEqual(float(page.values["B − A front at the end"]), fronts[1] - fronts[0])
+        runouts = [float(read_csv(folder / "runout.csv")[-1]["runout [m]"]) for folder in (a, b)]
+        self.assertGreater(min(runouts), 1)
+        self.assertEqual(float(page.values["A runout"]), runouts[0])
+        self.assertEqual(float(page.values["B − A runout"]), runouts[1] - runouts[0])
         self.assertIn("Materials / mud / Undrained shear strength 2e3 1000",
                       page.said("differing"))
         self.assertIn("B at t = 3 s: numbers and maps “at the end” are those of different times",
@@ -417,7 +448,7 @@ class Compare(Case):
                     if time <= times[1][-1]]
         self.assertEqual(float(page.values["B − A front x [m]"]),
                          max(distance, key=abs))
-        self.assertEqual(len(page.pictures("histories")), 1)
+        self.assertEqual(len(page.pictures("histories")), 2)
         self.assertNotIn("<script", page.text)
 
         same = self.compare(a, a)
