@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """CSV files of talus: one header line, commas, numbers."""
 
+import copy
 import csv
 
 import numpy
@@ -30,6 +31,12 @@ class Table:
 
     def __len__(self):
         return len(self.values)
+
+    def since(self, row):
+        """The rows from this one on."""
+        result = copy.copy(self)
+        result.values = self.values[row:]
+        return result
 
 
 def number(cell):

@@ -183,6 +183,7 @@ def maps(pair):
     places = places_of(pair.a, {name: a for name, (a, _) in grids.items()})
     part = window({f"{k} {name}": grid for name in names for k, grid in enumerate(grids[name])},
                   places.points())
+    places = places.within(grids[names[0]][0].part(*part).extent())
     said = "" if pair.has_same_cells() else (
         " The rasters differ: B is taken at the centres of the cells of A.")
     return Section("maps", "Maps", "What happened at each place over the whole run." + said,

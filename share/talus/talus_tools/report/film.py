@@ -13,7 +13,7 @@ from PIL import Image, ImageDraw
 
 from talus_tools.esri import Grid
 from talus_tools.report.page import STYLE, WIDTH, plt, saved
-from talus_tools.report.places import draw_places, on_map, places_of
+from talus_tools.report.places import draw_places, inside, on_map, places_of
 from talus_tools.report.sections.cut import cut_surface, rectangles
 from talus_tools.report.sections.maps import GROUND, draw_ground, read_maps
 from talus_tools.report.sections.soil import SPEED, exaggeration, frame
@@ -142,10 +142,10 @@ def rasters(run, times):
 def plan_window(cells, places):
     """Window of the map with all soil and what is drawn near it."""
     west, east, south, north = cells.extent()
-    for e, n in places.points():
-        if abs(2 * e - west - east) < 3 * (east - west) and (
-                abs(2 * n - south - north) < 3 * (north - south)):
-            west, east, south, north = min(west, e), max(east, e), min(south, n), max(north, n)
+    near = inside(places.points(), (2 * west - east, 2 * east - west, 2 * south - north,
+                                    2 * north - south))
+    for e, n in near:
+        west, east, south, north = min(west, e), max(east, e), min(south, n), max(north, n)
     margin = 0.06 * max(east - west, north - south)
     return west - margin, east + margin, south - margin, north + margin
 
@@ -184,6 +184,7 @@ def plan_film(run, most):
     grids = read_maps(run.path("maps")) if run.has("maps/ground.asc") else {}
     places = places_of(run, grids)
     window = plan_window(cells, places)
+    places = places.within(window)
     stage = Stage(window, (window[3] - window[2]) / (window[1] - window[0]))
     return Film(times, [plan_view(stage, what, cells, grids.get(GROUND), places) for what in (
         (thickness, "viridis", "thickness [m]", "Thickness of the soil, from above."),

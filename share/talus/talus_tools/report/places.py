@@ -76,10 +76,18 @@ class Places:
     release: object
 
     def points(self):
-        """One place of each station and structure, shape (n, 2)."""
+        """Places of stations, routes and structures, shape (n, 2)."""
         return numpy.array([*self.stations.values(),
+                            *(place for route in self.routes.values() for place in route),
                             *(t.mean(axis=(0, 1)) for t in self.structures.values())]
                            ).reshape(-1, 2)
+
+    def within(self, extent):
+        """What a map of this extent (west, east, south, north) shows."""
+        def is_seen(places):
+            return len(inside(places.reshape(-1, 2), extent)) > 0
+        return Places(*({name: places for name, places in some.items() if is_seen(places)}
+                        for some in (self.stations, self.routes, self.structures)), self.release)
 
     def legend(self):
         """What the lines and dots are, in words."""
@@ -104,18 +112,19 @@ def label(axes, text, place, color):
 
 
 def draw_release(axes, grid):
-    """The outline of all cells that had soil at the start."""
-    inside = numpy.nan_to_num(grid.values) > 0
-    if inside.any() and not inside.all():
-        rows, columns = numpy.indices(inside.shape)
-        east, north = grid.place(rows, columns)
-        axes.contour(east, north, inside.astype(float), levels=[0.5], colors=RELEASE,
+    """The outline of the cells that had soil at the start: more than a hundredth of the largest
+    thickness, so that slivers at an edge are no release areas of their own."""
+    thickness = numpy.nan_to_num(grid.values)
+    there = thickness > 0.01 * thickness.max()
+    if there.any() and not there.all():
+        east, north = grid.place(*numpy.indices(there.shape))
+        axes.contour(east, north, there.astype(float), levels=[0.5], colors=RELEASE,
                      linewidths=1.3, zorder=4)
 
 
-def inside_of(axes, places):
-    """Those places that the window of the axes shows."""
-    (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
+def inside(places, extent):
+    """Those places, shape (n, 2), that are within an extent (west, east, south, north)."""
+    west, east, south, north = extent
     return places[(places[:, 0] >= west) & (places[:, 0] <= east)
                   & (places[:, 1] >= south) & (places[:, 1] <= north)]
 
@@ -127,7 +136,7 @@ def draw_places(axes, places):
         draw_release(axes, places.release)
     for name, line in places.routes.items():
         axes.plot(*line.T, color=ROUTE, lw=1.6, path_effects=HALO, zorder=5)
-        shown = inside_of(axes, line)
+        shown = inside(line, (*window[0], *window[1]))
         if len(shown) and name:
             label(axes, name, shown[numpy.argmax(shown[:, 1] - 1e-6 * shown[:, 0])]
                   - (0, 0.06 * (window[1][1] - window[1][0])), ROUTE)

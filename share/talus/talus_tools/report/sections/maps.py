@@ -82,15 +82,17 @@ def window(grids, places=()):
             hit |= ~numpy.ma.getmaskarray(visible(grid.values))
     if not hit.any():
         return 0, hit.shape[0], 0, hit.shape[1]
+    ranges = [(there[0], there[-1]) for there in
+              (numpy.flatnonzero(hit.any(axis=axis)) for axis in (1, 0))]
+    near = [cell for cell in (some.cell(*place) for place in places)
+            if all(2 * low - high <= i <= 2 * high - low
+                   for i, (low, high) in zip(cell, ranges))]
     result = []
-    for axis, of_places in ((1, [some.cell(*place)[0] for place in places]),
-                            (0, [some.cell(*place)[1] for place in places])):
-        there = numpy.flatnonzero(hit.any(axis=axis))
-        low, high = there[0], there[-1]
-        near = [i for i in of_places if 2 * low - high <= i <= 2 * high - low]
-        low, high = min([low, *near]), max([high, *near])
+    for axis, (low, high) in enumerate(ranges):
+        low = min([low, *(cell[axis] for cell in near)])
+        high = max([high, *(cell[axis] for cell in near)])
         margin = 3 + (high - low) // 6
-        result += [max(0, low - margin), min(hit.shape[1 - axis], high + 1 + margin)]
+        result += [max(0, low - margin), min(hit.shape[axis], high + 1 + margin)]
     return tuple(result)
 
 
@@ -153,6 +155,7 @@ def height_of(grid, part):
 def picture(name, grids, part, places):
     """One map."""
     grid, (unit, colors, sentence) = grids[name], meaning(name)
+    places = places.within(grid.part(*part).extent())
     factor, unit = scaled(numpy.nanmax(numpy.abs(grid.values), initial=0), unit)
     shown = dataclasses.replace(grid, values=grid.values / factor)
     figure, axes = subplots(height=height_of(grid, part))

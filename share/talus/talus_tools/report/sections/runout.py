@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How far and how fast the soil went."""
 
+import numpy
+
 from talus_tools.report.page import (BLUE, GREEN, GREY, RED, Folded, Section, embed,
                                      subplots)
 from talus_tools.report.sections.summary import summary
@@ -92,6 +94,9 @@ def runout(run):
         return Section("runout", "Runout",
                        "Positions of the centres of the points along x, the direction down the "
                        "slope; the soil itself reaches half a point further.", along_x)
+    # Before the slide moves it has no way, and all distances are 0.
+    moved = numpy.flatnonzero(table["front along path [m]"] != table["rear along path [m]"])
+    table = table.since(moved[0] if len(moved) else 0)
     thickness = run.entries.get("Runout/Smallest thickness", "").strip()
     return Section("runout", "Runout",
                    "Along the way of the slide in plan, from the centre of mass at the start on; "
