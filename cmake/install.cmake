@@ -15,12 +15,14 @@ install(TARGETS talus_library LIBRARY
 install(DIRECTORY prm DESTINATION share/talus COMPONENT program)
 install(FILES doc/parameters.prm DESTINATION share/doc/talus COMPONENT program)
 # Reports and studies; they compare with the reference of all parameters.
-install(PROGRAMS share/talus/talus-report share/talus/talus-study
+install(PROGRAMS share/talus/talus-report share/talus/talus-study share/talus/talus-animate
+    share/talus/talus-compare
   DESTINATION bin COMPONENT program)
 install(DIRECTORY share/talus/talus_tools DESTINATION share/talus
   COMPONENT program PATTERN __pycache__ EXCLUDE)
-install(FILES share/talus/study-example.prm doc/parameters.prm
+install(FILES share/talus/study-example.prm share/talus/paraview.py doc/parameters.prm
   DESTINATION share/talus COMPONENT program)
+install(DIRECTORY share/talus/examples DESTINATION share/talus COMPONENT program)
 
 # Made by the program itself from its list of options.
 find_program(TALUS_GZIP gzip REQUIRED)
@@ -34,7 +36,7 @@ add_custom_command(OUTPUT ${completion}
 add_custom_target(manual ALL DEPENDS ${manual} ${completion})
 install(FILES ${manual} DESTINATION share/man/man1 COMPONENT program)
 # Those of the tools say what `--help` does, but need none of Python's modules.
-foreach(tool talus-report talus-study)
+foreach(tool talus-report talus-study talus-animate talus-compare)
   set(page ${CMAKE_BINARY_DIR}/${tool}.1.gz)
   execute_process(COMMAND ${TALUS_GZIP} -9nc ${CMAKE_SOURCE_DIR}/doc/man/${tool}.1
     OUTPUT_FILE ${page} COMMAND_ERROR_IS_FATAL ANY)

@@ -210,6 +210,25 @@ namespace talus
 
 
 
+  namespace
+  {
+    std::string
+    in_words_of_esri(const std::string &name)
+    {
+      const std::unique_ptr<PJ_CONTEXT, decltype(&proj_context_destroy)>
+        context(proj_context_create(), proj_context_destroy);
+      proj_log_level(context.get(), PJ_LOG_NONE);
+      const Projection system(proj_create(context.get(), name.c_str()),
+                              proj_destroy);
+      const char      *words =
+        system ? proj_as_wkt(context.get(), system.get(), PJ_WKT1_ESRI, nullptr)
+                    : nullptr;
+      return words == nullptr ? "" : words;
+    }
+  } // namespace
+
+
+
 #else
   struct MapProjection::Library
   {};
@@ -250,5 +269,26 @@ namespace talus
   {
     return {};
   }
+
+
+
+  namespace
+  {
+    std::string
+    in_words_of_esri(const std::string &)
+    {
+      return "";
+    }
+  } // namespace
 #endif
+
+
+
+  std::string
+  well_known_text(const std::string &coordinate_system)
+  {
+    return coordinate_system.rfind("EPSG:", 0) == 0
+             ? in_words_of_esri(coordinate_system)
+             : coordinate_system;
+  }
 } // namespace talus

@@ -24,7 +24,7 @@ namespace talus
       "\\.csv|log\\.txt|parameters\\.prm|maps\\.vtu|"
       "maps/(ground|erosion|thickness-at-start|final-(thickness|mass)|"
       "(time-of-)?maximum-(thickness|speed|momentum-flux|bed-shear)|"
-      "arrival-time-[-+.0-9e]*-m)\\.(asc|tif)|"
+      "arrival-time-[-+.0-9e]*-m)\\.(asc|prj|tif)|"
       "(points|grid|facets|obstacles|mechanism|no-equilibrium|last-state)"
       "([-.][-.0-9]*)?\\.(vtu|pvtu|pvd|h5|xdmf)");
     return std::regex_match(file_name, names);

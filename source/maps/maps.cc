@@ -2,7 +2,9 @@
 #include <talus/base/errors.h>
 #include <talus/contact/ground.h>
 #include <talus/io/esri_grid.h>
+#include <talus/io/files.h>
 #include <talus/io/geotiff_raster.h>
+#include <talus/io/map_projection.h>
 #include <talus/io/vtu_writer.h>
 #include <talus/maps/maps.h>
 #include <talus/observers/state_cells.h>
@@ -232,6 +234,10 @@ namespace talus
     const auto grid = this->path_of_output(name.string() + ".asc");
     make_folder(grid.parent_path());
     write_esri_grid(grid, raster);
+    if (const std::string map = well_known_text(raster.coordinate_system);
+        !map.empty())
+      write_file(this->path_of_output(name.string() + ".prj"),
+                 [&](std::ostream &out) { out << map << '\n'; });
     if (this->settings().writes_geotiff())
       write_geotiff(this->path_of_output(name.string() + ".tif"), raster);
   }

@@ -42,11 +42,18 @@ namespace talus
 
 
 
+  namespace
+  {
+    constexpr double smallest_depth = 0.1; ///< that counts as below, cells
+  }
+
+
+
   // Nothing pushes points out that have come below a surface; so the user must
-  // see how much soil has, and how deep. The volume of a point counts as far as
-  // its centre is below the surface, in full when its whole box is: points are
-  // held at the surface, and of a centre that is there by round-off nothing
-  // counts.
+  // see how much soil has, and how deep. Points are held at the surface, and
+  // their centres come to lie a hundredth of a cell below it: the volume of a
+  // point counts where its centre is deeper than a tenth of a cell, as far as it
+  // is below the surface, in full when its whole box is.
   template <int dim>
   void
   ObstacleForces<dim>::list_penetration(const unsigned int k,
@@ -73,11 +80,12 @@ namespace talus
             const double v = points.data(points.reference_volume)[p] *
                              determinant(load_matrix<dim, double>(
                                points, points.deformation_gradient, p));
-            volume += v * std::min(1., -distance / support);
-            deepest = std::max(deepest, -distance);
-            in_cells =
-              std::max(in_cells,
-                       -distance / state.grid.cells()[segment.cell].size);
+            const double depth =
+              -distance / state.grid.cells()[segment.cell].size;
+            if (depth > smallest_depth)
+              volume += v * std::min(1., -distance / support);
+            deepest  = std::max(deepest, -distance);
+            in_cells = std::max(in_cells, depth);
           }
     const MPI_Comm    communicator = state.communicator();
     const std::string name         = obstacle.name() + ' ';

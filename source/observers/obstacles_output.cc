@@ -5,6 +5,8 @@
 #include <talus/observers/state_cells.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace talus
 {
@@ -77,8 +79,13 @@ namespace talus
                "Pa",
                FieldKind::scalar,
                [&](const unsigned int i, double *value) {
-                 *value = obstacles[elements[i].obstacle].maximum_shear_stress(
-                   elements[i].middle());
+                 // An infinite value would take all of ParaView's scale.
+                 const double limit =
+                   obstacles[elements[i].obstacle].maximum_shear_stress(
+                     elements[i].middle());
+                 *value = std::isfinite(limit)
+                            ? limit
+                            : std::numeric_limits<double>::quiet_NaN();
                }}};
     }
   } // namespace

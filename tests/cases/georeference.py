@@ -124,6 +124,16 @@ class Georeference(unittest.TestCase):
             capture_output=True, text=True, timeout=600)
         self.assertEqual(result.returncode, 0, result.stderr)
 
+    def check_projection(self):
+        """A GIS knows the map of each raster by the file beside it."""
+        rasters = list((self.folder / "run/maps").glob("*.asc"))
+        self.assertGreater(len(rasters), 5)
+        for raster in rasters:
+            words = raster.with_suffix(".prj").read_text()
+            self.assertTrue(words.startswith('PROJCS["'), words)
+            self.assertIn("WGS_1984_UTM_Zone_", words)
+            self.assertIn('PROJECTION["Transverse_Mercator"]', words)
+
     def check_map(self, spacing=None):
         """The ground, on cells in metres, is the plane 30 m deeper."""
         lines = (self.folder / "run/maps/ground.asc").read_text().splitlines()
@@ -155,6 +165,7 @@ class Georeference(unittest.TestCase):
             self.run_talus(n_ranks, dim=3, zero=", 0", width=", 300",
                            near=", 80", far=", 220", entry=entry)
             self.check_map(10 if entry else None)
+            self.check_projection()
 
     def test_section(self):
         self.run_talus(dim=2, zero="", width="", near="", far="",

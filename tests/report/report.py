@@ -11,17 +11,25 @@ import re
 import shutil
 import signal
 import subprocess
+import sys
 import time
+import types
 import unittest
 import xml.etree.ElementTree
 
 import numpy
+from PIL import Image
 
-from tools_case import COARSE, ROOT, TALUS, Case, main, read_csv
+from tools_case import COARSE, ROOT, SHARE, TALUS, Case, main, read_csv
 
+from talus_tools.compare.pair import on_cells_of
 from talus_tools.errors import UserError
 from talus_tools.esri import read_grid
 from talus_tools.hdf5 import h5py
+from talus_tools.parameters import Defaults
+from talus_tools.report.film import entries, painted, palette_image, rasters
+from talus_tools.report.places import routes_of, stations_of
+from talus_tools.report.run import Run
 from talus_tools.report.write import write_report
 
 ALWAYS = ["notices", "what-was-run", "runout", "thalweg", "mass", "momentum", "energy", "fracture",
@@ -29,10 +37,10 @@ ALWAYS = ["notices", "what-was-run", "runout", "thalweg", "mass", "momentum", "e
 
 
 class Page:
-    """What a report says; it is XML, too."""
+    """What a report or comparison says; it is XML, too."""
 
-    def __init__(self, folder):
-        self.text = (folder / "report.html").read_text()
+    def __init__(self, folder, name="report.html"):
+        self.text = (folder / name).read_text()
         body = self.text.replace("<!DOCTYPE html>", "", 1)
         body = re.sub(r'<(meta [^>]*[^/])>', r'<\1 />', body)
         self.root = xml.etree.ElementTree.fromstring(body)
@@ -66,7 +74,11 @@ class Report(ReportCase):
     def test_2d_run_has_the_numbers_of_its_tables(self):
         folder = self.slide("slope")
         page = self.report(folder)
-        self.assert_has(page, "soil")
+        self.assert_has(page, "soil", "motion")
+        # Results first, settings last.
+        order = list(page.sections)
+        self.assertEqual([order[1], order[-2], order[-1]], ["motion", "log", "what-was-run"])
+        self.assertLess(order.index("runout"), order.index("mass"))
         last = read_csv(folder / "statistics.csv")[-1]
         cells = [e.get("data-value") for e in page.sections["runout"].iter("td")
                  if e.get("data-column") == "front x [m]"]
@@ -93,15 +105,17 @@ class Report(ReportCase):
         self.assertEqual(page.text, Page(folder).text)
         other = self.report(self.slide("hdf5", "Output/Format=hdf5"))
         if h5py:
-            self.assert_has(other, "soil")
+            self.assert_has(other, "soil", "motion")
             self.assertEqual(page.pictures("soil"), other.pictures("soil"))
+            self.assertEqual(page.pictures("motion"), other.pictures("motion"))
         else:
             self.assert_has(other)
             self.assertIn("h5py was not found", other.said("notices"))
 
     def needs_nothing_else(self, page):
         outside = re.sub(r"base64,[\w+/=]*", "", page.text)
-        for word in ("http:", "https:", "<script", "<link", "@import", "url("):
+        for word in ("http:", "https:", "<script ", "<link", "@import", "url(", "fetch(",
+                     "XMLHttpRequest", "import("):
             self.assertNotIn(word, outside)
 
     def test_without_runout_and_fields(self):
@@ -109,6 +123,7 @@ class Report(ReportCase):
                                       "Output/Write grid=false"))
         self.assertNotIn("thalweg", page.sections)
         self.assertNotIn("soil", page.sections)
+        self.assertNotIn("motion", page.sections)
         self.assertNotIn("front x [m]", page.values)
 
     def test_obstacles_and_faces(self):
@@ -117,7 +132,8 @@ class Report(ReportCase):
                             "Output/Boxes as cells=false",
                             "Boundaries/Write forces=true")
         page = self.report(folder)
-        self.assert_has(page, "soil", "obstacles", "faces")
+        self.assert_has(page, "soil", "motion", "obstacles", "faces")
+        self.assertIn("largest force on pipe", "".join(page.root.itertext()))
         forces = [float(row["pipe force x [N]"]) for row in read_csv(folder / "obstacles.csv")]
         self.assertGreater(max(forces), 0)
         self.assertEqual(float(page.values["pipe force x [N]"]), max(forces))
@@ -139,6 +155,36 @@ class Report(ReportCase):
         self.assertIn("cannot be split", page.said("log"))
         self.assertEqual((folder / "log.txt").read_text().count("cannot be split"), 1)
 
+    def test_end_at_rest(self):
+        """A run that ends before its end time, since the soil is at rest, has finished."""
+        folder = self.slide("rest", "End time=200", "Output/Write points=false",
+                            "Output/Write grid=false")
+        last = read_csv(folder / "statistics.csv")[-1]
+        self.assertLess(float(last["time [s]"]), 100)
+        page = self.report(folder)
+        self.assertNotIn("has not finished", page.said("notices"))
+        self.assertNotIn("still moves", page.said("notices"))
+        runout = read_csv(folder / "runout.csv")
+        values = [e.get("data-value") for e in page.sections["runout"].iter("td")
+                  if e.get("data-column") == "runout [m]"]
+        self.assertEqual(float(values[1]), float(runout[-1]["runout [m]"]))
+        tiles = "".join(page.root.itertext())
+        self.assertIn("Of the front from its start, along the way of the slide", tiles)
+
+    def test_outflow(self):
+        """Soil that left is told, and no error of mass."""
+        folder = self.slide("outflow", "Grid/Upper corner=54, 6", "Boundaries/Right=outflow",
+                            "End time=8")
+        last = read_csv(folder / "statistics.csv")[-1]
+        left = float(last["outflow mass [kg]"])
+        self.assertGreater(left, 0)
+        page = self.report(folder)
+        self.assertRegex(page.said("notices"), r"[\d.]+ % of the soil left the mesh")
+        self.assertNotIn("soil was lost or made", page.said("notices"))
+        self.assertEqual(float(page.values["outflow mass [kg]"]), left)
+        self.assertIn("The mass, with what left,", page.said("mass"))
+        self.assertIn("impulse of outflow", page.said("momentum"))
+
     def test_stages(self):
         folder = self.slide("stages", "Stages=equilibrium, strength reduction",
                             "Materials/mud/Undrained shear strength=8e3",
@@ -149,11 +195,24 @@ class Report(ReportCase):
         self.assertIn(factor.rstrip("."), page.said("safety"))
         self.assertEqual(len(page.pictures("safety")), 1)
 
+    def test_defaults_of_obstacles(self):
+        """By their own section of the reference; what it lacks, by that of bodies."""
+        reference = self.folder / "reference.prm"
+        body = "subsection Bodies\nsubsection soil\nset Shape = box\nset Radius = 1\nend\nend\n"
+        obstacle = ("subsection Obstacles\nsubsection wall\nset Shape = ball\n"
+                    "set Friction coefficient = 0.3\nend\nend\n")
+        for text, shape, friction in ((body, "box", None), (body + obstacle, "ball", "0.3")):
+            reference.write_text(text)
+            defaults = Defaults(reference)
+            self.assertEqual([defaults.of(f"Obstacles/pipe/{name}", {}) for name in
+                              ("Shape", "Radius", "Friction coefficient")],
+                             [shape, "1", friction])
+
     def test_3d(self):
         folder = self.slide("3d", "Output/Boxes as cells=false", "Grid/Cell size=0.8",
                             "End time=0.1", file="landslide-3d.prm")
         page = self.report(folder)
-        self.assert_has(page, "soil")
+        self.assert_has(page, "soil", "motion")
         self.assertIn("Section at z =", page.said("soil"))
         self.assertEqual(page.said("what-was-run").count("not known"), 0)
 
@@ -210,6 +269,19 @@ class Interrupted(ReportCase):
         self.assertIn("It was killed", self.report(folder).said("notices"))
 
 
+    def test_empty_tables(self):
+        """As a full disk leaves them: each is told."""
+        folder = self.slide("empty")
+        header, _ = (folder / "profile.csv").read_text().split("\n", 1)
+        for content, size in (("", 0), (header[:20], 20), (header + "\n", len(header) + 1)):
+            for name in ("profile.csv", "lines.csv", "obstacles.csv"):
+                (folder / name).write_text(content)
+            page = self.report(folder)
+            self.assertNotIn("thalweg", page.sections)
+            for name in ("profile.csv", "lines.csv", "obstacles.csv"):
+                self.assertIn(f"{name} has no complete row ({size} bytes)", page.said("notices"))
+
+
 class Maps(ReportCase):
     def write_grid(self, folder, name, values, columns=3):
         folder.mkdir(exist_ok=True)
@@ -230,6 +302,7 @@ class Maps(ReportCase):
         # The easternmost cell of the middle row; two cells have soil.
         self.assertIn("4.25 m E 412050, N 6538030 800 m²", page.said("maps"))
         self.assertIn("erosion nowhere", page.said("maps"))
+        self.assert_styles(maps)
         self.write_grid(maps, "erosion", [1] * 6)
         with self.assertRaisesRegex(UserError, "erosion.* other cells"):
             write_report(str(folder))
@@ -237,6 +310,23 @@ class Maps(ReportCase):
                                           "cellsize 20\n1 2 3")
         with self.assertRaisesRegex(UserError, "erosion.* 3 values; 3 rows of 3"):
             write_report(str(folder))
+
+    def assert_styles(self, maps):
+        """A style of QGIS beside each raster, with the limits of the values; one that a user has
+        changed stays."""
+        self.assertEqual({p.stem for p in maps.glob("*.qml")}, {p.stem for p in maps.glob("*.asc")})
+        root = xml.etree.ElementTree.parse(maps / "maximum-thickness.qml").getroot()
+        items = [float(item.get("value")) for item in root.iter("item")]
+        self.assertEqual((items[0], len(items)), (0, 9))
+        self.assertAlmostEqual(items[-1], numpy.percentile([1, 4.25], 99.5))
+        root = xml.etree.ElementTree.parse(maps / "ground.qml").getroot()
+        self.assertEqual(root.find("pipe/rasterrenderer").get("type"), "hillshade")
+        own = "<!DOCTYPE qgis><qgis/>"
+        (maps / "ground.qml").write_text(own)
+        (maps / "erosion.qml").unlink()
+        write_report(str(maps.parent))
+        self.assertEqual((maps / "ground.qml").read_text(), own)
+        self.assertTrue((maps / "erosion.qml").exists())
 
     def test_lines_over_x_and_stations(self):
         folder = self.slide("2d")
@@ -252,7 +342,185 @@ class Maps(ReportCase):
         self.assertIn("cable maximum thickness 0.75 m 10 m", page.said("lines"))
         self.assertIn("maximum thickness 2.5 m x = 1 m", page.said("maps"))
         self.assertEqual(page.values["A speed [m/s]"], "3.5")
-        self.assertIn("A 2 thickness 0 m 0 s never", page.said("stations"))
+        self.assertNotIn("A 2 thickness", page.said("stations"))
+        self.assertIn("No soil reached the station A 2.", page.said("stations"))
+
+
+def centre(grid, values):
+    """Easting and northing of the centre of what a grid holds."""
+    weights = numpy.nan_to_num(values)
+    places = grid.place(*numpy.indices(values.shape))
+    return [numpy.sum(place * weights) / weights.sum() for place in places]
+
+
+class Films(Case):
+    """Frames of the slider and of talus-animate."""
+
+    def test_painted_area(self):
+        """Parallelograms cover their area, without holes, whatever their size."""
+        for size in (0.5, 2.0, 11.0):
+            x, y = numpy.meshgrid(numpy.arange(0, 22, size), numpy.arange(0, 22, size))
+            corner = numpy.stack([x.ravel(), y.ravel()], axis=-1)[:, None]
+            quads = corner + size * numpy.array([[0, 0], [1, 0], [1, 1], [0, 1]])
+            index = painted(numpy.zeros((60, 80), dtype=numpy.uint8), quads,
+                            numpy.full(len(quads), 7, dtype=numpy.uint8), (-9, 31, -5, 25))
+            self.assertTrue(numpy.all(index[7:49, 19:61] == 7), size)
+            self.assertAlmostEqual(numpy.count_nonzero(index), 4 * 22**2, delta=4 * 45)
+
+    def test_colours(self):
+        """No soil is transparent, the largest value has the last colour, and no value is drawn
+        as a structure."""
+        index = entries(numpy.array([numpy.nan, 0, 1e-9, 5, 10, 1000]), 10)
+        self.assertEqual(index.tolist(), [0, 0, 1, 127, 254, 254])
+        image = palette_image(index[None], "viridis").convert("RGB")
+        self.assertEqual(image.getpixel((4, 0)), (253, 231, 36))
+
+    def test_animate(self):
+        """One picture per time of the fields, each different from the one before."""
+        folder = self.slide("film")
+        film = folder / "film.gif"
+        result = self.tool("talus-animate", folder, "--output", film, "--fps", 5)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        with Image.open(film) as gif:
+            self.assertEqual(gif.n_frames, len(list(folder.glob("points-*.vtu"))))
+            gif.seek(1)
+            self.assertEqual(gif.info["duration"], 200)
+            pictures = []
+            for k in range(gif.n_frames):
+                gif.seek(k)
+                pictures.append(numpy.asarray(gif.convert("RGB")).astype(int))
+        for one, other in zip(pictures, pictures[1:]):
+            self.assertGreater(numpy.count_nonzero(numpy.abs(one - other).max(axis=2) > 30), 500)
+        # Where there is ffmpeg it makes a film, too; else the GIF is what is made.
+        result = self.tool("talus-animate", folder, "--most", 3)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        name = "animation.mp4" if shutil.which("ffmpeg") else "animation.gif"
+        self.assertIn(f"3 pictures are in {folder / name}", result.stdout)
+        self.assertGreater(os.path.getsize(folder / name), 5000)
+
+    def test_animate_refuses(self):
+        folder = self.slide("still", "Output/Write points=false", "Output/Runout=false")
+        self.assert_sentence(self.tool("talus-animate", folder), "no fields at two times")
+        for options, words in ((("--output", "film.avi"), "film.avi"), (("--fps", "0"), "--fps 0"),
+                               (("--most", "1"), "--most 1")):
+            self.assert_sentence(self.tool("talus-animate", folder, *options), words)
+        self.assert_sentence(self.tool("talus-animate", folder, "--output", "film.mp4",
+                                       env={"PATH": "/nowhere"}), "ffmpeg", ".gif")
+
+
+class Places(unittest.TestCase):
+    def test_stations_by_mesh_and_map(self):
+        for coordinates, place in (("mesh", "200, 50"), ("map", "1200, 1950")):
+            run = types.SimpleNamespace(entries={
+                "Grid/Origin": "1000, 2000, -5", "Stations/Coordinates": coordinates,
+                "Stations/Points": f"A: {place} | B 2: {place}"})
+            self.assertEqual({name: tuple(at) for name, at in stations_of(run).items()},
+                             {"A": (1200, 1950), "B 2": (1200, 1950)})
+
+
+class Compare(Case):
+    """talus-compare."""
+
+    def compare(self, a, b):
+        page = self.folder / "compare.html"
+        result = self.tool("talus-compare", a, b, "--output", page)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        return Page(self.folder, page.name)
+
+    def test_numbers_and_histories(self):
+        a = self.slide("a")
+        b = self.slide("b", "Materials/mud/Undrained shear strength=1000", "End time=3")
+        page = self.compare(a, b)
+        tables = [read_csv(folder / "statistics.csv") for folder in (a, b)]
+        runouts = [float(read_csv(folder / "runout.csv")[-1]["runout [m]"]) for folder in (a, b)]
+        self.assertGreater(min(runouts), 1)
+        self.assertEqual(float(page.values["A runout"]), runouts[0])
+        self.assertEqual(float(page.values["B − A runout"]), runouts[1] - runouts[0])
+        self.assertIn("Materials / mud / Undrained shear strength 2e3 1000",
+                      page.said("differing"))
+        self.assertIn("B at t = 3 s: numbers and maps “at the end” are those of different times",
+                      page.said("numbers"))
+        # The largest distance of the fronts at a time of A that B has, too.
+        times, values = ([[float(row[name]) for row in table] for table in tables]
+                         for name in ("time [s]", "front x [m]"))
+        distance = [other - own for time, own, other in
+                    zip(times[0], values[0], numpy.interp(times[0], times[1], values[1]))
+                    if time <= times[1][-1]]
+        self.assertEqual(float(page.values["B − A front x [m]"]),
+                         max(distance, key=abs))
+        self.assertEqual(len(page.pictures("histories")), 2)
+        self.assertNotIn("<script", page.text)
+
+        same = self.compare(a, a)
+        self.assertIn("program and parameters are the same", same.said("differing"))
+        self.assertEqual({float(value) for column, value in same.values.items()
+                          if column.startswith("B − A")}, {0})
+
+    def test_maps(self):
+        """Cells of 20 m, and others of 10 m that cover a part of them."""
+        a = self.slide("3d", "Grid/Cell size=0.8", "End time=0.1", file="landslide-3d.prm")
+        b = self.folder / "3d-b"
+        shutil.copytree(a, b)
+        for folder, size, west, south, ground, thickness in (
+                (a, 20, 412000, 6538000, [-1, -2, -3, -4], [0, 4, 0, -9999]),
+                (b, 10, 412024, 6537996, [-2] * 4, [1.5, 0, -9999, 3])):
+            (folder / "maps").mkdir()
+            for name, values in (("ground", ground), ("maximum-thickness", thickness)):
+                (folder / "maps" / f"{name}.asc").write_text(
+                    f"ncols 2\nnrows 2\nxllcorner {west}\nyllcorner {south}\ncellsize {size}\n"
+                    "NODATA_value -9999\n" + " ".join(map(str, values)))
+        # Of the centres of A's cells only the south-eastern one is in a cell of B, the
+        # north-western one.
+        grids = [read_grid(folder / "maps" / "maximum-thickness.asc") for folder in (a, b)]
+        taken = on_cells_of(*grids).values
+        numpy.testing.assert_array_equal(taken, [[numpy.nan, numpy.nan], [numpy.nan, 1.5]])
+        page = self.compare(a, b)
+        self.assertIn("The rasters differ", page.said("maps"))
+        self.assertIn("maximum thickness 4 m 1.5 m −4 m E 412030, N 6538030 0 %",
+                      page.said("maps"))
+
+    def test_refused(self):
+        plane = self.slide("plane")
+        space = self.slide("space", "Grid/Cell size=0.8", "End time=0.1", file="landslide-3d.prm")
+        self.assert_sentence(self.tool("talus-compare", plane, space), "2 dimensions",
+                             "same dimension")
+        self.assert_sentence(self.tool("talus-compare", plane, self.folder), "parameters.prm")
+        self.assert_sentence(self.tool("talus-compare", plane, plane, "--output",
+                                       self.folder / "none" / "page.html"), "cannot be written")
+
+
+class Others(Case):
+    """What is in share/talus for other programs."""
+
+    def test_read_run(self):
+        folder = self.slide("slope")
+        result = subprocess.run([sys.executable, SHARE / "examples" / "read_run.py", folder],
+                                capture_output=True, text=True, timeout=100, cwd=self.folder,
+                                check=True)
+        table = read_csv(folder / "statistics.csv")
+        largest = max(table, key=lambda row: abs(float(row["centre velocity x [m/s]"])))
+        self.assertIn(f"{float(largest['centre velocity x [m/s]']):.4g} m/s at t = "
+                      f"{float(largest['time [s]']):.4g} s", result.stdout)
+        self.assertIn(f"{table[-1]['points']} points at t = 4 s", result.stdout)
+        self.assertIn(f"x = {float(table[-1]['centre x [m]']):.4g} m", result.stdout)
+        self.assertGreater(os.path.getsize(self.folder / "read_run.png"), 10_000)
+
+    @unittest.skipUnless(shutil.which("pvpython") and shutil.which("xvfb-run"), "SKIPPED: pvpython "
+                         "or xvfb-run was not found, so ParaView has not drawn a run")
+    def test_paraview(self):
+        folder = self.slide("slope", "Output/Boxes as cells=false", "Grid/Cell size=10",
+                            "End time=20", "Output/Field interval=10", file="slope.prm")
+        picture = self.folder / "view.png"
+        result = subprocess.run(["xvfb-run", "-a", "pvpython", SHARE / "paraview.py", folder,
+                                 picture, "20"], capture_output=True, text=True, timeout=200,
+                                check=False)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        with Image.open(picture) as image:
+            pixels = numpy.asarray(image.convert("RGB")).astype(int).reshape(-1, 3)
+        # Soil in more than one colour of its scale, and the dark line of the bed.
+        soil = numpy.unique(pixels[numpy.ptp(pixels, axis=1) > 60] // 16, axis=0)
+        self.assertGreater(len(soil), 8)
+        self.assertGreater(numpy.count_nonzero(pixels.max(axis=1) < 60), 1000)
 
 
 class Slopes(ReportCase):
@@ -272,11 +540,49 @@ class Slopes(ReportCase):
                    if float(row["time [s]"]) >= time)
         return float(row["energy remainder [J]"]) / float(row["gravity work [J]"])
 
+    def assert_first_look(self, page):
+        """Three maps with what the reader knows the place by; the others are folded."""
+        maps = page.sections["maps"]
+        folded = [e for d in maps.iter("details") for e in d.iter("img")]
+        shown = [e.get("alt") for e in maps.iter("img") if e not in folded]
+        self.assertEqual([alt.split(" over ")[0] for alt in shown],
+                         ["Maximum thickness", "Maximum speed", "Arrival time 0.5 m"])
+        self.assertGreater(len(folded), 5)
+        for alt in shown:
+            self.assertIn("red outline: release area; violet: pipeline; triangles: stations",
+                          alt.lower())
+        self.assertIn("No soil reached the stations canyon, flat.", page.said("stations"))
+
+    def assert_places(self, folder):
+        """Of 'Stations/Points' and 'Lines' and 'Grid/Origin = 512000, 6742800'."""
+        run = Run(str(folder))
+        self.assertEqual({name: tuple(place) for name, place in stations_of(run).items()},
+                         {"canyon": (514200, 6741450), "flat": (515000, 6741450)})
+        route = routes_of(run)["pipeline"]
+        self.assertEqual((tuple(route[0]), tuple(route[-1])),
+                         ((515000, 6742200), (515000, 6740700)))
+        # The soil of a frame covers the same area as in the map at that time.
+        (time,), cells = [40], read_grid(folder / "maps" / "final-thickness.asc")
+        table = Run(str(folder)).tables["profile"]
+        times = numpy.unique(table["time [s]"])
+        self.assertGreaterEqual(times[-1], time)
+        (thickness, _), grid = rasters(run, times[-1:])
+        self.assertAlmostEqual(numpy.nansum(thickness) * grid.dx * grid.dy
+                               / (numpy.nansum(cells.values) * cells.dx * cells.dy), 1, delta=1e-3)
+        for axis in (0, 1):
+            self.assertAlmostEqual(centre(grid, thickness[0])[axis],
+                                   centre(cells, cells.values)[axis], delta=1)
+
     def test_section(self):
         folder = self.run_slope("slope", "Grid/Cell size=8", "End time=115",
                                 "Output/Field interval=20")
         page = self.report(folder)
-        self.assert_has(page, "soil", "maps", "stations", "obstacles")
+        self.assert_has(page, "soil", "motion", "maps", "stations", "obstacles")
+        # The bed falls by 200 m, the soil is some 10 m thick.
+        for section in ("motion", "thalweg"):
+            self.assertRegex(page.said(section), "drawn [2-9] times as large as heights")
+        self.assertIn("largest force on structure", "".join(page.root.itertext()))
+        self.assertNotIn("largest force on bed", "".join(page.root.itertext()))
         columns = read_csv(folder / "maps.csv")
         width = float(columns[1]["x [m]"]) - float(columns[0]["x [m]"])
         self.assert_mass(folder, sum(float(c["final mass [kg/m^2]"]) for c in columns) * width)
@@ -301,8 +607,9 @@ class Slopes(ReportCase):
         folder = self.run_slope("slope-3d", "Grid/Cell size=20", "End time=40",
                                 "Output/Field interval=20")
         page = self.report(folder)
-        self.assert_has(page, "soil", "maps", "stations", "lines", "obstacles")
-        self.assertGreaterEqual(len(page.pictures("maps")), 5)
+        self.assert_has(page, "soil", "motion", "maps", "stations", "lines", "obstacles")
+        self.assert_first_look(page)
+        self.assert_places(folder)
 
         grids = {file.stem: read_grid(file) for file in (folder / "maps").glob("*.asc")}
         mass = grids["final-mass"]
@@ -342,20 +649,51 @@ class Refused(Case):
         self.assertFalse((folder / "report.html").exists())
 
 
+# Moves the slider of a page as a hand would, and plays it from there.
+MOVE = """<script>
+const input = document.querySelector("input[type=range]");
+input.value = WHERE;
+input.dispatchEvent(new Event("input"));
+if (PLAY) { document.querySelector(".slider button").click(); }
+</script></body>"""
+
+
+@unittest.skipUnless(shutil.which("chromium"), "SKIPPED: chromium was not found, so no browser "
+                     "has drawn the page")
 class Browser(Case):
-    @unittest.skipUnless(shutil.which("chromium"), "SKIPPED: chromium was not found, so no browser "
-                         "has drawn the page")
+    def chromium(self, page, *options):
+        """What chromium prints of a page."""
+        return subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu",
+                               f"--user-data-dir={self.folder / 'profile'}", *options,
+                               page.as_uri()], check=True, timeout=100, capture_output=True,
+                              text=True).stdout
+
+    def moved(self, folder, where, play=False):
+        """Times of the frames that are shown, and the words beside the slider, after a move."""
+        page = folder / "moved.html"
+        page.write_text((folder / "report.html").read_text().replace(
+            "</body>", MOVE.replace("WHERE", str(where)).replace("PLAY", str(play).lower())))
+        found = self.chromium(page, "--virtual-time-budget=10000", "--dump-dom")
+        frames = re.findall(r'<img class="frame"[^>]*alt="([^"]*)"([^>]*)>', found)
+        self.assertGreaterEqual(len(frames), 2)
+        return ([alt for alt, rest in frames if "hidden" not in rest],
+                re.search(r"<output>([^<]*)</output>", found)[1])
+
     def test_chromium_draws_it(self):
         folder = self.slide("slope")
         self.assertEqual(self.tool("talus-report", folder).returncode, 0)
         picture = self.folder / "page.png"
-        subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu",
-                        f"--user-data-dir={self.folder / 'profile'}",
-                        f"--screenshot={picture}", "--window-size=1200,4000",
-                        (folder / "report.html").as_uri()], check=True, timeout=60,
-                       capture_output=True)
+        self.chromium(folder / "report.html", f"--screenshot={picture}",
+                      "--window-size=1200,4000")
         # An empty page of this size has 20 kB.
         self.assertGreater(os.path.getsize(picture), 100_000)
+
+        times = re.findall("<li>(t = [^<]* s)</li>", (folder / "report.html").read_text())
+        self.assertEqual(times[0], "t = 0 s")
+        for where in (0, 2, len(times) - 1):
+            self.assertEqual(self.moved(folder, where), ([times[where]], times[where]))
+        # Played from the first time it stops at the last one.
+        self.assertEqual(self.moved(folder, 0, play=True), ([times[-1]], times[-1]))
 
 
 if __name__ == "__main__":

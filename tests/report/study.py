@@ -40,6 +40,7 @@ s=$(sed -n 's/^ *set Undrained shear strength = \\([0-9]*\\).*/\\1/p' "$1" | tai
 if [ "$s" = 3 ]; then echo "talus: Point 7, that of body 0, left the mesh." >&2; exit 1; fi
 echo run >> "$3/runs"
 printf 'time [s],front x [m]\\n0,9\\n1,%s\\n2,0\\n' "$s" > "$3/statistics.csv"
+echo "A report of this run: talus-report $3" > "$3/log.txt"
 MAPS
 """
 RASTERS = """mkdir -p "$3/maps"
@@ -62,13 +63,13 @@ def as_sections(entries):
 
 
 class StudyCase(Case):
-    def write(self, name, *lines, varied=STRENGTH, parameters=COARSE):
+    def write(self, name, *lines, varied=STRENGTH, parameters=COARSE, names="strength"):
         """A study file; its folder is NAME-output."""
         path = self.folder / f"{name}.prm"
         path.write_text("\n".join([
             f"set Case = {ROOT / 'prm' / 'first-slope.prm'}", f"set Program = {TALUS}",
             f"set Output folder = {self.folder / (name + '-output')}", *lines,
-            f"subsection Varied\nset Names = strength\n{varied}\nend", as_sections(parameters)]))
+            f"subsection Varied\nset Names = {names}\n{varied}\nend", as_sections(parameters)]))
         return path
 
     def grid(self, name, values, *lines, program=None):
@@ -255,6 +256,35 @@ class Members(StudyCase):
         self.assertIn("waiting", self.study(study, "--list"))
 
 
+class Launchers(StudyCase):
+    """The exit status is that of the launcher, whatever talus did."""
+
+    def states(self, study):
+        return [line.split(",")[2] for line in self.study(study, "--list").splitlines()[1:]]
+
+    def test_launcher_that_runs_nothing(self):
+        study = self.grid("nothing", "5, 20", "set Launcher = true")
+        said = self.study(study, status=1)
+        self.assertIn("member-0001 failed: exit status 0, but log.txt", said)
+        self.assertEqual(self.states(study), ["failed", "failed"])
+        self.study(self.grid("nothing", "5, 20"))
+        self.assertEqual(self.states(study), ["finished", "finished"])
+
+    def test_results_of_another_member_do_not_count(self):
+        self.study(self.grid("stale", "5, 20"))
+        study = self.grid("stale", "6, 20", "set Launcher = true")
+        self.study(study, status=1)
+        self.assertEqual([row["status"] for row in read_csv(self.output(study) / "study.csv")],
+                         ["failed", "finished"])
+
+    def test_lost_exit_status(self):
+        launcher = self.folder / "careless"
+        launcher.write_text('#!/bin/sh\n"$@"\nexit 0\n')
+        launcher.chmod(0o755)
+        study = self.grid("lost", "2, 3", f"set Launcher = {launcher}")
+        self.assertIn("member-0002 failed: Point 7", self.study(study, status=1))
+
+
 class Exceedance(StudyCase):
     def test_rasters(self):
         study = self.grid("rasters", "5, 20, 7, 1", "subsection Exceedance\n"
@@ -379,10 +409,45 @@ class Refused(StudyCase):
         lock(self.folder).close()
         self.assertEqual(file.read_text(), "mine")
 
+    def quantity(self, name, *lines, **options):
+        """A study of four members with one quantity."""
+        return self.grid(name, "5, 6, 7, 8", "subsection Quantities\nset Names = a\nsubsection a",
+                         *lines, "end\nend", **options)
+
     def test_column_that_is_not_there(self):
-        study = self.grid("column", "5", "subsection Quantities\nset Names = a\nsubsection a\n"
-                          "set Column = speed\nend\nend")
-        self.assert_sentence(self.tool("talus-study", study), "statistics.csv", "'speed'")
+        """The first member tells; the others do not run."""
+        study = self.quantity("column", "set Column = speed")
+        self.assert_sentence(self.tool("talus-study", study), "statistics.csv", "'speed'",
+                             "it has time [s], front x [m]")
+        self.assertFalse((self.output(study) / "member-0003").exists())
+
+    def test_column_is_checked_while_the_first_member_runs(self):
+        study = self.write("early", "subsection Design\nset Members = 1\nend",
+                           "subsection Quantities\nset Names = a\nsubsection a\n"
+                           "set Column = speed\nend\nend",
+                           parameters={**COARSE, "End time": "1000"})
+        self.assert_sentence(self.tool("talus-study", study), "'speed'", "front x [m]")
+        self.assertIn("1,", self.study(study, "--list"))
+        self.assertNotIn("finished", self.study(study, "--list"))
+
+    def test_table_that_is_not_written(self):
+        study = self.quantity("unwritten", "set File = obstacles.csv")
+        self.assert_sentence(self.tool("talus-study", study), "finished without",
+                             "obstacles.csv", "Quantities/a/File")
+        self.assertFalse((self.output(study) / "member-0003").exists())
+        for file in ("statistic.csv", "lines.csv", "../statistics.csv"):
+            self.refuse(self.quantity("file", f"set File = {file}"), file, "stations.csv")
+
+    def test_names(self):
+        for name in ("member", "status", "hash", "reason"):
+            self.refuse(self.write("named", varied=STRENGTH.replace("subsection strength",
+                                                                    f"subsection {name}"),
+                                   names=name), f"'{name}'", "study.csv")
+        self.refuse(self.write("named", varied=STRENGTH, names="a/b"), "'a/b'", "slash")
+        self.refuse(self.quantity("slash", "end\nend\nsubsection Quantities\n"
+                                  "set Names = a/b\nsubsection x"), "'a/b'", "slash")
+        self.refuse(self.write("twice", "subsection Quantities\nset Names = a, a\nend"),
+                    "'a [m]'", "study.csv")
 
 
 if __name__ == "__main__":

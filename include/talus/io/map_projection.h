@@ -49,6 +49,14 @@ namespace talus
 
 
 
+  /// Text of a file .prj, by which a GIS knows the map of the raster beside it:
+  /// the words of @p coordinate_system themselves, or, of `EPSG:32633`, Esri's
+  /// dialect by PROJ. Empty where PROJ and its database do not know it.
+  std::string
+  well_known_text(const std::string &coordinate_system);
+
+
+
   /// A zone of the universal transverse Mercator projection.
   struct UtmZone
   {

@@ -31,6 +31,16 @@ class Grid:
         return (self.west + (column + 0.5) * self.dx,
                 self.south + (len(self.values) - row - 0.5) * self.dy)
 
+    def part(self, top, bottom, left, right):
+        """Rows from top to bottom and columns from left to right, the last ones not included."""
+        return Grid(self.values[top:bottom, left:right], self.west + left * self.dx,
+                    self.south + (len(self.values) - bottom) * self.dy, self.dx, self.dy)
+
+    def cell(self, east, north):
+        """Row and column of the cell of a place, which may lie outside of the grid."""
+        return (int(len(self.values) - 1 - (north - self.south) // self.dy),
+                int((east - self.west) // self.dx))
+
     def is_aligned_with(self, other):
         """Whether both have the same cells."""
         return (self.values.shape == other.values.shape

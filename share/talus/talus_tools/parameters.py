@@ -92,11 +92,11 @@ class Defaults:
         if len(parts) == 3 and parts[0] == "Materials":
             parts[1] = entries.get(f"Materials/{parts[1]}/Law", "")
         elif len(parts) == 3 and parts[0] in ("Bodies", "Obstacles", "Surfaces"):
-            # Obstacles have the shapes of bodies.
-            section = "Surfaces" if parts[0] == "Surfaces" else "Bodies"
-            examples = {key.split("/")[1] for key in self.entries
-                        if key.startswith(section + "/") and key.count("/") == 2}
-            parts[:2] = [section, min(examples, default="")]
+            # Obstacles have the shapes of bodies, which a reference may have alone.
+            sections = [parts[0]] + ["Bodies"] * (parts[0] == "Obstacles")
+            return next((self.entries[key] for section in sections for key in self.entries
+                         if key.count("/") == 2 and key.startswith(section + "/")
+                         and key.endswith("/" + parts[2])), None)
         elif parts[0] == "Boundaries":
             # The faces across z are as those across x, which the reference of 2-D has.
             parts[1] = re.sub(r"^(Back|Front)\b", "Left", parts[1])

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """CSV files of talus: one header line, commas, numbers."""
 
+import copy
 import csv
 
 import numpy
 
 from talus_tools.errors import UserError
+
+LINE = "line"  # column of lines.csv with the names
 
 
 class Table:
@@ -29,6 +32,12 @@ class Table:
     def __len__(self):
         return len(self.values)
 
+    def since(self, row):
+        """The rows from this one on."""
+        result = copy.copy(self)
+        result.values = self.values[row:]
+        return result
+
 
 def number(cell):
     """A cell as a number; an empty one is none."""
@@ -41,6 +50,16 @@ def is_row_of_numbers(row, n_columns):
         return len([number(cell) for cell in row]) == n_columns
     except ValueError:
         return False
+
+
+def header(path):
+    """Names of the columns; nothing where the first line is not complete yet."""
+    try:
+        with open(path, newline="", encoding="utf-8", errors="replace") as stream:
+            line = stream.readline()
+    except OSError:
+        return []
+    return next(csv.reader([line])) if line.endswith("\n") else []
 
 
 def read_table(path):
@@ -67,3 +86,21 @@ def read_table(path):
         raise UserError(f"'{path}' has no complete row yet. A run writes the first one when it "
                         "starts to move; wait for it, or look for its error in log.txt.")
     return Table(path, names, rows, left_out)
+
+
+def read_lines(path):
+    """{line: {column: values}} of a table whose column `line` says which line a row belongs
+    to; without one all rows are of one line. Incomplete rows are left out."""
+    with open(path, newline="", encoding="utf-8") as stream:
+        names, *rows = list(csv.reader(stream)) or [[]]
+    groups = {}
+    for row in rows:
+        if len(row) == len(names):
+            entry = dict(zip(names, row))
+            groups.setdefault(entry.pop(LINE, "").strip(), []).append(entry)
+    try:
+        return {line: {name: numpy.array([number(entry[name]) for entry in entries])
+                       for name in entries[0]} for line, entries in groups.items()}
+    except ValueError as error:
+        raise UserError(f"'{path}' is no table of talus: in every column but '{LINE}' numbers "
+                        f"are expected ({error}).") from error

@@ -51,7 +51,7 @@ def scaled(value, unit):
 def show(value, unit=""):
     """With its unit, in kN, MJ and t where these are easier to read."""
     factor, unit = scaled(value, unit)
-    return f"{plain(value / factor)} {unit}".strip()
+    return f"{plain(value / factor)} {unit}".strip().replace("^2", "²").replace("^3", "³")
 
 
 def largest(values):

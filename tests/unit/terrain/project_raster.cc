@@ -199,6 +199,27 @@ TEST(MapProjection, NumbersOfTheDatabase)
 
 
 
+// By name and by zone; a central meridian of 15 degrees east is that of zone 33.
+TEST(MapProjection, WordsForGis)
+{
+  for (const std::string name : {"UTM 33N", "EPSG:32633"})
+    {
+      const std::string words = well_known_text(
+        MapProjection("'Projection'", name).coordinate_system());
+      EXPECT_EQ(words.rfind("PROJCS[\"WGS_1984_UTM_Zone_33N\"", 0), 0u)
+        << words;
+      EXPECT_NE(words.find("PARAMETER[\"Central_Meridian\",15.0]"),
+                std::string::npos)
+        << words;
+    }
+  EXPECT_EQ(well_known_text("PROJCS[\"of the user\"]"),
+            "PROJCS[\"of the user\"]");
+  EXPECT_EQ(well_known_text(""), "");
+  EXPECT_EQ(well_known_text("EPSG:1"), "");
+}
+
+
+
 TEST(MapProjection, RefusesWhatIsNoMapInMetres)
 {
   for (const auto &[name, words] :

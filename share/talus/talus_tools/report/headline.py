@@ -5,6 +5,7 @@ import dataclasses
 
 import numpy
 
+from talus_tools.report.places import structure_names
 from talus_tools.report.sections.forces import names_of
 from talus_tools.units import plain, show, unit_of
 
@@ -16,11 +17,12 @@ class Tile:
     text: str
     value: str
     sentence: str
+    unit: str = ""
 
 
 def tile(name, value, unit, sentence):
     """The number as text and with all its digits."""
-    return Tile(name, show(value, unit), repr(float(value)), sentence)
+    return Tile(name, show(value, unit), repr(float(value)), sentence, unit)
 
 
 def safety(run):
@@ -34,9 +36,11 @@ def safety(run):
 
 
 def forces(run):
-    """The largest force on each of the first obstacles."""
+    """The largest force on each of the first structures."""
     table, result = run.tables["obstacles"], []
-    for name in names_of(table)[:2] if table else []:
+    names = [name for name in names_of(table) if name in structure_names(run).values()
+             ] if table else []
+    for name in names[:2]:
         force = numpy.sqrt(sum(table[f"{name} force {axis} [N]"]**2
                                for axis in "xyz"[:run.dimension]))
         result.append(tile(f"largest force on {name}", force.max(), unit_of("[N]", run.dimension),
@@ -45,10 +49,21 @@ def forces(run):
     return result
 
 
-def headline(run):
-    """At most eight tiles."""
-    table = run.statistics
-    result = safety(run)
+def runout(run):
+    """Runout and speed along the way of the slide, whatever its direction."""
+    table = run.tables["runout"]
+    speed = table["speed of the centre [m/s]"]
+    result = [tile("runout", table["runout [m]"][-1], "m",
+                   "Of the front from its start, along the way of the slide.")]
+    if speed.any():
+        result.append(tile("largest velocity", speed.max(), "m/s", "Of the centre of mass, at t = "
+                           f"{plain(table['time [s]'][speed.argmax()])} s."))
+    return result
+
+
+def along_x(run):
+    """The same along x, of runs without runout.csv."""
+    table, result = run.statistics, []
     if "front x [m]" in table:
         front = table["front x [m]"]
         result.append(tile("front at the end", front[-1], "m",
@@ -59,6 +74,12 @@ def headline(run):
     if velocity.any():
         result.append(tile("largest velocity", velocity[at], "m/s",
                            f"Of the centre of mass, at t = {plain(table['time [s]'][at])} s."))
+    return result
+
+
+def headline(run):
+    """At most eight tiles."""
+    result = safety(run) + (runout(run) if run.tables["runout"] else along_x(run))
     if run.tables["profile"]:
         profile = run.tables["profile"]
         last = profile["time [s]"] == profile["time [s]"][-1]

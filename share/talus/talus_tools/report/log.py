@@ -3,12 +3,14 @@
 
 import re
 
+# The line of a run that has come to its end.
+ENDED = "A report of this run: "
 # Lines that every run has, and those of the searches in static stages. What is not among
 # them is worth reading: the log has no mark for warnings, so that none may be overlooked.
 ROUTINE = [re.compile(pattern) for pattern in (
     r"The mesh fills .* points\.$", r"t = .*the time step is ", r"t = .*largest share of points",
     r"t = .*(mesh changed|shared out)", r"Wall time by phase", r"Peak memory of a rank", r"\s",
-    r"Stage '.*':$", r"\d+ steps to t = ", r"A report of this run: ", r"$")]
+    r"Stage '.*':$", r"\d+ steps to t = ", ENDED, r"$")]
 SAFETY = re.compile(r"The factor of safety is ")
 RESULTS = [SAFETY, re.compile(r"Equilibrium was found ")]
 
@@ -32,8 +34,17 @@ class Log:
                          self.safety)
         return (float(found[2]), found[1].strip()) if found else None
 
+    def last_event(self):
+        """The last line that says that the run stopped, was resumed, or came to its end."""
+        lines = [line for line in self.text.splitlines()
+                 if line.startswith(("Stopped at t = ", "Resumed at t = ", ENDED))]
+        return lines[-1] if lines else ""
+
+    def has_ended(self):
+        """Whether the run came to its end."""
+        return self.last_event().startswith(ENDED)
+
     def stopped(self):
-        """The last line that says that the run was stopped, unless it was resumed later."""
-        last = [line for line in self.text.splitlines()
-                if line.startswith(("Stopped at t = ", "Resumed at t = "))][-1:]
-        return last[0] if last and last[0].startswith("Stopped") else ""
+        """The line that says that the run was stopped, unless it was resumed later."""
+        line = self.last_event()
+        return line if line.startswith("Stopped") else ""

@@ -6,6 +6,7 @@ import os
 import numpy
 
 from talus_tools.hdf5 import h5py
+from talus_tools.report.run import has_rows
 from talus_tools.units import plain, show, unit_of
 
 # Shares above which a budget is not closed well enough to be left unsaid.
@@ -68,12 +69,23 @@ def energy(run):
 
 def mass(run):
     """Points that were lost or made."""
-    values = run.statistics["mass [kg]"]
+    values = run.statistics["mass [kg]"] + run.outflow("mass", "kg")
     change = numpy.abs(values - values[0]).max()
     if change <= MASS * values[0]:
         return []
     return [f"The mass changed by up to {show(change, unit_of('[kg]', run.dimension))}, "
             f"{plain(100 * change / values[0], 3)} % of that at the start: soil was lost or made."]
+
+
+def left(run):
+    """Soil that left through outflow faces is no part of fronts and deposits."""
+    mass_left = run.outflow("mass", "kg")[-1]
+    if mass_left <= 0:
+        return []
+    start = run.statistics["mass [kg]"][0]
+    return [f"{plain(100 * mass_left / start, 3)} % of the soil left the mesh through faces of "
+            f"outflow ({show(mass_left, unit_of('[kg]', run.dimension))}). Deposit and runout are "
+            "those of the rest."]
 
 
 def fracture(run):
@@ -166,6 +178,19 @@ def cut_off(run):
             for name, table in run.tables.items() if table and table.left_out]
 
 
+def empty_tables(run):
+    """Tables that a run made and did not fill, as on a disk that is full."""
+    names = list(run.empty)
+    if run.has("lines.csv") and not has_rows(run.path("lines.csv")):
+        names.append("lines.csv")
+    # At the start of a run a table may have its header only.
+    if len(run.statistics) == 1:
+        names = [name for name in names if os.path.getsize(run.path(name)) == 0]
+    return [f"{name} has no complete row ({os.path.getsize(run.path(name))} bytes), so that its "
+            "section is missing here. A full disk or a copy that was cut off leaves such files."
+            for name in names]
+
+
 def without_h5py(run):
     """Pictures that this Python cannot make."""
     return [] if h5py or not run.has("points.xdmf") else [
@@ -183,6 +208,6 @@ def remarks(run):
 
 def notices(run):
     """All of them, the gravest first."""
-    checks = (unfinished, mass, energy, fracture, split_limits, ledger, below_surface,
-              contact_area, moving, cut_off, without_h5py, remarks)
+    checks = (unfinished, mass, left, energy, fracture, split_limits, ledger, below_surface,
+              contact_area, moving, cut_off, empty_tables, without_h5py, remarks)
     return [sentence for check in checks for sentence in check(run)]

@@ -9,6 +9,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
+from PIL import Image
 
 STYLE = {
     "font.size": 9, "axes.titlesize": 9, "axes.titlelocation": "left", "axes.linewidth": 0.6,
@@ -52,10 +53,44 @@ class Rows:
 
 @dataclasses.dataclass
 class Lines:
-    """Sentences, each of its own, or, folded behind a title, a text as it is."""
+    """Sentences, each of its own."""
     lines: list
-    title: str = ""
     kind: str = "lines"
+
+
+@dataclasses.dataclass
+class Text:
+    """A file as it is."""
+    text: str
+    kind: str = "text"
+
+
+@dataclasses.dataclass
+class Folded:
+    """Parts behind a title, which a click opens."""
+    title: str
+    parts: list
+    kind: str = "folded"
+
+
+@dataclasses.dataclass
+class Slider:
+    """Pictures that change with time; the page shows those of the last time until a reader
+    moves the slider. `times`: as texts; `views`: list of SliderView."""
+    times: list
+    views: list
+    kind: str = "slider"
+
+
+@dataclasses.dataclass
+class SliderView:
+    """Addresses of a picture that stays, of the frames over the window of its axes, and of the
+    lines over these; `window`: CSS of the place of the frames."""
+    base: str
+    window: str
+    frames: list
+    top: str
+    caption: str
 
 
 @dataclasses.dataclass
@@ -74,13 +109,30 @@ def subplots(rows=1, columns=1, height=2.6, **options):
                         **options)
 
 
-def embed(figure, caption, form="svg"):
-    """The figure as a part of the page: lines as SVG, pictures as PNG. No date, so that
-    the same run gives the same page."""
+def saved(figure, form="png", **options):
+    """The bytes of a figure; of a picture with 64 steps of each colour, which nobody sees and
+    which makes it smaller by a third. No date, so that the same run gives the same page."""
     stream = io.BytesIO()
     metadata = {"Date": None} if form == "svg" else {"Software": None}
-    figure.savefig(stream, format=form, dpi=130, metadata=metadata)
+    figure.savefig(stream, format=form, dpi=130, metadata=metadata, **options)
     plt.close(figure)
+    if form == "svg":
+        return stream.getvalue()
+    smaller = io.BytesIO()
+    with Image.open(stream) as image:
+        # White stays white: the highest bits fill the lowest.
+        image = (image.quantize(256, Image.Quantize.FASTOCTREE) if options.get("transparent") else
+                 image.convert("RGB").point(lambda value: value & 0xFC | value >> 6))
+        image.save(smaller, "PNG", optimize=True)
+    return smaller.getvalue()
+
+
+def address(data, form="png"):
+    """A picture within the page."""
     kind = "image/svg+xml" if form == "svg" else "image/png"
-    data = base64.b64encode(stream.getvalue()).decode("ascii")
-    return Figure(f"data:{kind};base64,{data}", caption)
+    return f"data:{kind};base64,{base64.b64encode(data).decode('ascii')}"
+
+
+def embed(figure, caption, form="svg"):
+    """The figure as a part of the page: lines as SVG, pictures as PNG."""
+    return Figure(address(saved(figure, form), form), caption)

@@ -7,6 +7,8 @@ import math
 import os
 import re
 
+import numpy
+
 from talus_tools.errors import UserError
 from talus_tools.hdf5 import Hdf5Series, h5py
 from talus_tools.parameters import Defaults, changed_entries, read_parameters
@@ -33,15 +35,22 @@ def read_text(path):
         raise UserError(f"'{path}' cannot be read: {error.strerror}.") from error
 
 
+def has_rows(path):
+    """Whether a table has a complete line below its header."""
+    with open(path, "rb") as stream:
+        return stream.readline().endswith(b"\n") and stream.readline().endswith(b"\n")
+
+
 class Run:
-    """Tables, parameters and log of a run; a table that is not there is None."""
+    """Tables, parameters and log of a run; a table that is not there is None. `empty`: names
+    of the tables that have no complete row."""
 
     def __init__(self, folder):
-        self.folder = folder
+        self.folder, self.empty = folder, []
         self.check_folder()
         self.tables = {name: self.read(name + ".csv") for name in
                        ("statistics", "profile", "obstacles", "boundaries", "newton", "maps",
-                        "stations")}
+                        "stations", "runout")}
         self.statistics = self.tables["statistics"]
         self.entries = read_parameters(self.path("parameters.prm"))
         self.title = self.entries.get("Title", "")
@@ -82,9 +91,10 @@ class Run:
         path = self.path(name)
         if not os.path.isfile(path):
             return None
-        with open(path, "rb") as stream:
-            has_rows = name == "statistics.csv" or len(stream.read(1 << 16).split(b"\n")) > 2
-        return read_table(path) if has_rows else None
+        if name != "statistics.csv" and not has_rows(path):
+            self.empty.append(name)
+            return None
+        return read_table(path)
 
     def series(self, name):
         """Fields by time, of VTU or HDF5 files; None where there are none that can be read."""
@@ -101,15 +111,28 @@ class Run:
         return self.statistics["time [s]"][-1]
 
     def is_finished(self):
-        """Whether the end time was reached; without dynamics, whether the stages are over."""
-        if "dynamics" not in self.stages:
+        """Whether the end time was reached, or the run ended since the soil was at rest; without
+        dynamics, whether the stages are over."""
+        if "dynamics" not in self.stages or (self.is_noted_at_rest() and self.log.has_ended()):
             return True
         return self.time >= self.end_time * (1 - 1e-9)
+
+    def is_noted_at_rest(self):
+        """Whether the run itself found the soil at rest in its last row."""
+        return "at rest" in self.statistics and bool(self.statistics["at rest"][-1])
 
     def is_at_rest(self):
         """Whether the grid hardly moves any more; None where nothing ever moved."""
         energy = self.statistics["grid kinetic energy [J]"]
-        return bool(energy[-1] <= REST * energy.max()) if energy.max() > 0 else None
+        if energy.max() == 0:
+            return None
+        return self.is_noted_at_rest() or bool(energy[-1] <= REST * energy.max())
+
+    def outflow(self, name, unit):
+        """History of what left through outflow faces; zeros where the run has none."""
+        column = f"outflow {name} [{unit}]"
+        return self.statistics[column] if column in self.statistics else numpy.zeros(
+            len(self.statistics))
 
     def is_writing(self):
         """Whether a run holds the lock of the folder now."""

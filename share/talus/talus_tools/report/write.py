@@ -4,10 +4,11 @@
 import os
 
 from talus_tools.errors import UserError
+from talus_tools.qgis import write_styles
+from talus_tools.report.contents import SECTIONS
 from talus_tools.report.headline import headline
 from talus_tools.report.notices import notices
 from talus_tools.report.run import HERE, Run, read_text
-from talus_tools.report.sections import SECTIONS
 from talus_tools.units import plain
 
 try:
@@ -25,30 +26,42 @@ def subtitle(run):
             f"{run.statistics['points'][-1]:.0f} material points at the end")
 
 
-def render(run):
-    """The page as text. It is XML as well as HTML, so that tests can read it."""
+def filled(template, **values):
+    """A page as text. It is XML as well as HTML, so that tests can read it."""
     environment = jinja2.Environment(loader=jinja2.FileSystemLoader(HERE), autoescape=True,
                                      trim_blocks=True, lstrip_blocks=True,
                                      undefined=jinja2.StrictUndefined)
+    return environment.get_template(template).render(
+        style=read_text(os.path.join(HERE, "report.css")), **values)
+
+
+def render(run):
+    """The report as text."""
     sections = [section for section in (make(run) for make in SECTIONS) if section]
-    return environment.get_template("report.html").render(
-        style=read_text(os.path.join(HERE, "report.css")),
+    return filled(
+        "report.html", script=read_text(os.path.join(HERE, "slider.js")),
         name=os.path.basename(os.path.abspath(run.folder)),
         title=run.title or os.path.basename(os.path.abspath(run.folder)), subtitle=subtitle(run),
         finished=run.is_finished(), notices=notices(run), tiles=headline(run), sections=sections,
         version=run.versions[0] if run.versions else "", hash=run.hash[:12])
 
 
+def write_page(path, page):
+    """Write a page; it gets its name when it is complete."""
+    with open(path + ".part", "w", encoding="utf-8") as stream:
+        stream.write(page)
+    os.replace(path + ".part", path)
+
+
 def write_report(folder):
-    """Write report.html into the folder of a run, and return its path and the notices. It gets
-    its name when it is complete."""
+    """Write report.html into the folder of a run and styles of QGIS beside its maps; return the
+    path of the report and the notices."""
     run = Run(folder)
-    page = render(run)
     path = run.path("report.html")
     try:
-        with open(path + ".part", "w", encoding="utf-8") as stream:
-            stream.write(page)
-        os.replace(path + ".part", path)
+        write_page(path, render(run))
+        write_styles(run)
     except OSError as error:
-        raise UserError(f"'{path}' cannot be written: {error.strerror}.") from error
+        raise UserError(f"'{error.filename or path}' cannot be written: "
+                        f"{error.strerror}.") from error
     return path, notices(run)

@@ -11,7 +11,7 @@ from talus_tools.errors import Parser, UserError
 from talus_tools.study.ensemble import lock, make_members, program_version, run_members
 from talus_tools.study.member import FAILED, FINISHED
 from talus_tools.study.results import Results, plan_maps, section_maps, write_tables
-from talus_tools.study.settings import ENTRIES, Settings
+from talus_tools.study.settings import ENTRIES, MEMBER, STATUS, Settings
 
 DESCRIPTION = """Run talus many times with varied parameters, and tell how the results are
 distributed. Run it again after an interruption: finished members are kept, others go on."""
@@ -37,7 +37,7 @@ def parse():
 
 def list_members(settings, members):
     """One line per member."""
-    print("member," + ",".join(one.name for one in settings.varied) + ",status")
+    print(",".join([MEMBER, *(one.name for one in settings.varied), STATUS]))
     for member in members:
         print(f"{member.number}," + ",".join(f"{value:.6g}" for value in member.values)
               + f",{member.state()[0]}")
@@ -83,13 +83,13 @@ def write_results(settings, members):
     return 1 if failed else 0 if n_done == len(members) else UNFINISHED
 
 
-def run_one(members, number):
+def run_one(settings, members, number):
     """A task of a job array writes no common file."""
     if not 1 <= number <= len(members):
         raise UserError(f"--member {number} was given, where a number from 1 to {len(members)} "
                         "was expected.")
     member = members[number - 1]
-    run_members([member], 1)
+    run_members([member], 1, settings.quantities)
     status, _ = member.state()
     return {FINISHED: 0, FAILED: 1}.get(status, UNFINISHED)
 
@@ -109,9 +109,9 @@ def main():
         list_members(settings, members)
         return 0
     if options.member is not None:
-        return run_one(members, options.member)
+        return run_one(settings, members, options.member)
     with lock(settings.folder):
         write_record(settings, version)
         if not options.collect:
-            run_members(members, options.at_once or settings.at_once)
+            run_members(members, options.at_once or settings.at_once, settings.quantities)
         return write_results(settings, members)

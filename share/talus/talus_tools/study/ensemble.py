@@ -11,6 +11,7 @@ import time
 from talus_tools.errors import UserError
 from talus_tools.study.design import design
 from talus_tools.study.member import FAILED, FINISHED, Member
+from talus_tools.tables import header
 
 
 def program_version(settings):
@@ -63,12 +64,38 @@ class Stop:
         self.asked = True
 
 
-def run_members(members, at_once):
+class ColumnCheck:
+    """Checks the files and columns of the quantities as soon as any member has written them, so
+    that a misspelt name does not show only when all members have run."""
+
+    def __init__(self, quantities):
+        self.pending = list(quantities)
+
+    def __call__(self, member, has_finished=False):
+        """Throw a UserError if a table of this member has no column of that name, or if the
+        member has finished without the table."""
+        for quantity in list(self.pending):
+            path = member.path(quantity.file)
+            names = header(path)
+            if quantity.column in names:
+                self.pending.remove(quantity)
+            elif names:
+                raise UserError(f"'{path}' has no column '{quantity.column}', which the quantity "
+                                f"'{quantity.name}' asks for; it has {', '.join(names)}.")
+            elif has_finished:
+                raise UserError(f"{member.name} has finished without '{path}', which the quantity "
+                                f"'{quantity.name}' asks for. Let its case write that table, or "
+                                f"correct 'Quantities/{quantity.name}/File'.")
+
+
+def run_members(members, at_once, quantities):
     """Run those that have not finished. A run that is stopped can be resumed."""
     waiting = [m for m in members if m.state()[0] != FINISHED]
     n_done, running, stop, told = len(members) - len(waiting), [], Stop(), False
+    check, error = ColumnCheck(quantities), None
     if n_done:
         print(f"{n_done} of {len(members)} members have finished before.", flush=True)
+        check(next(m for m in members if m not in waiting), has_finished=True)
     while running or (waiting and not stop.asked):
         while waiting and len(running) < at_once and not stop.asked:
             running.append(waiting.pop(0))
@@ -77,10 +104,19 @@ def run_members(members, at_once):
             for member in running:
                 member.process.terminate()
             told = True
-        for member in [m for m in running if m.process.poll() is not None]:
+        for member in list(running):
+            has_ended = member.process.poll() is not None
+            status = member.finish(stop.asked) if has_ended else ""
+            try:
+                check(member, status == FINISHED)
+            except UserError as found:
+                stop.asked, error = True, found
+            if not has_ended:
+                continue
             running.remove(member)
-            status = member.finish(stop.asked)
             n_done += status == FINISHED
             why = f": {member.state()[1]}" if status == FAILED else ""
             print(f"{member.name} {status}{why} ({n_done} of {len(members)} finished)", flush=True)
         time.sleep(0.02)
+    if error:
+        raise error

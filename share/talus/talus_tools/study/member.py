@@ -12,6 +12,7 @@ import subprocess
 import time
 
 from talus_tools.parameters import as_text, expand
+from talus_tools.report.log import Log
 
 FINISHED, FAILED, STARTED, STOPPED, WAITING = ("finished", "failed", "started", "stopped",
                                                "waiting")
@@ -106,6 +107,13 @@ class Member:
                 except BlockingIOError:
                     time.sleep(0.05)
 
+    def remove_results(self):
+        """Remove the log, by which has_ended() knows that this run came to its end, and the
+        tables of the quantities, which may be those of another member."""
+        for name in {"log.txt", *(one.file for one in self.settings.quantities)}:
+            if os.path.exists(self.path(name)):
+                os.remove(self.path(name))
+
     def start(self):
         """Start it; one that was interrupted goes on from its checkpoint."""
         status, _ = self.state()
@@ -114,6 +122,8 @@ class Member:
         resume = status in (STARTED, STOPPED) and self.has_checkpoint()
         with open(self.path("member.prm"), "w", encoding="utf-8") as stream:
             stream.write(self.text)
+        if not resume:
+            self.remove_results()
         self.write_state(STARTED)
         command = [*self.settings.launcher, self.settings.program, self.path("member.prm"),
                    "--output", self.folder, "--resume" if resume else "--overwrite"]
@@ -129,12 +139,26 @@ class Member:
         said = [line for line in lines if line.startswith("talus: ")] or lines
         if said:
             return said[-1].removeprefix("talus: ")
+        if code == 0:
+            return ("exit status 0, but log.txt does not say that the run came to its end: the "
+                    "launcher did not run talus, or lost its exit status")
         return f"killed by signal {-code}" if code < 0 else f"exit status {code} without a message"
+
+    def has_ended(self):
+        """Whether the log says that the run came to its end. The exit status is that of the
+        launcher, which may have run nothing."""
+        try:
+            with open(self.path("log.txt"), encoding="utf-8", errors="replace") as stream:
+                return Log(stream.read()).has_ended()
+        except OSError:
+            return False
 
     def finish(self, was_asked_to_stop):
         """Record how the process ended, and return the status."""
         code = self.process.returncode
         status = {0: FINISHED, CHECKPOINT_STATUS: STOPPED}.get(code, FAILED)
+        if status == FINISHED and not self.has_ended():
+            status = FAILED
         # In its first moments a run does not yet listen to signals, which then end it.
         if was_asked_to_stop and code < 0:
             status = STOPPED

@@ -64,8 +64,7 @@ def cell(value):
 def write_tables(results):
     """study.csv with one row per member, exceedance.csv with one per value."""
     settings = results.settings
-    rows = [["member", *(one.name for one in settings.varied), "status",
-             *(q.label() for q in settings.quantities), "hash", "reason"]]
+    rows = [settings.columns()]
     for i, (member, (status, reason)) in enumerate(zip(results.members, results.states)):
         rows.append([member.number, *map(repr, member.values), status,
                      *map(cell, results.values[i]), member.hash[:12], reason])

@@ -23,6 +23,11 @@ ENTRIES = {
     "Quantities/NAME/Column": "front x [m]", "Quantities/NAME/Take": "final",
     "Exceedance/Map": "maximum-thickness", "Exceedance/Thresholds": "0.1, 1",
 }
+# Columns of study.csv beside the varied numbers and the quantities.
+MEMBER, STATUS, HASH, REASON = "member", "status", "hash", "reason"
+# Tables of talus whose columns are all numbers.
+TABLES = ("statistics.csv", "profile.csv", "obstacles.csv", "boundaries.csv", "newton.csv",
+          "maps.csv", "stations.csv", "runout.csv")
 TAKES = ("final", "maximum", "minimum")
 KINDS = ("Latin hypercube", "grid")
 # Numbers that each distribution needs, all in the unit of the parameter.
@@ -65,6 +70,7 @@ class Settings:
         self.fixed = {name.partition("/")[2]: value for name, value in entries.items()
                       if name.startswith("Parameters/")}
         self.entries = {n: v for n, v in entries.items() if not n.startswith("Parameters/")}
+        self.check_section_names()
         self.check_names()
         self.title = self.get("Title")
         self.case = self.needed("Case")
@@ -81,6 +87,7 @@ class Settings:
         self.map = self.get("Exceedance/Map")
         self.thresholds = self.numbers("Exceedance/Thresholds")
         self.check_varied()
+        self.check_columns()
 
     def error(self, name, expected):
         """The sentence for a value that does not do."""
@@ -101,6 +108,30 @@ class Settings:
     def names(self, section):
         """Names that a section lists."""
         return [n.strip() for n in self.get(section + "/Names").split(",") if n.strip()]
+
+    def check_section_names(self):
+        """A slash separates sections and cannot be part of a name."""
+        for section in ("Varied", "Quantities"):
+            for name in self.names(section):
+                if "/" in name:
+                    raise UserError(f"'{self.path}': the name '{name}' in '{section}/Names' has a "
+                                    "slash, which separates sections from entries. Choose a name "
+                                    "without one.")
+
+    def columns(self):
+        """Names of the columns of study.csv."""
+        return [MEMBER, *(one.name for one in self.varied), STATUS,
+                *(one.label() for one in self.quantities), HASH, REASON]
+
+    def check_columns(self):
+        """Each column of study.csv has a name of its own."""
+        columns = self.columns()
+        for name in columns:
+            if columns.count(name) > 1:
+                raise UserError(f"'{self.path}': two columns of study.csv would be called "
+                                f"'{name}'. Give each name in 'Varied/Names' and "
+                                f"'Quantities/Names' once, and none of them as '{MEMBER}', "
+                                f"'{STATUS}', '{HASH}' or '{REASON}', which every study has.")
 
     def check_names(self):
         """No entry is overlooked because it is misspelt."""
@@ -163,6 +194,12 @@ class Settings:
     def read_quantity(self, name):
         """One section of Quantities."""
         start = f"Quantities/{name}/"
+        # A launcher may write tables of its own.
+        file = self.get(start + "File")
+        if file not in TABLES and not (self.launcher and os.path.basename(file) == file):
+            raise self.error(start + "File", "a table of talus with numbers only ("
+                             + ", ".join(TABLES) + ") or, with a 'Launcher', another file in the "
+                             "folder of the member")
         return Quantity(name, self.get(start + "File"), self.get(start + "Column"),
                         self.one_of(start + "Take", TAKES))
 

@@ -1,18 +1,3 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""The sections of the page, in its order. Each is a function of the run that returns a
-Section, or None where the run has no files for it."""
-
-from talus_tools.report.sections.budgets import energy, mass, momentum
-from talus_tools.report.sections.forces import faces, obstacles
-from talus_tools.report.sections.fracture import fracture
-from talus_tools.report.sections.lines import lines
-from talus_tools.report.sections.maps import maps
-from talus_tools.report.sections.record import parameters, remarks
-from talus_tools.report.sections.runout import runout
-from talus_tools.report.sections.safety import safety
-from talus_tools.report.sections.soil import soil
-from talus_tools.report.sections.stations import stations
-from talus_tools.report.sections.thalweg import thalweg
-
-SECTIONS = [parameters, safety, runout, maps, thalweg, soil, stations, lines, obstacles, faces,
-            mass, momentum, energy, fracture, remarks]
+"""Sections of the page. Each is a function of the run that returns a Section, or None where the
+run has no files for it; contents.py has their order."""

@@ -23,6 +23,7 @@ ENERGIES = {
                          "motion; negative where they drive the soil."),
     "damping work [J]": ("work of damping", "Used up by numerical damping; none unless asked "
                          "for."),
+    "outflow energy [J]": ("energy of outflow", "Taken along by soil that left the mesh."),
     "energy remainder [J]": ("remainder", "What the sum of all others misses: an error of the "
                              "method, positive where energy was lost."),
 }
@@ -30,11 +31,14 @@ ENERGIES = {
 
 def mass(run):
     """The mass must stay what it was."""
-    values = run.statistics["mass [kg]"]
+    values = run.statistics["mass [kg]"] + run.outflow("mass", "kg")
     change = numpy.abs(values - values[0]).max() / values[0]
-    table = summary(run, {"mass [kg]": ("mass", "The points carry it; none may be lost.")})
-    said = ("The mass did not change by a single bit." if change == 0 else
-            f"The mass changed by at most {plain(change)} of itself. " +
+    table = summary(run, {
+        "mass [kg]": ("mass", "The points carry it; none may be lost."),
+        "outflow mass [kg]": ("mass that left", "Through faces of outflow.")})
+    what = "The mass, with what left," if run.outflow("mass", "kg").any() else "The mass"
+    said = (f"{what} did not change by a single bit." if change == 0 else
+            f"{what} changed by at most {plain(change)} of itself. " +
             ("That is nothing but round-off." if change < 1e-9 else
              "It must not: see the notice at the top."))
     return Section("mass", "Mass budget", "Soil can neither vanish nor appear.",
@@ -59,6 +63,9 @@ def impulses(run):
         added = table["added mass momentum x [kg m/s]"]
         result.append(("added mass", added[0] - added,
                        "What the soil gave to the water that moves with it."))
+    if run.outflow("mass", "kg").any():
+        result.append(("outflow", -run.outflow("momentum x", "kg m/s"),
+                       "What soil that left took along."))
     obstacles = run.tables["obstacles"]
     columns = [n for n in obstacles.names if n.endswith("impulse x [N s]")] if obstacles else []
     if columns:

@@ -3,12 +3,13 @@
 
 import numpy
 
-from talus_tools.report.page import BLUE, COLORS, RED, Cell, Rows, Section, embed, subplots
+from talus_tools.report.page import (BLUE, COLORS, RED, Cell, Folded, Lines, Rows, Section, embed,
+                                     subplots)
+from talus_tools.report.places import structure_names
 from talus_tools.units import largest, scaled, show, unit_of
 
-HEAD = ["quantity", "largest mean over a row", "at t =", "largest running mean", "largest in any step",
-        "mean over the run",
-        "what it means"]
+HEAD = ["quantity", "largest mean over a row", "at t =", "largest running mean",
+        "largest in any step", "mean over the run", "what it means"]
 AXES = {"x": "Along the slope: drag; positive where the soil pushes along x.",
         "y": "Across the slope: negative presses down, positive lifts.",
         "z": "Sideways."}
@@ -89,27 +90,35 @@ def contact(table, name):
     return f"{name}: the soil touches it from t = {table['time [s]'][touched[0]]:.4g} s on."
 
 
-def section(run, table_name, anchor, title, lead):
-    """One section for a table of forces."""
-    table = run.tables[table_name]
-    if table is None:
-        return None
-    parts = []
-    for name in names_of(table):
-        if len(table) > 1:
-            parts.append(history(table, name, run.dimension))
-        parts.append(Rows([contact(table, name)] + HEAD[1:], rows_of(table, name, run.dimension)))
-    return Section(anchor, title, lead, parts)
+def parts_of(run, table, name):
+    """Picture and table of one obstacle or face."""
+    pictures = [history(table, name, run.dimension)] if len(table) > 1 else []
+    return pictures + [Lines([contact(table, name)]),
+                       Rows(HEAD, rows_of(table, name, run.dimension))]
 
 
 def obstacles(run):
-    """Forces on obstacles."""
-    return section(run, "obstacles", "obstacles", "Forces on obstacles",
+    """Forces on structures; those on terrains, which are the ground, are folded."""
+    table = run.tables["obstacles"]
+    if table is None:
+        return None
+    structures = structure_names(run).values()
+    ground = [name for name in names_of(table) if name not in structures]
+    parts = [part for name in names_of(table) if name in structures
+             for part in parts_of(run, table, name)]
+    parts += [Folded(f"Forces on {name}, which is the ground", parts_of(run, table, name))
+              for name in ground]
+    return Section("obstacles", "Forces on obstacles",
                    "What the soil does to each obstacle. A structure feels the means over a row "
-                   "and the running mean; single steps have peaks that are partly numerical.")
+                   "and the running mean; single steps have peaks that are partly numerical.",
+                   parts)
 
 
 def faces(run):
     """Forces on the faces of the mesh."""
-    return section(run, "boundaries", "faces", "Forces on the faces of the mesh",
-                   "What the soil does to the seabed and the walls at the edge of the mesh.")
+    table = run.tables["boundaries"]
+    if table is None:
+        return None
+    return Section("faces", "Forces on the faces of the mesh",
+                   "What the soil does to the seabed and the walls at the edge of the mesh.",
+                   [part for name in names_of(table) for part in parts_of(run, table, name)])

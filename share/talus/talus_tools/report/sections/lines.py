@@ -1,34 +1,14 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Envelopes along lines on the ground: lines.csv."""
 
-import csv
-
 import numpy
 
 from talus_tools.errors import UserError
 from talus_tools.report.page import COLORS, Cell, Rows, Section, embed, subplots
-from talus_tools.tables import number
+from talus_tools.tables import read_lines
 from talus_tools.units import plain, show
 
-LINE, DISTANCE = "line", "distance"
-
-
-def read_lines(path):
-    """{line: {column: values}} of a table whose column `line` says which line a row belongs
-    to; without one all rows are of one line. Incomplete rows are left out."""
-    with open(path, newline="", encoding="utf-8") as stream:
-        names, *rows = list(csv.reader(stream)) or [[]]
-    groups = {}
-    for row in rows:
-        if len(row) == len(names):
-            entry = dict(zip(names, row))
-            groups.setdefault(entry.pop(LINE, "").strip(), []).append(entry)
-    try:
-        return {line: {name: numpy.array([number(entry[name]) for entry in entries])
-                       for name in entries[0]} for line, entries in groups.items()}
-    except ValueError as error:
-        raise UserError(f"'{path}' is no table of talus: in every column but '{LINE}' numbers "
-                        f"are expected ({error}).") from error
+DISTANCE = "distance"
 
 
 def picture(groups, distance, quantities):

@@ -9,7 +9,9 @@ from matplotlib.colors import LightSource
 
 from talus_tools.errors import UserError
 from talus_tools.esri import read_grid
-from talus_tools.report.page import COLORS, WIDTH, Cell, Rows, Section, embed, subplots
+from talus_tools.report.page import (COLORS, WIDTH, Cell, Folded, Rows, Section, embed,
+                                     subplots)
+from talus_tools.report.places import draw_places, places_of
 from talus_tools.units import plain, scaled, show
 
 # Name of the file: (unit, colours, what it means), in the order of the page.
@@ -27,6 +29,11 @@ MEANINGS = {
     "erosion": ("m", "RdBu_r", "Thickness that a place lost; below zero, what it gained."),
 }
 GROUND = "ground"
+# The same of columns of maps.csv.
+FIRST_COLUMNS = ("thickness at start", "maximum thickness", "final thickness", "maximum speed",
+                 "arrival time")
+# Maps that a reader looks for first; the others are folded.
+FIRST = ("maximum-thickness", "maximum-speed", "arrival-time")
 TABLE_HEAD = ["quantity", "largest", "where", "covered", "what it means"]
 
 
@@ -64,27 +71,34 @@ def visible(values):
     return numpy.ma.masked_where(~numpy.isfinite(values) | (values == 0), values)
 
 
-def window(grids):
+def window(grids, places=()):
     """(first row, last row, first column, last column) of the cells where anything happens,
-    with a margin, so that a small slide is seen in a large bathymetry."""
-    some = next(iter(grids.values())).values
-    hit = numpy.zeros(some.shape, dtype=bool)
+    with a margin, so that a small slide is seen in a large bathymetry; places (easting,
+    northing) that are not far from there are within it, too."""
+    some = next(iter(grids.values()))
+    hit = numpy.zeros(some.values.shape, dtype=bool)
     for name, grid in grids.items():
-        if name != GROUND and grid.values.shape == some.shape:
+        if name != GROUND and grid.values.shape == hit.shape:
             hit |= ~numpy.ma.getmaskarray(visible(grid.values))
     if not hit.any():
-        return 0, some.shape[0], 0, some.shape[1]
+        return 0, hit.shape[0], 0, hit.shape[1]
+    ranges = [(there[0], there[-1]) for there in
+              (numpy.flatnonzero(hit.any(axis=axis)) for axis in (1, 0))]
+    near = [cell for cell in (some.cell(*place) for place in places)
+            if all(2 * low - high <= i <= 2 * high - low
+                   for i, (low, high) in zip(cell, ranges))]
     result = []
-    for axis in (1, 0):
-        places = numpy.flatnonzero(hit.any(axis=axis))
-        margin = 3 + (places[-1] - places[0]) // 6
-        result += [max(0, places[0] - margin), min(hit.shape[1 - axis], places[-1] + 1 + margin)]
+    for axis, (low, high) in enumerate(ranges):
+        low = min([low, *(cell[axis] for cell in near)])
+        high = max([high, *(cell[axis] for cell in near)])
+        margin = 3 + (high - low) // 6
+        result += [max(0, low - margin), min(hit.shape[axis], high + 1 + margin)]
     return tuple(result)
 
 
-def relief(axes, ground, cells, extent):
+def relief(axes, ground):
     """Shaded relief with contours of the height."""
-    heights = ground.values[cells]
+    heights, extent = ground.values, ground.extent()
     filled = numpy.where(numpy.isfinite(heights), heights, numpy.nanmean(heights))
     # A slope of a degree must be seen as well as one of thirty.
     steep = numpy.hypot(*numpy.gradient(filled, ground.dy, ground.dx)).max() or 1
@@ -95,6 +109,17 @@ def relief(axes, ground, cells, extent):
         lines = axes.contour(filled, levels=8, colors="#4a565f", linewidths=0.5, linestyles="solid",
                              extent=extent, origin="upper")
         axes.clabel(lines, fontsize=6.5, fmt="%g")
+
+
+def draw_ground(axes, ground, extent):
+    """Relief of those cells of the ground that lie within a window (west, east, south, north)."""
+    west, east, south, north = extent
+    top, left = numpy.clip(ground.cell(west, north), 0, None)
+    bottom, right = ground.cell(east, south)
+    part = ground.part(top, min(bottom + 1, ground.values.shape[0]), left,
+                       min(right + 1, ground.values.shape[1]))
+    if min(part.values.shape) > 1:
+        relief(axes, part)
 
 
 def limits(values, unit):
@@ -111,16 +136,13 @@ def limits(values, unit):
 
 def draw(axes, grid, ground, part, colors, **options):
     """A grid, and below it the ground if it is known; part: see window()."""
-    top, bottom, left, right = part
-    cells = (slice(top, bottom), slice(left, right))
-    west, north = grid.west + left * grid.dx, grid.extent()[3] - top * grid.dy
-    extent = (west, west + (right - left) * grid.dx, north - (bottom - top) * grid.dy, north)
-    if ground and min(bottom - top, right - left) > 1:
-        relief(axes, ground, cells, extent)
+    shown = grid.part(*part)
+    if ground and min(shown.values.shape) > 1:
+        relief(axes, ground.part(*part))
     axes.set(xlabel="easting [m]", ylabel="northing [m]")
     axes.ticklabel_format(useOffset=False, style="plain")
     axes.grid(False)
-    return axes.imshow(visible(grid.values[cells]), cmap=colors, extent=extent, alpha=0.82,
+    return axes.imshow(visible(shown.values), cmap=colors, extent=shown.extent(), alpha=0.82,
                        interpolation="nearest", **options)
 
 
@@ -130,17 +152,20 @@ def height_of(grid, part):
     return min(max(0.8 * WIDTH * shape + 0.6, 2.2), 6.5)
 
 
-def picture(name, grids, part):
+def picture(name, grids, part, places):
     """One map."""
     grid, (unit, colors, sentence) = grids[name], meaning(name)
+    places = places.within(grid.part(*part).extent())
     factor, unit = scaled(numpy.nanmax(numpy.abs(grid.values), initial=0), unit)
     shown = dataclasses.replace(grid, values=grid.values / factor)
     figure, axes = subplots(height=height_of(grid, part))
     image = draw(axes, shown, grids.get(GROUND), part, colors,
                  **limits(visible(shown.values), unit))
+    draw_places(axes, places)
     figure.colorbar(image, ax=axes, label=f"{title(name)} [{unit}]".replace(" []", ""), pad=0.01)
     over = " over the shaded bathymetry; contours: its height [m]" if GROUND in grids else ""
-    return embed(figure, f"{title(name).capitalize()}{over}. {sentence}", "png")
+    return embed(figure, f"{title(name).capitalize()}{over}. {sentence}"
+                 + places.legend(), "png")
 
 
 def row(name, grid):
@@ -153,7 +178,7 @@ def row(name, grid):
     east, north = grid.place(*at)
     area = values.count() * grid.dx * grid.dy
     return [title(name), Cell(show(values[at], unit), repr(float(values[at])), name),
-            f"E {east:.0f}, N {north:.0f}",
+            f"E\xa0{east:.0f}, N\xa0{north:.0f}",
             f"{plain(area / 1e6)} km²" if area >= 1e5 else f"{plain(area)} m²", sentence]
 
 
@@ -163,13 +188,22 @@ def plan_maps(run):
     names = sorted((name for name in grids if name != GROUND), key=order)
     if not names:
         return None
-    part = window(grids)
+    places = places_of(run, grids)
+    part = window(grids, places.points())
+    first = [name for start in FIRST for name in names if name.startswith(start)][:len(FIRST)]
+    others = [name for name in names if name not in first]
+    parts = [picture(name, grids, part, places) for name in first]
+    parts.append(Rows(TABLE_HEAD, [row(name, grids[name]) for name in first or names]))
+    if first and others:
+        parts.append(Folded(f"{len(others)} more maps",
+                            [Rows(TABLE_HEAD, [row(name, grids[name]) for name in others])]
+                            + [picture(name, grids, part, places) for name in others]))
+    elif others:
+        parts += [picture(name, grids, part, places) for name in others]
     return Section("maps", "Maps",
                    "What happened at each place over the whole run, on the raster of the "
                    "bathymetry. The same rasters are in the folder maps, for any geographic "
-                   "information system.",
-                   [Rows(TABLE_HEAD, [row(name, grids[name]) for name in names])]
-                   + [picture(name, grids, part) for name in names])
+                   "information system.", parts)
 
 
 def section_rows(table, names):
@@ -188,9 +222,21 @@ def section_rows(table, names):
 
 
 def section_maps(run):
-    """In 2-D, the columns of maps.csv over x, those of one unit together."""
+    """In 2-D, the columns of maps.csv over x: those that a reader looks for first, and the
+    others, folded."""
     table = run.tables["maps"]
     names = [name for name in table.names if name not in ("x [m]", "ground [m]")]
+    first = [name for name in names if name.startswith(FIRST_COLUMNS)]
+    others = [name for name in names if name not in first]
+    parts = over_x(table, first) if first else []
+    if others:
+        parts.append(Folded(f"{len(others)} more quantities", over_x(table, others)))
+    return Section("maps", "Largest values and arrival along the slope",
+                   "What happened at each place over the whole run, as in maps.csv.", parts)
+
+
+def over_x(table, names):
+    """Columns over x, those of one unit together, and their largest values."""
     units = list(dict.fromkeys(name.partition(" [")[2].rstrip("]") for name in names))
     figure, rows = subplots(len(units), height=0.5 + 1.9 * len(units), sharex=True, squeeze=False)
     for axes, unit in zip(rows[:, 0], units):
@@ -200,12 +246,8 @@ def section_maps(run):
         axes.set_ylabel(f"[{unit}]")
         axes.legend(loc="center left", bbox_to_anchor=(1, 0.5))
     rows[-1, 0].set_xlabel("x [m]")
-    return Section("maps", "Largest values and arrival along the slope",
-                   "What happened at each place over the whole run, as in maps.csv.",
-                   [embed(figure, "Over x: largest and final values, and times of arrival; a gap "
-                          "is where the soil never was."),
-                    Rows(["quantity", "largest", "where", "what it means"],
-                         section_rows(table, names))])
+    return [embed(figure, "Over x; a gap is where the soil never was."),
+            Rows(["quantity", "largest", "where", "what it means"], section_rows(table, names))]
 
 
 def maps(run):

@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """How far and how fast the soil went."""
 
-from talus_tools.report.page import BLUE, GREEN, GREY, RED, Section, embed, subplots
+import numpy
+
+from talus_tools.report.page import (BLUE, GREEN, GREY, RED, Folded, Section, embed,
+                                     subplots)
 from talus_tools.report.sections.summary import summary
 
 MEANINGS = {
@@ -22,26 +25,50 @@ MEANINGS = {
 }
 
 
-def history(run):
+ALONG_PATH = {
+    "runout [m]": ("runout", "How far the front is beyond that of the start, along the way of the "
+                   "slide."),
+    "front along path [m]": ("front", "Outer edge of the foremost column that is thick enough, "
+                             "from the centre of mass at the start on."),
+    "rear along path [m]": ("rear", "Outer edge of the last column: how far the scarp went back."),
+    "centre along path [m]": ("centre of mass", "How far the soil went as a whole."),
+    "speed of the centre [m/s]": ("speed of the centre of mass", "How fast the soil moves as a "
+                                  "whole, in plan."),
+    "largest depth-mean speed [m/s]": ("largest mean speed over the depth", "Of the columns: for "
+                                       "impacts better than the speed of single points."),
+    "length in plan [m]": ("length in plan", "Covered by soil."),
+    "area in plan [m^2]": ("area in plan", "Covered by soil."),
+}
+# (column, label, style) of places and of speeds: along the way of the slide, and along x.
+PATH_CURVES = (
+    (("front along path [m]", "front", {"color": BLUE}),
+     ("centre along path [m]", "centre of mass", {"color": GREY}),
+     ("rear along path [m]", "rear", {"color": RED})),
+    (("speed of the centre [m/s]", "centre of mass", {"color": GREY}),
+     ("largest depth-mean speed [m/s]", "fastest column", {"color": RED})))
+X_CURVES = (
+    (("front x [m]", "front", {"color": BLUE}),
+     ("front of 99.5 % mass x [m]", "front of 99.5 % mass", {"color": BLUE, "ls": "--"}),
+     ("centre x [m]", "centre of mass", {"color": GREY}),
+     ("rear x [m]", "rear", {"color": RED})),
+    (("centre velocity x [m/s]", "centre of mass, x", {"color": GREY}),
+     ("maximum speed [m/s]", "fastest point", {"color": RED})))
+
+
+def history(run, table, curves, where):
     """Front and rear, speeds, and the number of points over time."""
-    table, time = run.statistics, run.statistics["time [s]"]
     figure, (place, speed, points) = subplots(1, 3, height=2.7)
-    for column, label, style in (
-            ("front x [m]", "front", {"color": BLUE}),
-            ("front of 99.5 % mass x [m]", "front of 99.5 % mass", {"color": BLUE, "ls": "--"}),
-            ("centre x [m]", "centre of mass", {"color": GREY}),
-            ("rear x [m]", "rear", {"color": RED})):
-        if column in table:
-            place.plot(time, table[column], label=label, **style)
-    place.set_title("position x [m]")
-    speed.plot(time, table["centre velocity x [m/s]"], color=GREY, label="centre of mass, x")
-    speed.plot(time, table["maximum speed [m/s]"], color=RED, label="fastest point")
+    for axes, some in zip((place, speed), curves):
+        for column, label, style in some:
+            if column in table:
+                axes.plot(table["time [s]"], table[column], label=label, **style)
+    place.set_title(where)
     speed.set_title("velocity [m/s]")
-    points.plot(time, table["points"], color=GREEN)
+    points.plot(run.statistics["time [s]"], run.statistics["points"], color=GREEN)
     points.set_title("material points")
     points.set_ylim(bottom=0)
     for axes in (place, speed, points):
-        axes.set(xlabel="time [s]", xlim=(0, max(time[-1], 1e-12)))
+        axes.set(xlabel="time [s]", xlim=(0, max(run.time, 1e-12)))
     # Room for the legends above the lines.
     for axes in (place, speed):
         low, high = axes.get_ylim()
@@ -53,10 +80,27 @@ def history(run):
                  "over time. A front that runs level at the end has come to rest.")
 
 
+def parts_of(run, table, curves, where, meanings):
+    """Picture and table; without rows beyond the first the table only."""
+    pictures = [history(run, table, curves, where)] if len(table) > 1 else []
+    return pictures + [summary(run, meanings, table)]
+
+
 def runout(run):
-    """Without rows beyond the first there is a table only."""
-    parts = [history(run)] if len(run.statistics) > 1 else []
-    parts.append(summary(run, MEANINGS))
+    """Along the way of the slide where the run noted it; else along x."""
+    along_x = parts_of(run, run.statistics, X_CURVES, "position x [m]", MEANINGS)
+    table = run.tables["runout"]
+    if table is None:
+        return Section("runout", "Runout",
+                       "Positions of the centres of the points along x, the direction down the "
+                       "slope; the soil itself reaches half a point further.", along_x)
+    # Before the slide moves it has no way, and all distances are 0.
+    moved = numpy.flatnonzero(table["front along path [m]"] != table["rear along path [m]"])
+    table = table.since(moved[0] if len(moved) else 0)
+    thickness = run.entries.get("Runout/Smallest thickness", "").strip()
     return Section("runout", "Runout",
-                   "Positions of the centres of the points along x, the direction down the slope; "
-                   "the soil itself reaches half a point further.", parts)
+                   "Along the way of the slide in plan, from the centre of mass at the start on; "
+                   "soil counts where it is thicker than "
+                   + (f"{thickness} m." if thickness not in ("", "0") else "a tenth of a cell."),
+                   parts_of(run, table, PATH_CURVES, "distance along the way [m]", ALONG_PATH)
+                   + [Folded("Positions and velocities of the points along x", along_x)])

@@ -4,7 +4,7 @@
 import numpy
 from matplotlib.collections import LineCollection, PolyCollection
 
-from talus_tools.report.page import WIDTH, Section, embed, subplots
+from talus_tools.report.page import WIDTH, Folded, Section, embed, subplots
 from talus_tools.report.sections.cut import cut_points, cut_surface, middle, rectangles
 from talus_tools.vtu import VtuSeries
 
@@ -112,6 +112,7 @@ def soil(run):
     z = plane(run, series)
     where = "" if z is None else f"Section at z = {z:.4g} m, through the soil's centre of mass. "
     file = "points.pvd" if isinstance(series, VtuSeries) else "points.xdmf"
-    return Section("soil", "The soil at some times",
+    return Section("soil", "The soil in section",
                    f"{where}For all times and fields open {file} in ParaView.",
-                   [frames(run, series, z)] + sheared(run, series, z))
+                   sheared(run, series, z)
+                   + [Folded("The soil at some times", [frames(run, series, z)])])

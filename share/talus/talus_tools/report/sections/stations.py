@@ -3,7 +3,7 @@
 
 import numpy
 
-from talus_tools.report.page import COLORS, Cell, Rows, Section, embed, subplots
+from talus_tools.report.page import COLORS, Cell, Lines, Rows, Section, embed, subplots
 from talus_tools.units import show, unit_of
 
 TIME, THICKNESS = "time [s]", " thickness [m]"
@@ -36,6 +36,7 @@ def histories(table, columns):
                 axes.plot(table[TIME], table[columns[name][quantity]], color=color, label=name,
                           lw=1.2)
         axes.set_title(quantity)
+        axes.set_xlim(0, table[TIME][-1])
     rows[0, 0].legend(loc="center left", bbox_to_anchor=(1, 0.5))
     rows[-1, 0].set_xlabel("time [s]")
     rest = len(columns) - len(names)
@@ -65,13 +66,19 @@ def rows_of(table, columns, dimension):
 
 
 def stations(run):
-    """Where stations.csv is."""
+    """Where stations.csv is. Stations that no soil reached are told in one sentence."""
     table = run.tables["stations"]
     columns = columns_of(table) if table else {}
     if not columns:
         return None
-    figures = [histories(table, columns)] if len(table) > 1 else []
+    reached = {name: own for name, own in columns.items() if table[own[THICKNESS[1:]]].any()}
+    parts = [histories(table, reached)] if reached and len(table) > 1 else []
+    if reached:
+        parts.append(Rows(["station", "quantity", "largest", "at t =", "soil from"],
+                          rows_of(table, reached, run.dimension)))
+    never = [name for name in columns if name not in reached]
+    if never:
+        parts.append(Lines([f"No soil reached the station{'s' * (len(never) > 1)} "
+                            f"{', '.join(never)}."]))
     return Section("stations", "Histories at stations",
-                   "What passes over each station; soil is there from its arrival on.",
-                   figures + [Rows(["station", "quantity", "largest", "at t =", "soil from"],
-                                   rows_of(table, columns, run.dimension))])
+                   "What passes over each station; soil is there from its arrival on.", parts)

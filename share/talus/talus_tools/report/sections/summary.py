@@ -13,10 +13,10 @@ def cell(table, column, i, dimension):
     return Cell(show(value, unit_of(column, dimension)), repr(float(value)), column)
 
 
-def summary(run, meanings):
-    """Table of columns of statistics.csv; meanings: {column: (name, sentence)}. Columns
-    that the run does not have are left out."""
-    table, rows = run.statistics, []
+def summary(run, meanings, table=None):
+    """Rows of columns of a table, by default statistics.csv; meanings: {column: (name,
+    sentence)}. Columns that the run does not have are left out."""
+    table, rows = table or run.statistics, []
     for column, (name, sentence) in meanings.items():
         if column not in table:
             continue

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What profile.csv tells: thickness and velocity over place and time, the deposit, and in
-3-D maps of it."""
+"""What profile.csv tells: thickness and velocity over place and time, and the deposit."""
 
 import numpy
 
@@ -59,53 +58,72 @@ def diagram(run):
                  "up has stopped. White: no soil." + across, "png")
 
 
-def envelope(table, time):
-    """x, lowest and highest of the soil at this time; in 3-D over the width."""
+def ground_of(table):
+    """x and lowest ground of the columns; the bottom of the mesh where there is no terrain."""
+    if "ground [m]" not in table:
+        x = numpy.unique(table["x [m]"])
+        return x, numpy.full(len(x), table["lowest [m]"].min())
+    x, i, _ = places_of(table["x [m]"])
+    ground = numpy.full(len(x), numpy.nan)
+    numpy.fmin.at(ground, i, table["ground [m]"])
+    return x[numpy.isfinite(ground)], ground[numpy.isfinite(ground)]
+
+
+def thickness_at(table, time, x):
+    """Thickness at these places and this time, 0 where there is no soil; in 3-D the largest
+    across the slope."""
     now = table["time [s]"] == time
-    x, i, step = places_of(table["x [m]"][now])
-    low, high = numpy.full(len(x), numpy.nan), numpy.full(len(x), numpy.nan)
-    numpy.fmin.at(low, i, table["lowest [m]"][now])
-    numpy.fmax.at(high, i, table["highest [m]"][now])
-    return x, low, high, step
+    values = numpy.zeros(len(x))
+    numpy.maximum.at(values, numpy.searchsorted(x, table["x [m]"][now] - 1e-9 * numpy.ptp(x)),
+                     table[THICKNESS][now])
+    return values
+
+
+def magnification(ground, thickest):
+    """How many times as large as the bed thickness is drawn, so that it takes a third of the
+    height of a picture: 1 on a bed that is nearly flat."""
+    return max(1.0, float(f"{0.35 * numpy.ptp(ground) / max(thickest, 1e-12):.1g}"))
 
 
 def deposit(run):
-    """The soil at the end over that at the start."""
+    """Thickness at the start and at the end over the bed. A layer of some metres on a bed that
+    falls by hundreds is seen only if its thickness is drawn larger than the bed."""
     table = run.tables["profile"]
     times = numpy.unique(table["time [s]"])
-    figure, axes = subplots(height=2.5)
-    x, low, high, _ = envelope(table, times[0])
-    axes.plot(x, high, color=GREY, ls="--", label=f"surface at t = {times[0]:.4g} s")
-    x, low, high, _ = envelope(table, times[-1])
-    axes.fill_between(x, low, high, color=BLUE, alpha=0.35, lw=0)
-    axes.plot(x, high, color=BLUE, label=f"soil at t = {times[-1]:.4g} s")
-    if "ground [m]" in table:
-        ground, first = numpy.unique(table["x [m]"], return_index=True)
-        axes.plot(ground, table["ground [m]"][first], color="black", lw=1, label="ground")
-    axes.set(xlabel="x [m]", ylabel="y [m]")
+    x, ground = ground_of(table)
+    start, end = (thickness_at(table, time, x) for time in (times[0], times[-1]))
+    thickest = max(start.max(), end.max(), 1e-12)
+    factor = magnification(ground, thickest)
+    figure, axes = subplots(height=2.9)
+    axes.plot(x, ground + factor * start, color=GREY, ls="--",
+              label=f"t = {times[0]:.4g} s")
+    axes.fill_between(x, ground, ground + factor * end, color=BLUE, alpha=0.4, lw=0)
+    axes.plot(x, ground + factor * end, color=BLUE, label=f"t = {times[-1]:.4g} s")
+    axes.plot(x, ground, color="black", lw=1, label="bed")
+    axes.set(xlabel="x [m]", ylabel="height of the bed [m]", xlim=(x[0], x[-1]))
+    if factor > 1:
+        scale_bar(axes, thickest, factor)
     axes.legend(loc="upper right")
-    aspect = axes.get_window_extent()
-    ratio = (numpy.ptp(axes.get_xlim()) / aspect.width) / (numpy.ptp(axes.get_ylim())
-                                                           / aspect.height)
-    return embed(figure, "The soil at the end, from its lowest to its highest edge, and its "
-                 f"surface at the start. Heights are drawn about {ratio:.2g} times as large as "
-                 "lengths.")
+    window = axes.get_window_extent()
+    ratio = (numpy.ptp(axes.get_xlim()) / window.width) / (numpy.ptp(axes.get_ylim())
+                                                           / window.height)
+    across = "" if run.dimension == 2 else ", the largest across the slope,"
+    drawn = (f"is drawn {factor:g} times as large as heights of the bed" if factor > 1 else
+             "and heights are to the same scale")
+    return embed(figure, f"Thickness of the soil{across} over the bed at the start (dashed) and "
+                 f"at the end. Thickness {drawn}; heights are drawn about {ratio:.2g} times as "
+                 "large as lengths.")
 
 
-def plan(run):
-    """In 3-D: the thickness at the end from above."""
-    table = run.tables["profile"]
-    now = table["time [s]"] == table["time [s]"][-1]
-    x, i, step = places_of(table["x [m]"][now])
-    z, k, _ = places_of(table["z [m]"][now])
-    values = numpy.full((len(z), len(x)), numpy.nan)
-    values[k, i] = table[THICKNESS][now]
-    figure, axes = subplots(height=2.4)
-    axes.grid(False)
-    image = axes.pcolormesh(edges(x, step), edges(z, step), values, rasterized=True)
-    axes.set(xlabel="x [m]", ylabel="z [m]")
-    figure.colorbar(image, ax=axes, label="thickness [m]", pad=0.01)
-    return embed(figure, "Thickness of the soil at the end, seen from above.", "png")
+def scale_bar(axes, thickest, factor):
+    """A bar of a round thickness at the left edge."""
+    size = 10 ** numpy.floor(numpy.log10(thickest))
+    size *= 5 if 5 * size <= thickest else 2 if 2 * size <= thickest else 1
+    (left, right), (low, high) = axes.get_xlim(), axes.get_ylim()
+    x, y = left + 0.02 * (right - left), low + 0.06 * (high - low)
+    axes.plot([x, x], [y, y + factor * size], color="black", lw=3, solid_capstyle="butt")
+    axes.text(x + 0.008 * (right - left), y + factor * size / 2, f"{size:g} m of soil",
+              va="center", fontsize=8)
 
 
 def extremes(run):
@@ -130,8 +148,6 @@ def thalweg(run):
         return None
     parts = [diagram(run)] if len(numpy.unique(table["time [s]"])) > 1 else []
     parts.append(deposit(run))
-    if run.dimension == 3:
-        parts.append(plan(run))
     parts.append(extremes(run))
     return Section("thalweg", "Thickness and velocity along the slope",
                    "Sums over the columns of the mesh, by profile.csv: thickness is the volume of "
