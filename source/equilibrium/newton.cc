@@ -57,10 +57,10 @@ namespace talus
   {
     equations_.take_share(share);
     u_                               = equations_.unknowns().field();
-    const StaticContact<dim> before  = equations_.contact();
+    const StaticContact<dim> before  = contact();
     const Outcome            outcome = solve_with_contact(problem, observe);
     if (!outcome.converged)
-      equations_.set_contact(before);
+      equations_.contact() = before;
     return outcome;
   }
 

@@ -248,7 +248,7 @@ namespace talus
       std::copy(saved.columns[i].begin(),
                 saved.columns[i].end(),
                 points.data(i));
-    equilibrium_.set_contact(saved.contact);
+    equilibrium_.contact() = saved.contact;
     problem_.contact.restore(saved.facet_forces);
   }
 

@@ -68,6 +68,7 @@ namespace talus
 
 
 
+  /// The strength reduction goes on with the contact of the stage before it.
   template <int dim>
   void
   StaticStages<dim>::list_state(StateList &list)
@@ -75,6 +76,8 @@ namespace talus
     stages_.list_state(list);
     list.add("standing factor", "-", standing_factor_, Reduction::equal);
     solver_.list_state(list);
+    if (stages_.contain(Stage::strength_reduction))
+      solver_.list_contact(list, [this]() { return stages_.next_is_static(); });
   }
 
 

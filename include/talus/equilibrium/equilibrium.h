@@ -118,18 +118,18 @@ namespace talus
       newton_.forget_well_balanced_load();
     }
 
-    /// The nodes of the seabed as they are.
+    /// Contact with seabed and obstacles after the last load step.
     const StaticContact<dim> &
     contact() const
     {
       return newton_.equations().contact();
     }
 
-    /// Go back to soil that stood so on the seabed.
-    void
-    set_contact(const StaticContact<dim> &contact)
+    /// To be changed between load steps, together with the points.
+    StaticContact<dim> &
+    contact()
     {
-      newton_.set_contact(contact);
+      return newton_.contact();
     }
 
     /// Force out of balance, of the reference force; see Newton.

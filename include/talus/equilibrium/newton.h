@@ -89,11 +89,11 @@ namespace talus
       return equations_;
     }
 
-    /// To be called before begin(), with the points that it belongs to.
-    void
-    set_contact(const StaticContact<dim> &contact)
+    /// To be changed before begin() only: it belongs to the points.
+    StaticContact<dim> &
+    contact()
     {
-      equations_.set_contact(contact);
+      return equations_.contact();
     }
 
     unsigned long

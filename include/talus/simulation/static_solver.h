@@ -100,6 +100,13 @@ namespace talus
     void
     list_state(StateList &list);
 
+    /// Add the contact of the last load step, if @p is_needed.
+    void
+    list_contact(StateList &list, const std::function<bool()> &is_needed)
+    {
+      equilibrium_.contact().list_state(list, is_needed);
+    }
+
   private:
     /// What a load step is told of.
     struct StepNote
