@@ -302,6 +302,8 @@ class StagesAndResume(KillAndResume):
         log = (self.folder / "run" / "log.txt").read_text()
         self.assertEqual(log.count("Stopped at t = 0 s, step 0, after the "
                                    "signal SIG"), len(stops))
+        # It does not wait for the end of a stage.
+        self.assertIn("The stage was stopped by a signal", log)
 
     def test_contact_with_obstacle(self):
         """A stage goes on with the contact that the one before it left."""
