@@ -42,7 +42,7 @@ namespace talus
                   "stands, whose failure decides, has steps down to "
                   "'Equilibrium/Smallest load step'.",
                   this->prm,
-                  Patterns::Double(0., 1.));
+                  smallest_load_steps());
     add_parameter("Allowed imbalance",
                   allowed_imbalance_,
                   "Force out of balance over that of the loads or of the "

@@ -107,6 +107,14 @@ class BadInputStages(Case):
         self.falls(self.WEAK_CLAY, "Equilibrium/Load steps=2000",
                    "Equilibrium/Smallest load step=0.01")
 
+    def test_load_steps_without_end(self):
+        """A step that fails would be halved for ever."""
+        for section in ("Equilibrium", "Strength reduction"):
+            result = self.run_slope("Stages=equilibrium, strength reduction",
+                                    f"{section}/Smallest load step=0")
+            self.assert_refused(result, "'Smallest load step' is '0'",
+                                "from 1e-06 to 1")
+
     def test_factor_of_safety_less_than_one(self):
         result = self.run_slope("Stages=equilibrium, strength reduction",
                                 self.WEAK_CLAY, self.WEAK_SEABED)
