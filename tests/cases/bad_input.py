@@ -86,7 +86,51 @@ class BadInput(Case):
 
     def test_subsection_not_closed(self):
         self.refuse("set Bottom = roller\nend\n", "set Bottom = roller\n",
-                    "case.prm", "'subsection'", "'end'")
+                    "case.prm, line 29: 'subsection Boundaries'", "'end'")
+        self.refuse("  set Cell size    = 1\nend", "  set Cell size    = 1",
+                    "case.prm, line 3: 'subsection Grid'", "'end'")
+        self.refuse("set Bottom = roller\nend\n", "set Bottom = roller\nend\nend\n",
+                    "case.prm, line 32: 'end'", "no 'subsection' is open")
+
+    def test_entry_without_equals(self):
+        self.refuse("set Bottom = roller", "set Bottom roller",
+                    "case.prm, line 30: 'set Bottom roller'", "the '='")
+
+    def test_braces(self):
+        """deal.II takes them for a list of variants, and ignores the value."""
+        for path, value in (("Gravity/Slope angle", "{8}"), ("End time", "${T}"),
+                            ("Title", "{title}"), ("Dimension", "{3}"),
+                            ("Bodies/Names", "{block}"),
+                            ("Materials/clay/Law", "{linear elastic}")):
+            entry = path.split("/")[-1]
+            self.refuse_set([f"{path}={value}"], f"--set {path}={value}: '{entry}'",
+                            "without '{'", "template")
+        self.refuse("set Cell size    = 1", "set Cell size = {1}",
+                    "case.prm, line 6: 'Cell size' is '{1}'")
+        self.refuse("set Cell size    = 1", "set Cell \\\n size = \\\n {1}",
+                    "case.prm, line 8: 'Cell size' is '{1}'")
+        (self.folder / "part.prm").write_text("# {x}\nset End time = {0.1}")
+        self.refuse("set End time = 0.01", "include part.prm",
+                    "part.prm, line 2: 'End time' is '{0.1}'")
+        # In a comment they mean nothing.
+        result = self.run_file(GOOD.replace("roller", "roller # or {seabed}"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_control_characters(self):
+        self.refuse("set End time = 0.01", "set End time = 0.01\nset Title = \x1b[31m",
+                    "case.prm, line 2: a control character (number 27)")
+        self.refuse_set(["Grid/\x1b[31m=1"], "--set Grid/\\x1b[31m=1: a control")
+
+    def test_section_of_the_names_is_misspelt(self):
+        self.refuse("subsection Materials", "subsection Material",
+                    "case.prm, line 19", "no section 'Material'")
+        self.refuse("subsection Bodies", "subsection Body",
+                    "case.prm, line 9", "no section 'Body'")
+
+    def test_body_of_the_name_of_the_list(self):
+        self.refuse("set Names = block\n  subsection block",
+                    "set Names = Names\n  subsection Names",
+                    "'Bodies/Names = Names'", "Choose another name")
 
     def test_line_that_is_no_parameter(self):
         self.refuse("set Bottom = roller", "Bottom: roller",
@@ -97,7 +141,10 @@ class BadInput(Case):
                     "block", "sand", "clay")
 
     def test_empty_names(self):
-        self.refuse("set Names = block", "set Names =", "Bodies/Names", "name")
+        self.refuse("set Names = block", "set Names =", "line 11", "Bodies/Names")
+        without = GOOD[:GOOD.index("subsection Materials")]
+        self.assert_refused(self.run_file(without), "'Materials/Names' is empty",
+                            "at least one name")
 
     def test_names_twice(self):
         self.refuse("set Names = clay", "set Names = clay, clay",
