@@ -193,6 +193,20 @@ class BadInput(Case):
             "subsection Materials\n subsection clay",
             "'Strength reduction/Smallest factor' is 5", "2", "Exchange")
 
+    def test_residual_strength_above_the_strength(self):
+        """Whichever way the strength is given; the law would raise it."""
+        (self.folder / "strength.csv").write_text(
+            "depth [m],undrained shear strength [Pa]\n0,600\n2,800\n")
+        for strength in ("600", "600 + 0*depth", "if(x > 2, 600, 800)",
+                         "table strength.csv"):
+            self.assert_refused(self.run_file(
+                GOOD.replace("linear elastic", "von Mises"),
+                [f"Materials/clay/Undrained shear strength={strength}",
+                 "Materials/clay/Residual undrained shear strength=700"]),
+                "/Materials/clay", "Residual undrained shear strength` is 700 Pa",
+                "must not exceed", " 6")
+        self.assert_untouched()
+
     def test_numbers_beyond_all_units(self):
         ball = "Bodies/block/Shape=ball"
         for path, *settings in (
