@@ -118,10 +118,11 @@ namespace talus
   void
   document(std::ostream &out)
   {
-    // One body, and a material of each law, named after it.
+    // One of each kind, and a material of each law, named after it.
     ParameterPreview preview;
-    preview.bodies   = {"slide"};
-    preview.surfaces = {"mudline"};
+    preview.bodies    = {"slide"};
+    preview.obstacles = {"bed"};
+    preview.surfaces  = {"mudline"};
     for (const std::string &law : material_names<2>())
       preview.materials.push_back({law, law});
     Simulation<2> simulation(preview);
