@@ -39,7 +39,8 @@ namespace talus
          "start anew even if the output folder holds the checkpoint of an "
          "unfinished run")
         ("validate", po::bool_switch(&result.validate),
-         "read and check everything, make mesh and points, but do not run")
+         "read and check everything, make mesh and points, and tell what the "
+         "run will do: its size, time steps, estimated time, and all remarks")
         ("document", po::bool_switch(&result.document),
          "print the reference of all parameters")
         ("version", "print the version")

@@ -240,6 +240,7 @@ namespace talus
     ParameterPreview preview;
     preview.folder    = std::filesystem::path(file_name_).parent_path();
     preview.dimension = prm.get_integer("Dimension");
+    preview.remarks   = remarks_;
     prm.enter_subsection("Bodies");
     preview.bodies = names(prm.get("Names"), "Bodies/Names");
     prm.leave_subsection();

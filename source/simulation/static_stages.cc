@@ -202,13 +202,13 @@ namespace talus
     else
       {
         solver_.restore(before);
-        log_.say(LogLevel::result,
-                 "Note: the dynamics takes the weight without the correction "
-                 "of the well-balanced load, for which no balance was found. " +
-                   equilibrium().failure() +
-                   ". It starts from the balance with the correction, so that "
-                   "soil in cells that are not full may move a little in the "
-                   "first seconds.");
+        log_.remark(
+          "The dynamics takes the weight without the correction "
+          "of the well-balanced load, for which no balance was found. " +
+          equilibrium().failure() +
+          ". It starts from the balance with the correction, so that "
+          "soil in cells that are not full may move a little in the "
+          "first seconds.");
       }
   }
 

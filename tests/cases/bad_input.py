@@ -584,6 +584,55 @@ class CommandLine(Case):
         self.assert_succeeds(self.run_talus("--validate", "--output", "results",
                                             "good.prm"), "good.prm is valid")
 
+    def remarks_in(self, text):
+        return [line for line in text.splitlines() if line.startswith("Remark ")]
+
+    def test_validate_tells_what_the_run_will_do(self):
+        """With the remarks of the log, on a thin body, soil that softens and an
+        entry that is set twice."""
+        (self.folder / "thin.prm").write_text(
+            GOOD.replace("3, 2", "3, 1.5").replace("linear elastic", "Bingham")
+            .replace("set End time = 0.01", "set End time = 5\nset End time = 1"))
+        arguments = ["--output", "results", "--set",
+                     "Materials/clay/Remoulded strength ratio=0.5", "thin.prm"]
+        result = self.run_talus("--validate", *arguments)
+        self.assert_succeeds(
+            result, "with 16 cells of 1 m; there are 12 points",
+            "'block', is 1.5 cells of 1 m thick", "the time step is 0.0",
+            "about 92 time steps", "million point-steps per second",
+            "MB of memory on each rank")
+        remarks = self.remarks_in(result.stdout)
+        self.assertEqual(len(remarks), 3, result.stdout)
+        for number, words in enumerate(
+                ("thin.prm, line 2: 'End time' is set again, after line 1",
+                 "The body 'block' is 1.5 cells", "/Materials/clay softens"), 1):
+            self.assertIn(f"Remark {number}: ", remarks[number - 1])
+            self.assertIn(words, remarks[number - 1])
+        self.assertTrue(result.stdout.endswith(
+            "thin.prm is valid, with 3 remarks.\n"), result.stdout)
+        run = self.run_talus(*arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        log = (self.results / "log.txt").read_text()
+        self.assertEqual(self.remarks_in(log)[:3], remarks)
+        self.assertEqual(self.remarks_in(run.stdout), self.remarks_in(log))
+        self.assertTrue(log.endswith(
+            f"talus-report results ({len(self.remarks_in(log))} remarks)\n"), log)
+
+    def test_remarks_are_numbered_on_when_a_run_is_resumed(self):
+        """Soil of which a half leaves the ground is a remark of the run."""
+        (self.folder / "thin.prm").write_text(
+            GOOD.replace("3, 2", "3, 1.5").replace("Bottom = roller", "Bottom = seabed"))
+        arguments = ["--output", "results", "thin.prm", "--set",
+                     "Output/Statistics interval=0.01", "--set",
+                     "Body force/Expression=0; if(t > 0.05 && x > 2, 60, 0)"]
+        for settings, n in (["End time=0.01"], 1), (["End time=0.3", "--resume"], 2):
+            result = self.run_talus("--set", *settings, *arguments)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            log = (self.results / "log.txt").read_text()
+            self.assertEqual([line.split(":")[0] for line in self.remarks_in(log)],
+                             [f"Remark {i + 1}" for i in range(n)], log)
+        self.assertTrue(log.endswith("(2 remarks)\n"), log)
+
     def test_validate_finds_faults(self):
         (self.folder / "bad.prm").write_text(GOOD.replace("4, 4", "2, 4"))
         self.assert_refused(self.run_talus("--validate", "bad.prm"), "block")

@@ -33,13 +33,6 @@ namespace talus
     void
     parse() const;
 
-    /// Sentences on what the files say twice.
-    const std::vector<std::string> &
-    remarks() const
-    {
-      return remarks_;
-    }
-
   private:
     /// Check the lines of a file with this content, and those of the files that
     /// it includes, which become protected inputs. @p chain: the file itself,
@@ -55,7 +48,7 @@ namespace talus
     std::string              file_name_;
     std::string              content_;
     std::vector<std::string> overrides_;
-    std::vector<std::string> remarks_;
+    std::vector<std::string> remarks_; ///< on what the files say twice
   };
 } // namespace talus
 

@@ -50,6 +50,20 @@ namespace talus
     void
     check_output_folder() const;
 
+    /// Say what run() will do, with all remarks: mesh, points, cells across the
+    /// thinnest body, time step, and an estimate of the wall time by some steps,
+    /// after which the state is no longer that of the start. Writes nothing.
+    /// Collective.
+    void
+    forecast();
+
+    /// Return "1 remark" or the like; empty if none was made. For the first rank.
+    std::string
+    count_of_remarks() const
+    {
+      return log_.count_of_remarks();
+    }
+
     /// From the start, or the checkpoint, to the end time, with output. Returns
     /// false if the run was stopped before that, by a signal or by its limit of
     /// wall time; then resume() can go on.
@@ -118,11 +132,11 @@ namespace talus
     void
     begin_files();
     void
-    note_start();
+    note_start(LogLevel level);
     void
     note_resume();
     void
-    note_time_step();
+    note_time_step(LogLevel level);
     bool
     is_finished() const;
     double
@@ -152,7 +166,7 @@ namespace talus
     StaticStages<dim>   static_stages_;
     Checkpoint<dim>     checkpoint_;
     FoundCheckpoint     resumed_from_; ///< no path in a run from the start
-    bool has_noted_contact_area_ = false;
+    bool                has_noted_contact_area_ = false;
   };
 } // namespace talus
 
