@@ -526,8 +526,9 @@ namespace talus
              output_.folder(),
              "' lacks ",
              missing,
-             ", which the run wrote before and somebody has removed. The "
-             "run goes on, and ends with an error unless what is missing "
+             ", which the run wrote before and somebody has removed or "
+             "cut short. The run goes on, and ends with an error unless what "
+             "is missing "
              "is put back."));
     std::string sentence = text("Resumed at t = ",
                                 state_.time,
