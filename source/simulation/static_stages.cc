@@ -148,6 +148,10 @@ namespace talus
                   " N, at ",
                   place,
                   "."));
+    if (equilibrium().newton().equations().reference_force() == 0.)
+      log_.remark("The stage 'equilibrium' had nothing to balance: neither "
+                  "gravity, 'Gravity/Magnitude', nor another load acts on the "
+                  "soil, and it has no stress.");
     tell_of_well_balanced_load();
   }
 

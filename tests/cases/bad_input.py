@@ -49,6 +49,27 @@ class BadInput(Case):
         self.refuse("set Poisson's ratio = 0.3", "set Poisson's ratio = 0.5",
                     "0.5", "Poisson's ratio")
 
+    def test_nearly_incompressible(self):
+        for nu in ("0.49999999999999994", "0.499991", "0.5", "-1"):
+            self.refuse_set([f"Materials/clay/Poisson's ratio={nu}"],
+                            nu, "Poisson's ratio", "up to 0.49999")
+
+    def test_first_factor_above_the_largest(self):
+        self.refuse(
+            "linear elastic", "von Mises\nend\nend\n"
+            "set Stages = equilibrium, strength reduction\n"
+            "subsection Strength reduction\n set First factor = 5\n"
+            " set Largest factor = 2\nend\n"
+            "subsection Materials\n subsection clay",
+            "'Strength reduction/First factor' is 5", "= 2")
+
+    def test_extent_in_z_of_two_dimensions(self):
+        for shape in ("polygon", "cylinder"):
+            self.refuse_set([f"Bodies/block/Shape={shape}", "Bodies/block/Centre=2,2",
+                             "Bodies/block/Vertices=1,1; 2,1; 2,2",
+                             "Bodies/block/Extent in z=0,1"],
+                            "'Bodies/block/Extent in z' = '0,1'", "two-dimensional")
+
     def test_too_small_a_number(self):
         self.refuse_set(["Mesh tracking/Margin=1"],
                         "'Margin'", "'1'", "a whole number of at least 4")
@@ -95,6 +116,15 @@ class BadInput(Case):
     def test_entry_without_equals(self):
         self.refuse("set Bottom = roller", "set Bottom roller",
                     "case.prm, line 30: 'set Bottom roller'", "the '='")
+
+    def test_words_behind_end(self):
+        self.refuse("  set Cell size    = 1\nend", "  set Cell size    = 1\nend Grid",
+                    "case.prm, line 7: 'end Grid'", "alone")
+
+    def test_backslash_at_the_end_of_a_setting(self):
+        for value in ("clay\\", "clay\\ "):
+            self.refuse_set([f"Bodies/block/Material={value}"],
+                            "--set 'Bodies/block/Material'", "backslash", "one line")
 
     def test_braces(self):
         """deal.II takes them for a list of variants, and ignores the value."""
