@@ -80,7 +80,9 @@ namespace talus
         {std::regex("\\[List of <(.*)> of length (\\S+)\\.\\.\\.(\\S+) "
                     "\\(inclusive\\)\\]"),
          "a list of $2 to $3 values, each $1,"},
-        {std::regex("(\\d+) to \\1 values"), "$1 values"}};
+        {std::regex("(\\d+) to \\1 values"), "$1 values"},
+        {std::regex("list of 0 to 4294967295 values"), "list of values"},
+        {std::regex("(\\d+) to 4294967295 values"), "$1 or more values"}};
       std::string result = pattern;
       for (const auto &[description, plain] : words)
         result = std::regex_replace(result, description, plain);

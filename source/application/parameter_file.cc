@@ -36,11 +36,14 @@ namespace talus
                   ExcUser("--set '" + override_text +
                           "' was given, where 'Section/Subsection/Entry=value' "
                           "was expected."));
-      // What stood in a line of its own could include a file.
-      AssertThrow(override_text.find('\n') == std::string::npos,
+      // What stood in a line of its own could include a file, and a backslash
+      // at the end joins the next line.
+      AssertThrow(override_text.find('\n') == std::string::npos &&
+                    Utilities::trim(override_text).back() != '\\',
                   ExcUser("--set '" + override_text.substr(0, equals) +
-                          "' was given a value of several lines, where one "
-                          "was expected. Give --set once for each entry."));
+                          "' was given a value of several lines, or with a "
+                          "backslash at its end, where one line was expected. "
+                          "Give --set once for each entry."));
       auto path =
         Utilities::split_string_list(override_text.substr(0, equals), '/');
       const std::string entry = path.back();

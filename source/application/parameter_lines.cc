@@ -118,6 +118,13 @@ namespace talus
                              ") was found after '",
                              line.substr(0, control - line.begin()),
                              "', where text was expected. Remove it.")));
+    AssertThrow(!begins_with(line, "end") || closes_section(line),
+                ExcUser(
+                  text(place,
+                       "'",
+                       line,
+                       "' was found, where 'end' alone was expected. Start "
+                       "a comment with #.")));
     const auto [name, value] = entry_of(line);
     AssertThrow(!begins_with(line, "set ") || line.find('=') != line.npos,
                 ExcUser(text(place,

@@ -24,7 +24,8 @@ namespace talus
 
   /// Throw ExcUser, which begins with @p place, if deal.II's parser would
   /// misread the line: `{` in a value, which it takes for a list of variants and
-  /// then ignores the value; an entry without `=`; control characters.
+  /// then ignores the value; an entry without `=`; words behind `end`; control
+  /// characters.
   void
   check_line(const std::string &place, const std::string &line);
 

@@ -34,6 +34,8 @@ namespace
     prm.declare_entry("Offset", "2", Patterns::Integer());
     prm.declare_entry("Rule", "on", Patterns::Selection("auto|on|off"));
     prm.declare_entry("Moves", "true", Patterns::Bool());
+    prm.declare_entry("Places", "", Patterns::List(Patterns::Double()));
+    prm.declare_entry("Names", "a", Patterns::List(Patterns::Double(), 1));
     prm.declare_entry("Corner",
                       "0, 0",
                       Patterns::List(Patterns::Double(), 2, 2));
@@ -73,6 +75,8 @@ namespace
       {"Offset", "a whole number"},
       {"Rule", "one of auto | on | off"},
       {"Moves", "true or false"},
+      {"Places", "a list of values, each a number,"},
+      {"Names", "a list of 1 or more values, each a number,"},
       {"Corner", "a list of 2 values, each a number,"}};
     for (const auto &[entry, words] : expected)
       EXPECT_EQ(told_of_value(entry),
