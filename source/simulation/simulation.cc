@@ -111,7 +111,7 @@ namespace talus
   Simulation<dim>::set_up()
   {
     prepare();
-    mesh_.create();
+    mesh_.create(log_);
     create_points();
     mesh_.repartition();
     // What would stop the first step stops here, where nothing is written yet.

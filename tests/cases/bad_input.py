@@ -427,6 +427,17 @@ class BadInput(Case):
              self.folder / "case.prm"],
             capture_output=True, text=True, timeout=120)
 
+    def test_large_mesh_is_announced(self):
+        """Before it is made, which takes a while."""
+        for n_halvings, told in (("8", True), ("7", False)):
+            result = self.run_file(settings=[
+                "Grid/Initial refinement=" + n_halvings, "End time=0",
+                "Bodies/block/Points per cell and axis=1",
+                "Bodies/block/Upper corner=1.1,0.1", "Output/Write grid=false"])
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual("A mesh of at least 1.05e+06 cells is being made."
+                             in result.stdout, told, result.stdout)
+
     def test_limits_that_leave_little(self):
         """0.1 GB of mesh, from no room for the libraries to enough for all."""
         (self.folder / "case.prm").write_text(GOOD)

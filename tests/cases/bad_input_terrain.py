@@ -136,6 +136,8 @@ class BadInputTerrain(Case):
                  "No part of the obstacle 'pipe'"),
                 (pipe + ["Obstacles/pipe/Centre=2,-9"],
                  "No part of the obstacle 'pipe'"),
+                (pipe + ["Obstacles/pipe/Centre=2,3", "Obstacles/pipe/Radius=0.9"],
+                 "'pipe' is only 1.8 m along x, less than two cells of 1 m"),
                 (clay + pipe[:3] + ["Obstacles/Names=bed"],
                  "The obstacle 'bed' has no 'Maximum shear stress'", "10 times"),
                 (raster + ["Surfaces/bed/Section=-5,0; 5,0"], "'bed' rises",

@@ -35,7 +35,7 @@ namespace
     prm.declare_entry("Rule", "on", Patterns::Selection("auto|on|off"));
     prm.declare_entry("Moves", "true", Patterns::Bool());
     prm.declare_entry("Places", "", Patterns::List(Patterns::Double()));
-    prm.declare_entry("Names", "a", Patterns::List(Patterns::Double(), 1));
+    prm.declare_entry("Names", "1", Patterns::List(Patterns::Double(), 1));
     prm.declare_entry("Corner",
                       "0, 0",
                       Patterns::List(Patterns::Double(), 2, 2));
