@@ -76,6 +76,13 @@ namespace talus
                        ", but 'Strength reduction/Largest factor' is ",
                        largest_,
                        ", which must be the larger one. Exchange the two.")));
+    AssertThrow(first_ <= largest_,
+                ExcUser(
+                  text("'Strength reduction/First factor' is ",
+                       first_,
+                       ", where at most 'Strength reduction/Largest factor' = ",
+                       largest_,
+                       " was expected. Correct one of the two.")));
   }
 
 

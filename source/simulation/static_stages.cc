@@ -171,6 +171,10 @@ namespace talus
                   " N, at ",
                   place,
                   "."));
+    if (equilibrium().newton().equations().reference_force() == 0.)
+      log_.remark("The stage 'equilibrium' had nothing to balance: neither "
+                  "gravity, 'Gravity/Magnitude', nor another load acts on the "
+                  "soil, and it has no stress.");
     tell_of_well_balanced_load();
   }
 
@@ -225,13 +229,13 @@ namespace talus
     else if (!solver_.is_stopped())
       {
         solver_.restore(before);
-        log_.say(LogLevel::result,
-                 "Note: the dynamics takes the weight without the correction "
-                 "of the well-balanced load, for which no balance was found. " +
-                   equilibrium().failure() +
-                   ". It starts from the balance with the correction, so that "
-                   "soil in cells that are not full may move a little in the "
-                   "first seconds.");
+        log_.remark(
+          "The dynamics takes the weight without the correction "
+          "of the well-balanced load, for which no balance was found. " +
+          equilibrium().failure() +
+          ". It starts from the balance with the correction, so that "
+          "soil in cells that are not full may move a little in the "
+          "first seconds.");
       }
   }
 

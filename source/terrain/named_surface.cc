@@ -12,6 +12,10 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/linestring.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+
 namespace talus
 {
   using namespace dealii;
@@ -77,6 +81,40 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Throw ExcUser if the line through @p corners in the plan turns back or
+    /// meets itself: then two places x of the section lie at one of the map.
+    void
+    check_section(const std::string &path, const std::vector<Point<2>> &corners)
+    {
+      using Corner = boost::geometry::model::d2::point_xy<double>;
+      boost::geometry::model::linestring<Corner> line;
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        {
+          line.emplace_back(corners[i][0], corners[i][1]);
+          AssertThrow(i < 2 || (corners[i] - corners[i - 1]) *
+                                   (corners[i - 1] - corners[i - 2]) >=
+                                 0.,
+                      ExcUser(text(path,
+                                   " turns back at its corner ",
+                                   i,
+                                   ", (",
+                                   corners[i - 1],
+                                   ") m, by more than 90 degrees, where a line "
+                                   "that goes on was expected. Correct the "
+                                   "corners or their order.")));
+        }
+      AssertThrow(boost::geometry::is_simple(line),
+                  ExcUser(text(path,
+                               " crosses or touches itself, where a line that "
+                               "goes on was expected. Correct the corners or "
+                               "their order.")));
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<Point<2>>
   NamedSurface<dim>::section() const
@@ -113,6 +151,8 @@ namespace talus
                              file_,
                              "' is cut along one. Give two corners or more, as "
                              "easting,northing; easting,northing.")));
+    if (dim == 2)
+      check_section(path("Section"), corners);
     return corners;
   }
 

@@ -54,6 +54,16 @@ class BadInputStages(Case):
                                      "no gravity at t = 0",
                                      "'Gravity/Ramp time' to 0")
 
+    def test_equilibrium_without_load(self):
+        for settings, told in ((["Gravity/Magnitude=0"], True), ([], False),
+                               (["Gravity/Magnitude=0",
+                                 "Body force/Expression=0; -1"], False)):
+            with self.subTest(settings):
+                result = self.run_file(GOOD, ["Stages=equilibrium", *settings])
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual("'equilibrium' had nothing to balance"
+                                 in result.stdout, told, result.stdout)
+
     def test_nothing_has_a_strength(self):
         for settings in ([], ["Boundaries/Bottom=seabed",
                               "Strength reduction/Seabed=false"]):
