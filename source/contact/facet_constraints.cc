@@ -3,7 +3,10 @@
 #include <talus/boundaries/contact_area.h>
 #include <talus/contact/facet_constraints.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
+#include <limits>
 
 namespace talus
 {
@@ -13,7 +16,12 @@ namespace talus
   void
   FacetConstraints<dim>::prepare(const Grid<dim> &grid)
   {
-    gaps_.prepare(grid, surfaces());
+    gaps_.prepare(grid,
+                  surfaces(),
+                  slots(grid),
+                  [this](const Point<dim> &x, const double distance) {
+                    return obstacles_.near(x, distance);
+                  });
     coverage_.prepare(grid);
     constraints_.clear();
     loaded_.clear();
@@ -35,6 +43,38 @@ namespace talus
           gap -= half[d] * std::abs(normal[d]);
         return gap;
       });
+    return result;
+  }
+
+
+
+  /// As few slots as the density of the obstacles asks for, however many there
+  /// are; on all ranks the same. One that moves may come near to all others.
+  template <int dim>
+  std::vector<unsigned int>
+  FacetConstraints<dim>::slots(const Grid<dim> &grid) const
+  {
+    double largest_cell = 0;
+    for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+      if (facets_.is_near(c))
+        largest_cell = std::max(largest_cell, grid.cells()[c].size);
+    const double distance = NodalGaps<dim>::min_distance_in_slot(
+      Utilities::MPI::max(largest_cell, grid.communicator()));
+    std::vector<unsigned int> result;
+    for (unsigned int k = 0; k < obstacles_.size(); ++k)
+      {
+        const auto near =
+          obstacles_.near(obstacles_[k].bounding_box(),
+                          obstacles_[k].moves()
+                            ? std::numeric_limits<double>::infinity()
+                            : distance);
+        std::vector<unsigned char> is_taken(near.size() + 1, 0);
+        for (const unsigned int other : near)
+          if (other < k && result[other] < is_taken.size())
+            is_taken[result[other]] = 1;
+        result.push_back(std::find(is_taken.begin(), is_taken.end(), 0) -
+                         is_taken.begin());
+      }
     return result;
   }
 

@@ -128,12 +128,13 @@ namespace talus
           continue;
         // The surface of the facet itself may lie beside its plane.
         bool is_open = true;
-        for (unsigned int k = 0; k < obstacles_.size() && is_shared; ++k)
-          is_open =
-            is_open && obstacles_[k].signed_distance(y) >
-                         -(k == facet.obstacle
-                             ? std::min(facet.deviation, 0.05 * cell.size)
-                             : tolerance);
+        if (is_shared)
+          for (const unsigned int k : obstacles_.near(y, 0.))
+            is_open =
+              is_open && obstacles_[k].signed_distance(y) >
+                           -(k == facet.obstacle
+                               ? std::min(facet.deviation, 0.05 * cell.size)
+                               : tolerance);
         if (is_open)
           samples.push_back(y);
       }

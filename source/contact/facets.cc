@@ -145,17 +145,18 @@ namespace talus
 
 
 
-    /// Return the obstacles that may cover parts of the surface of obstacle @p k
-    /// in the ball of @p radius, m, around @p centre.
+    /// Return those obstacles of @p near that may cover parts of the surface of
+    /// obstacle @p k in the ball of @p radius, m, around @p centre.
     template <int dim>
     std::vector<Cover<dim>>
-    covers_of(const Obstacles<dim> &obstacles,
-              const unsigned int    k,
-              const Point<dim>     &centre,
-              const double          radius)
+    covers_of(const Obstacles<dim>                   &obstacles,
+              const typename Obstacles<dim>::Numbers &near,
+              const unsigned int                      k,
+              const Point<dim>                       &centre,
+              const double                            radius)
     {
       std::vector<Cover<dim>> covers;
-      for (unsigned int other = 0; other < obstacles.size(); ++other)
+      for (const unsigned int other : near)
         if (const Obstacle<dim> &o = obstacles[other];
             other != k &&
             (o.may_cut_ball(centre, radius) || o.signed_distance(centre) < 0))
@@ -201,15 +202,16 @@ namespace talus
   /// part in the contact.
   template <int dim>
   void
-  Facets<dim>::find_facets(const Grid<dim>      &grid,
-                           const Obstacles<dim> &obstacles,
-                           const unsigned int    c,
-                           Section              &section) const
+  Facets<dim>::find_facets(const Grid<dim>                        &grid,
+                           const Obstacles<dim>                   &obstacles,
+                           const typename Obstacles<dim>::Numbers &near,
+                           const unsigned int                      c,
+                           Section &section) const
   {
     const Cell<dim> &cell   = grid.cells()[c];
     const Point<dim> centre = centre_of(cell);
     const double     radius = outer_radius(cell);
-    for (unsigned int k = 0; k < obstacles.size(); ++k)
+    for (const unsigned int k : near)
       {
         const Obstacle<dim> &obstacle = obstacles[k];
         if (!obstacle.may_cut_ball(centre, radius))
@@ -238,7 +240,7 @@ namespace talus
             add(whole, section.hidden);
             continue;
           }
-        const auto covers = covers_of(obstacles, k, centre, radius);
+        const auto covers = covers_of(obstacles, near, k, centre, radius);
         if (covers.empty())
           {
             add(whole, section.facets);
@@ -254,6 +256,9 @@ namespace talus
 
 
 
+  /// Only obstacles near the cell matter: if a surface cuts it, all its places
+  /// are within a diameter of that surface, and no nearer to any obstacle beyond
+  /// the ball of three radii.
   template <int dim>
   typename Facets<dim>::Section
   Facets<dim>::find_section(const Grid<dim>      &grid,
@@ -262,9 +267,11 @@ namespace talus
   {
     const Cell<dim> &cell = grid.cells()[c];
     Section          section;
-    section.distance = obstacles.signed_distance(centre_of(cell));
-    find_facets(grid, obstacles, c, section);
-    for (unsigned int k = 0; k < obstacles.size(); ++k)
+    const Point<dim> centre = centre_of(cell);
+    const auto       near   = obstacles.near(centre, 3. * outer_radius(cell));
+    section.distance        = obstacles.signed_distance(centre, near);
+    find_facets(grid, obstacles, near, c, section);
+    for (const unsigned int k : near)
       {
         const auto is_of_k = [k](const ContactFacet<dim> &facet) {
           return facet.obstacle == k;
@@ -273,14 +280,14 @@ namespace talus
           [&](const std::vector<ContactFacet<dim>> &facets) {
             return std::none_of(facets.begin(), facets.end(), is_of_k);
           };
-        if (obstacles[k].signed_distance(centre_of(cell)) < 0 &&
+        if (obstacles[k].signed_distance(centre) < 0 &&
             has_none(section.facets) && has_none(section.hidden))
           section.containing.push_back(k);
       }
     if (!section.facets.empty() || !section.hidden.empty())
       section.open_volume =
         open_shape_integrals<dim>(cell.box(), [&](const Point<dim> &x) {
-          return obstacles.signed_distance(x);
+          return obstacles.signed_distance(x, near);
         });
     return section;
   }
@@ -531,12 +538,14 @@ namespace talus
   {
     const Cell<dim> &cell  = grid.cells()[c];
     const auto       nodes = cell.nodes();
+    const auto       near = obstacles.near(centre_of(cell), outer_radius(cell));
     for (unsigned int v = 0; v < nodes.size(); ++v)
       if (const Point<dim> x = cell.vertex(v);
-          !is_contact_node_[nodes[v]] && obstacles.signed_distance(x) <= 0)
+          !is_contact_node_[nodes[v]] &&
+          obstacles.signed_distance(x, near) <= 0)
         {
           is_contact_node_[nodes[v]]  = 1;
-          const unsigned int obstacle = obstacles.nearest(x);
+          const unsigned int obstacle = obstacles.nearest(x, near);
           nodes_and_obstacles_.push_back({nodes[v], obstacle});
           if (nodes[v] < grid.n_owned_nodes())
             nodes_inside_.push_back({nodes[v], x, obstacle});

@@ -13,13 +13,20 @@ namespace talus
 
   template <int dim>
   void
-  NodalGaps<dim>::prepare(const Grid<dim> &grid, std::vector<Surface> surfaces)
+  NodalGaps<dim>::prepare(const Grid<dim>          &grid,
+                          std::vector<Surface>      surfaces,
+                          std::vector<unsigned int> slots,
+                          Near                      near)
   {
     surfaces_ = std::move(surfaces);
-    exchange_.prepare(grid, surfaces_.size());
-    gaps_.assign(surfaces_.size() * grid.n_nodes(), none);
+    slots_    = std::move(slots);
+    near_     = std::move(near);
+    n_slots_ =
+      slots_.empty() ? 0 : *std::max_element(slots_.begin(), slots_.end()) + 1;
+    exchange_.prepare(grid, n_slots_);
+    gaps_.assign(n_slots_ * grid.n_nodes(), none);
     is_open_.assign(grid.n_nodes(), 0);
-    of_point_.resize(surfaces_.size());
+    of_point_.resize(n_slots_);
   }
 
 
@@ -30,11 +37,11 @@ namespace talus
                        const std::vector<NodeAndSurface> &pairs,
                        const std::vector<unsigned char>  &nearness)
   {
-    const std::size_t  n       = surfaces_.size();
+    const std::size_t  n       = n_slots_;
     const unsigned int n_owned = state.grid.n_owned_nodes();
-    // Surfaces that are not beside an owned node count as closed there: nobody
-    // asks for them, and they must not keep points busy. Of ghosts all are open,
-    // since only the owner knows all surfaces beside a node, and all their
+    // Slots of which no surface is beside an owned node count as closed there:
+    // nobody asks for them, and they must not keep points busy. Of ghosts all are
+    // open, since only the owner knows all surfaces beside a node, and all their
     // records travel.
     present_.clear();
     for (const NodeAndSurface &pair : pairs)
@@ -46,7 +53,7 @@ namespace talus
               is_open_[pair.node] = 1;
               present_.push_back(pair.node);
             }
-          gaps_[n * pair.node + pair.surface] = none;
+          gaps_[n * pair.node + slots_[pair.surface]] = none;
         }
     std::fill(gaps_.begin() + n * n_owned, gaps_.end(), none);
     closed_ = dead_band * state.grid.finest_size();
@@ -131,10 +138,28 @@ namespace talus
 
   template <int dim>
   void
+  NodalGaps<dim>::look_around(const Cell<dim> &cell)
+  {
+    Point<dim> centre = cell.lower;
+    for (unsigned int d = 0; d < dim; ++d)
+      centre[d] += 0.5 * cell.size;
+    near_cell_ = near_(centre, (2. * reach + 1.) * cell.size);
+  }
+
+
+
+  /// Of the surfaces in a slot the nearest one, which is the one that a node in
+  /// reach may be beside.
+  template <int dim>
+  void
   NodalGaps<dim>::find_of_point(const Point<dim> &x, const Tensor<1, dim> &half)
   {
-    for (std::size_t k = 0; k < surfaces_.size(); ++k)
-      of_point_[k] = surfaces_[k](x, half);
+    std::fill(of_point_.begin(), of_point_.end(), none);
+    for (const unsigned int k : near_cell_)
+      {
+        double &gap = of_point_[slots_[k]];
+        gap         = std::min(gap, surfaces_[k](x, half));
+      }
   }
 
 
@@ -143,7 +168,7 @@ namespace talus
   void
   NodalGaps<dim>::lower(const unsigned int node)
   {
-    const std::size_t n       = surfaces_.size();
+    const std::size_t n       = n_slots_;
     bool              is_open = false;
     for (std::size_t k = 0; k < n; ++k)
       {
@@ -169,6 +194,7 @@ namespace talus
         return;
       }
     std::vector<NodeWeight<dim>> weights;
+    look_around(cell);
     for (unsigned int p = segment.begin; p < segment.end; ++p)
       {
         find_of_point(load_place(state.points, state.points.position, p),
@@ -191,6 +217,8 @@ namespace talus
   {
     const Cell<dim> &cell = state.grid.cells()[segment.cell];
     PatchEntries     open = entries_with(is_open_, cell);
+    if (open)
+      look_around(cell);
     for (unsigned int p = segment.begin; p < segment.end && open; ++p)
       {
         const Tensor<1, dim> half = half_lengths(state, cell, p);

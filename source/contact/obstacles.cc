@@ -28,8 +28,19 @@ namespace talus
   Obstacles<dim>::prepare(const Constants          &constants,
                           const SurfaceSource<dim> *surfaces)
   {
+    constexpr double      far = std::numeric_limits<double>::infinity();
+    std::vector<Box<dim>> boxes;
     for (const auto &obstacle : obstacles_)
-      obstacle->prepare(constants, surfaces);
+      {
+        obstacle->prepare(constants, surfaces);
+        boxes.push_back(obstacle->bounding_box());
+        for (unsigned int d = 0; d < dim && obstacle->moves(); ++d)
+          {
+            boxes.back().lower[d] = -far;
+            boxes.back().upper[d] = far;
+          }
+      }
+    index_ = BoxIndex<dim>(boxes);
   }
 
 
@@ -59,15 +70,28 @@ namespace talus
 
 
   template <int dim>
-  unsigned int
-  Obstacles<dim>::nearest(const Point<dim> &x) const
+  double
+  Obstacles<dim>::signed_distance(const Point<dim> &x,
+                                  const Numbers    &some) const
   {
-    unsigned int result = 0;
-    for (unsigned int k = 1; k < size(); ++k)
-      if (obstacles_[k]->signed_distance(x) <
-          obstacles_[result]->signed_distance(x))
-        result = k;
+    double result = std::numeric_limits<double>::max();
+    for (const unsigned int k : some)
+      result = std::min(result, obstacles_[k]->signed_distance(x));
     return result;
+  }
+
+
+
+  template <int dim>
+  unsigned int
+  Obstacles<dim>::nearest(const Point<dim> &x, const Numbers &some) const
+  {
+    return *std::min_element(some.begin(),
+                             some.end(),
+                             [&](const unsigned int a, const unsigned int b) {
+                               return obstacles_[a]->signed_distance(x) <
+                                      obstacles_[b]->signed_distance(x);
+                             });
   }
 
 

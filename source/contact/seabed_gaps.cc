@@ -2,6 +2,7 @@
 #include <talus/contact/seabed_gaps.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace talus
 {
@@ -57,7 +58,13 @@ namespace talus
           surface_of_face_[face] = surfaces.size();
           surfaces.push_back(surface_of(face, grid.domain()));
         }
-    gaps_.prepare(grid, surfaces);
+    // Few: a slot for each, and no search.
+    std::vector<unsigned int> numbers(surfaces.size());
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    gaps_.prepare(grid,
+                  surfaces,
+                  numbers,
+                  [numbers](const Point<dim> &, double) { return numbers; });
     cell_size_ = grid.finest_size();
     pairs_.clear();
     std::vector<unsigned char> is_on_seabed(grid.n_nodes(), 0);

@@ -2,6 +2,7 @@
 #include <talus/geometry/clip_simplex.h>
 #include <talus/geometry/contour.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus
@@ -134,14 +135,25 @@ namespace talus
   template <int dim>
   std::vector<SurfaceElement<dim>>
   contour(const Box<dim>              &box,
+          const Box<dim>              &bounds,
           const DistanceFunction<dim> &distance,
           const double                 size)
   {
-    std::array<unsigned int, dim> n;
+    // Boxes from first on, of which there are n, along each axis; one more than
+    // the surface reaches.
+    std::array<double, dim>       length;
+    std::array<unsigned int, dim> first, n;
     unsigned int                  n_boxes = 1;
     for (unsigned int d = 0; d < dim; ++d)
       {
-        n[d] = std::ceil(box.length(d) / (largest * size));
+        const double n_all = std::ceil(box.length(d) / (largest * size));
+        length[d]          = box.length(d) / n_all;
+        const auto box_at  = [&](const double x) {
+          return std::floor((x - box.lower[d]) / length[d]);
+        };
+        first[d] = std::clamp(box_at(bounds.lower[d]) - 1., 0., n_all);
+        n[d] = std::clamp(box_at(bounds.upper[d]) + 2., 1. * first[d], n_all) -
+               first[d];
         n_boxes *= n[d];
       }
     std::vector<SurfaceElement<dim>> elements;
@@ -150,9 +162,8 @@ namespace talus
         Box<dim> part;
         for (unsigned int d = 0, rest = i; d < dim; rest /= n[d], ++d)
           {
-            const double length = box.length(d) / n[d];
-            part.lower[d]       = box.lower[d] + (rest % n[d]) * length;
-            part.upper[d]       = part.lower[d] + length;
+            part.lower[d] = box.lower[d] + (first[d] + rest % n[d]) * length[d];
+            part.upper[d] = part.lower[d] + length[d];
           }
         halve<dim>(part, distance, size, elements);
       }

@@ -43,16 +43,39 @@ namespace talus
 
 
   template <int dim>
+  void
+  Region<dim>::cut_away(const std::vector<const Shape<dim> *> &solids)
+  {
+    solids_ = solids;
+    std::vector<Box<dim>> boxes;
+    for (const Shape<dim> *solid : solids)
+      boxes.push_back(solid->bounding_box());
+    index_ = BoxIndex<dim>(boxes);
+  }
+
+
+
+  template <int dim>
+  typename Region<dim>::Limits
+  Region<dim>::limits_near(const Point<dim> &x, const double distance) const
+  {
+    Limits limits = limits_;
+    for (const unsigned int k : index_.near(x, distance))
+      limits.push_back({solids_[k], -1.});
+    return limits;
+  }
+
+
+
+  template <int dim>
   bool
   Region<dim>::contains(const Point<dim> &x) const
   {
-    return std::all_of(limits_.begin(),
-                       limits_.end(),
-                       [&x](const Limit &limit) {
-                         return limit.sign > 0.
-                                  ? limit.shape->contains(x)
-                                  : limit.signed_distance(x) <= 0.;
-                       });
+    const Limits limits = limits_near(x, 0.);
+    return std::all_of(limits.begin(), limits.end(), [&x](const Limit &limit) {
+      return limit.sign > 0. ? limit.shape->contains(x)
+                             : limit.signed_distance(x) <= 0.;
+    });
   }
 
 
@@ -64,6 +87,8 @@ namespace talus
     double result = -std::numeric_limits<double>::infinity();
     for (const Limit &limit : limits_)
       result = std::max(result, limit.signed_distance(x));
+    for (const Shape<dim> *solid : solids_)
+      result = std::max(result, -solid->signed_distance(x));
     return result;
   }
 
@@ -231,7 +256,10 @@ namespace talus
     Sum sum;
     sum.origin    = centre_of(box);
     sum.tolerance = 1e-3 * box.lower.distance(box.upper);
-    add_part(box, limits_, 0, sum);
+    add_part(box,
+             limits_near(sum.origin, 0.5 * box.lower.distance(box.upper)),
+             0,
+             sum);
     // Round-off is neither a sliver nor a hole.
     const double whole = volume_of(box);
     if (sum.volume <= 1e-12 * whole)

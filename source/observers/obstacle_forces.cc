@@ -55,49 +55,65 @@ namespace talus
   // point counts where its centre is deeper than a tenth of a cell, as far as it
   // is below the surface, in full when its whole box is.
   template <int dim>
+  std::vector<typename ObstacleForces<dim>::Penetration>
+  ObstacleForces<dim>::penetrations(const State<dim> &state) const
+  {
+    const Points<dim>       &points    = state.points;
+    const Obstacles<dim>    &obstacles = contact_.obstacles();
+    const Facets<dim>       &facets    = contact_.facets();
+    std::vector<Penetration> result(obstacles.size());
+    for (const Segment &segment : points.segments())
+      {
+        // Others are far from the surface.
+        if (!facets.is_near(segment.cell) &&
+            facets.containing(segment.cell).empty())
+          continue;
+        const Cell<dim> &cell = state.grid.cells()[segment.cell];
+        for (const unsigned int k : obstacles.near(cell.box(), cell.size))
+          for (unsigned int p = segment.begin; p < segment.end; ++p)
+            {
+              const auto [distance, normal] = obstacles[k].distance_and_normal(
+                load_place(points, points.position, p));
+              if (distance >= 0)
+                continue;
+              const double support =
+                support_of_box(half_lengths_of_box(points, state.box_shape, p),
+                               normal);
+              const double v = points.data(points.reference_volume)[p] *
+                               determinant(load_matrix<dim, double>(
+                                 points, points.deformation_gradient, p));
+              Penetration &own   = result[k];
+              const double depth = -distance / cell.size;
+              if (depth > smallest_depth)
+                own.volume += v * std::min(1., -distance / support);
+              own.deepest  = std::max(own.deepest, -distance);
+              own.in_cells = std::max(own.in_cells, depth);
+            }
+      }
+    return result;
+  }
+
+
+
+  /// @p own is that of this rank. Collective.
+  template <int dim>
   void
   ObstacleForces<dim>::list_penetration(const unsigned int k,
+                                        const Penetration &own,
                                         const State<dim>  &state,
                                         Quantities        &row) const
   {
-    const Points<dim>   &points   = state.points;
-    const Obstacle<dim> &obstacle = contact_.obstacles()[k];
-    double               volume = 0, deepest = 0, in_cells = 0;
-    for (const Segment &segment : points.segments())
-      // Others are far from the surface.
-      if (const Facets<dim> &facets = contact_.facets();
-          facets.is_near(segment.cell) ||
-          !facets.containing(segment.cell).empty())
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
-          {
-            const auto [distance, normal] = obstacle.distance_and_normal(
-              load_place(points, points.position, p));
-            if (distance >= 0)
-              continue;
-            const double support =
-              support_of_box(half_lengths_of_box(points, state.box_shape, p),
-                             normal);
-            const double v = points.data(points.reference_volume)[p] *
-                             determinant(load_matrix<dim, double>(
-                               points, points.deformation_gradient, p));
-            const double depth =
-              -distance / state.grid.cells()[segment.cell].size;
-            if (depth > smallest_depth)
-              volume += v * std::min(1., -distance / support);
-            deepest  = std::max(deepest, -distance);
-            in_cells = std::max(in_cells, depth);
-          }
     const MPI_Comm    communicator = state.communicator();
-    const std::string name         = obstacle.name() + ' ';
+    const std::string name         = contact_.obstacles()[k].name() + ' ';
     row.push_back({name + "volume below surface",
                    dim == 2 ? "m^2" : "m^3",
-                   Utilities::MPI::sum(volume, communicator)});
+                   Utilities::MPI::sum(own.volume, communicator)});
     row.push_back({name + "depth below surface",
                    "m",
-                   Utilities::MPI::max(deepest, communicator)});
+                   Utilities::MPI::max(own.deepest, communicator)});
     row.push_back({name + "deepest point",
                    "cells",
-                   Utilities::MPI::max(in_cells, communicator)});
+                   Utilities::MPI::max(own.in_cells, communicator)});
   }
 
 
@@ -106,11 +122,12 @@ namespace talus
   Quantities
   ObstacleForces<dim>::evaluate(const State<dim> &state) const
   {
-    Quantities row = {{"time", "s", state.time}};
+    const std::vector<Penetration> own = penetrations(state);
+    Quantities                     row = {{"time", "s", state.time}};
     for (unsigned int k = 0; k < contact_.obstacles().size(); ++k)
       {
         list_forces(k, row);
-        list_penetration(k, state, row);
+        list_penetration(k, own[k], state, row);
       }
     return row;
   }

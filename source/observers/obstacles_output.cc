@@ -45,6 +45,7 @@ namespace talus
       for (unsigned int k = 0; k < obstacles.size(); ++k)
         for (const SurfaceElement<dim> &corners : contour<dim>(
                box,
+               obstacles[k].bounding_box(),
                [&](const Point<dim> &x) {
                  return obstacles[k].signed_distance(x);
                },

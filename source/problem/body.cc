@@ -160,10 +160,15 @@ namespace talus
   Body<dim>::check_clear_of(const Solids                     &solids,
                             const std::vector<NewPoint<dim>> &points) const
   {
+    std::vector<Box<dim>> boxes;
     for (const Shape<dim> *solid : solids)
-      for (const NewPoint<dim> &point : points)
+      boxes.push_back(solid->bounding_box());
+    const BoxIndex<dim> index(boxes);
+    for (const NewPoint<dim> &point : points)
+      for (const unsigned int k : index.near(point.x, 0.))
         {
-          const double depth = -solid->signed_distance(point.x);
+          const Shape<dim> *solid = solids[k];
+          const double      depth = -solid->signed_distance(point.x);
           AssertThrow(depth <= 0.5 * point.length.norm(),
                       ExcUser(text("The point at (",
                                    point.x,
@@ -251,8 +256,7 @@ namespace talus
     if (is_cut)
       {
         result.uncut_volume = volume_of(fill(), grid.communicator());
-        for (const Shape<dim> *solid : solids)
-          region.cut_away(*solid);
+        region.cut_away(solids);
       }
     check_apart(region, others);
     result.points = fill();

@@ -45,7 +45,7 @@ namespace talus
     {}
 
     /// After each change of the mesh or its partition. There are none until
-    /// find().
+    /// find(). Collective.
     void
     prepare(const Grid<dim> &grid);
 
@@ -114,6 +114,8 @@ namespace talus
   private:
     std::vector<typename NodalGaps<dim>::Surface>
     surfaces() const;
+    std::vector<unsigned int>
+    slots(const Grid<dim> &grid) const;
     bool
     find_shares(const ContactFacet<dim> &facet,
                 FacetConstraint<dim>    &constraint) const;

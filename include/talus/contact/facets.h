@@ -195,7 +195,9 @@ namespace talus
     /// What the surfaces make of a cell, whatever the numbers of its nodes.
     struct Section
     {
-      double distance; ///< of its centre from the obstacles, m
+      /// Of its centre from the obstacles, m; of others than those near the
+      /// cell, the largest number.
+      double                         distance;
       std::vector<ContactFacet<dim>> facets;     ///< where soil may be
       std::vector<ContactFacet<dim>> hidden;     ///< partly or wholly covered
       std::vector<unsigned int>      containing; ///< obstacles
@@ -221,10 +223,11 @@ namespace talus
     void
     cut(const Grid<dim> &grid, unsigned int c);
     void
-    find_facets(const Grid<dim>      &grid,
-                const Obstacles<dim> &obstacles,
-                unsigned int          c,
-                Section              &section) const;
+    find_facets(const Grid<dim>                        &grid,
+                const Obstacles<dim>                   &obstacles,
+                const typename Obstacles<dim>::Numbers &near,
+                unsigned int                            c,
+                Section                                &section) const;
     void
     clear_sums();
     void

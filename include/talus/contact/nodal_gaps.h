@@ -43,12 +43,35 @@ namespace talus
     using Surface = std::function<double(const dealii::Point<dim> &,
                                          const dealii::Tensor<1, dim> &)>;
 
+    /// Numbers of the surfaces, ascending, that may be nearer to a place than a
+    /// distance, m, and perhaps of some others.
+    using Near =
+      std::function<std::vector<unsigned int>(const dealii::Point<dim> &,
+                                              double)>;
+
     /// Of a node that no box reaches.
     static constexpr double none = std::numeric_limits<double>::max();
 
-    /// To be called after each change of the mesh or its partition.
+    /// Distance that points may have from a surface beside a node that their
+    /// boxes reach, in cells; twice that where cells of two sizes meet.
+    static constexpr double reach = 3. * 1.7320508075688772;
+
+    /// To be called after each change of the mesh or its partition. A node has
+    /// one gap per slot: surfaces with the same entry of @p slots are so far
+    /// apart (min_distance_in_slot()) that no node is beside two of them.
     void
-    prepare(const Grid<dim> &grid, std::vector<Surface> surfaces);
+    prepare(const Grid<dim>          &grid,
+            std::vector<Surface>      surfaces,
+            std::vector<unsigned int> slots,
+            Near                      near);
+
+    /// Distance, m, between surfaces of one slot, in cells of @p cell_size: of a
+    /// point near one of them the other one is farther away.
+    static double
+    min_distance_in_slot(const double cell_size)
+    {
+      return 3. * reach * cell_size;
+    }
 
     /// Find the gaps of those of @p pairs that are ghosts or have mass. @p
     /// nearness of a cell is not 0 if its points may reach one of them; it is 2
@@ -70,7 +93,7 @@ namespace talus
          const double       cell_size) const
     {
       return std::max(0.,
-                      gaps_[surfaces_.size() * node + k] -
+                      gaps_[n_slots_ * node + slots_[k]] -
                         dead_band * cell_size);
     }
 
@@ -82,6 +105,8 @@ namespace talus
                  const Cell<dim>  &cell,
                  unsigned int      p) const;
     void
+    look_around(const Cell<dim> &cell);
+    void
     find_of_point(const dealii::Point<dim>     &x,
                   const dealii::Tensor<1, dim> &half);
     void
@@ -92,10 +117,14 @@ namespace talus
     add_to_patch(const State<dim> &state, const Segment &segment);
 
     std::vector<Surface>       surfaces_;
-    std::vector<double>        gaps_;     ///< by node and surface, m
-    std::vector<unsigned char> is_open_;  ///< by node, while they are found
-    std::vector<double>        of_point_; ///< one for each surface, m
-    std::vector<unsigned int>  present_;  ///< nodes of a step
+    std::vector<unsigned int>  slots_; ///< by surface
+    Near                       near_;
+    std::size_t                n_slots_ = 0;
+    std::vector<double>        gaps_;      ///< by node and slot, m
+    std::vector<unsigned char> is_open_;   ///< by node, while they are found
+    std::vector<unsigned int>  near_cell_; ///< surfaces
+    std::vector<double>        of_point_;  ///< one for each slot, m
+    std::vector<unsigned int>  present_;   ///< nodes of a step
     std::vector<Segment> later_;      ///< of the cells that are not the nearest
     double               closed_ = 0; ///< gaps this small are none, m
     NodalExchange<dim>   exchange_;

@@ -3,6 +3,7 @@
 #define talus_contact_obstacles_h
 
 #include <talus/contact/obstacle.h>
+#include <talus/geometry/box_index.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -53,9 +54,34 @@ namespace talus
     double
     signed_distance(const dealii::Point<dim> &x) const;
 
-    /// The obstacle in which @p x lies deepest, or which is nearest.
+    /// Numbers of obstacles, ascending.
+    using Numbers = std::vector<unsigned int>;
+
+    /// Return all obstacles whose bounding boxes are not farther from @p x than
+    /// @p distance, m, and perhaps some others: by an index, so that many
+    /// obstacles cost no more than few. Those that move are always among them.
+    Numbers
+    near(const dealii::Point<dim> &x, const double distance) const
+    {
+      return index_.near(x, distance);
+    }
+
+    /// The same for a box in place of @p x.
+    Numbers
+    near(const Box<dim> &box, const double distance) const
+    {
+      return index_.near(box, distance);
+    }
+
+    /// Distance of @p x from the nearest surface of @p some of the obstacles, m;
+    /// the largest number if these are none.
+    double
+    signed_distance(const dealii::Point<dim> &x, const Numbers &some) const;
+
+    /// That one of @p some obstacles in which @p x lies deepest, or which is
+    /// nearest.
     unsigned int
-    nearest(const dealii::Point<dim> &x) const;
+    nearest(const dealii::Point<dim> &x, const Numbers &some) const;
 
     /// Whether the shear stress that one of them passes depends on the depth
     /// below the mudline, so that set_depth() must be called.
@@ -92,6 +118,7 @@ namespace talus
   private:
     std::vector<std::string>                    listed_names_;
     std::vector<std::unique_ptr<Obstacle<dim>>> obstacles_;
+    BoxIndex<dim>                               index_;
   };
 } // namespace talus
 

@@ -19,10 +19,11 @@ namespace talus
   /// right to a fiftieth of it; edges and corners are cut off by half of it at
   /// most. Plane parts have few elements, whatever the size; there may be gaps of
   /// a fiftieth of it between elements. What is smaller than half of it may be
-  /// missed.
+  /// missed. @p bounds, a box around the surface, saves a search where it is not.
   template <int dim>
   std::vector<SurfaceElement<dim>>
   contour(const Box<dim>              &box,
+          const Box<dim>              &bounds,
           const DistanceFunction<dim> &distance,
           double                       size);
 } // namespace talus

@@ -2,6 +2,7 @@
 #ifndef talus_geometry_region_h
 #define talus_geometry_region_h
 
+#include <talus/geometry/box_index.h>
 #include <talus/geometry/clip_simplex.h>
 #include <talus/geometry/shape.h>
 
@@ -43,11 +44,9 @@ namespace talus
         limits_.push_back({part, 1.});
     }
 
+    /// Cut away @p solids, which are all there are.
     void
-    cut_away(const Shape<dim> &solid)
-    {
-      limits_.push_back({&solid, -1.});
-    }
+    cut_away(const std::vector<const Shape<dim> *> &solids);
 
     /// The surfaces of shapes and solids belong to it.
     bool
@@ -106,7 +105,14 @@ namespace talus
     static void
     add_part(const Box<dim> &box, Limits limits, unsigned int depth, Sum &sum);
 
-    Limits limits_;
+    /// Add the solids that may be nearer to @p x than @p distance, m, to the
+    /// limits by shapes.
+    Limits
+    limits_near(const dealii::Point<dim> &x, double distance) const;
+
+    Limits                          limits_; ///< shapes
+    std::vector<const Shape<dim> *> solids_;
+    BoxIndex<dim>                   index_; ///< of the solids
   };
 } // namespace talus
 

@@ -5,6 +5,8 @@
 #include <talus/contact/facet_contact.h>
 #include <talus/observers/quantity_table.h>
 
+#include <vector>
+
 namespace talus
 {
   /// obstacles.csv: what the soil does to each obstacle, one row per interval of
@@ -35,10 +37,21 @@ namespace talus
   private:
     void
     list_forces(unsigned int k, Quantities &row) const;
+    /// Soil below the surface of an obstacle.
+    struct Penetration
+    {
+      double volume   = 0; ///< m^dim
+      double deepest  = 0; ///< m
+      double in_cells = 0; ///< the same in cells
+    };
+
+    std::vector<Penetration>
+    penetrations(const State<dim> &state) const;
     void
-    list_penetration(unsigned int      k,
-                     const State<dim> &state,
-                     Quantities       &row) const;
+    list_penetration(unsigned int       k,
+                     const Penetration &own,
+                     const State<dim>  &state,
+                     Quantities        &row) const;
 
     FacetContact<dim> &contact_;
   };

@@ -18,7 +18,10 @@ namespace
   contour_of(const Shape<dim> &shape, const Box<dim> &box)
   {
     return contour<dim>(
-      box, [&](const Point<dim> &x) { return shape.signed_distance(x); }, size);
+      box,
+      shape.bounding_box(),
+      [&](const Point<dim> &x) { return shape.signed_distance(x); },
+      size);
   }
 
 

@@ -172,7 +172,7 @@ namespace
       b(Point<2>(0.2, 0.), Point<2>(1., -1.));
     Region<2> one(a), both(a), other(a);
     both.restrict_to(b);
-    other.cut_away(b);
+    other.cut_away({&b});
     // A square of side 2 without the triangle beyond x + y = 0.3.
     EXPECT_NEAR(lattice_sum(one, 5).first, 4. - 1.7 * 1.7 / 2., 1e-14);
     // Its mean x: the triangle's centroid is at 1 - 1.7/3.
@@ -297,7 +297,7 @@ namespace
     const Ball<2>      disc(Point<2>(), 1.);
     const HalfSpace<2> bed(Point<2>(0., -0.5), Point<2>(0., 1.));
     Region<2>          region(disc);
-    region.cut_away(bed);
+    region.cut_away({&bed});
     EXPECT_TRUE(region.contains(Point<2>(0., -0.5)));
     EXPECT_FALSE(region.contains(Point<2>(0., -0.6)));
     EXPECT_FALSE(region.contains(Point<2>(0., 1.1)));

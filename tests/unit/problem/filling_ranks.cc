@@ -25,7 +25,7 @@ namespace
     const HalfSpace<dim> bed(Point<dim>(), up);
     Region<dim>          region(ball);
     region.restrict_to(mesh);
-    region.cut_away(bed);
+    region.cut_away({&bed});
     std::array<unsigned int, dim> n;
     n.fill(n_per_axis);
     std::vector<std::vector<double>> own, all;
