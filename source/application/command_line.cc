@@ -39,7 +39,8 @@ namespace talus
          "start anew even if the output folder holds the checkpoint of an "
          "unfinished run")
         ("validate", po::bool_switch(&result.validate),
-         "read and check everything, make mesh and points, but do not run")
+         "read and check everything, make mesh and points, and tell what the "
+         "run will do: its size, time steps, estimated time, and all remarks")
         ("document", po::bool_switch(&result.document),
          "print the reference of all parameters")
         ("version", "print the version")
@@ -118,10 +119,11 @@ namespace talus
   void
   document(std::ostream &out)
   {
-    // One body, and a material of each law, named after it.
+    // One of each kind, and a material of each law, named after it.
     ParameterPreview preview;
-    preview.bodies   = {"slide"};
-    preview.surfaces = {"mudline"};
+    preview.bodies    = {"slide"};
+    preview.obstacles = {"bed"};
+    preview.surfaces  = {"mudline"};
     for (const std::string &law : material_names<2>())
       preview.materials.push_back({law, law});
     Simulation<2> simulation(preview);

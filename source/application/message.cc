@@ -5,6 +5,7 @@
 
 #include <boost/program_options/errors.hpp>
 
+#include <iomanip>
 #include <new>
 #include <regex>
 #include <sstream>
@@ -13,6 +14,23 @@ namespace talus
 {
   namespace
   {
+    /// Return @p word with control characters as \x1b, so that what is told of
+    /// a file cannot command the terminal.
+    std::string
+    printable(const std::string &word)
+    {
+      std::ostringstream result;
+      for (const unsigned char c : word)
+        if (c < ' ' || c == 127)
+          result << "\\x" << std::hex << std::setw(2) << std::setfill('0')
+                 << static_cast<int>(c);
+        else
+          result << c;
+      return result.str();
+    }
+
+
+
     /// The information of an exception, without line breaks.
     /// deal.II's print_info() has what went wrong, without file, line and
     /// stack, which tell a user nothing.
@@ -28,7 +46,7 @@ namespace talus
       std::istringstream words(information.str());
       std::string        line, word;
       while (words >> word)
-        line += (line.empty() ? "" : " ") + word;
+        line += (line.empty() ? "" : " ") + printable(word);
       return line;
     }
 
@@ -62,7 +80,9 @@ namespace talus
         {std::regex("\\[List of <(.*)> of length (\\S+)\\.\\.\\.(\\S+) "
                     "\\(inclusive\\)\\]"),
          "a list of $2 to $3 values, each $1,"},
-        {std::regex("(\\d+) to \\1 values"), "$1 values"}};
+        {std::regex("(\\d+) to \\1 values"), "$1 values"},
+        {std::regex("list of 0 to 4294967295 values"), "list of values"},
+        {std::regex("(\\d+) to 4294967295 values"), "$1 or more values"}};
       std::string result = pattern;
       for (const auto &[description, plain] : words)
         result = std::regex_replace(result, description, plain);
@@ -125,9 +145,6 @@ namespace talus
     static const std::regex in_command(
       "Line <\\d+> of file <(--set .*?)>?: (.*)");
     static const std::regex in_file("Line <(\\d+)> of file <(.*?)>?: (.*)");
-    static const std::regex unbalanced(
-      "There are unequal numbers of 'subsection' and 'end' statements in the "
-      "parameter file <(.*?)>.*");
 
     const std::string line = one_line(exception);
     std::smatch       part;
@@ -144,10 +161,6 @@ namespace talus
     if (std::regex_match(line, part, in_file))
       return say_anew(part[2].str() + ", line " + part[1].str() + ": ",
                       part[3]);
-    if (std::regex_match(line, part, unbalanced))
-      return part[1].str() +
-             ": the numbers of 'subsection' and 'end' differ; close each "
-             "'subsection' with an 'end' of its own.";
     return line;
   }
 } // namespace talus

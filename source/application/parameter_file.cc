@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/application/message.h>
 #include <talus/application/parameter_file.h>
+#include <talus/application/parameter_lines.h>
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
@@ -35,11 +36,14 @@ namespace talus
                   ExcUser("--set '" + override_text +
                           "' was given, where 'Section/Subsection/Entry=value' "
                           "was expected."));
-      // What stood in a line of its own could include a file.
-      AssertThrow(override_text.find('\n') == std::string::npos,
+      // What stood in a line of its own could include a file, and a backslash
+      // at the end joins the next line.
+      AssertThrow(override_text.find('\n') == std::string::npos &&
+                    Utilities::trim(override_text).back() != '\\',
                   ExcUser("--set '" + override_text.substr(0, equals) +
-                          "' was given a value of several lines, where one "
-                          "was expected. Give --set once for each entry."));
+                          "' was given a value of several lines, or with a "
+                          "backslash at its end, where one line was expected. "
+                          "Give --set once for each entry."));
       auto path =
         Utilities::split_string_list(override_text.substr(0, equals), '/');
       const std::string entry = path.back();
@@ -56,7 +60,8 @@ namespace talus
 
 
 
-    /// The names become sections, so they may have no slash and must differ.
+    /// The names become sections, so they may have no slash and must differ; the
+    /// section has an entry `Names` already.
     std::vector<std::string>
     names(const std::string &list, const std::string &where)
     {
@@ -67,24 +72,14 @@ namespace talus
                       ExcUser("'" + where + " = " + list +
                               "' must be a list of names separated by commas, "
                               "without slashes."));
+          AssertThrow(name != "Names",
+                      ExcUser("'" + where + " = " + list +
+                              "' lists 'Names', which is the entry itself. "
+                              "Choose another name."));
           AssertThrow(std::count(result.begin(), result.end(), name) == 1,
                       ExcUser("'" + where + " = " + list + "' lists '" + name +
                               "' twice; names must differ."));
         }
-      return result;
-    }
-
-
-
-    /// The same, of which there must be one.
-    std::vector<std::string>
-    needed_names(const std::string &list, const std::string &where)
-    {
-      const auto result = names(list, where);
-      AssertThrow(!result.empty(),
-                  ExcUser("'" + where +
-                          "' is empty, but at least one name is needed: each "
-                          "has a section of that name with its parameters."));
       return result;
     }
   } // namespace
@@ -130,29 +125,6 @@ namespace talus
 
 
 
-    /// The lines as deal.II takes them: a backslash at the end of one joins it to
-    /// the next.
-    std::vector<std::string>
-    joined_lines(const std::string &content)
-    {
-      std::vector<std::string> lines;
-      std::istringstream       in(content);
-      bool                     goes_on = false;
-      for (std::string line; std::getline(in, line);)
-        {
-          line = Utilities::trim(line);
-          if (!goes_on)
-            lines.emplace_back();
-          goes_on = !line.empty() && line.back() == '\\';
-          if (goes_on)
-            line.pop_back();
-          lines.back() += line;
-        }
-      return lines;
-    }
-
-
-
     /// What a line includes; empty if it does not.
     std::string
     included_file(const std::string &line)
@@ -163,49 +135,7 @@ namespace talus
       if (word != "include" && word != "INCLUDE")
         return "";
       std::getline(words >> std::ws, file);
-      return Utilities::trim(file.substr(0, file.find('#')));
-    }
-
-
-
-    /// Protect the files that @p content includes, and those that they do. deal.II
-    /// reads them, as parts of the text, but would follow a circle for ever.
-    /// @p chain: the file that has the content, and whose include has led to it;
-    /// @p n_left: how many more may be included in all, as files that include
-    /// others twice double with each file of the chain.
-    void
-    check_includes(const std::string              &content,
-                   const std::vector<std::string> &chain,
-                   unsigned int                   &n_left)
-    {
-      for (const std::string &line : joined_lines(content))
-        {
-          const std::string file = included_file(line);
-          if (file.empty())
-            continue;
-          AssertThrow(std::find(chain.begin(), chain.end(), file) ==
-                        chain.end(),
-                      ExcUser("The parameter file '" + chain.back() +
-                              "' includes '" + file +
-                              "', which includes it in turn, directly or by "
-                              "others. Remove one of the lines 'include'."));
-          AssertThrow(n_left > 0,
-                      ExcUser("The parameter file '" + chain.front() +
-                              "' includes others more than 1000 times, those "
-                              "that they include counted. Include fewer."));
-          --n_left;
-          protect_input(file);
-          std::vector<std::string> longer = chain;
-          longer.push_back(file);
-          AssertThrow(longer.size() <= 20,
-                      ExcUser("The parameter file '" + chain.front() +
-                              "' includes others through more than 20 files, "
-                              "down to '" +
-                              file + "'. Include fewer."));
-          check_includes(read_parameter_file(file, Pipes::refused),
-                         longer,
-                         n_left);
-        }
+      return Utilities::trim(file);
     }
   } // namespace
 
@@ -222,7 +152,53 @@ namespace talus
     if (!is_run_record(file_name_))
       protect_input(file_name_);
     unsigned int n_includes = 1000;
-    check_includes(content_, {file_name_}, n_includes);
+    check(content_, {file_name_}, n_includes);
+    for (const std::string &override_text : overrides_)
+      for (const ParameterLine &line :
+           parameter_lines(as_parameter_file(override_text)))
+        check_line("--set " + override_text + ": ", line.text);
+  }
+
+
+
+  // deal.II reads the files that are included, as parts of the text, but would
+  // follow a circle for ever. Files that include others twice double with each
+  // file of the chain.
+  void
+  ParameterFile::check(const std::string              &content,
+                       const std::vector<std::string> &chain,
+                       unsigned int                   &n_left)
+  {
+    const auto lines = parameter_lines(content);
+    check_lines(chain.back(), lines);
+    for (const std::string &remark : entries_set_twice(chain.back(), lines))
+      if (std::find(remarks_.begin(), remarks_.end(), remark) == remarks_.end())
+        remarks_.push_back(remark);
+    for (const ParameterLine &line : lines)
+      {
+        const std::string file = included_file(line.text);
+        if (file.empty())
+          continue;
+        AssertThrow(std::find(chain.begin(), chain.end(), file) == chain.end(),
+                    ExcUser("The parameter file '" + chain.back() +
+                            "' includes '" + file +
+                            "', which includes it in turn, directly or by "
+                            "others. Remove one of the lines 'include'."));
+        AssertThrow(n_left > 0,
+                    ExcUser("The parameter file '" + chain.front() +
+                            "' includes others more than 1000 times, those "
+                            "that they include counted. Include fewer."));
+        --n_left;
+        protect_input(file);
+        std::vector<std::string> longer = chain;
+        longer.push_back(file);
+        AssertThrow(longer.size() <= 20,
+                    ExcUser("The parameter file '" + chain.front() +
+                            "' includes others through more than 20 files, "
+                            "down to '" +
+                            file + "'. Include fewer."));
+        check(read_parameter_file(file, Pipes::refused), longer, n_left);
+      }
   }
 
 
@@ -267,8 +243,9 @@ namespace talus
     ParameterPreview preview;
     preview.folder    = std::filesystem::path(file_name_).parent_path();
     preview.dimension = prm.get_integer("Dimension");
+    preview.remarks   = remarks_;
     prm.enter_subsection("Bodies");
-    preview.bodies = needed_names(prm.get("Names"), "Bodies/Names");
+    preview.bodies = names(prm.get("Names"), "Bodies/Names");
     prm.leave_subsection();
     prm.enter_subsection("Obstacles");
     preview.obstacles = names(prm.get("Names"), "Obstacles/Names");
@@ -277,7 +254,7 @@ namespace talus
     preview.surfaces = names(prm.get("Names"), "Surfaces/Names");
     prm.leave_subsection();
     prm.enter_subsection("Materials");
-    const auto materials = needed_names(prm.get("Names"), "Materials/Names");
+    const auto materials = names(prm.get("Names"), "Materials/Names");
     const Patterns::Selection laws(
       boost::algorithm::join(material_names<2>(), "|"));
     for (const std::string &name : materials)
@@ -389,12 +366,35 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Throw ExcUser if there is no body or no material. After the strict pass,
+    /// which tells if the section of the names is misspelt.
+    void
+    check_has_names(ParameterHandler &prm)
+    {
+      for (const std::string section : {"Bodies", "Materials"})
+        {
+          prm.enter_subsection(section);
+          AssertThrow(!prm.get("Names").empty(),
+                      ExcUser("'" + section +
+                              "/Names' is empty, but at least one name is "
+                              "needed: each has a section of that name with "
+                              "its parameters."));
+          prm.leave_subsection();
+        }
+    }
+  } // namespace
+
+
+
   /// An entry that nobody declared is an error here: it is mostly misspelt.
   void
   ParameterFile::parse() const
   {
     ParameterAcceptor::declare_all_parameters();
     parse_into(ParameterAcceptor::prm, /*skip_undefined=*/false);
+    check_has_names(ParameterAcceptor::prm);
     check_sizes(ParameterAcceptor::prm);
     ParameterAcceptor::parse_all_parameters();
   }

@@ -95,8 +95,12 @@ namespace
     if (command_line.validate)
       {
         simulation.check_output_folder();
+        simulation.forecast();
+        const std::string remarks = simulation.count_of_remarks();
         if (is_first_rank(MPI_COMM_WORLD))
-          std::cout << command_line.parameter_file << " is valid." << std::endl;
+          std::cout << command_line.parameter_file << " is valid"
+                    << (remarks.empty() ? "" : ", with " + remarks) << "."
+                    << std::endl;
         return 0;
       }
     try

@@ -26,7 +26,8 @@ namespace talus
   remember_signals()
   {
     last_signal = 0;
-    for (const int signal : {SIGTERM, SIGINT, SIGUSR1, SIGHUP, SIGXCPU})
+    for (const int signal :
+         {SIGTERM, SIGINT, SIGUSR1, SIGHUP, SIGXCPU, SIGPIPE})
       {
         struct sigaction before = {};
         sigaction(signal, nullptr, &before);
@@ -61,6 +62,9 @@ namespace talus
           return "SIGHUP";
         case SIGXCPU:
           return "SIGXCPU";
+        // Whoever read the standard output has gone.
+        case SIGPIPE:
+          return "SIGPIPE";
         default:
           return "SIGUSR1";
       }

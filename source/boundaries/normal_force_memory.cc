@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/key_halves.h>
 #include <talus/boundaries/normal_force_memory.h>
 #include <talus/grid/node_places.h>
 
@@ -24,7 +25,7 @@ namespace talus
          Utilities::MPI::all_gather(grid.communicator(), rows()))
       all.insert(all.end(), of_rank.begin(), of_rank.end());
     means_.clear();
-    const std::vector<unsigned long> keys = keys_of_face_nodes(grid);
+    const std::vector<unsigned long> keys = keys_of_owned_nodes(grid);
     for (unsigned int face = 0; face < 2 * dim; ++face)
       {
         index_[face].clear();
@@ -74,8 +75,7 @@ namespace talus
 
 
   /// Return the means that the next step will use, a row of numbers each: key
-  /// of the place of the node (upper and lower 32 bits, since a double does not
-  /// hold all its digits), face, force.
+  /// of the place of the node (halves_of_key()), face, force.
   template <int dim>
   std::vector<double>
   NormalForceMemory<dim>::rows() const
@@ -85,11 +85,11 @@ namespace talus
     std::vector<double> rows;
     for (const Mean &mean : means_)
       if (mean.step == step_)
-        rows.insert(rows.end(),
-                    {double(mean.key >> 32),
-                     double(mean.key & 0xffffffff),
-                     double(mean.face),
-                     mean.force});
+        {
+          const auto [upper, lower] = halves_of_key(mean.key);
+          rows.insert(rows.end(),
+                      {upper, lower, double(mean.face), mean.force});
+        }
     return rows;
   }
 
@@ -103,14 +103,16 @@ namespace talus
     for (std::size_t r = 0; r < rows.size(); r += n_columns)
       force_of[{{rows[r], rows[r + 1], rows[r + 2]}}] = rows[r + 3];
     for (Mean &mean : means_)
-      if (const auto found = force_of.find({{double(mean.key >> 32),
-                                             double(mean.key & 0xffffffff),
-                                             double(mean.face)}});
-          found != force_of.end())
-        {
-          mean.force = found->second;
-          mean.step  = step_;
-        }
+      {
+        const auto [upper, lower] = halves_of_key(mean.key);
+        if (const auto found =
+              force_of.find({{upper, lower, double(mean.face)}});
+            found != force_of.end())
+          {
+            mean.force = found->second;
+            mean.step  = step_;
+          }
+      }
   }
 
 

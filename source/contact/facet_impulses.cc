@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/key_halves.h>
 #include <talus/contact/facet_impulses.h>
 
 #include <algorithm>
@@ -8,22 +9,13 @@ namespace talus
 {
   using namespace dealii;
 
-  namespace
+  template <int dim>
+  FacetName
+  name_of(const ContactFacet<dim> &facet)
   {
-    /// Key of the cell in halves, since a double does not hold all its digits,
-    /// obstacle, and number of the facet among those of the obstacle in the cell.
-    using FacetName = std::array<double, 4>;
-
-    template <int dim>
-    FacetName
-    name_of(const ContactFacet<dim> &facet)
-    {
-      return {{double(facet.key >> 32),
-               double(facet.key & 0xffffffff),
-               double(facet.obstacle),
-               double(facet.number)}};
-    }
-  } // namespace
+    const auto [upper, lower] = halves_of_key(facet.key);
+    return {{upper, lower, double(facet.obstacle), double(facet.number)}};
+  }
 
 
 
@@ -115,6 +107,9 @@ namespace talus
   }
 
 
+
+  template decltype(name_of<2>) name_of<2>;
+  template decltype(name_of<3>) name_of<3>;
 
   template class FacetImpulses<2>;
   template class FacetImpulses<3>;

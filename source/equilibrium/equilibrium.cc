@@ -34,7 +34,7 @@ namespace talus
                   "search given up [-]. Steps as small as 'Load steps' asks "
                   "for are always taken.",
                   this->prm,
-                  Patterns::Double(0., 1.));
+                  smallest_load_steps());
     add_parameter(
       "Allowed imbalance",
       allowed_imbalance_,
@@ -132,7 +132,7 @@ namespace talus
     step_                               = 1. / limits.n_load_steps;
     n_steps_ = n_settling_ = 0;
     imbalance_             = 0;
-    is_found_              = false;
+    is_found_ = is_stopped_ = false;
     imbalances_.clear();
     failure_.clear();
   }
@@ -270,11 +270,14 @@ namespace talus
         const double after = (all && cut == 1. ? 1. : load_ + share * rest);
         const auto   outcome =
           newton_.solve(problem, share, [&](const NewtonIteration &iteration) {
-            observe({n_steps_ + 1, after, iteration});
+            return observe({n_steps_ + 1, after, iteration});
           });
         if (!outcome.converged)
           {
-            failure_ = outcome.failure;
+            failure_    = outcome.failure;
+            is_stopped_ = outcome.is_stopped;
+            if (is_stopped_)
+              return false;
             continue;
           }
         newton_.commit(problem);

@@ -42,7 +42,8 @@ namespace talus
                  "; the largest residual force of a node is ",
                  largest,
                  " N, at ",
-                 place)};
+                 place),
+            false};
   }
 
 
@@ -57,10 +58,10 @@ namespace talus
   {
     equations_.take_share(share);
     u_                               = equations_.unknowns().field();
-    const StaticContact<dim> before  = equations_.contact();
+    const StaticContact<dim> before  = contact();
     const Outcome            outcome = solve_with_contact(problem, observe);
     if (!outcome.converged)
-      equations_.set_contact(before);
+      equations_.contact() = before;
     return outcome;
   }
 
@@ -85,6 +86,8 @@ namespace talus
         const Outcome outcome = newton_loop(problem, observe);
         if (!outcome.converged)
           {
+            if (outcome.is_stopped)
+              return outcome;
             // Soil that is held by slipping nodes only has a singular matrix.
             // Friction that would push it on turns around as soon as it moves:
             // those nodes can bear it.
@@ -116,6 +119,7 @@ namespace talus
   {
     if (!equations_.find_residual(problem, u_, residual_))
       return failure("A point would be turned inside out");
+    const Outcome stopped{false, "The search was stopped", true};
     for (unsigned int i = 0;; ++i)
       {
         // Soil without any force on it is in balance: 0/0 would not be.
@@ -126,8 +130,9 @@ namespace talus
         if (converged || i == parameters_.largest_iterations ||
             !std::isfinite(norm))
           {
-            observe(iteration);
-            return converged ? Outcome{true, ""}
+            if (!observe(iteration))
+              return stopped;
+            return converged ? Outcome{true, "", false}
                              : failure(text(std::setprecision(6),
                                             "Newton's method has not converged "
                                             "in ",
@@ -139,7 +144,8 @@ namespace talus
                                             " was asked for"));
           }
         const std::string error = newton_update(problem, iteration);
-        observe(iteration);
+        if (!observe(iteration))
+          return stopped;
         if (!error.empty())
           return failure(
             text("Newton's method has no next iterate, since ", error));

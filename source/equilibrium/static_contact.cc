@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/key_halves.h>
 #include <talus/equilibrium/static_contact.h>
+#include <talus/grid/node_places.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <array>
 #include <map>
 
 namespace talus
@@ -11,10 +14,7 @@ namespace talus
 
   /// Contact outlives the load step: if all nodes began by sticking, each step
   /// would have to find the slipping ones anew, one Newton loop after the
-  /// other. Numbers of nodes may stand for other nodes when the mesh has
-  /// changed; the face is compared, and what is wrong then is found by the
-  /// trials. k is the place among the nodes with unknowns, of which there may
-  /// be others than before.
+  /// other. It belongs to the places of the nodes, whatever their numbers.
   template <int dim>
   void
   StaticContact<dim>::begin(const StaticProblem<dim> &problem,
@@ -22,11 +22,12 @@ namespace talus
                             const double              modulus)
   {
     facets_.begin(problem, unknowns, modulus);
-    std::map<unsigned int, Contact> known;
-    for (const Contact &contact : contacts_)
-      known[contact.node] = contact;
+    const std::vector<double> before = rows();
     contacts_.clear();
-    const auto &active = unknowns.active_nodes();
+    restored_.clear();
+    const auto                      &active = unknowns.active_nodes();
+    const std::vector<unsigned long> keys =
+      keys_of_owned_nodes(problem.state.grid);
     for (unsigned int k = 0; k < active.size(); ++k)
       for (unsigned int face = 0; face < 2 * dim; ++face)
         if (const unsigned char faces =
@@ -35,6 +36,7 @@ namespace talus
           {
             Contact contact;
             contact.node = active[k];
+            contact.key  = keys[active[k]];
             contact.k    = k;
             contact.face = face;
             contact.walls =
@@ -42,16 +44,88 @@ namespace talus
             // The area of the dynamics: both must find the same friction.
             contact.area = problem.boundaries.seabed().contact_area(
               problem.state.nodes, problem.state.grid, face, contact.node);
-            if (const auto before = known.find(contact.node);
-                before != known.end() && before->second.face == face)
-              {
-                contact.state    = before->second.state;
-                contact.friction = before->second.friction;
-                contact.reaction = before->second.reaction;
-                limit_friction(contact, problem.boundaries.seabed());
-              }
             contacts_.push_back(contact);
           }
+    take(before, problem.boundaries.seabed());
+  }
+
+
+
+  /// Return a row of numbers for each node on the seabed: key of its place (two),
+  /// face, state, friction and reaction, N.
+  template <int dim>
+  std::vector<double>
+  StaticContact<dim>::rows() const
+  {
+    if (!restored_.empty())
+      return restored_;
+    std::vector<double> rows;
+    for (const Contact &contact : contacts_)
+      {
+        const auto [upper, lower] = halves_of_key(contact.key);
+        rows.insert(rows.end(),
+                    {upper,
+                     lower,
+                     double(contact.face),
+                     double(static_cast<int>(contact.state))});
+        for (const auto &force : {contact.friction, contact.reaction})
+          for (unsigned int d = 0; d < dim; ++d)
+            rows.push_back(force[d]);
+      }
+    return rows;
+  }
+
+
+
+  /// Let the nodes that have a row be as it says.
+  template <int dim>
+  void
+  StaticContact<dim>::take(const std::vector<double> &rows,
+                           const Seabed<dim>         &seabed)
+  {
+    std::map<std::array<double, 3>, const double *> known;
+    for (std::size_t r = 0; r < rows.size(); r += n_columns)
+      known[{{rows[r], rows[r + 1], rows[r + 2]}}] = &rows[r + 3];
+    for (Contact &contact : contacts_)
+      {
+        const auto [upper, lower] = halves_of_key(contact.key);
+        const auto found = known.find({{upper, lower, double(contact.face)}});
+        if (found == known.end())
+          continue;
+        const double *value = found->second;
+        contact.state       = static_cast<State>(static_cast<int>(*value++));
+        for (Tensor<1, dim> *force : {&contact.friction, &contact.reaction})
+          for (unsigned int d = 0; d < dim; ++d)
+            (*force)[d] = *value++;
+        limit_friction(contact, seabed);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  StaticContact<dim>::list_state(StateList                   &list,
+                                 const std::function<bool()> &is_needed)
+  {
+    const auto rows_of = [is_needed](const auto &part) {
+      return is_needed() ? part.rows() : std::vector<double>();
+    };
+    list.add_table(
+      {"static contact with the seabed",
+       "key of the place of the node: upper and lower 32 bits; face; state; "
+       "friction [N]; reaction [N]",
+       n_columns,
+       [this, rows_of]() { return rows_of(*this); },
+       [this](const std::vector<double> &rows) { restored_ = rows; }});
+    list.add_table(
+      {"static contact with obstacles",
+       "key of the cell or of the place of the node: upper and lower 32 bits; "
+       "obstacle; number of the facet in its cell, -1 for a node; normal "
+       "displacement [m]; normal force [N]",
+       StaticFacets<dim>::n_columns,
+       [this, rows_of]() { return rows_of(facets_); },
+       [this](const std::vector<double> &rows) { facets_.restore(rows); }});
   }
 
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/key_halves.h>
 #include <talus/equilibrium/static_facets.h>
+#include <talus/grid/node_places.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -47,8 +49,9 @@ namespace talus
     if (problem.contact.obstacles().empty())
       return;
     problem.contact.find_constraints(problem.state);
-    const std::vector<ContactPoint> before = std::move(points_);
+    const Memories before = memories();
     points_.clear();
+    restored_.clear();
     n_facets_ = problem.contact.facets().owned().size();
     add_facets(problem, before, modulus);
     add_nodes_inside(problem, unknowns, before, modulus);
@@ -64,12 +67,48 @@ namespace talus
 
 
 
+  template <int dim>
+  std::vector<double>
+  StaticFacets<dim>::rows() const
+  {
+    if (!restored_.empty())
+      return restored_;
+    std::vector<double> rows;
+    for (const ContactPoint &point : points_)
+      if (point.opened != 0 || point.found.normal > 0)
+        {
+          rows.insert(rows.end(), point.name.begin(), point.name.end());
+          rows.insert(rows.end(), {point.opened, point.found.normal});
+        }
+    return rows;
+  }
+
+
+
+  /// By name: a resumed run begins as a load step after another one does.
+  template <int dim>
+  typename StaticFacets<dim>::Memories
+  StaticFacets<dim>::memories() const
+  {
+    Memories                  result;
+    const std::vector<double> rows = this->rows();
+    for (std::size_t r = 0; r < rows.size(); r += n_columns)
+      {
+        FacetName name;
+        std::copy_n(&rows[r], name.size(), name.begin());
+        result[name] = {rows[r + name.size()], rows[r + name.size() + 1]};
+      }
+    return result;
+  }
+
+
+
   /// All of them, those without soil, too, so that numbers stay as they are.
   template <int dim>
   void
-  StaticFacets<dim>::add_facets(const StaticProblem<dim>        &problem,
-                                const std::vector<ContactPoint> &before,
-                                const double                     modulus)
+  StaticFacets<dim>::add_facets(const StaticProblem<dim> &problem,
+                                const Memories           &before,
+                                const double              modulus)
   {
     const auto &facets = problem.contact.facets().owned();
     for (unsigned int k = 0; k < n_facets_; ++k)
@@ -77,6 +116,7 @@ namespace talus
         const auto  &constraint = problem.contact.constraints()[k];
         const auto  &impulse    = problem.contact.impulses()[k];
         ContactPoint point;
+        point.name   = name_of(facets[k]);
         point.node   = facets[k].node;
         point.share  = constraint.share;
         point.normal = facets[k].normal;
@@ -92,8 +132,9 @@ namespace talus
             point.largest_friction = obstacle.friction().limit_of_stress(
               facets[k].maximum_shear_stress, constraint.area);
             point.given = {impulse.normal, impulse.tangential};
-            if (before.size() > k && before[k].node == point.node)
-              point.opened = before[k].opened;
+            if (const auto memory = before.find(point.name);
+                memory != before.end())
+              point.opened = memory->second.opened;
             point.gap = std::max(0., constraint.gap + point.opened);
           }
         points_.push_back(point);
@@ -105,17 +146,19 @@ namespace talus
   /// As in the dynamics: these have no area, so they pass no friction.
   template <int dim>
   void
-  StaticFacets<dim>::add_nodes_inside(const StaticProblem<dim>        &problem,
-                                      const Unknowns<dim>             &unknowns,
-                                      const std::vector<ContactPoint> &before,
-                                      const double                     modulus)
+  StaticFacets<dim>::add_nodes_inside(const StaticProblem<dim> &problem,
+                                      const Unknowns<dim>      &unknowns,
+                                      const Memories           &before,
+                                      const double              modulus)
   {
-    const Grid<dim> &grid = problem.state.grid;
-    const double     h    = grid.finest_size();
+    const Grid<dim>                 &grid = problem.state.grid;
+    const double                     h    = grid.finest_size();
+    const std::vector<unsigned long> keys = keys_of_owned_nodes(grid);
     for (const auto &inside : problem.contact.facets().nodes_inside())
       {
-        ContactPoint       point;
-        const unsigned int k = points_.size();
+        ContactPoint point;
+        const auto [upper, lower] = halves_of_key(keys[inside.node]);
+        point.name = {{upper, lower, double(inside.obstacle), -1.}};
         point.node.fill(inside.node);
         point.share.fill(0.);
         point.share[0] = 1.;
@@ -125,10 +168,11 @@ namespace talus
           {
             point.stiffness =
               spring * modulus * unknowns.volume(inside.node) / (h * h);
-            if (before.size() > k && before[k].node == point.node)
+            if (const auto memory = before.find(point.name);
+                memory != before.end())
               {
-                point.given  = before[k].found;
-                point.opened = before[k].opened;
+                point.given.normal = memory->second.force;
+                point.opened       = memory->second.opened;
               }
             point.gap =
               std::max(0.,

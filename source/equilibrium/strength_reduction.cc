@@ -42,7 +42,7 @@ namespace talus
                   "stands, whose failure decides, has steps down to "
                   "'Equilibrium/Smallest load step'.",
                   this->prm,
-                  Patterns::Double(0., 1.));
+                  smallest_load_steps());
     add_parameter("Allowed imbalance",
                   allowed_imbalance_,
                   "Force out of balance over that of the loads or of the "
@@ -76,6 +76,13 @@ namespace talus
                        ", but 'Strength reduction/Largest factor' is ",
                        largest_,
                        ", which must be the larger one. Exchange the two.")));
+    AssertThrow(first_ <= largest_,
+                ExcUser(
+                  text("'Strength reduction/First factor' is ",
+                       first_,
+                       ", where at most 'Strength reduction/Largest factor' = ",
+                       largest_,
+                       " was expected. Correct one of the two.")));
   }
 
 

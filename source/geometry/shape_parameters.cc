@@ -201,6 +201,13 @@ namespace talus
   {
     if (extent_z_.empty())
       return {{domain.lower[dim - 1], domain.upper[dim - 1]}};
+    AssertThrow(dim == 3,
+                ExcUser(text(path("Extent in z"),
+                             " = '",
+                             extent_z_,
+                             "' is given, but the simulation is "
+                             "two-dimensional. Remove the entry, or set "
+                             "'Dimension' to 3.")));
     const auto z = Utilities::split_string_list(extent_z_, ',');
     AssertThrow(z.size() == 2 && Patterns::Double().match(z[0]) &&
                   Patterns::Double().match(z[1]),
@@ -260,7 +267,6 @@ namespace talus
   ShapeParameters<dim>::make_over(std::unique_ptr<Shape<2>> base,
                                   const Box<dim>           &domain) const
   {
-    // A malformed extent is an error in 2-D, too.
     const std::array<double, 2> z = extent_z(domain);
     if constexpr (dim == 2)
       return base;

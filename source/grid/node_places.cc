@@ -52,17 +52,15 @@ namespace talus
 
 
   // A place that is even along all axes lies in the lattice of the level above,
-  // too: the coarsest of these lattices names it.
+  // too: the coarsest of these lattices gives the key.
   template <int dim>
   std::vector<unsigned long>
-  keys_of_face_nodes(const Grid<dim> &grid)
+  keys_of_owned_nodes(const Grid<dim> &grid)
   {
     std::vector<unsigned long> keys(grid.n_owned_nodes());
     for_each_owned_corner(
       grid,
       [&](const unsigned int node, Lattice<dim> place, unsigned int level) {
-        if (grid.faces_of_node(node) == 0)
-          return;
         grid.periodicity().wrap(place, grid.extent_of_lattice(level));
         const auto is_even = [](const long i) { return i % 2 == 0; };
         for (; level > 0 && std::all_of(place.begin(), place.end(), is_even);
@@ -78,6 +76,6 @@ namespace talus
 
   template decltype(places_of_owned_nodes<2>) places_of_owned_nodes<2>;
   template decltype(places_of_owned_nodes<3>) places_of_owned_nodes<3>;
-  template decltype(keys_of_face_nodes<2>)    keys_of_face_nodes<2>;
-  template decltype(keys_of_face_nodes<3>)    keys_of_face_nodes<3>;
+  template decltype(keys_of_owned_nodes<2>)   keys_of_owned_nodes<2>;
+  template decltype(keys_of_owned_nodes<3>)   keys_of_owned_nodes<3>;
 } // namespace talus

@@ -102,7 +102,8 @@ namespace talus
 
   /// Under another name first, then renamed: rename() replaces a file at once,
   /// so a reader, and a run that is killed in between, find either the old file
-  /// or the whole new one. It is closed before it is looked at, since a full
+  /// or the whole new one. What has the other name goes: a link would lead to a
+  /// file of the user. It is closed before it is looked at, since a full
   /// disk may show only there.
   void
   write_file(const std::filesystem::path               &path,
@@ -112,6 +113,8 @@ namespace talus
     part += ".part";
     check_not_input(path);
     check_not_input(part);
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
     errno = 0;
     std::ofstream file(part, std::ios::binary);
     write(file);
@@ -119,7 +122,6 @@ namespace talus
     if (!file)
       {
         const std::string sentence = failed_write(path);
-        std::error_code   ignored;
         std::filesystem::remove(part, ignored);
         AssertThrow(false, ExcUser(sentence));
       }

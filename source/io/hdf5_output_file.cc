@@ -88,10 +88,15 @@ namespace talus
 
   /// The file must exist before its space can be reserved, and H5Fcreate() may
   /// be the first to fill the disk; so space for an empty file is reserved
-  /// before. If that fails the library never sees the file.
+  /// before. If that fails the library never sees the file. Whatever has the
+  /// name while the file is written goes: a link would lead to a file of the
+  /// user.
   void
   Hdf5OutputFile::create()
   {
+    std::error_code ignored;
+    if (is_first_rank_ && part_ != path())
+      std::filesystem::remove(part_, ignored);
     reserve(with_overhead(0));
     if (!error().empty())
       return;

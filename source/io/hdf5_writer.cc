@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/files.h>
+#include <talus/io/hdf5_errors.h>
+#include <talus/io/hdf5_handle.h>
 #include <talus/io/hdf5_output_file.h>
 #include <talus/io/hdf5_writer.h>
 
@@ -159,6 +161,18 @@ namespace talus
     AssertThrow(file.error().empty(),
                 ExcUser(failed_write(file.path(), file.error())));
     return {cells.time, base + ".h5", writer.description};
+  }
+
+
+
+  /// The library knows from the head of a file how long it must be.
+  bool
+  Hdf5Writer::is_complete(const std::filesystem::path &path) const
+  {
+    const Hdf5Errors not_printed;
+    const Hdf5Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT),
+                          H5Fclose);
+    return file.is_valid();
   }
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
+#include <talus/base/errors.h>
 #include <talus/io/log.h>
 
 #include <iostream>
@@ -42,5 +43,26 @@ namespace talus
     if (level == LogLevel::result ||
         (level == LogLevel::info && stdout_is_terminal()))
       std::cout << sentence << std::endl;
+  }
+
+
+
+  void
+  Log::remark(const std::string &sentence)
+  {
+    if (!is_first_rank(MPI_COMM_WORLD))
+      return;
+    ++n_remarks_;
+    say(LogLevel::result, text("Remark ", n_remarks_, ": ", sentence));
+  }
+
+
+
+  std::string
+  Log::count_of_remarks() const
+  {
+    return n_remarks_ == 0   ? ""
+           : n_remarks_ == 1 ? "1 remark"
+                             : text(n_remarks_, " remarks");
   }
 } // namespace talus

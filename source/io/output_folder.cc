@@ -44,19 +44,23 @@ namespace talus
 
 
 
-    /// The files in a folder that bear such names, with @p ending behind.
+    /// The files of this type in a folder, or what links lead to, that bear such
+    /// names, with @p ending behind.
     std::vector<fs::path>
-    outputs_in(const fs::path &folder, const std::string &ending = "")
+    outputs_in(const fs::path     &folder,
+               const std::string  &ending = "",
+               const fs::file_type type   = fs::file_type::regular)
     {
       std::vector<fs::path> result;
       for (const std::string within : {"", "maps/"})
         {
-          std::error_code error;
+          std::error_code error, ignored;
           for (fs::directory_iterator entry(folder / within, error), end;
                !error && entry != end;
                entry.increment(error))
             if (const std::string name = entry->path().filename().string();
-                entry->is_regular_file() && has_ending(name, ending) &&
+                entry->status(ignored).type() == type &&
+                has_ending(name, ending) &&
                 is_output_name(within +
                                name.substr(0, name.size() - ending.size())))
               result.push_back(entry->path());
@@ -148,9 +152,32 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// To open a pipe is to wait for who reads it.
+    std::string
+    pipe_of_others(const fs::path &folder)
+    {
+      const std::vector<fs::path> found =
+        outputs_in(folder, "", fs::file_type::fifo);
+      if (found.empty())
+        return "";
+      return text("The output folder '",
+                  folder.string(),
+                  "' holds a pipe '",
+                  found.front().string(),
+                  "', where the run writes a file of that name. Remove it, or "
+                  "choose another folder with Output/Folder or --output.");
+    }
+  } // namespace
+
+
+
   std::string
   foreign_file(const fs::path &folder, const Beginning beginning)
   {
+    if (const std::string sentence = pipe_of_others(folder); !sentence.empty())
+      return sentence;
     if (const std::string sentence = foreign_lock(folder); !sentence.empty())
       return sentence;
     // write_file() makes the file under another name first.

@@ -95,13 +95,14 @@ namespace talus
     if (entries_.empty())
       return {};
     const auto               writer = make_field_writer(format);
-    std::vector<std::string> names{writer->index_name(name)}, missing;
+    std::vector<std::string> missing;
+    if (!std::filesystem::exists(folder / writer->index_name(name)))
+      missing.push_back(writer->index_name(name));
     for (const IndexEntry &entry : entries_)
       for (const std::string &file : writer->files_of(folder, entry))
-        names.push_back(file);
-    for (const std::string &file : names)
-      if (!std::filesystem::exists(folder / file))
-        missing.push_back(file);
+        if (!std::filesystem::exists(folder / file) ||
+            !writer->is_complete(folder / file))
+          missing.push_back(file);
     return missing;
   }
 

@@ -230,6 +230,20 @@ namespace talus
 
 
 
+  /// By the tag that closes the whole.
+  bool
+  VtuWriter::is_complete(const std::filesystem::path &path) const
+  {
+    const std::string end = "</VTKFile>\n";
+    std::string       found(end.size(), ' ');
+    std::ifstream     file(path, std::ios::binary);
+    file.seekg(-static_cast<std::streamoff>(end.size()), std::ios::end);
+    file.read(found.data(), found.size());
+    return file && found == end;
+  }
+
+
+
   // deal.II's function of this kind writes the date into the file and keeps
   // only 12 digits of the times.
   std::filesystem::path

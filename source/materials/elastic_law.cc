@@ -7,6 +7,9 @@ namespace talus
   using dealii::ParameterAcceptor;
   using dealii::Patterns::Double;
 
+  // There K is 5e4 times mu, 1e3 times as much as with 0.49.
+  constexpr double largest_poisson_ratio = 0.49999;
+
   template <int dim>
   ElasticLaw<dim>::ElasticLaw(const std::string &section)
     : MaterialModel<dim>(section)
@@ -20,7 +23,7 @@ namespace talus
       "Poisson's ratio",
       poisson_ratio_,
       "Poisson's ratio nu for small strains [-]; more than -1 "
-      "and less than 0.5, which is incompressible and cannot "
+      "and at most 0.49999, as 0.5 is incompressible and cannot "
       "be reached. Undrained clay: 0.49.",
       ParameterAcceptor::prm,
       Double(-1., 0.5));
@@ -41,15 +44,19 @@ namespace talus
                              ": `Young's modulus` is ",
                              young_modulus_,
                              " Pa. Give a positive number.")));
-    AssertThrow(
-      poisson_ratio_ > -1. && poisson_ratio_ < 0.5,
-      ExcUser(text("Section ",
-                   this->section(),
-                   ": `Poisson's ratio` is ",
-                   poisson_ratio_,
-                   ", which makes an elastic modulus zero or infinite. Give a "
-                   "number between -1 and 0.5, both excluded; 0.49 for "
-                   "undrained clay.")));
+    AssertThrow(poisson_ratio_ > -1. && poisson_ratio_ <= largest_poisson_ratio,
+                ExcUser(text(
+                  std::setprecision(17),
+                  "Section ",
+                  this->section(),
+                  ": `Poisson's ratio` is ",
+                  poisson_ratio_,
+                  ", which makes an elastic modulus zero, infinite or so large "
+                  "that time steps become very short. Give a number above -1 "
+                  "and up to ",
+                  std::setprecision(6),
+                  largest_poisson_ratio,
+                  "; 0.49 for undrained clay.")));
   }
 
 

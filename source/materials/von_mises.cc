@@ -57,16 +57,26 @@ namespace talus
                    "unload elastically: give more than ",
                    -3. * mu,
                    " Pa (minus three times the shear modulus).")));
-    AssertThrow(this->has_strength_column() ||
-                  residual_strength_ <= this->strength(),
+    if (!this->has_strength_column())
+      check_strength({this->strength(), this->strength()});
+  }
+
+
+
+  template <int dim>
+  void
+  VonMises<dim>::check_strength(const StrengthRange &range) const
+  {
+    AssertThrow(residual_strength_ <= range.least,
                 ExcUser(text("Section ",
                              this->section(),
                              ": `Residual undrained shear strength` is ",
                              residual_strength_,
                              " Pa. It must not exceed `Undrained shear "
                              "strength`, which is ",
-                             this->strength(),
-                             " Pa.")));
+                             range.least,
+                             range.least < range.largest ? " Pa at a point."
+                                                         : " Pa.")));
   }
 
 

@@ -116,6 +116,18 @@ namespace talus
     AssertThrow(!folder_.empty(),
                 ExcUser("Output/Folder is empty, but the name of a folder is "
                         "expected. Name one there or with --output."));
+    AssertThrow(std::none_of(folder_.begin(),
+                             folder_.end(),
+                             [](const unsigned char c) {
+                               return c < ' ' || c == 127 || c == '#' ||
+                                      c == '{';
+                             }) &&
+                  folder_.back() != '\\',
+                ExcUser("The output folder '" + folder_ +
+                        "' has a name with a control character, as a line "
+                        "break, a '#', a '{' or a '\\' at its end, which "
+                        "parameters.prm cannot hold. Choose another name with "
+                        "Output/Folder or --output."));
     AssertThrow(local_damping == 0 || !settings_.write_runout,
                 ExcUser(text("'Damping/Local damping' is ",
                              local_damping,
@@ -372,14 +384,15 @@ namespace talus
   {
     const std::string missing = missing_files(communicator);
     const std::string sentence =
-      missing.empty() ? ""
-                      : text("The run is at its end, but '",
-                             folder_,
-                             "' lacks ",
-                             missing,
-                             ", which it wrote and somebody has removed. All "
-                             "else is complete. Put back what is missing, or "
-                             "start anew with --overwrite.");
+      missing.empty()
+        ? ""
+        : text("The run is at its end, but '",
+               folder_,
+               "' lacks ",
+               missing,
+               ", which it wrote and somebody has removed or "
+               "cut short. All else is complete. Put back what is missing, or "
+               "start anew with --overwrite.");
     const std::string first = first_sentence(sentence, communicator);
     AssertThrow(first.empty(), ExcUser(first));
   }

@@ -267,13 +267,14 @@ namespace talus
 
   namespace
   {
-    /// Empty if that is round-off. Volumes in m^dim.
+    /// Empty if it is less than a millionth: where a body lies on an obstacle,
+    /// the two surfaces differ by the error of their parts. Volumes in m^dim.
     template <int dim>
     std::string
     note_of_cut(const std::string &name, const double uncut, const double left)
     {
       const double lost = uncut - left;
-      if (lost <= 1e-9 * uncut)
+      if (lost <= 1e-6 * uncut)
         return "";
       return text(std::setprecision(6),
                   "The obstacles take ",

@@ -2,42 +2,11 @@
 #include <talus/base/errors.h>
 #include <talus/geometry/side_of_surface.h>
 #include <talus/problem/bottom_of_mesh.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
+#include <talus/problem/plan_places.h>
 
 namespace talus
 {
   using namespace dealii;
-
-  namespace
-  {
-    /// Centres of the cells of the bottom face.
-    template <int dim>
-    std::vector<Point<dim>>
-    places_on_bottom(const Box<dim> &domain, const double cell_size)
-    {
-      std::vector<Point<dim>> places = {domain.lower};
-      for (unsigned int d = 0; d < dim; d += 2)
-        {
-          std::vector<Point<dim>> row;
-          const unsigned int      n =
-            std::max(1., std::round(domain.length(d) / cell_size));
-          for (const Point<dim> &first : places)
-            for (unsigned int i = 0; i < n; ++i)
-              {
-                Point<dim> x = first;
-                x[d] += (i + 0.5) * domain.length(d) / n;
-                row.push_back(x);
-              }
-          places = row;
-        }
-      return places;
-    }
-  } // namespace
-
-
 
   // Without a word a run would end where the soil gets there, perhaps after
   // days. It need not get there, so this is no error.
@@ -54,7 +23,7 @@ namespace talus
           continue;
         double     depth = 0.; // of the surface below the bottom, m
         Point<dim> deepest;
-        for (const Point<dim> &x : places_on_bottom(domain, cell_size))
+        for (const Point<dim> &x : plan_places(domain, cell_size))
           if (obstacles.signed_distance(x) > 0.)
             {
               const auto [distance, normal] = shape.distance_and_normal(x);

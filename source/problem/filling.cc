@@ -24,6 +24,11 @@ namespace talus
     /// what lies between them there would be points of some grams.
     constexpr double round_off_fraction = 1e-5;
 
+    /// The same of what has no soil around that could take it: where the two
+    /// surfaces of a layer go on as one and are curved, the pockets between them
+    /// are as thick as the error of the parts, a thousandth of a box.
+    constexpr double error_fraction = 1e-3;
+
 
 
     /// Most cells of the mesh are far from the body, and are passed over at
@@ -500,7 +505,7 @@ namespace talus
               const double volume = parts[i].volume, whole = volume_of_box(c);
               if (std::abs(volume - whole) <= 1e-12 * whole)
                 result.push_back({centres[i], length});
-              else if (volume > 0.)
+              else if (volume > error_fraction * whole)
                 result.push_back({parts[i].centroid, lengths_of(parts[i])});
             }
         }

@@ -65,6 +65,14 @@ namespace talus
                         columns[across] +
                         "', but the simulation is two-dimensional. Remove the "
                         "column or set 'Dimension' to 3."));
+    AssertThrow(factor_ != 0. ||
+                  !(table_->has(horizontal) || table_->has(vertical) ||
+                    table_->has(across)),
+                ExcUser("'Ground motion/Factor' is 0, so that the "
+                        "accelerations of the table '" +
+                        path.string() +
+                        "' do nothing. Give another factor, or remove their "
+                        "columns."));
     // In the time of the run. A table that begins before the run may do so in
     // motion.
     const double begin = start_time_ + table_->first_time();

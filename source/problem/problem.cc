@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/contact/obstacle_remarks.h>
 #include <talus/contact/obstacle_sizes.h>
 #include <talus/problem/bottom_of_mesh.h>
 #include <talus/problem/geostatic.h>
+#include <talus/problem/layer_surfaces.h>
 #include <talus/problem/problem.h>
 #include <talus/problem/strength_field.h>
 #include <talus/transfer/send_to_owners.h>
 
 #include <algorithm>
+#include <iterator>
 
 namespace talus
 {
@@ -21,6 +24,7 @@ namespace talus
     : ParameterAcceptor("/")
     , folder_(preview.folder)
     , surfaces_(preview.surfaces)
+    , remarks_(preview.remarks)
     , materials(preview.materials)
     , seabed_coverage(boundaries)
     , seabed_gaps(boundaries)
@@ -112,10 +116,12 @@ namespace talus
         const InitialState<dim>  &initial  = bodies_[b]->initial_state();
         const unsigned int        begin    = points.size();
         initial.check(material);
-        const std::string note = bodies_[b]->create_points(
-          state.grid, b, material.density(), points, obstacles.shapes());
-        if (!note.empty())
-          notes_.push_back(note);
+        add_remarks(
+          {check_layer_surfaces(*bodies_[b],
+                                state.grid.domain_before_growth(),
+                                state.grid.cell_size()),
+           bodies_[b]->create_points(
+             state.grid, b, material.density(), points, obstacles.shapes())});
         // At t = 0; set_velocity() sets it anew where it belongs to half a step
         // before.
         initial.set_velocity(points, b, 0., constants_);
@@ -134,29 +140,61 @@ namespace talus
                            folder_,
                            state.grid.domain_before_growth(),
                            state.communicator());
-    const auto notes_on_stress =
+    add_remarks(
       set_geostatic_stress(points,
                            bodies_,
                            materials,
                            loading.share_of_gravity(0.) * loading.gravity(),
                            Ground<dim>(state.grid.domain(), &obstacles),
-                           state.communicator());
-    notes_.insert(notes_.end(), notes_on_stress.begin(), notes_on_stress.end());
-    const auto notes_on_sizes = check_obstacle_sizes(obstacles, state.grid);
-    notes_.insert(notes_.end(), notes_on_sizes.begin(), notes_on_sizes.end());
-    // Face 2 is the bottom, in both dimensions.
-    const std::string on_bottom =
-      boundaries.is_free(2) ? note_on_bottom(obstacles,
-                                             state.grid.domain_before_growth(),
-                                             state.grid.cell_size())
-                            : "";
-    if (!on_bottom.empty())
-      notes_.push_back(on_bottom);
+                           state.communicator()));
+    look_at_geometry(state);
     if (std::any_of(bodies_.begin(), bodies_.end(), [](const auto &body) {
           return body->initial_state().is_displaced() || body->is_clipped();
         }))
       send_points_to_owners(points, state.grid);
     trigger.choose_points(points, constants_, state.communicator());
+  }
+
+
+
+  /// Empty ones are left out.
+  template <int dim>
+  void
+  Problem<dim>::add_remarks(const std::vector<std::string> &remarks)
+  {
+    std::copy_if(remarks.begin(),
+                 remarks.end(),
+                 std::back_inserter(remarks_),
+                 [](const std::string &remark) { return !remark.empty(); });
+  }
+
+
+
+  /// Bodies and obstacles against each other and against the cells. Collective.
+  template <int dim>
+  void
+  Problem<dim>::look_at_geometry(const State<dim> &state)
+  {
+    const Box<dim> domain = state.grid.domain_before_growth();
+    add_remarks(check_obstacle_sizes(obstacles, state.grid));
+    add_remarks(notes_on_hidden_obstacles(obstacles, domain));
+    bool   has_strength = false;
+    double from = domain.upper[0], to = domain.lower[0]; // x of the soil
+    for (unsigned int b = 0; b < bodies_.size(); ++b)
+      {
+        has_strength |= materials.of_body(b).has_strength();
+        const Box<dim> box = bodies_[b]->bounding_box(domain);
+        from               = std::min(from, box.lower[0]);
+        to                 = std::max(to, box.upper[0]);
+      }
+    if (has_strength)
+      add_remarks(notes_on_uncapped_beds(obstacles));
+    add_remarks(surfaces_.notes_on_rising(from, to));
+    thickness_of_bodies_ = measure_thickness(state.points, bodies_, state.grid);
+    add_remarks(notes_on_thickness(thickness_of_bodies_));
+    // Face 2 is the bottom, in both dimensions.
+    if (boundaries.is_free(2))
+      add_remarks({note_on_bottom(obstacles, domain, state.grid.cell_size())});
   }
 
 
@@ -297,19 +335,29 @@ namespace talus
 
 
 
-  /// Sentences for the log. @p cell_size, m, since softening depends on it.
   template <int dim>
   std::vector<std::string>
-  Problem<dim>::notes(const double cell_size) const
+  Problem<dim>::facts() const
   {
-    std::vector<std::string> result      = materials.notes(cell_size);
-    const auto               of_surfaces = surfaces_.notes();
-    result.insert(result.end(), of_surfaces.begin(), of_surfaces.end());
-    result.insert(result.end(), notes_.begin(), notes_.end());
-    for (const std::string &note :
-         {water.note(materials, bodies_.size()), trigger.note()})
-      if (!note.empty())
-        result.push_back(note);
+    std::vector<std::string> result = surfaces_.notes();
+    if (const std::string note = trigger.note(); !note.empty())
+      result.push_back(note);
+    return result;
+  }
+
+
+
+  /// The cell size, as softening depends on it.
+  template <int dim>
+  std::vector<std::string>
+  Problem<dim>::remarks(const double cell_size) const
+  {
+    std::vector<std::string> result       = remarks_;
+    const auto               on_materials = materials.notes(cell_size);
+    result.insert(result.end(), on_materials.begin(), on_materials.end());
+    if (const std::string note = water.note(materials, bodies_.size());
+        !note.empty())
+      result.push_back(note);
     return result;
   }
 

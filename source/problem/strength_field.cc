@@ -160,9 +160,11 @@ namespace talus
               if (material.has_strength_column())
                 check_point(path, points.data(column)[p], x, depth);
             }
-        check_softening(path,
-                        material,
-                        materials.strength_range(points, b, communicator));
+        const StrengthRange range =
+          materials.strength_range(points, b, communicator);
+        if (material.has_strength_column())
+          material.check_strength(range);
+        check_softening(path, material, range);
       }
   }
 

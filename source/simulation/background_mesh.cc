@@ -61,16 +61,41 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Cells of a mesh that is as fine everywhere as its base level.
+    template <int dim>
+    double
+    n_cells_of_base_level(const Grid<dim> &grid)
+    {
+      double n_cells = 1;
+      for (const long n : grid.extent_of_lattice(grid.base_level()))
+        n_cells *= n;
+      return n_cells;
+    }
+  } // namespace
+
+
+
   /// Without points, which need cells to be put into. With mesh tracking the
   /// cells are fine where the bodies will be, known by their boxes.
   template <int dim>
   void
-  BackgroundMesh<dim>::create()
+  BackgroundMesh<dim>::create(Log &log)
   {
-    Grid<dim> &grid = state_.grid;
+    // Some seconds of one core.
+    constexpr double n_cells_that_take_long = 1e6;
+    Grid<dim>       &grid                   = state_.grid;
     grid.create(problem_.faces_that_may_move(),
                 mesh_tracking_.is_enabled(),
                 problem_.boundaries.periodic_axes());
+    const double n_cells = n_cells_of_base_level(grid);
+    if (!mesh_tracking_.is_enabled() && n_cells > n_cells_that_take_long)
+      log.say(LogLevel::result,
+              text(std::setprecision(3),
+                   "A mesh of at least ",
+                   n_cells,
+                   " cells is being made."));
     if (mesh_tracking_.is_enabled())
       mesh_tracking_.adapt(
         grid, problem_.bounding_boxes(grid.domain_before_growth()));
@@ -328,12 +353,9 @@ namespace talus
   std::string
   BackgroundMesh<dim>::description() const
   {
-    const Grid<dim> &grid    = state_.grid;
-    double           n_cells = 1;
-    for (const long n : grid.extent_of_lattice(grid.base_level()))
-      n_cells *= n;
-    // As many cells as the lattice of the base level has.
-    const bool is_uniform = (n_cells == grid.n_global_cells());
+    const Grid<dim> &grid = state_.grid;
+    const bool       is_uniform =
+      (n_cells_of_base_level(grid) == grid.n_global_cells());
     return text("The mesh fills (",
                 grid.domain().lower,
                 ") to (",

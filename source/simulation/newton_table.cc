@@ -21,7 +21,28 @@ namespace talus
   NewtonTable::begin(const std::filesystem::path &folder,
                      const Beginning              beginning)
   {
+    folder_ = folder;
     file_.open(folder / file_name, newton_columns, beginning);
+  }
+
+
+
+  std::uintmax_t
+  NewtonTable::length() const
+  {
+    return std::filesystem::file_size(folder_ / file_name);
+  }
+
+
+
+  /// As a run does that is resumed from a checkpoint with this length.
+  void
+  NewtonTable::cut(const std::uintmax_t length)
+  {
+    StateList list;
+    file_.list_state(file_name, list);
+    list.numbers().front().set(length);
+    begin(folder_, Beginning::resumed);
   }
 
 

@@ -10,6 +10,7 @@
 #include <talus/observers/footprint.h>
 #include <talus/observers/obstacle_forces.h>
 #include <talus/observers/obstacles_output.h>
+#include <talus/simulation/pace.h>
 #include <talus/simulation/simulation.h>
 #include <talus/simulation/split_limit_remark.h>
 #include <talus/version.h>
@@ -88,23 +89,23 @@ namespace talus
         (ratio >= 0.95 && ratio <= 1.05))
       return;
     has_noted_contact_area_ = true;
-    log_.say(LogLevel::info,
-             text(std::setprecision(4),
-                  "t = ",
-                  state_.time,
-                  " s: soil touches ",
-                  area.value,
-                  ' ',
-                  area.unit,
-                  " of the ",
-                  footprint.value,
-                  ' ',
-                  footprint.unit,
-                  " of ground under it, a ratio of ",
-                  ratio,
-                  " where 0.95 to 1.05 was expected. Soil is in the air there, "
-                  "or friction acts on a wrong area: look at the fields, and "
-                  "compare with smaller cells."));
+    log_.remark(
+      text(std::setprecision(4),
+           "At t = ",
+           state_.time,
+           " s soil touches ",
+           area.value,
+           ' ',
+           area.unit,
+           " of the ",
+           footprint.value,
+           ' ',
+           footprint.unit,
+           " of ground under it, a ratio of ",
+           ratio,
+           " where 0.95 to 1.05 was expected. Soil is in the air there, "
+           "or friction acts on a wrong area: look at the fields, and "
+           "compare with smaller cells."));
   }
 
 
@@ -116,7 +117,7 @@ namespace talus
   Simulation<dim>::set_up()
   {
     prepare();
-    mesh_.create();
+    mesh_.create(log_);
     create_points();
     mesh_.repartition();
     // What would stop the first step stops here, where nothing is written yet.
@@ -300,14 +301,16 @@ namespace talus
         const RunRequest request = scheme_.advance(end_time_, local_request());
         rest_.update(state_, problem_.time_of_last_change());
         if (output_.observe(state_, is_finished()))
-          note_time_step();
+          note_time_step(LogLevel::detail);
         if (handle_request(request))
           return false;
       }
     note_end();
     output_.check_complete(state_.communicator());
-    log_.say(LogLevel::info,
-             "A report of this run: talus-report " + output_.folder());
+    const std::string remarks = log_.count_of_remarks();
+    log_.say(remarks.empty() ? LogLevel::info : LogLevel::result,
+             "A report of this run: talus-report " + output_.folder() +
+               (remarks.empty() ? "" : " (" + remarks + ")"));
     return true;
   }
 
@@ -358,9 +361,13 @@ namespace talus
   void
   Simulation<dim>::note_end()
   {
-    if (const std::string sentence = rest_.sentence(state_.time, end_time_);
-        !sentence.empty())
+    const std::string sentence = rest_.sentence(state_.time, end_time_);
+    if (sentence.empty())
+      return;
+    if (rest_.is_at_rest())
       log_.say(LogLevel::result, sentence);
+    else
+      log_.remark(sentence);
   }
 
 
@@ -407,7 +414,7 @@ namespace talus
     if (is_resumed)
       note_resume();
     else
-      note_start();
+      note_start(LogLevel::info);
     // The checkpoint of a run that was finished must not look finished now.
     if (is_resumed && resumed_from_.head.time >= resumed_from_.head.end_time)
       write_checkpoint();
@@ -459,29 +466,72 @@ namespace talus
 
 
 
-  /// To the log: title, mesh, what to know of materials, K0 and trigger, time
-  /// step.
+  /// Title, mesh, what follows from the parameters, remarks, time step.
   template <int dim>
   void
-  Simulation<dim>::note_start()
+  Simulation<dim>::note_start(const LogLevel level)
   {
     if (!title_.empty())
-      log_.say(LogLevel::info, title_);
-    log_.say(LogLevel::info, mesh_.description());
-    for (const std::string &note : problem_.notes(state_.grid.cell_size()))
-      log_.say(LogLevel::info, note);
-    note_time_step();
+      log_.say(level, title_);
+    log_.say(level, mesh_.description());
+    for (const std::string &fact : problem_.facts())
+      log_.say(level, fact);
+    for (const std::string &remark : problem_.remarks(state_.grid.cell_size()))
+      log_.remark(remark);
+    note_time_step(level);
   }
 
 
 
-  /// At the start for the terminal, too; later for the file only.
   template <int dim>
   void
-  Simulation<dim>::note_time_step()
+  Simulation<dim>::note_time_step(const LogLevel level)
   {
-    const std::string sentence = scheme_.description() + mesh_.history();
-    log_.say(state_.step == 0 ? LogLevel::info : LogLevel::detail, sentence);
+    log_.say(level, scheme_.description() + mesh_.history());
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::forecast()
+  {
+    if (beginning() == Beginning::resumed)
+      note_resume();
+    else
+      note_start(LogLevel::result);
+    const std::vector<BodyThickness> &bodies = problem_.thickness_of_bodies();
+    if (const auto thinnest =
+          std::min_element(bodies.begin(),
+                           bodies.end(),
+                           [](const auto &a, const auto &b) {
+                             return a.n_cells < b.n_cells;
+                           });
+        thinnest != bodies.end())
+      log_.say(LogLevel::result,
+               text(std::setprecision(3),
+                    "The thinnest body, '",
+                    thinnest->body,
+                    "', is ",
+                    thinnest->n_cells,
+                    " cells of ",
+                    thinnest->cell_size,
+                    " m thick where it is thickest."));
+    if (!static_stages_.stages().contain(Stage::dynamics) ||
+        state_.time >= end_time_)
+      return;
+    const double n_steps =
+      (end_time_ - state_.time) / scheme_.stable_time_step();
+    const double n_points =
+      Utilities::MPI::sum(1. * state_.points.size(), state_.communicator());
+    const Pace pace = measure_pace(
+      [&]() {
+        advance();
+        return state_.time < end_time_;
+      },
+      state_.communicator());
+    log_.say(LogLevel::result,
+             estimate(pace, n_steps, n_points, state_.communicator()));
   }
 
 
@@ -495,19 +545,18 @@ namespace talus
   {
     const CheckpointHead &head = resumed_from_.head;
     for (const std::string &error : resumed_from_.errors)
-      log_.say(LogLevel::result,
-               error + " The run goes on from the one before.");
+      log_.remark(error + " The run goes on from the one before.");
     if (const std::string missing =
           output_.missing_files(state_.communicator());
         !missing.empty())
-      log_.say(
-        LogLevel::result,
+      log_.remark(
         text("The folder '",
              output_.folder(),
              "' lacks ",
              missing,
-             ", which the run wrote before and somebody has removed. The "
-             "run goes on, and ends with an error unless what is missing "
+             ", which the run wrote before and somebody has removed or "
+             "cut short. The run goes on, and ends with an error unless what "
+             "is missing "
              "is put back."));
     std::string sentence = text("Resumed at t = ",
                                 state_.time,
@@ -523,7 +572,7 @@ namespace talus
                        head.revision,
                        "', another one than this.");
     log_.say(LogLevel::info, sentence);
-    note_time_step();
+    note_time_step(state_.step == 0 ? LogLevel::info : LogLevel::detail);
   }
 
 
@@ -536,6 +585,7 @@ namespace talus
   Simulation<dim>::list_state()
   {
     StateList list;
+    log_.list_state(list);
     list.add("contact area remark",
              "-",
              has_noted_contact_area_,
@@ -596,7 +646,10 @@ namespace talus
                     : ", after a signal to another rank",
                   "; the state is in '",
                   path.string(),
-                  "'. Go on with the same command and --resume."));
+                  "'. Go on with the same command and --resume.",
+                  log_.count_of_remarks().empty()
+                    ? ""
+                    : " (" + log_.count_of_remarks() + ")"));
     return true;
   }
 

@@ -33,8 +33,7 @@ namespace talus
     if (unsplit.at_generation_limit + unsplit.at_mesh_limit == 0)
       return;
     is_written_ = true;
-    log_.say(
-      LogLevel::info,
+    log_.remark(
       text("At t = ",
            state.time,
            " s points are stretched too far and cannot be split, so "

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
+#include <talus/base/interrupt.h>
 #include <talus/simulation/static_solver.h>
 #include <talus/transfer/send_to_owners.h>
+
+#include <deal.II/base/mpi.h>
 
 #include <iomanip>
 
@@ -43,6 +46,17 @@ namespace talus
   {
     return is_first_rank(state_.communicator()) ? table_.cannot_resume(folder)
                                                 : std::string();
+  }
+
+
+
+  template <int dim>
+  void
+  StaticSolver<dim>::begin_stage()
+  {
+    equilibrium_.forget_well_balanced_load();
+    if (is_first_rank(state_.communicator()))
+      n_table_bytes_ = table_.length();
   }
 
 
@@ -147,15 +161,16 @@ namespace talus
   {
     StaticProblem<dim> now = problem();
     return equilibrium_.advance(now, [&](const auto &progress) {
-      observe(progress, label, note);
+      return observe(progress, label, note);
     });
   }
 
 
 
   /// Each iteration to newton.csv; those of the last try of a step to @p note.
+  /// Returns false after a signal, which may come to some ranks only.
   template <int dim>
-  void
+  bool
   StaticSolver<dim>::observe(const EquilibriumProgress &progress,
                              const Label               &label,
                              StepNote                  &note)
@@ -169,6 +184,8 @@ namespace talus
     note.residuals.push_back(progress.iteration.residual);
     note.n_linear_iterations += progress.iteration.n_linear_iterations;
     note.seconds += progress.iteration.seconds;
+    return !Utilities::MPI::logical_or(!remembered_signal().empty(),
+                                       state_.communicator());
   }
 
 
@@ -248,7 +265,7 @@ namespace talus
       std::copy(saved.columns[i].begin(),
                 saved.columns[i].end(),
                 points.data(i));
-    equilibrium_.set_contact(saved.contact);
+    equilibrium_.contact() = saved.contact;
     problem_.contact.restore(saved.facet_forces);
   }
 
@@ -268,6 +285,21 @@ namespace talus
     mesh_.insert_points();
     mesh_.adapt();
     equilibrium_.forget_well_balanced_load();
+  }
+
+
+
+  /// With small strain points have not moved, and stay in their order.
+  template <int dim>
+  void
+  StaticSolver<dim>::undo_stage(const Saved &saved)
+  {
+    if (equilibrium_.measure() == StrainMeasure::large)
+      bring_back(saved);
+    else
+      restore(saved);
+    if (is_first_rank(state_.communicator()))
+      table_.cut(n_table_bytes_);
   }
 
 

@@ -55,19 +55,40 @@ namespace talus
   void
   StaticStages<dim>::run_next()
   {
+    const auto before = solver_.save();
     solver_.begin_stage();
     if (stages_.next() == Stage::equilibrium)
-      find_equilibrium();
+      find_equilibrium(before);
     else
-      reduce_strength();
-    if (stages_.next_is_last_static())
+      reduce_strength(before);
+    if (!solver_.is_stopped() && stages_.next_is_last_static())
       let_weight_act();
     state_.workspace.clear();
-    stages_.count_one();
+    if (solver_.is_stopped())
+      undo_stage(before);
+    else
+      stages_.count_one();
   }
 
 
 
+  /// A stage cannot be resumed in the middle: its searches are a chain of states
+  /// that no checkpoint has.
+  template <int dim>
+  void
+  StaticStages<dim>::undo_stage(const typename StaticSolver<dim>::Saved &before)
+  {
+    solver_.undo_stage(before);
+    if (strength_reduction_.includes_seabed())
+      problem_.scale_seabed_strength(1. / standing_factor_);
+    log_.say(LogLevel::result,
+             "The stage was stopped by a signal: a resumed run begins it "
+             "anew.");
+  }
+
+
+
+  /// The strength reduction goes on with the contact of the stage before it.
   template <int dim>
   void
   StaticStages<dim>::list_state(StateList &list)
@@ -75,6 +96,8 @@ namespace talus
     stages_.list_state(list);
     list.add("standing factor", "-", standing_factor_, Reduction::equal);
     solver_.list_state(list);
+    if (stages_.contain(Stage::strength_reduction))
+      solver_.list_contact(list, [this]() { return stages_.next_is_static(); });
   }
 
 
@@ -114,23 +137,23 @@ namespace talus
 
 
   /// Soil that finds no balance ends the run, unless the strength reduction
-  /// that follows can tell how much it lacks: only then is the state without
-  /// loads kept.
+  /// that follows can tell how much it lacks. @p before is the state without
+  /// loads.
   template <int dim>
   void
-  StaticStages<dim>::find_equilibrium()
+  StaticStages<dim>::find_equilibrium(
+    const typename StaticSolver<dim>::Saved &before)
   {
     log_.say(LogLevel::result, "Stage 'equilibrium':");
-    const bool may_strengthen = stages_.contain(Stage::strength_reduction);
-    typename StaticSolver<dim>::Saved before;
-    if (may_strengthen)
-      before = solver_.save();
-    if (!solver_.find(equilibrium().measure(), label(1.)))
+    if (!solver_.find(equilibrium().measure(), label(1.)) &&
+        !solver_.is_stopped())
       {
-        if (!may_strengthen)
+        if (!stages_.contain(Stage::strength_reduction))
           throw_no_equilibrium(solver_.no_equilibrium());
         find_equilibrium_with_more_strength(before);
       }
+    if (solver_.is_stopped())
+      return;
     const auto [largest, place] =
       equilibrium().newton().equations().largest_imbalance();
     log_.say(LogLevel::result,
@@ -148,6 +171,10 @@ namespace talus
                   " N, at ",
                   place,
                   "."));
+    if (equilibrium().newton().equations().reference_force() == 0.)
+      log_.remark("The stage 'equilibrium' had nothing to balance: neither "
+                  "gravity, 'Gravity/Magnitude', nor another load acts on the "
+                  "soil, and it has no stress.");
     tell_of_well_balanced_load();
   }
 
@@ -199,16 +226,16 @@ namespace talus
                     "of the well-balanced load; balance was found in ",
                     equilibrium().n_steps(),
                     " steps."));
-    else
+    else if (!solver_.is_stopped())
       {
         solver_.restore(before);
-        log_.say(LogLevel::result,
-                 "Note: the dynamics takes the weight without the correction "
-                 "of the well-balanced load, for which no balance was found. " +
-                   equilibrium().failure() +
-                   ". It starts from the balance with the correction, so that "
-                   "soil in cells that are not full may move a little in the "
-                   "first seconds.");
+        log_.remark(
+          "The dynamics takes the weight without the correction "
+          "of the well-balanced load, for which no balance was found. " +
+          equilibrium().failure() +
+          ". It starts from the balance with the correction, so that "
+          "soil in cells that are not full may move a little in the "
+          "first seconds.");
       }
   }
 
@@ -293,6 +320,8 @@ namespace talus
         divide_strength(factor);
         const bool stands =
           solver_.find(measure_of_stronger_soil(), label(factor));
+        if (solver_.is_stopped())
+          return;
         strength_reduction_.record(factor, stands);
         log_.say(LogLevel::result,
                  text(std::setprecision(6),
@@ -306,27 +335,52 @@ namespace talus
 
 
 
-  /// Every trial goes on from the largest factor with which the soil stood.
-  /// What stood is the better start: less is put out of balance than from full
-  /// strength, and the search costs less. But the result must not depend on the
-  /// way, hence the second look that StrengthReduction takes at its upper end.
-  /// Afterwards soil and seabed are as before the stage. Collective.
+  /// Afterwards soil and seabed are as @p before, in the state at the beginning
+  /// of the stage. Collective.
   template <int dim>
   void
-  StaticStages<dim>::reduce_strength()
+  StaticStages<dim>::reduce_strength(
+    const typename StaticSolver<dim>::Saved &before)
   {
     log_.say(LogLevel::result, "Stage 'strength reduction':");
-    const auto before = solver_.save();
     strength_reduction_.begin(
       problem_.materials.largest_strength_factor(state_.points,
                                                  state_.communicator()));
     if (stages_.contain(Stage::equilibrium))
       start_reduction();
+    search_factor();
+    if (solver_.is_stopped())
+      return;
+    solver_.restore(before);
+    problem_.scale_seabed_strength(
+      strength_reduction_.includes_seabed() ? 1. / standing_factor_ : 1.);
+    log_.say(LogLevel::result, strength_reduction_.result());
+    if (!stages_.contain(Stage::equilibrium) ||
+        equilibrium().measure() == StrainMeasure::large)
+      tell_of_well_balanced_load();
+    if (const std::string note = failure_depth_.note(state_, problem_);
+        !note.empty())
+      log_.say(LogLevel::result, note);
+  }
+
+
+
+  /// Every trial goes on from the largest factor with which the soil stood.
+  /// What stood is the better start: less is put out of balance than from full
+  /// strength, and the search costs less. But the result must not depend on the
+  /// way, hence the second look that StrengthReduction takes at its upper end.
+  /// A signal ends the search, also before it begins.
+  template <int dim>
+  void
+  StaticStages<dim>::search_factor()
+  {
     auto state = solver_.save();
-    while (!strength_reduction_.is_done())
+    while (!solver_.is_stopped() && !strength_reduction_.is_done())
       {
         const double factor = strength_reduction_.next();
         const bool   stands = stands_with(factor);
+        if (solver_.is_stopped())
+          return;
         strength_reduction_.record(factor, stands);
         log_.say(
           LogLevel::result,
@@ -347,16 +401,6 @@ namespace talus
           }
         solver_.restore(state);
       }
-    solver_.restore(before);
-    problem_.scale_seabed_strength(
-      strength_reduction_.includes_seabed() ? 1. / standing_factor_ : 1.);
-    log_.say(LogLevel::result, strength_reduction_.result());
-    if (!stages_.contain(Stage::equilibrium) ||
-        equilibrium().measure() == StrainMeasure::large)
-      tell_of_well_balanced_load();
-    if (const std::string note = failure_depth_.note(state_, problem_);
-        !note.empty())
-      log_.say(LogLevel::result, note);
   }
 
 
@@ -369,7 +413,7 @@ namespace talus
   {
     strength_reduction_.record(standing_factor_, true);
     AssertThrow(
-      stands_with(standing_factor_),
+      stands_with(standing_factor_) || solver_.is_stopped(),
       ExcUser(text(
         "The stage 'strength reduction' starts from soil that is out of "
         "balance by its measure, which is small strain, so that there is no "

@@ -58,6 +58,19 @@ namespace talus
         }
       return half;
     }
+
+
+
+    /// Upper bound of the largest (omega h/c)^2 at a free surface just beyond a
+    /// face of the cells, for boxes of the half length h/@p beta
+    /// (doc/method.md, section 8).
+    template <typename Number>
+    TALUS_ALWAYS_INLINE Number
+    eigenvalue_at_surface(const Number &beta)
+    {
+      const Number half = 0.5 * beta;
+      return 2. + half + sqrt((2. - half) * (2. - half) + 6.);
+    }
   } // namespace
 
 
@@ -69,7 +82,10 @@ namespace talus
     add_parameter("CFL number",
                   cfl_number_,
                   "Share of a cell that the fastest wave, carried by the "
-                  "fastest point, may cross in a step [-].",
+                  "fastest point, may cross in a step [-]. Soil with a free "
+                  "surface is stable up to 0.6 with one box per cell and axis, "
+                  "0.56 with two, 0.47 with four and 0.43 with the thinnest "
+                  "boxes; steps are not longer than that, and log.txt says so.",
                   this->prm,
                   Patterns::Double(1e-6, 1.));
     add_parameter(
@@ -94,7 +110,7 @@ namespace talus
   // each is enough.
   template <int dim>
   template <typename Number>
-  TALUS_ALWAYS_INLINE std::array<Number, 2>
+  TALUS_ALWAYS_INLINE std::array<Number, 3>
   TimeStep<dim>::inverse_squares(const PointsView<dim, const double> &points,
                                  const BoxShape                      &shape,
                                  const unsigned int                   p,
@@ -103,7 +119,7 @@ namespace talus
   {
     const auto half_widths =
       half_widths_in_cells<dim>(points, shape, p, inverse_cell_size);
-    Number speed_square(0.), numerator(0.), product(1.);
+    Number speed_square(0.), numerator(0.), product(1.), thinnest(1.);
     for (unsigned int d = 0; d < dim; ++d)
       {
         const Number v = load<Number>(points.data(points.velocity, d) + p);
@@ -111,6 +127,7 @@ namespace talus
         const Number &half = half_widths[d];
         numerator          = numerator * half + product;
         product *= half;
+        thinnest = min(thinnest, half);
       }
     const auto   mass     = load<Number>(points.data(points.mass) + p);
     const Number fraction = wave_modulus *
@@ -122,7 +139,8 @@ namespace talus
     return {
       {(wave_square + speed_square + 2. * sqrt(wave_square * speed_square)) *
          (h_square * (by_cfl * by_cfl)),
-       fraction * numerator * (h_square * (by_box * by_box))}};
+       fraction * numerator * (h_square * (by_box * by_box)),
+       0.5 * wave_square * h_square * eigenvalue_at_surface(1. / thinnest)}};
   }
 
 
@@ -287,6 +305,11 @@ namespace talus
                             const Materials<dim> &materials,
                             const BoxShape       &shape) const
   {
+    const std::array<const char *, 3> reasons = {
+      {"the wave and flow speed at point ",
+       "the thin box of point ",
+       "the stability of free surfaces, below 'Time step/CFL number', at the "
+       "box of point "}};
     double      largest = 0;
     std::string reason;
     for (const Segment &segment : points.segments())
@@ -301,12 +324,12 @@ namespace talus
                                     p,
                                     modulus,
                                     1. / grid.cells()[segment.cell].size);
-          const unsigned int which = (bounds[0] >= bounds[1] ? 0 : 1);
+          const unsigned int which =
+            std::max_element(bounds.begin(), bounds.end()) - bounds.begin();
           if (bounds[which] <= largest)
             continue;
           largest = bounds[which];
-          reason  = text(which == 0 ? "the wave and flow speed at point "
-                                   : "the thin box of point ",
+          reason  = text(reasons[which],
                         points.data(points.id)[p],
                         " (wave speed ",
                         std::setprecision(6),

@@ -3,6 +3,7 @@
 #include <talus/geometry/outline_surface.h>
 #include <talus/geometry/terrain.h>
 #include <talus/io/files.h>
+#include <talus/io/geojson.h>
 #include <talus/io/map_projection.h>
 #include <talus/io/raster_file.h>
 #include <talus/terrain/named_surface.h>
@@ -10,6 +11,10 @@
 #include <talus/terrain/project_raster.h>
 
 #include <deal.II/base/utilities.h>
+
+#include <boost/geometry.hpp>
+#include <boost/geometry/geometries/linestring.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
 
 namespace talus
 {
@@ -26,7 +31,8 @@ namespace talus
                   "ASCII grid, netCDF-4 (GEBCO, GMT) or, if talus was built "
                   "with GDAL, GeoTIFF; in metres, or in degrees with a "
                   "`Projection`. In 3-D x is the easting and -z "
-                  "the northing, from 'Grid/Origin' on.");
+                  "the northing, from 'Grid/Origin' on. Or, 3-D only, the "
+                  "polygon of a GeoJSON file (.geojson), as an `Outline`.");
     add_parameter("Projection",
                   projection_,
                   "Of a raster in degrees (WGS 84): the map in metres that it "
@@ -75,6 +81,40 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Throw ExcUser if the line through @p corners in the plan turns back or
+    /// meets itself: then two places x of the section lie at one of the map.
+    void
+    check_section(const std::string &path, const std::vector<Point<2>> &corners)
+    {
+      using Corner = boost::geometry::model::d2::point_xy<double>;
+      boost::geometry::model::linestring<Corner> line;
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        {
+          line.emplace_back(corners[i][0], corners[i][1]);
+          AssertThrow(i < 2 || (corners[i] - corners[i - 1]) *
+                                   (corners[i - 1] - corners[i - 2]) >=
+                                 0.,
+                      ExcUser(text(path,
+                                   " turns back at its corner ",
+                                   i,
+                                   ", (",
+                                   corners[i - 1],
+                                   ") m, by more than 90 degrees, where a line "
+                                   "that goes on was expected. Correct the "
+                                   "corners or their order.")));
+        }
+      AssertThrow(boost::geometry::is_simple(line),
+                  ExcUser(text(path,
+                               " crosses or touches itself, where a line that "
+                               "goes on was expected. Correct the corners or "
+                               "their order.")));
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::vector<Point<2>>
   NamedSurface<dim>::section() const
@@ -111,6 +151,8 @@ namespace talus
                              file_,
                              "' is cut along one. Give two corners or more, as "
                              "easting,northing; easting,northing.")));
+    if (dim == 2)
+      check_section(path("Section"), corners);
     return corners;
   }
 
@@ -198,6 +240,52 @@ namespace talus
 
 
 
+  template <>
+  std::shared_ptr<const Surface<2>>
+  NamedSurface<2>::read_outline_file(const std::filesystem::path & /*file*/,
+                                     const Point<3> & /*origin*/) const
+  {
+    AssertThrow(false,
+                ExcUser(text(path("File"),
+                             " is the outline of an area in plan, but the "
+                             "simulation is two-dimensional. Limit the surface "
+                             "by an expression in x.")));
+    return nullptr;
+  }
+
+
+
+  template <>
+  std::shared_ptr<const Surface<3>>
+  NamedSurface<3>::read_outline_file(const std::filesystem::path &file,
+                                     const Point<3>              &origin) const
+  {
+    protect_input(file);
+    GeojsonPolygon polygon = read_geojson_polygon(file);
+    AssertThrow(polygon.is_in_degrees != projection_.empty(),
+                ExcUser(
+                  text("The outline '",
+                       file_,
+                       polygon.is_in_degrees
+                         ? "' is in degrees. Say to which map it is to be "
+                           "brought: "
+                         : "' is on a map in metres. Remove ",
+                       path("Projection"),
+                       polygon.is_in_degrees ? ", such as UTM 33N." : ".")));
+    if (polygon.is_in_degrees)
+      {
+        const MapProjection map(path("Projection"), projection_);
+        for (Point<2> &corner : polygon.corners)
+          corner = map.forward(corner);
+      }
+    for (Point<2> &corner : polygon.corners)
+      corner = Point<2>(corner[0] - origin[0], origin[1] - corner[1]);
+    return std::make_shared<OutlineSurface>("The outline '" + file_ + "'",
+                                            polygon.corners);
+  }
+
+
+
   template <int dim>
   void
   NamedSurface<dim>::check_entries() const
@@ -228,6 +316,8 @@ namespace talus
   {
     if (!outline_.empty())
       return read_outline(origin);
+    if (is_geojson(file_))
+      return read_outline_file(file(folder), origin);
     const auto corners = section();
     Raster     raster  = read_file(file(folder));
     return std::make_shared<Terrain<dim>>(std::make_shared<const HeightField>(

@@ -154,6 +154,46 @@ namespace talus
 
 
   template <int dim>
+  std::vector<std::string>
+  Surfaces<dim>::notes_on_rising(const double from, const double to) const
+  {
+    std::vector<std::string> result;
+    for (std::size_t k = 0; dim == 2 && k < named_.size(); ++k)
+      {
+        const Surface<dim> &surface = *surfaces_[k].second;
+        Point<dim>          begin, end;
+        begin[0] = from;
+        end[0]   = to;
+        if (!named_[k]->has_file() || !surface.is_known_at(begin) ||
+            !surface.is_known_at(end))
+          continue;
+        const double first = surface.at(begin).height,
+                     last  = surface.at(end).height;
+        // Less than one in a hundred is flat.
+        if (last - first > 0.01 * (to - from))
+          result.push_back(
+            text(std::setprecision(6),
+                 "The surface '",
+                 named_[k]->name(),
+                 "' rises along its section, from ",
+                 first,
+                 " m at x = ",
+                 from,
+                 " m to ",
+                 last,
+                 " m at x = ",
+                 to,
+                 " m, where the soil lies, so that soil slides towards smaller "
+                 "x. If that is not meant, list the corners of ",
+                 named_[k]->path("Section"),
+                 " in the other order."));
+      }
+    return result;
+  }
+
+
+
+  template <int dim>
   void
   Surfaces<dim>::list_state(StateList &list) const
   {

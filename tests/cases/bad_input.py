@@ -49,6 +49,27 @@ class BadInput(Case):
         self.refuse("set Poisson's ratio = 0.3", "set Poisson's ratio = 0.5",
                     "0.5", "Poisson's ratio")
 
+    def test_nearly_incompressible(self):
+        for nu in ("0.49999999999999994", "0.499991", "0.5", "-1"):
+            self.refuse_set([f"Materials/clay/Poisson's ratio={nu}"],
+                            nu, "Poisson's ratio", "up to 0.49999")
+
+    def test_first_factor_above_the_largest(self):
+        self.refuse(
+            "linear elastic", "von Mises\nend\nend\n"
+            "set Stages = equilibrium, strength reduction\n"
+            "subsection Strength reduction\n set First factor = 5\n"
+            " set Largest factor = 2\nend\n"
+            "subsection Materials\n subsection clay",
+            "'Strength reduction/First factor' is 5", "= 2")
+
+    def test_extent_in_z_of_two_dimensions(self):
+        for shape in ("polygon", "cylinder"):
+            self.refuse_set([f"Bodies/block/Shape={shape}", "Bodies/block/Centre=2,2",
+                             "Bodies/block/Vertices=1,1; 2,1; 2,2",
+                             "Bodies/block/Extent in z=0,1"],
+                            "'Bodies/block/Extent in z' = '0,1'", "two-dimensional")
+
     def test_too_small_a_number(self):
         self.refuse_set(["Mesh tracking/Margin=1"],
                         "'Margin'", "'1'", "a whole number of at least 4")
@@ -86,7 +107,60 @@ class BadInput(Case):
 
     def test_subsection_not_closed(self):
         self.refuse("set Bottom = roller\nend\n", "set Bottom = roller\n",
-                    "case.prm", "'subsection'", "'end'")
+                    "case.prm, line 29: 'subsection Boundaries'", "'end'")
+        self.refuse("  set Cell size    = 1\nend", "  set Cell size    = 1",
+                    "case.prm, line 3: 'subsection Grid'", "'end'")
+        self.refuse("set Bottom = roller\nend\n", "set Bottom = roller\nend\nend\n",
+                    "case.prm, line 32: 'end'", "no 'subsection' is open")
+
+    def test_entry_without_equals(self):
+        self.refuse("set Bottom = roller", "set Bottom roller",
+                    "case.prm, line 30: 'set Bottom roller'", "the '='")
+
+    def test_words_behind_end(self):
+        self.refuse("  set Cell size    = 1\nend", "  set Cell size    = 1\nend Grid",
+                    "case.prm, line 7: 'end Grid'", "alone")
+
+    def test_backslash_at_the_end_of_a_setting(self):
+        for value in ("clay\\", "clay\\ "):
+            self.refuse_set([f"Bodies/block/Material={value}"],
+                            "--set 'Bodies/block/Material'", "backslash", "one line")
+
+    def test_braces(self):
+        """deal.II takes them for a list of variants, and ignores the value."""
+        for path, value in (("Gravity/Slope angle", "{8}"), ("End time", "${T}"),
+                            ("Title", "{title}"), ("Dimension", "{3}"),
+                            ("Bodies/Names", "{block}"),
+                            ("Materials/clay/Law", "{linear elastic}")):
+            entry = path.split("/")[-1]
+            self.refuse_set([f"{path}={value}"], f"--set {path}={value}: '{entry}'",
+                            "without '{'", "template")
+        self.refuse("set Cell size    = 1", "set Cell size = {1}",
+                    "case.prm, line 6: 'Cell size' is '{1}'")
+        self.refuse("set Cell size    = 1", "set Cell \\\n size = \\\n {1}",
+                    "case.prm, line 8: 'Cell size' is '{1}'")
+        (self.folder / "part.prm").write_text("# {x}\nset End time = {0.1}")
+        self.refuse("set End time = 0.01", "include part.prm",
+                    "part.prm, line 2: 'End time' is '{0.1}'")
+        # In a comment they mean nothing.
+        result = self.run_file(GOOD.replace("roller", "roller # or {seabed}"))
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_control_characters(self):
+        self.refuse("set End time = 0.01", "set End time = 0.01\nset Title = \x1b[31m",
+                    "case.prm, line 2: a control character (number 27)")
+        self.refuse_set(["Grid/\x1b[31m=1"], "--set Grid/\\x1b[31m=1: a control")
+
+    def test_section_of_the_names_is_misspelt(self):
+        self.refuse("subsection Materials", "subsection Material",
+                    "case.prm, line 19", "no section 'Material'")
+        self.refuse("subsection Bodies", "subsection Body",
+                    "case.prm, line 9", "no section 'Body'")
+
+    def test_body_of_the_name_of_the_list(self):
+        self.refuse("set Names = block\n  subsection block",
+                    "set Names = Names\n  subsection Names",
+                    "'Bodies/Names = Names'", "Choose another name")
 
     def test_line_that_is_no_parameter(self):
         self.refuse("set Bottom = roller", "Bottom: roller",
@@ -97,7 +171,10 @@ class BadInput(Case):
                     "block", "sand", "clay")
 
     def test_empty_names(self):
-        self.refuse("set Names = block", "set Names =", "Bodies/Names", "name")
+        self.refuse("set Names = block", "set Names =", "line 11", "Bodies/Names")
+        without = GOOD[:GOOD.index("subsection Materials")]
+        self.assert_refused(self.run_file(without), "'Materials/Names' is empty",
+                            "at least one name")
 
     def test_names_twice(self):
         self.refuse("set Names = clay", "set Names = clay, clay",
@@ -145,6 +222,20 @@ class BadInput(Case):
             " set Largest factor = 2\nend\n"
             "subsection Materials\n subsection clay",
             "'Strength reduction/Smallest factor' is 5", "2", "Exchange")
+
+    def test_residual_strength_above_the_strength(self):
+        """Whichever way the strength is given; the law would raise it."""
+        (self.folder / "strength.csv").write_text(
+            "depth [m],undrained shear strength [Pa]\n0,600\n2,800\n")
+        for strength in ("600", "600 + 0*depth", "if(x > 2, 600, 800)",
+                         "table strength.csv"):
+            self.assert_refused(self.run_file(
+                GOOD.replace("linear elastic", "von Mises"),
+                [f"Materials/clay/Undrained shear strength={strength}",
+                 "Materials/clay/Residual undrained shear strength=700"]),
+                "/Materials/clay", "Residual undrained shear strength` is 700 Pa",
+                "must not exceed", " 6")
+        self.assert_untouched()
 
     def test_numbers_beyond_all_units(self):
         ball = "Bodies/block/Shape=ball"
@@ -336,6 +427,17 @@ class BadInput(Case):
              self.folder / "case.prm"],
             capture_output=True, text=True, timeout=120)
 
+    def test_large_mesh_is_announced(self):
+        """Before it is made, which takes a while."""
+        for n_halvings, told in (("8", True), ("7", False)):
+            result = self.run_file(settings=[
+                "Grid/Initial refinement=" + n_halvings, "End time=0",
+                "Bodies/block/Points per cell and axis=1",
+                "Bodies/block/Upper corner=1.1,0.1", "Output/Write grid=false"])
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual("A mesh of at least 1.05e+06 cells is being made."
+                             in result.stdout, told, result.stdout)
+
     def test_limits_that_leave_little(self):
         """0.1 GB of mesh, from no room for the libraries to enough for all."""
         (self.folder / "case.prm").write_text(GOOD)
@@ -522,6 +624,55 @@ class CommandLine(Case):
         (self.folder / "good.prm").write_text(GOOD)
         self.assert_succeeds(self.run_talus("--validate", "--output", "results",
                                             "good.prm"), "good.prm is valid")
+
+    def remarks_in(self, text):
+        return [line for line in text.splitlines() if line.startswith("Remark ")]
+
+    def test_validate_tells_what_the_run_will_do(self):
+        """With the remarks of the log, on a thin body, soil that softens and an
+        entry that is set twice."""
+        (self.folder / "thin.prm").write_text(
+            GOOD.replace("3, 2", "3, 1.5").replace("linear elastic", "Bingham")
+            .replace("set End time = 0.01", "set End time = 5\nset End time = 1"))
+        arguments = ["--output", "results", "--set",
+                     "Materials/clay/Remoulded strength ratio=0.5", "thin.prm"]
+        result = self.run_talus("--validate", *arguments)
+        self.assert_succeeds(
+            result, "with 16 cells of 1 m; there are 12 points",
+            "'block', is 1.5 cells of 1 m thick", "the time step is 0.0",
+            "about 92 time steps", "million point-steps per second",
+            "MB of memory on each rank")
+        remarks = self.remarks_in(result.stdout)
+        self.assertEqual(len(remarks), 3, result.stdout)
+        for number, words in enumerate(
+                ("thin.prm, line 2: 'End time' is set again, after line 1",
+                 "The body 'block' is 1.5 cells", "/Materials/clay softens"), 1):
+            self.assertIn(f"Remark {number}: ", remarks[number - 1])
+            self.assertIn(words, remarks[number - 1])
+        self.assertTrue(result.stdout.endswith(
+            "thin.prm is valid, with 3 remarks.\n"), result.stdout)
+        run = self.run_talus(*arguments)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        log = (self.results / "log.txt").read_text()
+        self.assertEqual(self.remarks_in(log)[:3], remarks)
+        self.assertEqual(self.remarks_in(run.stdout), self.remarks_in(log))
+        self.assertTrue(log.endswith(
+            f"talus-report results ({len(self.remarks_in(log))} remarks)\n"), log)
+
+    def test_remarks_are_numbered_on_when_a_run_is_resumed(self):
+        """Soil of which a half leaves the ground is a remark of the run."""
+        (self.folder / "thin.prm").write_text(
+            GOOD.replace("3, 2", "3, 1.5").replace("Bottom = roller", "Bottom = seabed"))
+        arguments = ["--output", "results", "thin.prm", "--set",
+                     "Output/Statistics interval=0.01", "--set",
+                     "Body force/Expression=0; if(t > 0.05 && x > 2, 60, 0)"]
+        for settings, n in (["End time=0.01"], 1), (["End time=0.3", "--resume"], 2):
+            result = self.run_talus("--set", *settings, *arguments)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            log = (self.results / "log.txt").read_text()
+            self.assertEqual([line.split(":")[0] for line in self.remarks_in(log)],
+                             [f"Remark {i + 1}" for i in range(n)], log)
+        self.assertTrue(log.endswith("(2 remarks)\n"), log)
 
     def test_validate_finds_faults(self):
         (self.folder / "bad.prm").write_text(GOOD.replace("4, 4", "2, 4"))

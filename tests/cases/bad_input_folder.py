@@ -66,7 +66,8 @@ class BadInputFolder(Case):
         self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_hang_up_stops_with_a_checkpoint(self):
-        for name in (signal.SIGHUP, signal.SIGXCPU):
+        # SIGPIPE: who read the standard output has gone.
+        for name in (signal.SIGHUP, signal.SIGXCPU, signal.SIGPIPE):
             run = self.start_long_run()
             run.send_signal(name)
             self.assertEqual(run.wait(), 75)
@@ -274,6 +275,26 @@ class BadInputFolder(Case):
             found = [f.name for f in self.results.iterdir()]
             self.assertEqual(set(found) & set(stale + foreign), set(foreign))
 
+    def test_results_that_were_cut_before_resume(self):
+        """A file of fields keeps its name and has lost its end."""
+        for kind, name in (("vtu", "points-0001.vtu"), ("hdf5", "points-0001.h5"),
+                           ("hdf5", "grid-0000.h5")):
+            (self.folder / "case.prm").write_text(
+                GOOD + f"subsection Output\n set Format = {kind}\nend\n")
+            self.assertEqual(self.resume(0.1).returncode, 0)
+            whole = (self.results / name).read_bytes()
+            for n_bytes in (200, len(whole) - 1):
+                (self.results / name).write_bytes(whole[:n_bytes])
+                result = self.resume(0.2)
+                self.assert_refused(result, f"lacks '{name}'", "cut short",
+                                    "--overwrite")
+                self.assertIn(f"lacks '{name}'", (self.results / "log.txt").read_text())
+                # Put back, as the sentence asks for.
+                (self.results / name).write_bytes(whole)
+                self.assertEqual(self.resume(0.2).returncode, 0)
+                self.assertEqual(self.resume(0.1).returncode, 0)
+                whole = (self.results / name).read_bytes()
+
     def test_results_that_are_missing_at_resume(self):
         (self.folder / "case.prm").write_text(GOOD)
         for name in ("points-0000.vtu", "grid.pvd"):
@@ -333,6 +354,35 @@ class BadInputFolder(Case):
             (self.results / name).symlink_to("../mine.csv")
         self.assertEqual(self.run_file().returncode, 0)
         self.assertEqual(mine.read_text(), "mine")
+
+    def test_links_with_names_of_files_that_are_being_written(self):
+        mine = self.folder / "mine.csv"
+        mine.write_text("mine")
+        names = ["parameters.prm", "points-0000.vtu", "points.pvd", "points-0000.h5",
+                 "points.xdmf"]
+        for kind in ("vtu", "hdf5"):
+            for name in names:
+                (self.results / f"{name}.part").unlink(missing_ok=True)
+                (self.results / f"{name}.part").symlink_to("../mine.csv")
+            result = self.run_file(settings=[f"Output/Format={kind}"])
+            self.assertEqual(result.returncode, 0, result.stderr)
+            self.assertEqual(mine.read_text(), "mine")
+
+    def test_pipes_with_names_of_outputs(self):
+        """To open one would be to wait for its reader."""
+        for name in ("statistics.csv", "log.txt", "profile.csv", "points-0000.vtu"):
+            path = self.results / name
+            path.unlink(missing_ok=True)
+            os.mkfifo(path)
+            self.assert_refused(self.run_file(), "a pipe", f"results/{name}",
+                                "--output")
+            path.unlink()
+
+    def test_folder_that_its_record_cannot_name(self):
+        for name in ("a\nb", "a\x1b[31m", "a#b", "{a}", "a\\"):
+            self.assert_refused(self.run_file(output=name), "parameters.prm cannot "
+                                "hold", "--output")
+            self.assertFalse((self.folder / name).exists())
 
     def test_lock_of_the_user(self):
         mine = self.folder / "mine.txt"

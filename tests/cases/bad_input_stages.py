@@ -54,6 +54,16 @@ class BadInputStages(Case):
                                      "no gravity at t = 0",
                                      "'Gravity/Ramp time' to 0")
 
+    def test_equilibrium_without_load(self):
+        for settings, told in ((["Gravity/Magnitude=0"], True), ([], False),
+                               (["Gravity/Magnitude=0",
+                                 "Body force/Expression=0; -1"], False)):
+            with self.subTest(settings):
+                result = self.run_file(GOOD, ["Stages=equilibrium", *settings])
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertEqual("'equilibrium' had nothing to balance"
+                                 in result.stdout, told, result.stdout)
+
     def test_nothing_has_a_strength(self):
         for settings in ([], ["Boundaries/Bottom=seabed",
                               "Strength reduction/Seabed=false"]):
@@ -106,6 +116,14 @@ class BadInputStages(Case):
     def test_load_steps_smaller_than_the_smallest(self):
         self.falls(self.WEAK_CLAY, "Equilibrium/Load steps=2000",
                    "Equilibrium/Smallest load step=0.01")
+
+    def test_load_steps_without_end(self):
+        """A step that fails would be halved for ever."""
+        for section in ("Equilibrium", "Strength reduction"):
+            result = self.run_slope("Stages=equilibrium, strength reduction",
+                                    f"{section}/Smallest load step=0")
+            self.assert_refused(result, "'Smallest load step' is '0'",
+                                "from 1e-06 to 1")
 
     def test_factor_of_safety_less_than_one(self):
         result = self.run_slope("Stages=equilibrium, strength reduction",

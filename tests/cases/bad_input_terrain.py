@@ -95,6 +95,70 @@ class BadInputTerrain(Case):
             with self.subTest(settings):
                 self.refuse_set(settings, *words)
 
+    def test_sections_that_turn_back(self):
+        (self.folder / "bed.asc").write_text(self.HEAD + self.ROWS)
+        for section, *words in (
+                ("0,0; 5,0; 0,0", "turns back at its corner 2, (5 0) m"),
+                ("0,0; 5,0; 0,0.001", "turns back at its corner 2"),
+                ("0,0; 5,0; 5,4; 3,4; 3,-1", "crosses or touches itself")):
+            with self.subTest(section):
+                self.refuse_set(self.FILE + [f"Surfaces/bed/Section={section}"],
+                                "'Surfaces/bed/Section'", *words)
+        result = self.run_file(settings=self.FILE + [
+            "Surfaces/bed/Section=0,0; 2,0; 4,4"])
+        self.assertEqual(result.returncode, 0, result.stderr)
+
+    def test_layers_without_thickness(self):
+        for upper, lower in (("1", "1"), ("1+0.1*x", "1+0.1*x"), ("0.5", "1"),
+                             ("1+0.5*sin(x)", "1+0.5*sin(x)")):
+            with self.subTest(upper):
+                self.refuse_set(self.layer(upper, lower), "The layer 'block' has "
+                                "no thickness", "'Bodies/block/Upper surface'")
+
+    def layer(self, upper, lower):
+        return ["Bodies/block/Shape=layer", f"Bodies/block/Upper surface={upper}",
+                f"Bodies/block/Lower surface={lower}"]
+
+    def test_remarks(self):
+        """What is allowed but seldom meant."""
+        pipe = ["Obstacles/Names=bed, pipe", "Obstacles/bed/Shape=half-plane",
+                "Obstacles/bed/Normal=0,1", "Obstacles/pipe/Shape=ball",
+                "Obstacles/pipe/Radius=1", "Bodies/block/Lower corner=1,0"]
+        slope = "ncols 2\nnrows 2\nxllcorner -10\nyllcorner -10\ncellsize 20\n"
+        (self.folder / "up.asc").write_text(slope + "-1 3\n-1 3\n")
+        raster = ["Surfaces/Names=bed", "Surfaces/bed/File=up.asc"]
+        clay = ["Materials/clay/Law=von Mises"]
+        for settings, *words in (
+                (self.layer("2-0.5*x", "0.5*x-0.2"), "lies above its upper one",
+                 "by up to 0.3 m, at x = 2.5 m"),
+                (self.layer("1.5", "0"), "'block' is 1.5 cells of 1 m thick"),
+                (pipe + ["Obstacles/pipe/Centre=2,-1.2", "Grid/Lower corner=0,-4"],
+                 "No part of the obstacle 'pipe'"),
+                (pipe + ["Obstacles/pipe/Centre=2,-9"],
+                 "No part of the obstacle 'pipe'"),
+                (pipe + ["Obstacles/pipe/Centre=2,3", "Obstacles/pipe/Radius=0.9"],
+                 "'pipe' is only 1.8 m along x, less than two cells of 1 m"),
+                (clay + pipe[:3] + ["Obstacles/Names=bed"],
+                 "The obstacle 'bed' has no 'Maximum shear stress'", "10 times"),
+                (raster + ["Surfaces/bed/Section=-5,0; 5,0"], "'bed' rises",
+                 "'Surfaces/bed/Section'")):
+            with self.subTest(words):
+                result = self.run_file(settings=settings + ["End time=0"])
+                self.assertEqual(result.returncode, 0, result.stderr)
+                for word in words:
+                    self.assertIn(word, result.stdout)
+                self.assertIn("Remark 1: ", result.stdout)
+        # Nearly the same, as it is meant.
+        for settings in (
+                self.layer("2", "0"), raster + ["Surfaces/bed/Section=5,0; -5,0"],
+                pipe + ["Obstacles/pipe/Centre=0.5,3.9"],
+                clay + pipe[:3] + ["Obstacles/Names=bed",
+                                   "Obstacles/bed/Maximum shear stress=1e3"]):
+            with self.subTest(settings):
+                result = self.run_file(settings=settings + ["End time=0"])
+                self.assertEqual(result.returncode, 0, result.stderr)
+                self.assertNotIn("Remark", result.stdout)
+
     def test_maps_and_stations(self):
         for settings, *words in (
                 (["Maps/Write=true", "Maps/Raster=bed"],

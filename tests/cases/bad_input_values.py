@@ -50,21 +50,30 @@ class BadInputValues(Case):
 
     def full_entries(self):
         """Path and settings of all entries that a file may have: those of the
-        reference, by the names of our case, and those of its obstacle."""
+        reference, by the names of our case."""
         for path, value in entries(self.run_talus("--document").stdout):
             first, *rest = path.split("/")
             law = []
             if first == "Bodies" and len(rest) == 2:
                 rest[0] = "block"
+            elif first == "Obstacles" and len(rest) == 2:
+                rest[0] = "pipe"
             elif first == "Materials" and len(rest) == 2:
                 law = [f"Materials/clay/Law={rest[0]}"]
                 rest[0] = "clay"
             yield "/".join([first, *rest]), value, law
-        self.assertEqual(self.run_file(FULL, output="full").returncode, 0)
+
+    def test_reference_has_every_entry(self):
+        """An entry that a run records and the reference does not list would be
+        one that nobody can know."""
+        reference = {path for path, value, law in self.full_entries()}
+        result = self.run_file(FULL, ["Obstacles/pipe/Radius=0.6"], output="full")
+        self.assertEqual(result.returncode, 0, result.stderr)
         record = (self.folder / "full" / "parameters.prm").read_text()
-        for path, value in entries(record):
-            if path.startswith("Obstacles/pipe/"):
-                yield path, value, []
+        recorded = {path for path, value in entries(record)}
+        self.assertIn("Obstacles/pipe/Friction coefficient", recorded)
+        # Those of the materials by the laws, which have other names there.
+        self.assertEqual(recorded - reference, set())
 
     def test_every_entry_without_value(self):
         n_refused = 0

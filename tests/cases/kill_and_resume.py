@@ -323,6 +323,27 @@ class StagesAndResume(KillAndResume):
         log = (self.folder / "run" / "log.txt").read_text()
         self.assertEqual(log.count("Stopped at t = 0 s, step 0, after the "
                                    "signal SIG"), len(stops))
+        # It does not wait for the end of a stage.
+        self.assertIn("The stage was stopped by a signal", log)
+
+    def test_contact_with_obstacle(self):
+        """A stage goes on with the contact that the one before it left."""
+        self.file = "landslide-inclined.prm"
+        self.settings = ["Stages=equilibrium, strength reduction",
+                         "Grid/Cell size=1.6",
+                         "Materials/clay/Undrained shear strength=25e3",
+                         "Obstacles/bed/Maximum shear stress=4e3",
+                         "Obstacles/bed/Friction coefficient=0.3",
+                         "Strength reduction/Tolerance=0.05"]
+        self.make_reference()
+        stopped = self.run_talus("run", ["Checkpoint/Wall time limit=1e-5"])
+        self.assertEqual(stopped.returncode, 75, stopped)
+        self.assert_ends(self.run_talus("run", [], ["--resume"]))
+        expected, found = self.content("reference"), self.content("run")
+        self.assertIn("newton.csv", expected)
+        self.assertEqual(list(expected), list(found))
+        for file in expected:
+            self.assertTrue(expected[file] == found[file], file)
 
     def test_dynamics_after_all(self):
         """A run that ended with its equilibrium goes on from there."""

@@ -260,6 +260,21 @@ class Ranks(Runs):
                 cwd=self.folder, capture_output=True, text=True, timeout=60)
             self.assertEqual(result.returncode, status, result.stderr)
 
+    def test_validate_says_the_same(self):
+        """Ranks share columns of the body; what depends on the machine differs."""
+        said = []
+        for n_ranks in (1, 3):
+            result = subprocess.run(
+                [MPIEXEC, "-n", str(n_ranks), TALUS, "--validate", "--set",
+                 "Grid/Cell size=2.5", "--output", "validate", PRM / "first-slope.prm"],
+                cwd=self.folder, capture_output=True, text=True, timeout=600)
+            self.assertEqual(result.returncode, 0, result.stderr)
+            said.append([line for line in result.stdout.splitlines() if line.startswith(
+                ("Remark", "The thinnest", "The mesh")) or " is valid" in line])
+        self.assertEqual(said[0], said[1])
+        self.assertIn("1.6 cells of 2.5 m", said[0][1])
+        self.assertTrue(said[0][-1].endswith(", with 1 remark."), said[0])
+
     def test_folder_of_another_run(self):
         """Which has several ranks; the second one has several, and one."""
         (self.folder / "case.prm").write_text(GOOD)

@@ -402,8 +402,14 @@ class Refused(StudyCase):
                  ("Parameter", "folder of its own")),
                 (STRENGTH.replace("lognormal", "uniform\nset Lower = 2\nset Upper = 1"),
                  ("Upper", "above 'Lower'")),
-                (STRENGTH.replace("set Mean ", "set Template = x\nset Mean "), ("Template", "{}"))):
+                (STRENGTH.replace("set Mean ", "set Template = x\nset Mean "), ("Template", "{}")),
+                (STRENGTH.replace("set Mean ", "set Template = {{}}\nset Mean "),
+                 ("Template = {{}}", "other braces")),
+                (STRENGTH.replace("set Mean ", "set Template = {} + ${c}*depth\nset Mean "),
+                 ("Template", "other braces"))):
             self.refuse(self.write("bad", varied=varied), *parts)
+        self.refuse(self.write("bad", parameters={"End time": "${T}"}),
+                    "'Parameters/End time = ${T}'", "without '{'")
 
     def test_options_and_folders(self):
         study = self.write("options")

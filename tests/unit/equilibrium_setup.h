@@ -135,6 +135,7 @@ namespace
                                      if (progress.iteration.number == 0)
                                        runs.emplace_back();
                                      runs.back().push_back(progress.iteration);
+                                     return true;
                                    }))
             return false;
           if (measure == StrainMeasure::large)

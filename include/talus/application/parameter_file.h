@@ -18,8 +18,9 @@ namespace talus
   {
   public:
     /// @p overrides: "Section/Subsection/Entry=value" each. Throws ExcUser if
-    /// the file, or one that it includes, cannot be read, if files include each
-    /// other in a circle, or if an override has another form.
+    /// the file, or one that it includes, cannot be read or has a line that
+    /// check_lines() refuses, if files include each other in a circle, or if an
+    /// override has another form.
     ParameterFile(const std::string              &file_name,
                   const std::vector<std::string> &overrides);
 
@@ -33,12 +34,21 @@ namespace talus
     parse() const;
 
   private:
+    /// Check the lines of a file with this content, and those of the files that
+    /// it includes, which become protected inputs. @p chain: the file itself,
+    /// last, and the files whose lines `include` have led to it; @p n_left: how
+    /// many more may be included in all.
+    void
+    check(const std::string              &content,
+          const std::vector<std::string> &chain,
+          unsigned int                   &n_left);
     void
     parse_into(dealii::ParameterHandler &prm, bool skip_undefined) const;
 
     std::string              file_name_;
     std::string              content_;
     std::vector<std::string> overrides_;
+    std::vector<std::string> remarks_; ///< on what the files say twice
   };
 } // namespace talus
 

@@ -5,10 +5,22 @@
 #include <talus/contact/facets.h>
 #include <talus/state/state.h>
 
+#include <array>
 #include <vector>
 
 namespace talus
 {
+  /// Identity of a facet in tables, on any number of ranks: key of its cell
+  /// (two numbers), obstacle, number of the facet among those of the obstacle in
+  /// the cell.
+  using FacetName = std::array<double, 4>;
+
+  template <int dim>
+  FacetName
+  name_of(const ContactFacet<dim> &facet);
+
+
+
   /// What a facet passes to the soil in a step.
   template <int dim>
   struct FacetImpulse

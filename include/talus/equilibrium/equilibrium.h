@@ -34,6 +34,17 @@ namespace talus
 
 
 
+  /// Values of the parameters 'Smallest load step': a smaller share of a load is
+  /// next to the residual that Newton's method leaves, and 0 would let a step
+  /// that fails be halved without end.
+  inline dealii::Patterns::Double
+  smallest_load_steps()
+  {
+    return dealii::Patterns::Double(1e-6, 1.);
+  }
+
+
+
   /// Brings soil into balance with its weight and all other loads without going
   /// through time: the load comes on in steps, each solved by Newton's method
   /// and cut where that fails; further steps without load then let go of the
@@ -42,7 +53,8 @@ namespace talus
   class Equilibrium : public dealii::ParameterAcceptor
   {
   public:
-    using Observer = std::function<void(const EquilibriumProgress &)>;
+    /// Returns whether to go on, the same on all ranks.
+    using Observer = std::function<bool(const EquilibriumProgress &)>;
 
     Equilibrium();
 
@@ -74,8 +86,8 @@ namespace talus
 
     /// Take one load step. Afterwards, with large strain, points may be in other
     /// cells. Returns false if no step, however small, succeeds or the balance
-    /// is not found in the largest number of steps: then failure() says why.
-    /// Collective.
+    /// is not found in the largest number of steps: then failure() says why. So
+    /// it does if @p observe stops the search: then is_stopped(). Collective.
     bool
     advance(StaticProblem<dim> &problem, const Observer &observe);
 
@@ -90,6 +102,13 @@ namespace talus
     is_found() const
     {
       return is_found_;
+    }
+
+    /// Whether the observer stopped the search.
+    bool
+    is_stopped() const
+    {
+      return is_stopped_;
     }
 
     const std::string &
@@ -118,18 +137,18 @@ namespace talus
       newton_.forget_well_balanced_load();
     }
 
-    /// The nodes of the seabed as they are.
+    /// Contact with seabed and obstacles after the last load step.
     const StaticContact<dim> &
     contact() const
     {
       return newton_.equations().contact();
     }
 
-    /// Go back to soil that stood so on the seabed.
-    void
-    set_contact(const StaticContact<dim> &contact)
+    /// To be changed between load steps, together with the points.
+    StaticContact<dim> &
+    contact()
     {
-      newton_.set_contact(contact);
+      return newton_.contact();
     }
 
     /// Force out of balance, of the reference force; see Newton.
@@ -171,6 +190,7 @@ namespace talus
     unsigned int        n_settling_ = 0; ///< steps without load so far
     double              imbalance_  = 0;
     bool                is_found_   = false;
+    bool                is_stopped_ = false;
     std::string         failure_;
     std::vector<double> imbalances_; ///< since all load is on
   };

@@ -43,10 +43,12 @@ namespace talus
     struct Outcome
     {
       bool        converged = false;
-      std::string failure; ///< the sentence, if not
+      std::string failure;            ///< the sentence, if not
+      bool        is_stopped = false; ///< by the observer
     };
 
-    using Observer = std::function<void(const NewtonIteration &)>;
+    /// Returns whether to go on, the same on all ranks.
+    using Observer = std::function<bool(const NewtonIteration &)>;
 
     Newton(const LinearSolver &linear_solver)
       : linear_solver_(linear_solver)
@@ -56,8 +58,8 @@ namespace talus
     void
     begin(StaticProblem<dim> &problem, const Parameters &parameters);
 
-    /// Find the displacements. Where that fails the soil is as before.
-    /// Collective.
+    /// Find the displacements. Where that fails, or @p observe stops it, the
+    /// soil is as before. Collective.
     Outcome
     solve(StaticProblem<dim> &problem, double share, const Observer &observe);
 
@@ -89,11 +91,11 @@ namespace talus
       return equations_;
     }
 
-    /// To be called before begin(), with the points that it belongs to.
-    void
-    set_contact(const StaticContact<dim> &contact)
+    /// To be changed before begin() only: it belongs to the points.
+    StaticContact<dim> &
+    contact()
     {
-      equations_.set_contact(contact);
+      return equations_.contact();
     }
 
     unsigned long

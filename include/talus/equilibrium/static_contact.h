@@ -6,6 +6,7 @@
 #include <talus/equilibrium/static_problem.h>
 #include <talus/equilibrium/unknowns.h>
 
+#include <functional>
 #include <vector>
 
 namespace talus
@@ -19,8 +20,8 @@ namespace talus
   {
   public:
     /// Find the nodes, and the facets of obstacles. Those that were known
-    /// before stay as they were, but for friction that exceeds what the seabed
-    /// bears now; the others stick.
+    /// before, or by restored tables, stay as they were, but for friction that
+    /// exceeds what the seabed bears now; the others stick.
     /// @p modulus, Pa, is the largest shear modulus of the soil. Collective.
     void
     begin(const StaticProblem<dim> &problem,
@@ -59,6 +60,11 @@ namespace talus
     stick_again(const Unknowns<dim>       &unknowns,
                 const std::vector<double> &direction);
 
+    /// Add the tables of seabed and facets, which belong to the points, if
+    /// @p is_needed; else they are empty.
+    void
+    list_state(StateList &list, const std::function<bool()> &is_needed);
+
     StaticFacets<dim> &
     facets()
     {
@@ -82,7 +88,8 @@ namespace talus
     struct Contact
     {
       unsigned int           node;
-      unsigned int           k; ///< its place among the active nodes
+      unsigned long          key; ///< of the place of the node
+      unsigned int           k;   ///< its place among the active nodes
       unsigned int           face;
       unsigned char          walls; ///< components that walls hold
       double                 area;  ///< m^(dim-1)
@@ -91,6 +98,10 @@ namespace talus
       dealii::Tensor<1, dim> reaction; ///< the same of what is held
     };
 
+    std::vector<double>
+    rows() const;
+    void
+    take(const std::vector<double> &rows, const Seabed<dim> &seabed);
     void
     limit_friction(Contact &contact, const Seabed<dim> &seabed) const;
 
@@ -101,7 +112,10 @@ namespace talus
                       const dealii::Tensor<1, dim> &u,
                       double                        weight) const;
 
+    static constexpr unsigned int n_columns = 4 + 2 * dim; ///< of rows()
+
     std::vector<Contact> contacts_;
+    std::vector<double>  restored_; ///< rows of a checkpoint
     StaticFacets<dim>    facets_;
   };
 } // namespace talus

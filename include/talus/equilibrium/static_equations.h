@@ -152,11 +152,11 @@ namespace talus
       return contact_;
     }
 
-    /// Go back to this one; or, before begin(), that of the points.
-    void
-    set_contact(const StaticContact<dim> &contact)
+    /// To be changed before begin() only: it belongs to the points.
+    StaticContact<dim> &
+    contact()
     {
-      contact_ = contact;
+      return contact_;
     }
 
     bool

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <functional>
+#include <map>
 #include <vector>
 
 namespace talus
@@ -25,8 +26,9 @@ namespace talus
   {
   public:
     /// Find the contact points. They bear what the facets of @p problem bore,
-    /// but no more friction than they bear now. @p modulus, Pa, of the soil.
-    /// Collective.
+    /// but no more friction than they bear now. Points that were known before,
+    /// or that restore() was given, remember their gaps. @p modulus, Pa, of the
+    /// soil. Collective.
     void
     begin(const StaticProblem<dim> &problem,
           const Unknowns<dim>      &unknowns,
@@ -83,6 +85,21 @@ namespace talus
            const std::vector<double> &u,
            StrainMeasure              measure);
 
+    /// Return what the contact points of this rank remember, one row each: name
+    /// (see ContactPoint), normal displacement since points were last moved, m,
+    /// normal force, N. Forces of facets are those of FacetImpulses, too.
+    std::vector<double>
+    rows() const;
+
+    /// Keep the @p rows of all ranks for the next begin().
+    void
+    restore(const std::vector<double> &rows)
+    {
+      restored_ = rows;
+    }
+
+    static constexpr unsigned int n_columns = 6; ///< of rows()
+
   private:
     static constexpr unsigned int n_nodes = ContactFacet<dim>::n_nodes;
 
@@ -94,6 +111,9 @@ namespace talus
 
     struct ContactPoint
     {
+      /// That of the facet. Of a node inside: key of the node (two numbers),
+      /// obstacle, -1.
+      FacetName                         name;
       std::array<unsigned int, n_nodes> node;
       std::array<double, n_nodes>       share;
       dealii::Point<dim>                place; ///< centroid, m
@@ -111,15 +131,25 @@ namespace talus
       bool sticks_first = false;        ///< in the next matrix, though it slips
     };
 
+    /// What a contact point remembers from step to step.
+    struct Memory
+    {
+      double opened; ///< normal displacement since points were last moved, m
+      double force;  ///< normal, N
+    };
+    using Memories = std::map<FacetName, Memory>;
+
+    Memories
+    memories() const;
     void
-    add_facets(const StaticProblem<dim>        &problem,
-               const std::vector<ContactPoint> &before,
-               double                           modulus);
+    add_facets(const StaticProblem<dim> &problem,
+               const Memories           &before,
+               double                    modulus);
     void
-    add_nodes_inside(const StaticProblem<dim>        &problem,
-                     const Unknowns<dim>             &unknowns,
-                     const std::vector<ContactPoint> &before,
-                     double                           modulus);
+    add_nodes_inside(const StaticProblem<dim> &problem,
+                     const Unknowns<dim>      &unknowns,
+                     const Memories           &before,
+                     double                    modulus);
     dealii::Tensor<1, dim>
     displacement(const ContactPoint &point, const std::vector<double> &u) const;
     void
@@ -132,6 +162,7 @@ namespace talus
     /// Those of the facets of this rank, then those of nodes inside that touch
     /// no facet.
     std::vector<ContactPoint> points_;
+    std::vector<double>       restored_; ///< rows of a checkpoint
   };
 } // namespace talus
 

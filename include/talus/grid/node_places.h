@@ -16,12 +16,12 @@ namespace talus
   std::vector<dealii::Point<dim>>
   places_of_owned_nodes(const Grid<dim> &grid);
 
-  /// Names of the places of the nodes this rank owns on faces of the mesh, by
-  /// node, and 0 for all others. Names do not depend on mesh and ranks. A node on
-  /// a periodic face has the name of its twin on the lower face.
+  /// Keys of the places of the nodes this rank owns, by node. Keys do not depend
+  /// on mesh and ranks. A node on a periodic face has the key of its twin on the
+  /// lower face.
   template <int dim>
   std::vector<unsigned long>
-  keys_of_face_nodes(const Grid<dim> &grid);
+  keys_of_owned_nodes(const Grid<dim> &grid);
 } // namespace talus
 
 #endif

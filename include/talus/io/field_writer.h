@@ -50,6 +50,10 @@ namespace talus
       return {entry.file};
     }
 
+    /// Whether a file of files_of() has its end, as it was written.
+    virtual bool
+    is_complete(const std::filesystem::path &path) const = 0;
+
     /// The name of the file that write_index() writes for this series.
     virtual std::string
     index_name(const std::string &name) const = 0;

@@ -28,6 +28,9 @@ namespace talus
           const OutputCells                  &cells,
           std::vector<std::filesystem::path> &unsynced) const override;
 
+    bool
+    is_complete(const std::filesystem::path &path) const override;
+
     std::string
     index_name(const std::string &name) const override
     {

@@ -2,6 +2,7 @@
 #ifndef talus_io_log_h
 #define talus_io_log_h
 
+#include <talus/base/state.h>
 #include <talus/io/files.h>
 
 #include <filesystem>
@@ -38,9 +39,29 @@ namespace talus
     void
     say(LogLevel level, const std::string &sentence);
 
+    /// Say what the user may not have meant, or what the results suffer from:
+    /// "Remark 3: ...", on standard output in any case. Remarks are numbered
+    /// through the run, resumed or not.
+    void
+    remark(const std::string &sentence);
+
+    /// Return "1 remark" or the like; empty if there are none. For the first
+    /// rank.
+    std::string
+    count_of_remarks() const;
+
+    /// Add the number of remarks to the state of the run.
+    void
+    list_state(StateList &list)
+    {
+      // Remarks are counted by the first rank; the others have zero.
+      list.add("remarks", "-", n_remarks_, Reduction::sum);
+    }
+
   private:
-    LogFile file_;
-    bool    is_open_ = false;
+    LogFile       file_;
+    bool          is_open_   = false;
+    unsigned long n_remarks_ = 0;
   };
 } // namespace talus
 

@@ -39,7 +39,7 @@ namespace talus
     write(const OutputCells &cells);
 
     /// Names of the files in the index, and of the index, that somebody has
-    /// removed from the folder; also before begin(). To be asked on the first
+    /// removed from the folder, and of files that were cut short; also before begin(). To be asked on the first
     /// rank.
     std::vector<std::string>
     missing_files(const std::filesystem::path &folder,

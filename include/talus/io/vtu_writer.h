@@ -28,6 +28,9 @@ namespace talus
     files_of(const std::filesystem::path &folder,
              const IndexEntry            &entry) const override;
 
+    bool
+    is_complete(const std::filesystem::path &path) const override;
+
     std::string
     index_name(const std::string &name) const override
     {

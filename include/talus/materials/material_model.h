@@ -99,6 +99,12 @@ namespace talus
       return strength != nullptr && !strength->is_number();
     }
 
+    /// Throw ExcUser if the law cannot have undrained shear strengths in this
+    /// range.
+    virtual void
+    check_strength(const StrengthRange & /*range*/) const
+    {}
+
     /// What the strength may be multiplied by at most [-]: with more of it soil
     /// that softens would do so faster than it can unload elastically. Infinite
     /// for laws that do not soften. @p range of the strengths counts if

@@ -23,6 +23,9 @@ namespace talus
     void
     check() const override;
 
+    void
+    check_strength(const StrengthRange &range) const override;
+
     double
     largest_strength_factor(const StrengthRange &range = {1.,
                                                           1.}) const override;

@@ -18,7 +18,8 @@ namespace talus
     std::vector<std::string>  obstacles; ///< may be none
     std::vector<std::string>  surfaces;  ///< may be none
     std::vector<MaterialName> materials;
-    std::filesystem::path     folder; ///< of the parameter file
+    std::filesystem::path     folder;  ///< of the parameter file
+    std::vector<std::string>  remarks; ///< on what the file says
   };
 } // namespace talus
 

@@ -7,6 +7,7 @@
 #include <talus/contact/seabed_coverage.h>
 #include <talus/contact/seabed_gaps.h>
 #include <talus/problem/body.h>
+#include <talus/problem/body_thickness.h>
 #include <talus/problem/loading.h>
 #include <talus/problem/mudline.h>
 #include <talus/problem/parameter_preview.h>
@@ -109,9 +110,23 @@ namespace talus
     double
     time_of_last_change() const;
 
-    /// Sentences for the log at the start of a run on cells of @p cell_size m.
+    /// Sentences for the log at the start of a run: what follows from the
+    /// parameters, as meant.
     std::vector<std::string>
-    notes(double cell_size) const;
+    facts() const;
+
+    /// Sentences on what the user may not have meant, or what the results
+    /// suffer from, on cells of @p cell_size m. To be called after
+    /// create_points().
+    std::vector<std::string>
+    remarks(double cell_size) const;
+
+    /// Thickness of the bodies at the start; empty before create_points().
+    const std::vector<BodyThickness> &
+    thickness_of_bodies() const
+    {
+      return thickness_of_bodies_;
+    }
 
     /// Find what depends on cells and nodes; to be called after each change of
     /// the mesh or its partition. Collective.
@@ -159,6 +174,10 @@ namespace talus
 
   private:
     void
+    add_remarks(const std::vector<std::string> &remarks);
+    void
+    look_at_geometry(const State<dim> &state);
+    void
     find_mudline(const Grid<dim> &grid);
 
     Constants                               constants_;
@@ -170,7 +189,8 @@ namespace talus
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     std::vector<InputFile>                  strength_tables_;
     std::shared_ptr<const Mudline<dim>>     mudline_; ///< of the start
-    std::vector<std::string>                notes_;   ///< on the initial state
+    std::vector<std::string>                remarks_; ///< on the initial state
+    std::vector<BodyThickness>              thickness_of_bodies_;
 
   public:
     // The parts, for those who work with them.

@@ -6,6 +6,7 @@
 #include <talus/adaptivity/mesh_tracking.h>
 #include <talus/base/phase_timer.h>
 #include <talus/checkpoint/checkpoint_content.h>
+#include <talus/io/log.h>
 #include <talus/problem/problem.h>
 #include <talus/state/state.h>
 #include <talus/transfer/relocation.h>
@@ -30,9 +31,10 @@ namespace talus
                    const Transfer<dim> &transfer,
                    PhaseTimer          &timer);
 
-    /// Make the mesh that the parameters ask for, around the bodies to be.
+    /// Make the mesh that the parameters ask for, around the bodies to be. If
+    /// that takes long, @p log says so before.
     void
-    create();
+    create(Log &log);
 
     /// Make the mesh of a checkpoint, with its partition on as many ranks as
     /// then, and load its points.

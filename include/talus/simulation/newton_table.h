@@ -5,6 +5,9 @@
 #include <talus/equilibrium/equilibrium.h>
 #include <talus/io/files.h>
 
+#include <cstdint>
+#include <filesystem>
+
 namespace talus
 {
   /// newton.csv: one row for each iteration of Newton's method.
@@ -21,6 +24,14 @@ namespace talus
     void
     add(unsigned int stage, double factor, const EquilibriumProgress &progress);
 
+    /// Length of the file, B.
+    std::uintmax_t
+    length() const;
+
+    /// Remove all rows beyond @p length, B.
+    void
+    cut(std::uintmax_t length);
+
     CsvFile &
     file()
     {
@@ -30,7 +41,8 @@ namespace talus
     static constexpr const char *file_name = "newton.csv";
 
   private:
-    CsvFile file_;
+    CsvFile               file_;
+    std::filesystem::path folder_;
   };
 } // namespace talus
 

@@ -51,6 +51,20 @@ namespace talus
     void
     check_output_folder() const;
 
+    /// Say what run() will do, with all remarks: mesh, points, cells across the
+    /// thinnest body, time step, and an estimate of the wall time by some steps,
+    /// after which the state is no longer that of the start. Writes nothing.
+    /// Collective.
+    void
+    forecast();
+
+    /// Return "1 remark" or the like; empty if none was made. For the first rank.
+    std::string
+    count_of_remarks() const
+    {
+      return log_.count_of_remarks();
+    }
+
     /// From the start, or the checkpoint, to the end of the run, with output:
     /// the end time, or when the soil is at rest or has left the mesh. Returns
     /// false if the run was stopped before that, by a signal or by its limit of
@@ -120,11 +134,11 @@ namespace talus
     void
     begin_files();
     void
-    note_start();
+    note_start(LogLevel level);
     void
     note_resume();
     void
-    note_time_step();
+    note_time_step(LogLevel level);
     bool
     is_finished() const;
     void

@@ -39,9 +39,14 @@ namespace talus
 
     /// A stage begins: points and mesh may be others than in the last one.
     void
-    begin_stage()
+    begin_stage();
+
+    /// Whether a signal to any rank stopped the last search, which then found
+    /// nothing.
+    bool
+    is_stopped() const
     {
-      equilibrium_.forget_well_balanced_load();
+      return equilibrium_.is_stopped();
     }
 
     /// What is told of a search: the number of its stage and the factor that
@@ -71,7 +76,7 @@ namespace talus
     std::string
     no_equilibrium() const;
 
-    /// What a search may change.
+    /// State of points and contact, which a search changes.
     struct Saved
     {
       std::vector<std::vector<double>> columns; ///< of the points
@@ -91,6 +96,11 @@ namespace talus
     void
     bring_back(const Saved &saved);
 
+    /// Go back to the beginning of the stage, newton.csv too; @p saved is the
+    /// state since begin_stage(). Collective.
+    void
+    undo_stage(const Saved &saved);
+
     const Equilibrium<dim> &
     equilibrium() const
     {
@@ -99,6 +109,13 @@ namespace talus
 
     void
     list_state(StateList &list);
+
+    /// Add the contact of the last load step, if @p is_needed.
+    void
+    list_contact(StateList &list, const std::function<bool()> &is_needed)
+    {
+      equilibrium_.contact().list_state(list, is_needed);
+    }
 
   private:
     /// What a load step is told of.
@@ -117,7 +134,7 @@ namespace talus
     take_all_steps(const Label &label);
     bool
     take_load_step(const Label &label, StepNote &note);
-    void
+    bool
     observe(const EquilibriumProgress &progress,
             const Label               &label,
             StepNote                  &note);
@@ -131,6 +148,7 @@ namespace talus
     Log                 &log_;
     Equilibrium<dim>     equilibrium_;
     NewtonTable          table_;
+    std::uintmax_t       n_table_bytes_ = 0; ///< at the beginning of the stage
   };
 } // namespace talus
 

@@ -47,7 +47,8 @@ namespace talus
     void
     check_resumable(const std::filesystem::path &folder) const;
 
-    /// Do the next stage, which is one of these. Collective.
+    /// Do the next stage, which is one of these. If a signal stops it, all is
+    /// as before, and the stage still the next one. Collective.
     void
     run_next();
 
@@ -85,7 +86,7 @@ namespace talus
     }
 
     void
-    find_equilibrium();
+    find_equilibrium(const typename StaticSolver<dim>::Saved &before);
     void
     tell_of_well_balanced_load() const;
     void
@@ -100,9 +101,13 @@ namespace talus
     void
     divide_strength(double factor);
     void
-    reduce_strength();
+    reduce_strength(const typename StaticSolver<dim>::Saved &before);
+    void
+    search_factor();
     void
     start_reduction();
+    void
+    undo_stage(const typename StaticSolver<dim>::Saved &before);
     bool
     stands_with(double factor);
     void

@@ -17,9 +17,11 @@ namespace talus
   /// fastest wave at a point, v its speed, h its cell and l_d the clipped half
   /// lengths of its box,
   ///   dt = min over points of  cfl h/(c + |v|)  and
-  ///                            safety 2 (h/c)/sqrt(sum_d h/l_d).
+  ///                            safety 2 (h/c)/sqrt(sum_d h/l_d),
+  ///                            (h/c) sqrt(2/lambda(max_d h/l_d)).
   /// The second bound is the stability limit of a thin box: its mass on the
-  /// nodes falls with l, its stiffness does not.
+  /// nodes falls with l, its stiffness does not. The third one is that of a free
+  /// surface just beyond a face of the cells.
   template <int dim>
   class TimeStep : public dealii::ParameterAcceptor
   {
@@ -69,9 +71,9 @@ namespace talus
                           const Grid<dim>      &grid,
                           const Materials<dim> &materials);
 
-    /// Squares of the inverse of both bounds at point(s) p, 1/s^2.
+    /// Squares of the inverse of the three bounds at point(s) p, 1/s^2.
     template <typename Number>
-    std::array<Number, 2>
+    std::array<Number, 3>
     inverse_squares(const PointsView<dim, const double> &points,
                     const BoxShape                      &shape,
                     unsigned int                         p,

@@ -85,6 +85,9 @@ namespace talus
     read_file(const std::filesystem::path &file) const;
     std::shared_ptr<const Surface<dim>>
     read_outline(const dealii::Point<3> &origin) const;
+    std::shared_ptr<const Surface<dim>>
+    read_outline_file(const std::filesystem::path &file,
+                      const dealii::Point<3>      &origin) const;
 
     std::string name_;
     std::string file_        = "";

@@ -41,6 +41,11 @@ namespace talus
     std::vector<std::string>
     notes() const;
 
+    /// In 2-D, a remark for each section of a raster that rises from x = @p from
+    /// to @p to, the range of the soil, m.
+    std::vector<std::string>
+    notes_on_rising(double from, double to) const;
+
     /// The rasters must be the same when the run is resumed.
     void
     list_state(StateList &list) const;

@@ -34,6 +34,8 @@ namespace
     prm.declare_entry("Offset", "2", Patterns::Integer());
     prm.declare_entry("Rule", "on", Patterns::Selection("auto|on|off"));
     prm.declare_entry("Moves", "true", Patterns::Bool());
+    prm.declare_entry("Places", "", Patterns::List(Patterns::Double()));
+    prm.declare_entry("Names", "1", Patterns::List(Patterns::Double(), 1));
     prm.declare_entry("Corner",
                       "0, 0",
                       Patterns::List(Patterns::Double(), 2, 2));
@@ -73,6 +75,8 @@ namespace
       {"Offset", "a whole number"},
       {"Rule", "one of auto | on | off"},
       {"Moves", "true or false"},
+      {"Places", "a list of values, each a number,"},
+      {"Names", "a list of 1 or more values, each a number,"},
       {"Corner", "a list of 2 values, each a number,"}};
     for (const auto &[entry, words] : expected)
       EXPECT_EQ(told_of_value(entry),
@@ -106,9 +110,6 @@ namespace
       "slope.prm, line 1: 'let there be soil' was found, where 'set "
       "Entry = value', 'subsection Name' or 'end' was expected; start a "
       "comment with #.");
-    EXPECT_EQ(told_of("subsection Grid\n"),
-              "slope.prm: the numbers of 'subsection' and 'end' differ; close "
-              "each 'subsection' with an 'end' of its own.");
   }
 
 
@@ -130,6 +131,7 @@ namespace
               "The body 'slide' is empty.");
     EXPECT_EQ(message(ExcPoint("Point 7 left.")), "Point 7 left.");
     EXPECT_EQ(message(std::runtime_error("odd")), "odd");
+    EXPECT_EQ(message(ExcUser("No '\033[31mred'.")), "No '\\x1b[31mred'.");
   }
 
 

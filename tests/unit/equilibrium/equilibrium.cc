@@ -259,7 +259,9 @@ TEST(EquilibriumTest, LoadStepsOfElasticSoilAddUp)
       while (!bank.equilibrium.is_found())
         {
           StaticProblem<2> problem = bank.problem();
-          ASSERT_TRUE(bank.equilibrium.advance(problem, [](const auto &) {}));
+          ASSERT_TRUE(bank.equilibrium.advance(problem, [](const auto &) {
+            return true;
+          }));
           loads.push_back(bank.equilibrium.load());
         }
       EXPECT_EQ(bank.equilibrium.n_steps(), n_steps);

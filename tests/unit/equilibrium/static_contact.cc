@@ -210,7 +210,8 @@ TEST(StaticContactTest, FrictionIsWithinItsLimitAtEachLoadStep)
       for (unsigned int step = 1; step <= 4; ++step)
         {
           StaticProblem<2> all = block.problem();
-          ASSERT_TRUE(block.equilibrium.advance(all, [](const auto &) {}))
+          ASSERT_TRUE(
+            block.equilibrium.advance(all, [](const auto &) { return true; }))
             << block.equilibrium.failure();
           const double load = block.equilibrium.load();
           EXPECT_NEAR(load, 0.25 * step, 1e-12);

@@ -413,11 +413,19 @@ namespace
     std::ofstream(folder / "points.pvd") << "there";
     std::ofstream(folder / "points-0000.pvtu")
       << "<PUnstructuredGrid>\n<Piece Source=\"points-0000.0.vtu\"/>\n"
-         "<Piece Source=\"points-0000.2.vtu\"/>\n</PUnstructuredGrid>\n";
-    std::ofstream(folder / "points-0000.0.vtu") << "there";
+         "<Piece Source=\"points-0000.2.vtu\"/>\n</PUnstructuredGrid>\n"
+         "</VTKFile>\n";
+    std::ofstream(folder / "points-0000.0.vtu") << "there\n</VTKFile>\n";
     EXPECT_EQ(output.missing_files({folder, "vtu"}),
               std::vector<std::string>(
                 {"points-0000.2.vtu", "points-0001.pvtu"}));
+    // Cut short, by a byte and to nothing.
+    for (const std::string rest : {"there\n</VTKFile>", ""})
+      {
+        std::ofstream(folder / "points-0000.0.vtu") << rest;
+        EXPECT_EQ(output.missing_files({folder, "vtu"}).front(),
+                  "points-0000.0.vtu");
+      }
     fs::remove(folder / "points.pvd");
     EXPECT_EQ(output.missing_files({folder, "vtu"}).front(), "points.pvd");
   }

@@ -4,9 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <sstream>
 
 #include "observers_setup.h"
+
+#include <sys/resource.h>
 
 namespace
 {
@@ -14,6 +17,31 @@ namespace
   namespace fs = std::filesystem;
 
   // ----------------------------------------------------------------- output
+
+  /// Files can be no longer than a kilobyte as long as this object lives.
+  class SmallFiles
+  {
+  public:
+    SmallFiles()
+      : handler_(std::signal(SIGXFSZ, SIG_IGN))
+    {
+      getrlimit(RLIMIT_FSIZE, &before_);
+      const rlimit small = {1024, before_.rlim_max};
+      setrlimit(RLIMIT_FSIZE, &small);
+    }
+
+    ~SmallFiles()
+    {
+      setrlimit(RLIMIT_FSIZE, &before_);
+      std::signal(SIGXFSZ, handler_);
+    }
+
+  private:
+    void (*handler_)(int);
+    rlimit before_;
+  };
+
+
 
   class OutputTest : public ObserversTest
   {
@@ -148,19 +176,49 @@ namespace
               std::string::npos)
       << sentence;
 
-    // A file that is written as a whole is so or not at all: starting on a full
-    // disk leaves one that is there alone.
-    fs::remove(folder / "statistics.csv");
-    output.begin(s, 1.);
-    std::ofstream(folder / "points-0000.vtu") << "earlier result\n";
-    fs::create_symlink("/dev/full", folder / "points-0000.vtu.part");
-    sentence = sentence_thrown_by([&]() { output.start(s); });
-    EXPECT_NE(sentence.find("points-0000.vtu' could not be written (No space"),
+    // A file that is written as a whole is so or not at all: where it cannot be
+    // written to its end, one that is there stays.
+    const fs::path path = folder / "points-0000.vtu";
+    std::ofstream(path) << "earlier result\n";
+    {
+      const SmallFiles only;
+      sentence = sentence_thrown_by([&]() {
+        write_file(path,
+                   [](std::ostream &out) { out << std::string(1 << 16, 'x'); });
+      });
+    }
+    EXPECT_NE(sentence.find("points-0000.vtu' could not be written (File too "
+                            "large"),
               std::string::npos)
       << sentence;
     EXPECT_EQ(lines("points-0000.vtu").at(0), "earlier result");
-    EXPECT_FALSE(
-      fs::exists(fs::symlink_status(folder / "points-0000.vtu.part")));
+    EXPECT_FALSE(fs::exists(folder / "points-0000.vtu.part"));
+  }
+
+
+
+  // A link with the name of a file that is being written leads to a file of the
+  // user.
+  TEST_F(OutputTest, LinksAreNotFollowed)
+  {
+    std::ofstream(folder / "mine") << "mine\n";
+    fs::create_symlink("mine", folder / "table.part");
+    write_file(folder / "table", [](std::ostream &out) { out << "ours\n"; });
+    EXPECT_EQ(lines("mine").at(0), "mine");
+    EXPECT_EQ(lines("table").at(0), "ours");
+  }
+
+
+
+  TEST_F(OutputTest, RemarksAreNumbered)
+  {
+    log.remark("Said before log.txt is open.");
+    log.open(folder, Beginning::fresh);
+    log.say(LogLevel::detail, "No remark.");
+    log.remark("Soil is in the air.");
+    EXPECT_EQ(log.count_of_remarks(), "2 remarks");
+    EXPECT_EQ(lines("log.txt").at(0), "No remark.");
+    EXPECT_EQ(lines("log.txt").at(1), "Remark 2: Soil is in the air.");
   }
 
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The two bounds of doc/method.md, section 8.
+// The three bounds of doc/method.md, section 8.
 
 #include <talus/simulation/time_step.h>
 
@@ -108,12 +108,12 @@ namespace
   void
   expect_thin(const Tensor<1, dim> &length, const double sum_of_inverse_halves)
   {
-    Stepped<dim> soil("set CFL number = 1\nset Box safety factor = 0.8");
+    Stepped<dim> soil("set CFL number = 1\nset Box safety factor = 0.5");
     Point<dim>   x;
     for (unsigned int d = 0; d < dim; ++d)
       x[d] = 2.5;
     const auto   p        = soil.add(x, length);
-    const double expected = 0.8 * 2. / std::sqrt(sum_of_inverse_halves);
+    const double expected = 0.5 * 2. / std::sqrt(sum_of_inverse_halves);
     EXPECT_NEAR(soil.step() * c, expected, 1e-14);
     EXPECT_TRUE(contains(soil.limited_by(), "the thin box of point 0"));
     // This bound does not know the speed, and takes over from the other one.
@@ -129,6 +129,25 @@ namespace
     expect_thin<2>(Point<2>(0.4, 0.8), 1. / 0.2 + 1. / 0.4);
     expect_thin<2>(Point<2>(0.02, 3.), 1. / 0.1 + 1. / 0.5);
     expect_thin<3>(Point<3>(0.3, 0.4, 0.5), 1. / 0.15 + 1. / 0.2 + 1. / 0.25);
+  }
+
+
+
+  /// By the thinnest axis: one, two and five boxes per cell.
+  TEST(TimeStep, FreeSurface)
+  {
+    for (const auto &[half, expected] :
+         {std::pair(0.5, std::sqrt(2. / (3. + std::sqrt(7.)))),
+          {0.25, std::sqrt(2. / (4. + std::sqrt(6.)))},
+          {0.1, std::sqrt(2. / (7. + std::sqrt(15.)))}})
+      {
+        Stepped<2> soil("set CFL number = 1\nset Box safety factor = 1");
+        soil.add(middle, Point<2>(1., 2. * half));
+        EXPECT_NEAR(soil.step() * c, expected, 1e-14);
+        EXPECT_TRUE(contains(soil.limited_by(),
+                             "the stability of free surfaces, below 'Time "
+                             "step/CFL number', at the box of point 0"));
+      }
   }
 
 

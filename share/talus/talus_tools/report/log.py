@@ -6,7 +6,7 @@ import re
 # The line of a run that has come to its end.
 ENDED = "A report of this run: "
 # Lines that every run has, and those of the searches in static stages. What is not among
-# them is worth reading: the log has no mark for warnings, so that none may be overlooked.
+# them is worth reading, its numbered remarks before all.
 ROUTINE = [re.compile(pattern) for pattern in (
     r"The mesh fills .* points\.$", r"t = .*the time step is ", r"t = .*largest share of points",
     r"t = .*(mesh changed|shared out)", r"Wall time by phase", r"Peak memory of a rank", r"\s",
@@ -25,6 +25,7 @@ class Log:
         self.remarks = [line for line in lines
                         if line.strip() not in ("", title.strip()) and line not in self.results
                         and not any(pattern.match(line) for pattern in ROUTINE)]
+        self.n_remarks = sum(line.startswith("Remark ") for line in self.remarks)
         safety = [line for line in lines if SAFETY.match(line)]
         self.safety = safety[-1] if safety else ""
 

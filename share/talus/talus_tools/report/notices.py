@@ -200,10 +200,9 @@ def without_h5py(run):
 
 def remarks(run):
     """The log in one sentence; the lines themselves have a section."""
-    n = len(run.log.remarks)
+    n = run.log.n_remarks
     return [] if n == 0 else [
-        f"The log has {n} {'remark' if n == 1 else 'remarks'} beyond the routine; see "
-        "“Remarks of the log” below."]
+        f"The run has {n} {'remark' if n == 1 else 'remarks'}; see “Remarks of the log” below."]
 
 
 def notices(run):

@@ -70,6 +70,11 @@ class Settings:
         entries = read_parameters(path)
         self.fixed = {name.partition("/")[2]: value for name, value in entries.items()
                       if name.startswith("Parameters/")}
+        for name, value in self.fixed.items():
+            if "{" in value:
+                raise UserError(f"'{path}': 'Parameters/{name} = {value}' was found, where a "
+                                "value without '{' was expected. Only 'Varied/NAME/Template' has "
+                                "braces, for the varied number.")
         self.entries = {n: v for n, v in entries.items() if not n.startswith("Parameters/")}
         self.check_section_names()
         self.check_names()
@@ -187,9 +192,10 @@ class Settings:
                 numbers[key] = found[0]
         elif not values:
             raise self.error(start + "Values", "the numbers of the grid, separated by commas,")
-        if self.get(start + "Template").count("{}") != 1:
+        before, *after = self.get(start + "Template").split("{}")
+        if len(after) != 1 or "{" in before + after[0]:
             raise self.error(start + "Template", "a text with {} once, which stands for the "
-                             "varied number,")
+                             "varied number, and without other braces")
         return Varied(name, self.needed(start + "Parameter"), self.get(start + "Template"),
                       distribution, numbers, values)
 

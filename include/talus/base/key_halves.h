@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_base_key_halves_h
+#define talus_base_key_halves_h
+
+#include <array>
+
+namespace talus
+{
+  /// Upper and lower 32 bits of the key of a cell or node, for tables of
+  /// doubles: one double does not hold all digits of a key.
+  inline std::array<double, 2>
+  halves_of_key(const unsigned long key)
+  {
+    return {{double(key >> 32), double(key & 0xffffffff)}};
+  }
+} // namespace talus
+
+#endif

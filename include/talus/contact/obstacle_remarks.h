@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_contact_obstacle_remarks_h
+#define talus_contact_obstacle_remarks_h
+
+#include <talus/contact/obstacles.h>
+
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// Return a remark for each obstacle at rest of which no part lies in
+  /// @p domain, that of the mesh, outside of all other obstacles.
+  template <int dim>
+  std::vector<std::string>
+  notes_on_hidden_obstacles(const Obstacles<dim> &obstacles,
+                            const Box<dim>       &domain);
+
+  /// Return a remark for each obstacle without end, as a bed is, whose friction
+  /// has no largest shear stress. To be asked where soil has an undrained shear
+  /// strength.
+  template <int dim>
+  std::vector<std::string>
+  notes_on_uncapped_beds(const Obstacles<dim> &obstacles);
+} // namespace talus
+
+#endif

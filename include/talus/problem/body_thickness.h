@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_problem_body_thickness_h
+#define talus_problem_body_thickness_h
+
+#include <talus/grid/grid.h>
+#include <talus/points/points.h>
+#include <talus/problem/body.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// Thickness of a body in the vertical where it is thickest, without what
+  /// obstacles have taken of it.
+  struct BodyThickness
+  {
+    std::string body;
+    double      cell_size; ///< smallest cells that the mesh may have there, m
+    double      n_cells;   ///< across the thickness [-]
+  };
+
+  /// Return the thickness of each body from the volumes of its points above the
+  /// cells of the plan. Collective.
+  template <int dim>
+  std::vector<BodyThickness>
+  measure_thickness(const Points<dim>                             &points,
+                    const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                    const Grid<dim>                               &grid);
+
+  /// Return a remark for each body thinner than two cells.
+  std::vector<std::string>
+  notes_on_thickness(const std::vector<BodyThickness> &bodies);
+} // namespace talus
+
+#endif

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/io/geojson.h>
+
+#include <boost/property_tree/json_parser.hpp>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    using Tree = boost::property_tree::ptree;
+
+
+
+    /// Append the polygons, each a list of rings, of a GeoJSON object and of all
+    /// in it.
+    void
+    collect_polygons(const Tree &object, std::vector<Tree> &polygons)
+    {
+      const std::string type = object.get("type", "");
+      if (type == "Polygon")
+        polygons.push_back(object.get_child("coordinates", {}));
+      else if (type == "MultiPolygon")
+        for (const auto &[key, polygon] : object.get_child("coordinates", {}))
+          polygons.push_back(polygon);
+      else if (type == "Feature")
+        collect_polygons(object.get_child("geometry", {}), polygons);
+      else
+        for (const std::string list : {"features", "geometries"})
+          for (const auto &[key, part] : object.get_child(list, {}))
+            collect_polygons(part, polygons);
+    }
+
+
+
+    /// Corners of a ring, which ends where it begins.
+    std::vector<Point<2>>
+    corners_of(const Tree &ring)
+    {
+      std::vector<Point<2>> corners;
+      for (const auto &[key, position] : ring)
+        {
+          // Behind the first two there may be a height.
+          std::vector<double> numbers;
+          for (const auto &[no_key, number] : position)
+            numbers.push_back(number.template get_value<double>());
+          corners.emplace_back(numbers.at(0), numbers.at(1));
+        }
+      if (corners.size() > 1 && corners.front() == corners.back())
+        corners.pop_back();
+      return corners;
+    }
+
+
+
+    /// Without a name of a coordinate system, or with that of WGS 84.
+    bool
+    is_in_degrees(const Tree &file)
+    {
+      const std::string name      = file.get("crs.properties.name", "");
+      const auto        ends_with = [&](const std::string &end) {
+        return name.size() >= end.size() &&
+               name.compare(name.size() - end.size(), end.size(), end) == 0;
+      };
+      return name.empty() || ends_with("CRS84") || ends_with(":4326");
+    }
+  } // namespace
+
+
+
+  bool
+  is_geojson(const std::filesystem::path &path)
+  {
+    return path.extension() == ".geojson" || path.extension() == ".json";
+  }
+
+
+
+  GeojsonPolygon
+  read_geojson_polygon(const std::filesystem::path &path)
+  {
+    const std::string file = "The GeoJSON file '" + path.string() + "' ";
+    Tree              tree;
+    std::vector<Tree> polygons;
+    GeojsonPolygon    result;
+    try
+      {
+        boost::property_tree::read_json(path.string(), tree);
+        collect_polygons(tree, polygons);
+        AssertThrow(polygons.size() == 1,
+                    ExcUser(text(file,
+                                 "has ",
+                                 polygons.size(),
+                                 " polygons, where one was expected. Save one "
+                                 "outline to a file of its own.")));
+        AssertThrow(polygons[0].size() == 1,
+                    ExcUser(text(file,
+                                 "has a polygon of ",
+                                 polygons[0].size(),
+                                 " rings, where one was expected: the outline, "
+                                 "without holes.")));
+        result.corners = corners_of(polygons[0].front().second);
+      }
+    catch (const boost::property_tree::ptree_error &error)
+      {
+        AssertThrow(false,
+                    ExcUser(file + "cannot be read: " + error.what() + "."));
+      }
+    catch (const std::out_of_range &)
+      {
+        AssertThrow(false,
+                    ExcUser(file + "has a corner with less than two numbers."));
+      }
+    result.is_in_degrees = is_in_degrees(tree);
+    return result;
+  }
+} // namespace talus

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/problem/body_thickness.h>
+
+#include <deal.II/base/mpi.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // Below, top and base of a layer move with the same nodes.
+    constexpr double n_cells_needed = 2.;
+
+    /// Column of cells over the plan: body, number along x, number along z.
+    using Column = std::array<long, 3>;
+
+
+
+    /// Thickness of the points of this rank in each column, in cells. Points of
+    /// a cell lie in one column, as columns are as wide as the smallest cells.
+    template <int dim>
+    std::map<Column, double>
+    columns_of_rank(const Points<dim>         &points,
+                    const std::vector<double> &cell_size)
+    {
+      std::map<Column, double> columns;
+      for (unsigned int p = 0; p < points.size(); ++p)
+        {
+          const unsigned int b = points.data(points.body)[p];
+          const double       h = cell_size[b];
+          const auto         x = load_place(points, points.initial_position, p);
+          const Column       column{
+            {b,
+                   std::lround(std::floor(x[0] / h)),
+             dim == 3 ? std::lround(std::floor(x[dim - 1] / h)) : 0}};
+          columns[column] +=
+            points.data(points.reference_volume)[p] / std::pow(h, dim);
+        }
+      return columns;
+    }
+
+
+
+    /// Add up the parts of columns that ranks share: each column at the rank that
+    /// its numbers give. Collective.
+    std::map<Column, double>
+    whole_columns(const std::map<Column, double> &parts,
+                  const MPI_Comm                  communicator)
+    {
+      const unsigned int n_ranks =
+        Utilities::MPI::n_mpi_processes(communicator);
+      std::map<unsigned int, std::vector<std::pair<Column, double>>> messages;
+      for (const auto &part : parts)
+        messages[std::abs(part.first[1] + 7 * part.first[2]) % n_ranks]
+          .push_back(part);
+      std::map<Column, double> result;
+      for (const auto &[rank, message] :
+           Utilities::MPI::some_to_some(communicator, messages))
+        for (const auto &[column, thickness] : message)
+          result[column] += thickness;
+      return result;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::vector<BodyThickness>
+  measure_thickness(const Points<dim>                             &points,
+                    const std::vector<std::unique_ptr<Body<dim>>> &bodies,
+                    const Grid<dim>                               &grid)
+  {
+    std::vector<double> cell_size, n_cells(bodies.size(), 0.);
+    for (const auto &body : bodies)
+      cell_size.push_back(
+        grid.finest_size_in(body->bounding_box(grid.domain_before_growth())));
+    for (const auto &[column, thickness] :
+         whole_columns(columns_of_rank(points, cell_size), grid.communicator()))
+      n_cells[column[0]] = std::max(n_cells[column[0]], thickness);
+    std::vector<BodyThickness> result;
+    for (unsigned int b = 0; b < bodies.size(); ++b)
+      result.push_back({bodies[b]->name(),
+                        cell_size[b],
+                        Utilities::MPI::max(n_cells[b], grid.communicator())});
+    return result;
+  }
+
+
+
+  std::vector<std::string>
+  notes_on_thickness(const std::vector<BodyThickness> &bodies)
+  {
+    std::vector<std::string> notes;
+    for (const BodyThickness &body : bodies)
+      if (body.n_cells < (1. - 1e-6) * n_cells_needed)
+        notes.push_back(
+          text(std::setprecision(3),
+               "The body '",
+               body.body,
+               "' is ",
+               body.n_cells,
+               " cells of ",
+               body.cell_size,
+               " m thick where it is thickest, less than two: its top and its "
+               "base move with the same nodes, so that it hardly shears. Cells "
+               "of ",
+               body.n_cells / n_cells_needed * body.cell_size,
+               " m or less there, by 'Grid/Cell size' or 'Grid/Refinement "
+               "boxes', resolve it."));
+    return notes;
+  }
+
+
+
+  template decltype(measure_thickness<2>) measure_thickness<2>;
+  template decltype(measure_thickness<3>) measure_thickness<3>;
+} // namespace talus

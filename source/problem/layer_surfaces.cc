@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/geometry/side_of_surface.h>
+#include <talus/problem/layer_surfaces.h>
+#include <talus/problem/plan_places.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Thickness that is round-off, in cells: where a layer ends its two surfaces
+    /// may go on as one.
+    constexpr double round_off = 1e-5;
+
+
+
+    /// The shape of a layer: what limits it in plan, and its two surfaces.
+    template <int dim>
+    class Layer
+    {
+    public:
+      explicit Layer(const Shape<dim> &shape)
+      {
+        for (const Shape<dim> *part : shape.parts())
+          if (const auto *side = dynamic_cast<const SideOfSurface<dim> *>(part))
+            sides_.push_back(side);
+          else
+            outline_.push_back(part);
+      }
+
+      /// Other shapes have no two surfaces.
+      bool
+      is_layer() const
+      {
+        return sides_.size() == 2;
+      }
+
+      bool
+      is_in_plan(const Point<dim> &x) const
+      {
+        return std::all_of(outline_.begin(),
+                           outline_.end(),
+                           [&x](const auto *part) {
+                             return part->contains(x);
+                           });
+      }
+
+      /// Height of the upper surface above the lower one at @p x, m; negative
+      /// where they have crossed.
+      double
+      thickness(const Point<dim> &x) const
+      {
+        // The distances are those from the tangent planes above x, and the
+        // vertical ones have opposite signs.
+        double sum = 0.;
+        for (const auto *side : sides_)
+          {
+            const auto [distance, normal] = side->distance_and_normal(x);
+            sum -= distance / std::abs(normal[1]);
+          }
+        return sum;
+      }
+
+    private:
+      std::vector<const Shape<dim> *>         outline_;
+      std::vector<const SideOfSurface<dim> *> sides_;
+    };
+  } // namespace
+
+
+
+  template <int dim>
+  std::string
+  check_layer_surfaces(const Body<dim> &body,
+                       const Box<dim>  &domain,
+                       const double     cell_size)
+  {
+    const auto       shape = body.shape(domain);
+    const Layer<dim> layer(*shape);
+    if (!layer.is_layer())
+      return "";
+    double       largest = -std::numeric_limits<double>::infinity();
+    double       least   = -largest;
+    Point<dim>   place; // of the least thickness
+    unsigned int n_places = 0, n_crossed = 0;
+    for (const Point<dim> &x : plan_places(domain, cell_size))
+      if (layer.is_in_plan(x))
+        {
+          const double thickness = layer.thickness(x);
+          ++n_places;
+          n_crossed += (thickness < -round_off * cell_size);
+          largest = std::max(largest, thickness);
+          if (thickness < least)
+            {
+              least = thickness;
+              place = x;
+            }
+        }
+    const std::string section = "Bodies/" + body.name();
+    AssertThrow(n_places == 0 || largest > round_off * cell_size,
+                ExcUser(text("The layer '",
+                             body.name(),
+                             "' has no thickness: '",
+                             section,
+                             "/Upper surface' is at most ",
+                             largest,
+                             " m above '",
+                             section,
+                             "/Lower surface', where soil needs room between "
+                             "the two. Correct one of them.")));
+    if (n_crossed == 0)
+      return "";
+    return text(std::setprecision(4),
+                "The lower surface of the layer '",
+                body.name(),
+                "' lies above its upper one over ",
+                100. * n_crossed / n_places,
+                " % of the plan, by up to ",
+                -least,
+                " m, at x = ",
+                place[0],
+                dim == 3 ? text(" m, z = ", place[dim - 1]) : "",
+                " m: there is no soil there. If that is not meant, correct '",
+                section,
+                "/Upper surface' or '",
+                section,
+                "/Lower surface'.");
+  }
+
+
+
+  template decltype(check_layer_surfaces<2>) check_layer_surfaces<2>;
+  template decltype(check_layer_surfaces<3>) check_layer_surfaces<3>;
+} // namespace talus
