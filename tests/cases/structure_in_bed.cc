@@ -33,18 +33,6 @@ namespace
     EXPECT_LT(obstacles["bed volume below surface [m^2]"].back(), 0.03 * 1485);
     EXPECT_LT(obstacles["bed deepest point [cells]"].back(), 0.5);
     EXPECT_GT(obstacles["box impulse x [N s]"].back(), 0.);
-    // Centres a hundredth of a cell below the surface are no soil within it.
-    const std::vector<double> &depths = obstacles["bed deepest point [cells]"];
-    const std::vector<double> &volumes =
-      obstacles["bed volume below surface [m^2]"];
-    unsigned int n_shallow = 0;
-    for (unsigned int row = 0; row < depths.size(); ++row)
-      if (depths[row] > 0 && depths[row] <= 0.1)
-        {
-          EXPECT_EQ(volumes[row], 0.);
-          ++n_shallow;
-        }
-    EXPECT_GT(n_shallow, 0u);
   }
 } // namespace
 
@@ -56,6 +44,21 @@ TEST(StructureInBed, KeepsSoilAboveTheBed)
 {
   expect_no_leak("box-in-bed-6", "-2");
   expect_no_leak("box-in-bed-7", "-1.5");
+
+  // Centres a hundredth of a cell below the surface are no soil within the bed.
+  const Table obstacles(std::filesystem::path(TALUS_RESULTS_DIR) /
+                        "box-in-bed-6/obstacles.csv");
+  const std::vector<double> &depths = obstacles["bed deepest point [cells]"];
+  const std::vector<double> &volumes =
+    obstacles["bed volume below surface [m^2]"];
+  unsigned int n_shallow = 0;
+  for (unsigned int row = 0; row < depths.size(); ++row)
+    if (depths[row] > 0. && depths[row] <= 0.1)
+      {
+        EXPECT_EQ(volumes[row], 0.);
+        ++n_shallow;
+      }
+  EXPECT_GT(n_shallow, 0u);
 }
 
 

@@ -183,6 +183,17 @@ class Members(StudyCase):
                            parameters={**COARSE, "Grid/Upper corner": "52, 6"})
         self.assertIn("left the mesh through the face 'Right'", self.study(study, status=1))
 
+    def test_moving_at_the_end(self):
+        """Two seconds are too short for the slope, two hundred are not."""
+        study = self.write("moving", "subsection Design\nset Kind = grid\nend",
+                           varied="subsection time\nset Parameter = End time\n"
+                           "set Values = 2, 200\nend", names="time",
+                           parameters={**COARSE, "Grid/Cell size": "1"})
+        said = self.study(study)
+        self.assertEqual([row["moving at the end"] for row in
+                          read_csv(self.output(study) / "study.csv")], ["1", "0"])
+        self.assertIn("1 of the finished members still moved at the end", said)
+
     def test_quantities(self):
         study = self.grid("quantities", "5, 20, 7", """subsection Quantities
           set Names = most, least

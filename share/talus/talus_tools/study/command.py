@@ -11,7 +11,7 @@ from talus_tools.errors import Parser, UserError
 from talus_tools.study.ensemble import lock, make_members, program_version, run_members
 from talus_tools.study.member import FAILED, FINISHED
 from talus_tools.study.results import Results, plan_maps, section_maps, write_tables
-from talus_tools.study.settings import ENTRIES, MEMBER, STATUS, Settings
+from talus_tools.study.settings import ENTRIES, MEMBER, MOVING, STATUS, Settings
 
 DESCRIPTION = """Run talus many times with varied parameters, and tell how the results are
 distributed. Run it again after an interruption: finished members are kept, others go on."""
@@ -78,6 +78,10 @@ def write_results(settings, members):
     for member, reason in failed:
         print(f"{member.name} failed: {reason}")
     n_done = len(results.finished())
+    moving = results.moving.count("1")
+    if moving:
+        print(f"{moving} of the finished members still moved at the end, so that their runout is "
+              f"not final; see the column '{MOVING}'.")
     print(f"{n_done} of {len(members)} members have finished; see "
           f"{os.path.join(settings.folder, 'study.csv')}.")
     return 1 if failed else 0 if n_done == len(members) else UNFINISHED

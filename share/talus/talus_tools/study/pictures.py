@@ -44,8 +44,10 @@ def overview(results):
             axes[1 + v].set(xlabel=varied.name, ylabel=quantity.label(),
                             title=rank_correlation(x, results.values[done, q]))
     left = len(results.members) - len(done)
+    moving = results.moving.count("1")
     figure.suptitle(f"{settings.title or settings.case}: {len(done)} members"
-                    + (f"; {left} have not finished and are missing" if left else ""), fontsize=10)
+                    + (f"; {left} have not finished and are missing" if left else "")
+                    + (f"; {moving} still moved at the end" if moving else ""), fontsize=10)
     save(figure, settings, "study.png")
 
 

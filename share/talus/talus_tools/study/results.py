@@ -10,7 +10,7 @@ import numpy
 from talus_tools.errors import UserError
 from talus_tools.esri import Grid, read_grid, write_grid
 from talus_tools.study.member import FINISHED
-from talus_tools.tables import read_table
+from talus_tools.tables import header, read_table
 
 
 def quantity_of(member, quantity):
@@ -21,9 +21,19 @@ def quantity_of(member, quantity):
     return float(numpy.nanmax(column) if quantity.take == "maximum" else numpy.nanmin(column))
 
 
+def is_moving(member):
+    """Whether the soil of a finished member still moved at its end: 1 or 0, or nothing where its
+    run did not note it, as one without dynamics."""
+    path = member.path("statistics.csv")
+    if "at rest" not in header(path):
+        return ""
+    table = read_table(path)
+    return "" if table["time [s]"][-1] == 0 else str(int(table["at rest"][-1] == 0))
+
+
 class Results:
     """Status, reason and quantities of all members; quantities, shape (members, quantities),
-    are NaN where a member has not finished."""
+    are NaN where a member has not finished. `moving`: see is_moving()."""
 
     def __init__(self, settings, members):
         self.settings, self.members = settings, members
@@ -32,6 +42,8 @@ class Results:
         for i, member in enumerate(members):
             if self.states[i][0] == FINISHED:
                 self.values[i] = [quantity_of(member, q) for q in settings.quantities]
+        self.moving = [is_moving(member) if status == FINISHED else ""
+                       for member, (status, _) in zip(members, self.states)]
 
     def finished(self):
         """The members that count."""
@@ -67,7 +79,8 @@ def write_tables(results):
     rows = [settings.columns()]
     for i, (member, (status, reason)) in enumerate(zip(results.members, results.states)):
         rows.append([member.number, *map(repr, member.values), status,
-                     *map(cell, results.values[i]), member.hash[:12], reason])
+                     *map(cell, results.values[i]), results.moving[i], member.hash[:12],
+                     reason])
     write_csv(os.path.join(settings.folder, "study.csv"), rows)
     rows = [["quantity", "value", "share of members at or above [-]"]]
     for i, quantity in enumerate(settings.quantities):

@@ -24,7 +24,8 @@ ENTRIES = {
     "Exceedance/Map": "maximum-thickness", "Exceedance/Thresholds": "0.1, 1",
 }
 # Columns of study.csv beside the varied numbers and the quantities.
-MEMBER, STATUS, HASH, REASON = "member", "status", "hash", "reason"
+MEMBER, STATUS, MOVING, HASH, REASON = ("member", "status", "moving at the end", "hash",
+                                        "reason")
 # Tables of talus whose columns are all numbers.
 TABLES = ("statistics.csv", "profile.csv", "obstacles.csv", "boundaries.csv", "newton.csv",
           "maps.csv", "stations.csv", "runout.csv")
@@ -126,7 +127,7 @@ class Settings:
     def columns(self):
         """Names of the columns of study.csv."""
         return [MEMBER, *(one.name for one in self.varied), STATUS,
-                *(one.label() for one in self.quantities), HASH, REASON]
+                *(one.label() for one in self.quantities), MOVING, HASH, REASON]
 
     def check_columns(self):
         """Each column of study.csv has a name of its own."""
@@ -136,7 +137,8 @@ class Settings:
                 raise UserError(f"'{self.path}': two columns of study.csv would be called "
                                 f"'{name}'. Give each name in 'Varied/Names' and "
                                 f"'Quantities/Names' once, and none of them as '{MEMBER}', "
-                                f"'{STATUS}', '{HASH}' or '{REASON}', which every study has.")
+                                f"'{STATUS}', '{MOVING}', '{HASH}' or '{REASON}', which every "
+                                "study has.")
 
     def check_names(self):
         """No entry is overlooked because it is misspelt."""
