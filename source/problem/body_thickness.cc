@@ -15,29 +15,29 @@ namespace talus
   namespace
   {
     // Below, top and base of a layer move with the same nodes.
-    constexpr double n_cells_needed = 2.;
+    constexpr double n_cells_to_shear = 2.;
 
-    /// Column of cells over the plan: body, number along x, number along z.
-    using Column = std::array<long, 3>;
+    /// BodyColumn of cells over the plan: body, number along x, number along z.
+    using BodyColumn = std::array<long, 3>;
 
 
 
     /// Thickness of the points of this rank in each column, in cells. Points of
     /// a cell lie in one column, as columns are as wide as the smallest cells.
     template <int dim>
-    std::map<Column, double>
+    std::map<BodyColumn, double>
     columns_of_rank(const Points<dim>         &points,
                     const std::vector<double> &cell_size)
     {
-      std::map<Column, double> columns;
+      std::map<BodyColumn, double> columns;
       for (unsigned int p = 0; p < points.size(); ++p)
         {
           const unsigned int b = points.data(points.body)[p];
           const double       h = cell_size[b];
           const auto         x = load_place(points, points.initial_position, p);
-          const Column       column{
+          const BodyColumn   column{
             {b,
-                   std::lround(std::floor(x[0] / h)),
+               std::lround(std::floor(x[0] / h)),
              dim == 3 ? std::lround(std::floor(x[dim - 1] / h)) : 0}};
           columns[column] +=
             points.data(points.reference_volume)[p] / std::pow(h, dim);
@@ -49,17 +49,18 @@ namespace talus
 
     /// Add up the parts of columns that ranks share: each column at the rank that
     /// its numbers give. Collective.
-    std::map<Column, double>
-    whole_columns(const std::map<Column, double> &parts,
-                  const MPI_Comm                  communicator)
+    std::map<BodyColumn, double>
+    whole_columns(const std::map<BodyColumn, double> &parts,
+                  const MPI_Comm                      communicator)
     {
       const unsigned int n_ranks =
         Utilities::MPI::n_mpi_processes(communicator);
-      std::map<unsigned int, std::vector<std::pair<Column, double>>> messages;
+      std::map<unsigned int, std::vector<std::pair<BodyColumn, double>>>
+        messages;
       for (const auto &part : parts)
         messages[std::abs(part.first[1] + 7 * part.first[2]) % n_ranks]
           .push_back(part);
-      std::map<Column, double> result;
+      std::map<BodyColumn, double> result;
       for (const auto &[rank, message] :
            Utilities::MPI::some_to_some(communicator, messages))
         for (const auto &[column, thickness] : message)
@@ -98,7 +99,7 @@ namespace talus
   {
     std::vector<std::string> notes;
     for (const BodyThickness &body : bodies)
-      if (body.n_cells < (1. - 1e-6) * n_cells_needed)
+      if (body.n_cells < (1. - 1e-6) * n_cells_to_shear)
         notes.push_back(
           text(std::setprecision(3),
                "The body '",
@@ -110,7 +111,7 @@ namespace talus
                " m thick where it is thickest, less than two: its top and its "
                "base move with the same nodes, so that it hardly shears. Cells "
                "of ",
-               body.n_cells / n_cells_needed * body.cell_size,
+               body.n_cells / n_cells_to_shear * body.cell_size,
                " m or less there, by 'Grid/Cell size' or 'Grid/Refinement "
                "boxes', resolve it."));
     return notes;

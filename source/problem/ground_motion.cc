@@ -39,6 +39,41 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Throw ExcUser if a column of accelerations does nothing, or lets the ground
+    /// jump into motion at @p begin, s of the run, with its first value @p first.
+    void
+    check_accelerations(const std::string           &column,
+                        const double                 factor,
+                        const double                 begin,
+                        const double                 first,
+                        const std::filesystem::path &table)
+    {
+      AssertThrow(factor != 0.,
+                  ExcUser("'Ground motion/Factor' is 0, so that the "
+                          "accelerations of the table '" +
+                          table.string() +
+                          "' do nothing. Give another factor, or remove their "
+                          "columns."));
+      AssertThrow(begin <= 0. || first == 0.,
+                  ExcUser(text("The table '",
+                               table.string(),
+                               "' begins at t = ",
+                               begin,
+                               " s of the run with ",
+                               factor * first,
+                               " m/s^2 in the column '",
+                               column,
+                               "', so that the ground would jump into "
+                               "motion. Put a row with zeros before it, or "
+                               "let it begin with the run ('Ground "
+                               "motion/Start time').")));
+    }
+  } // namespace
+
+
+
   /// Reads the table. One that begins after the start of the run must begin
   /// with zeros: outside of the table the ground rests, so that it would else
   /// jump. A table that ends with the ground in acceleration is not refused.
@@ -65,36 +100,16 @@ namespace talus
                         columns[across] +
                         "', but the simulation is two-dimensional. Remove the "
                         "column or set 'Dimension' to 3."));
-    AssertThrow(factor_ != 0. ||
-                  !(table_->has(horizontal) || table_->has(vertical) ||
-                    table_->has(across)),
-                ExcUser("'Ground motion/Factor' is 0, so that the "
-                        "accelerations of the table '" +
-                        path.string() +
-                        "' do nothing. Give another factor, or remove their "
-                        "columns."));
     // In the time of the run. A table that begins before the run may do so in
     // motion.
     const double begin = start_time_ + table_->first_time();
     for (const Column column : {horizontal, vertical, across})
-      if (begin > 0. && table_->has(column))
-        {
-          const double first =
-            factor_ * table_->value(column, table_->first_time());
-          AssertThrow(first == 0.,
-                      ExcUser(text("The table '",
-                                   path.string(),
-                                   "' begins at t = ",
-                                   begin,
-                                   " s of the run with ",
-                                   first,
-                                   " m/s^2 in the column '",
-                                   columns[column],
-                                   "', so that the ground would jump into "
-                                   "motion. Put a row with zeros before it, or "
-                                   "let it begin with the run ('Ground "
-                                   "motion/Start time').")));
-        }
+      if (table_->has(column))
+        check_accelerations(columns[column],
+                            factor_,
+                            begin,
+                            table_->value(column, table_->first_time()),
+                            path);
     // Gravity keeps its outermost values.
     AssertThrow(table_->has(gravity) ||
                   (begin < end_time && start_time_ + table_->last_time() > 0.),

@@ -15,7 +15,7 @@ namespace talus
   {
     /// Thickness that is round-off, in cells: where a layer ends its two surfaces
     /// may go on as one.
-    constexpr double round_off = 1e-5;
+    constexpr double thickness_of_round_off = 1e-5;
 
 
 
@@ -93,7 +93,7 @@ namespace talus
         {
           const double thickness = layer.thickness(x);
           ++n_places;
-          n_crossed += (thickness < -round_off * cell_size);
+          n_crossed += (thickness < -thickness_of_round_off * cell_size);
           largest = std::max(largest, thickness);
           if (thickness < least)
             {
@@ -102,7 +102,7 @@ namespace talus
             }
         }
     const std::string section = "Bodies/" + body.name();
-    AssertThrow(n_places == 0 || largest > round_off * cell_size,
+    AssertThrow(n_places == 0 || largest > thickness_of_round_off * cell_size,
                 ExcUser(text("The layer '",
                              body.name(),
                              "' has no thickness: '",
