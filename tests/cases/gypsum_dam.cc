@@ -29,9 +29,10 @@ namespace
   void
   expect_rest(const std::string &cell_size)
   {
-    const Table  table   = run<2>("gypsum-dam.prm",
-                               "gypsum-dam-" + cell_size,
-                               {"Grid/Cell size=" + cell_size});
+    const Table table =
+      run<2>("gypsum-dam.prm",
+             "gypsum-dam-" + cell_size,
+             {"Grid/Cell size=" + cell_size, "End when at rest=false"});
     const auto  &energy  = table["grid kinetic energy [J]"];
     const double largest = *std::max_element(energy.begin(), energy.end());
     EXPECT_GE(table["time [s]"].back(), 150.);
