@@ -42,7 +42,8 @@ class FirstSlope(unittest.TestCase):
         options = [o for s in settings for o in ("--set", s)]
         result = run(FIRST_SLOPE, "--overwrite", "--output", FOLDER / name,
                      "--set", "Output/Write points=false",
-                     "--set", "Output/Write grid=false", *options)
+                     "--set", "Output/Write grid=false",
+                     "--set", "End when at rest=false", *options)
         self.assertEqual(result.returncode, 0, result.stderr)
         with open(FOLDER / name / "statistics.csv", newline="") as stream:
             rows = list(csv.DictReader(stream))
