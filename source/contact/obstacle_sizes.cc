@@ -51,6 +51,15 @@ namespace talus
 
 
 
+    /// An extent with its axis.
+    std::string
+    in_words(const Extent &extent)
+    {
+      return in_words(extent.length) + " along " + "xyz"[extent.axis];
+    }
+
+
+
     const std::string how_to_refine =
       "by 'Grid/Cell size', or by 'Grid/Refinement boxes' around the obstacle";
   } // namespace
@@ -71,19 +80,14 @@ namespace talus
         const auto is_shorter = [](const double a, const double b) {
           return a < (1. - 1e-9) * b;
         };
-        const auto extent = [&](const unsigned int i) {
-          return text(in_words(extents[i].length),
-                      " along ",
-                      "xyz"[extents[i].axis]);
-        };
         const std::string needed = in_words(extents[0].length / n_cells_needed);
         AssertThrow(!is_shorter(extents[1].length, h),
                     ExcUser(text("The obstacle '",
                                  obstacles[k].name(),
                                  "' is only ",
-                                 extent(0),
+                                 in_words(extents[0]),
                                  " and ",
-                                 extent(1),
+                                 in_words(extents[1]),
                                  ", which is less than a cell of ",
                                  in_words(h),
                                  " along two axes: the soil would meet a body "
@@ -96,7 +100,7 @@ namespace talus
           notes.push_back(text("The obstacle '",
                                obstacles[k].name(),
                                "' is only ",
-                               extent(0),
+                               in_words(extents[0]),
                                ", less than two cells of ",
                                in_words(h),
                                ": soil on both sides of it moves with the same "

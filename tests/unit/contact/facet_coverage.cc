@@ -70,7 +70,9 @@ namespace
           // In 3-D both cells along z have the same share.
           const double x = cell.lower[0];
           if (of_rank.count(x) > 0)
-            EXPECT_EQ(of_rank[x], coverage[f]) << x;
+            {
+              EXPECT_EQ(of_rank[x], coverage[f]) << x;
+            }
           of_rank[x] = coverage[f];
         }
       for (const auto &map :
@@ -78,7 +80,9 @@ namespace
         for (const auto &[x, share] : map)
           {
             if (all.count(x) > 0)
-              EXPECT_EQ(all[x], share) << x;
+              {
+                EXPECT_EQ(all[x], share) << x;
+              }
             all[x] = share;
           }
       return all;

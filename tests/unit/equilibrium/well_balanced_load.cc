@@ -266,12 +266,16 @@ namespace well_balanced_load_test
         {
           const double x = places[node][0], y = places[node][1];
           if ((x < 4.5 || x > 7.5) && y < 3.5)
-            EXPECT_EQ(load.forces()[2 * node + d], 0.) << places[node];
+            {
+              EXPECT_EQ(load.forces()[2 * node + d], 0.) << places[node];
+            }
           // In the middle E is the error at the mudline only.
           else if (x > 5.5 && x < 6.5 && y < 3.)
-            EXPECT_NEAR(load.forces()[2 * node + d],
-                        0.,
-                        1e-9 * Statics<2>::density * g);
+            {
+              EXPECT_NEAR(load.forces()[2 * node + d],
+                          0.,
+                          1e-9 * Statics<2>::density * g);
+            }
         }
   }
 } // namespace well_balanced_load_test
