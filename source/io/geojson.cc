@@ -14,6 +14,17 @@ namespace talus
 
 
 
+    /// The member of an object; one without content if it has none. (get_child()
+    /// returns its default by reference, which must live on.)
+    const Tree &
+    member(const Tree &object, const std::string &name)
+    {
+      static const Tree none;
+      return object.get_child(name, none);
+    }
+
+
+
     /// Append the polygons, each a list of rings, of a GeoJSON object and of all
     /// in it.
     void
@@ -21,15 +32,15 @@ namespace talus
     {
       const std::string type = object.get("type", "");
       if (type == "Polygon")
-        polygons.push_back(object.get_child("coordinates", {}));
+        polygons.push_back(member(object, "coordinates"));
       else if (type == "MultiPolygon")
-        for (const auto &[key, polygon] : object.get_child("coordinates", {}))
+        for (const auto &[key, polygon] : member(object, "coordinates"))
           polygons.push_back(polygon);
       else if (type == "Feature")
-        collect_polygons(object.get_child("geometry", {}), polygons);
+        collect_polygons(member(object, "geometry"), polygons);
       else
         for (const std::string list : {"features", "geometries"})
-          for (const auto &[key, part] : object.get_child(list, {}))
+          for (const auto &[key, part] : member(object, list))
             collect_polygons(part, polygons);
     }
 
