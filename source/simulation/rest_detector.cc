@@ -155,12 +155,13 @@ namespace talus
                   time,
                   " s: its kinetic energy is ",
                   peak_energy_ > 0. ? energy_ / peak_energy_ : 0.,
-                  " of the maximum, where less than ",
+                  " of the maximum. Rest is a ratio below ",
                   ratio_,
-                  " for ",
+                  " and ends in plan that move by less than a fiftieth of the "
+                  "smallest cell, both for ",
                   duration_,
-                  " s would be rest. The runout is not final: go on with a "
-                  "later 'End time' and --resume.");
+                  " s. The runout is not final: go on with a later 'End time' "
+                  "and --resume.");
     const std::string rest = text(std::setprecision(6),
                                   "The soil is at rest since t = ",
                                   quiet_since_,

@@ -6,6 +6,8 @@
 
 #include <fstream>
 
+#include "core_setup.h"
+
 using namespace talus;
 using dealii::Point;
 
@@ -43,16 +45,8 @@ namespace geojson_test
     void
     expect_refused(const std::string &text, const std::string &words)
     {
-      try
-        {
-          read(text);
-          ADD_FAILURE() << text << " was read";
-        }
-      catch (const ExcUser &error)
-        {
-          EXPECT_NE(std::string(error.what()).find(words), std::string::npos)
-            << error.what();
-        }
+      const std::string message = message_of<ExcUser>([&]() { read(text); });
+      EXPECT_NE(message.find(words), std::string::npos) << text << message;
     }
   } // namespace
 
