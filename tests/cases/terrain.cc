@@ -5,10 +5,12 @@
 
 #include <talus/base/raster.h>
 #include <talus/io/esri_grid.h>
+#include <talus/io/map_projection.h>
 #include <talus/points/points_kernel.h>
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 
@@ -124,4 +126,24 @@ TEST(Terrain, LayersInThreeDimensions)
   EXPECT_NEAR(centre[0], 5.5, 1e-8);
   EXPECT_NEAR(centre[2], 8.25, 1e-8);
   EXPECT_NEAR(centre[1], 0.25 * 5.5 + 0.5 * 8.25 - 2. - 1.5, 1e-8);
+}
+
+
+
+// Outside of the release area slip surface and mudline are one, and curved: what
+// their errors leave between them is no soil. A box is 12.5 m wide.
+TEST(Terrain, NoSoilBetweenSurfacesThatGoOnAsOne)
+{
+  if (!MapProjection::is_available())
+    GTEST_SKIP() << "The raster is in degrees, and PROJ was not found.";
+  Case<3> slope(
+    "own-slope.prm",
+    {"Grid/Cell size=25",
+     "Grid/Upper corner=3500, -80, 2400",
+     "Surfaces/slip/Expression=mudline - min(15, max(0, release))"});
+  const auto   &points = slope.points();
+  const double *volume = points.data(points.reference_volume);
+  ASSERT_GT(points.size(), 2000u);
+  EXPECT_GT(*std::min_element(volume, volume + points.size()),
+            1e-3 * std::pow(12.5, 3));
 }
