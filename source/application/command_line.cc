@@ -119,7 +119,8 @@ namespace talus
   void
   document(std::ostream &out)
   {
-    // One of each kind, and a material of each law, named after it.
+    // The reference has a body, an obstacle and so on, and a material of each
+    // law, named after the law.
     ParameterPreview preview;
     preview.bodies    = {"slide"};
     preview.obstacles = {"bed"};

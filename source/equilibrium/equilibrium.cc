@@ -9,6 +9,39 @@ namespace talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Declare the entries of section Equilibrium that are those of @p newton.
+    template <typename Parameters>
+    void
+    add_newton_parameters(ParameterAcceptor &section, Parameters &newton)
+    {
+      section.add_parameter(
+        "Newton tolerance",
+        newton.tolerance,
+        "Residual of Newton's method over the force of the loads "
+        "[-].",
+        section.prm,
+        Patterns::Double(0.));
+      section.add_parameter(
+        "Newton iterations",
+        newton.largest_iterations,
+        "Largest number of iterations of Newton's method in a load "
+        "step.",
+        section.prm,
+        Patterns::Integer(1));
+      section.add_parameter(
+        "Ghost penalty",
+        newton.ghost_penalty,
+        "Stiffness that holds nodes with hardly any soil to their "
+        "neighbours, over the shear modulus [-].",
+        section.prm,
+        Patterns::Double(0.));
+    }
+  } // namespace
+
+
+
   template <int dim>
   Equilibrium<dim>::Equilibrium()
     : ParameterAcceptor("/Equilibrium")
@@ -51,24 +84,7 @@ namespace talus
                   "up if the soil is not in balance.",
                   this->prm,
                   Patterns::Integer(1));
-    add_parameter("Newton tolerance",
-                  newton_parameters_.tolerance,
-                  "Residual of Newton's method over the force of the loads "
-                  "[-].",
-                  this->prm,
-                  Patterns::Double(0.));
-    add_parameter("Newton iterations",
-                  newton_parameters_.largest_iterations,
-                  "Largest number of iterations of Newton's method in a load "
-                  "step.",
-                  this->prm,
-                  Patterns::Integer(1));
-    add_parameter("Ghost penalty",
-                  newton_parameters_.ghost_penalty,
-                  "Stiffness that holds nodes with hardly any soil to their "
-                  "neighbours, over the shear modulus [-].",
-                  this->prm,
-                  Patterns::Double(0.));
+    add_newton_parameters(*this, newton_parameters_);
     add_parameter("Well-balanced load",
                   is_well_balanced_,
                   "Subtract from the weight its error in cells that the soil "

@@ -14,6 +14,43 @@ namespace talus
 {
   using namespace dealii;
 
+  namespace
+  {
+    /// Declare the entries of section Output that choose the files of fields.
+    void
+    add_field_parameters(ParameterAcceptor &section, OutputSettings &settings)
+    {
+      section.add_parameter(
+        "Write points",
+        settings.write_points,
+        "Write the points with all their columns for ParaView.");
+      section.add_parameter(
+        "Write grid",
+        settings.write_grid,
+        "Write the cells of the background grid that hold points, "
+        "with nodal mass, velocity and force, for ParaView.");
+      section.add_parameter(
+        "Write obstacles",
+        settings.write_obstacles,
+        "Write, where there are obstacles, their surfaces, and the "
+        "facets of these that soil touches, with the traction "
+        "there, for ParaView.");
+      section.add_parameter(
+        "Boxes as cells",
+        settings.boxes_as_cells,
+        "Write each point as its box, a quad or hex, so that "
+        "ParaView shows a continuum, instead of as a dot.");
+      section.add_parameter("Format",
+                            settings.format,
+                            "Files of points, grid and obstacles: " +
+                              field_format_documentation() + ".",
+                            section.prm,
+                            Patterns::Selection(field_format_names()));
+    }
+  } // namespace
+
+
+
   template <int dim>
   Output<dim>::Output(PhaseTimer           &timer,
                       Log                  &log,
@@ -40,28 +77,7 @@ namespace talus
                   "it.",
                   this->prm,
                   Patterns::Double(1e-12));
-    add_parameter("Write points",
-                  settings_.write_points,
-                  "Write the points with all their columns for ParaView.");
-    add_parameter("Write grid",
-                  settings_.write_grid,
-                  "Write the cells of the background grid that hold points, "
-                  "with nodal mass, velocity and force, for ParaView.");
-    add_parameter("Write obstacles",
-                  settings_.write_obstacles,
-                  "Write, where there are obstacles, their surfaces, and the "
-                  "facets of these that soil touches, with the traction "
-                  "there, for ParaView.");
-    add_parameter("Boxes as cells",
-                  settings_.boxes_as_cells,
-                  "Write each point as its box, a quad or hex, so that "
-                  "ParaView shows a continuum, instead of as a dot.");
-    add_parameter("Format",
-                  settings_.format,
-                  "Files of points, grid and obstacles: " +
-                    field_format_documentation() + ".",
-                  this->prm,
-                  Patterns::Selection(field_format_names()));
+    add_field_parameters(*this, settings_);
     add_parameter("Runout",
                   settings_.write_runout,
                   "Write what tells the runout: the columns of front and rear "

@@ -105,17 +105,14 @@ namespace talus
   void
   RestDetector<dim>::update(const State<dim> &state, const double last_change)
   {
-    // Without points a step would go on to the end of the run.
-    if (state.time < next_look_ && !state.outflow.is_open())
+    // At every step, since a step without points goes on to the end time.
+    has_left_ =
+      state.outflow.is_open() &&
+      Utilities::MPI::sum(1. * state.points.size(), state.communicator()) == 0;
+    is_at_rest_ = is_at_rest_ || has_left_;
+    if (has_left_ || state.time < next_look_)
       return;
     next_look_ = state.time + 0.1 * duration_;
-    has_left_ =
-      Utilities::MPI::sum(1. * state.points.size(), state.communicator()) == 0;
-    if (has_left_)
-      {
-        is_at_rest_ = true;
-        return;
-      }
     energy_ =
       Utilities::MPI::sum(state.nodes.kinetic_energy(), state.communicator());
     peak_energy_ = std::max(peak_energy_, energy_);

@@ -195,8 +195,8 @@ namespace talus
     /// What the surfaces make of a cell, whatever the numbers of its nodes.
     struct Section
     {
-      /// Of its centre from the obstacles, m; of others than those near the
-      /// cell, the largest number.
+      /// Distance of the centre of the cell from the nearest obstacle, m; the
+      /// largest number if none is near the cell.
       double                         distance;
       std::vector<ContactFacet<dim>> facets;     ///< where soil may be
       std::vector<ContactFacet<dim>> hidden;     ///< partly or wholly covered

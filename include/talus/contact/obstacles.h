@@ -66,7 +66,8 @@ namespace talus
       return index_.near(x, distance);
     }
 
-    /// The same for a box in place of @p x.
+    /// Return all obstacles whose bounding boxes are not farther from @p box than
+    /// @p distance, m, and perhaps some others.
     Numbers
     near(const Box<dim> &box, const double distance) const
     {
@@ -78,8 +79,8 @@ namespace talus
     double
     signed_distance(const dealii::Point<dim> &x, const Numbers &some) const;
 
-    /// That one of @p some obstacles in which @p x lies deepest, or which is
-    /// nearest.
+    /// Return the number of the obstacle, among @p some, in which @p x lies
+    /// deepest, or which is nearest to @p x.
     unsigned int
     nearest(const dealii::Point<dim> &x, const Numbers &some) const;
 

@@ -111,7 +111,7 @@ namespace talus
 
     struct ContactPoint
     {
-      /// That of the facet. Of a node inside: key of the node (two numbers),
+      /// Name of the facet; for a node inside, key of the node (two numbers),
       /// obstacle, -1.
       FacetName                         name;
       std::array<unsigned int, n_nodes> node;
@@ -131,7 +131,7 @@ namespace talus
       bool sticks_first = false;        ///< in the next matrix, though it slips
     };
 
-    /// What a contact point remembers from step to step.
+    /// State of a contact point that passes from load step to load step.
     struct Memory
     {
       double opened; ///< normal displacement since points were last moved, m

@@ -14,7 +14,7 @@
 
 namespace talus
 {
-  /// What the user wants of runout.csv, section Runout.
+  /// Parameters of runout.csv, section Runout.
   class RunoutSettings : public dealii::ParameterAcceptor
   {
   public:

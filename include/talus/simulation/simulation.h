@@ -65,10 +65,10 @@ namespace talus
       return log_.count_of_remarks();
     }
 
-    /// From the start, or the checkpoint, to the end of the run, with output:
-    /// the end time, or when the soil is at rest or has left the mesh. Returns
-    /// false if the run was stopped before that, by a signal or by its limit of
-    /// wall time; then resume() can go on.
+    /// Compute from the start, or the checkpoint, to the end of the run, with
+    /// output: to the end time, or until the soil is at rest or has left the
+    /// mesh. Returns false if the run was stopped before that, by a signal or by
+    /// its limit of wall time; then resume() can go on.
     bool
     run();
 
