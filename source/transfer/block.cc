@@ -8,8 +8,9 @@ namespace talus
 {
   namespace
   {
-    /// Of a block, which boxes reach beyond the lower face of their cell along
-    /// an axis, and which do not reach its upper one.
+    /// Points of a block by the extent of their boxes along an axis: `below` is
+    /// set if the box reaches beyond the lower face of the cell, `inside_above`
+    /// if it does not reach the upper face.
     struct Reach
     {
       PointsOfBlock below = 0, inside_above = 0;
@@ -17,11 +18,11 @@ namespace talus
 
 
 
-    /// A box inside its cell has weights at the nodes of the cell, and none at
-    /// the one below nor at the one above: it may go with those that reach
-    /// below as well as with those that do not. Take the side that leaves most
-    /// points of the cell with the same nodes: below if any box must. Returns,
-    /// of @p these points, those whose nodes begin below the cell.
+    /// Return the points of @p these whose three nodes begin below the cell. A
+    /// box inside the cell has zero weight at the nodes below and above the
+    /// cell, so it may join boxes that reach below or boxes that do not. Choose
+    /// the side that gives most points of the cell the same nodes: below if any
+    /// box reaches below.
     inline PointsOfBlock
     begin_below(const Reach &reach, const PointsOfBlock these)
     {
@@ -30,8 +31,9 @@ namespace talus
 
 
 
-    /// Take out of @p these points of a cell that is not uniform those that
-    /// reach into a cell of another size. Returns the patch for the others.
+    /// Move the points that reach into a cell of another size from @p these to
+    /// the outsiders of the block; the cell is not uniform. Return the patch
+    /// for the remaining points.
     template <int dim>
     const unsigned int *
     part_from_outsiders(Block<dim>                       &block,
@@ -53,7 +55,7 @@ namespace talus
       for_each_bit(outsiders, [&](const unsigned int k) {
         block.outsiders[block.n_outsiders++] = {k, piece.cell};
       });
-      constexpr unsigned int own = (power(4, dim) - 1) / 3; // one up each axis
+      constexpr unsigned int own = (power(4, dim) - 1) / 3; // (1, 1, 1)
       auto                  &patch = block.patches[block.n_patches++];
       for (unsigned int i = 0; i < patch.size(); ++i)
         {
@@ -66,8 +68,9 @@ namespace talus
 
 
 
-    /// Add a run of @p points, if there are any, whose nodes begin below the
-    /// cell along the axes where bit d of @p above is not set.
+    /// Add a run of @p points, unless empty. Along axis d the nodes begin at
+    /// the lower face of the cell if bit d of @p above is set, otherwise one
+    /// node below.
     template <int dim>
     void
     add_run(Block<dim>         &block,
@@ -90,7 +93,7 @@ namespace talus
 
 
 
-    /// Part @p these points of a cell into runs.
+    /// Split the points @p these of a cell into runs.
     template <int dim>
     TALUS_ALWAYS_INLINE void
     add_runs(Block<dim>         &block,
@@ -121,14 +124,13 @@ namespace talus
 
 
 
-    /// Part the points of each cell into runs and outsiders.
-    /// This is what makes the transfer fast: most points of a cell have weights
-    /// at the same 3^dim nodes. As a run, of four to six points on average,
-    /// they are summed up in registers and memory is touched once for all of
-    /// them, where each point by itself would load and store 3^dim records
-    /// (doc/performance.md). Which points go together is a matter of bits:
-    /// reach has one bit per point and face, so there is no branch per point
-    /// that the machine would have to guess.
+    /// Split the points of each cell into runs and outsiders. Runs make the
+    /// transfer fast: most points of a cell have weights at the same 3^dim
+    /// nodes. The contributions of a run, four to six points on average, are
+    /// summed in registers and written to memory once, whereas a single point
+    /// would load and store 3^dim records (doc/performance.md). Runs are found
+    /// by bit operations, a bit per point and face, without a branch per point
+    /// that the processor would have to predict.
     template <int dim>
     void
     find_runs(Block<dim> &block, const Reach (&reach)[dim])
@@ -149,9 +151,9 @@ namespace talus
 
 
 
-    /// Domains that are no boxes have weights that are no products.
-    /// A run takes for granted that a weight is a product of factors along the
-    /// axes.
+    /// Make every point of the block an outsider: a run requires weights that
+    /// are products of factors along the axes, which convected domains do not
+    /// have.
     template <int dim>
     void
     make_all_outsiders(Block<dim> &block)
@@ -166,12 +168,12 @@ namespace talus
 
 
 
-  // Along each axis a box has weights at four nodes around its cell, of which a
-  // run takes three. All four are computed, for all points at once and without
-  // a branch, from two integrals (axis_weights()); which three count is decided
-  // later by the signs of how far the box reaches beyond the faces. Weights are
-  // computed in both sweeps of a step: kept from one to the next, 16 doubles
-  // per point (24 in 3-D) would travel to memory and back.
+  // Along each axis a box has weights at four nodes around its cell; a run uses
+  // three. All four are computed for all points without a branch, from two
+  // integrals (axis_weights()). The signs of the distances of the box from the
+  // faces later select the three nodes. Weights are computed in both sweeps of
+  // a step, because storing 16 doubles per point (24 in 3-D) would cost more
+  // memory traffic.
   template <int dim>
   void
   BlockWalk<dim>::compute_weights(Block<dim> &block) const
@@ -181,8 +183,8 @@ namespace talus
     const auto             points       = points_.view();
     const Number           inverse_size = 1. / block.cell_size;
     Reach                  reach[dim];
-    // Whole registers: what lies behind the last point of the block is
-    // computed, too, from whatever is there, and never used.
+    // Whole registers: entries behind the last point of the block are computed,
+    // too, and never used.
     for (unsigned int k = 0; k < block.size; k += simd_width)
 #pragma GCC unroll 3
       for (unsigned int d = 0; d < dim; ++d)
@@ -209,7 +211,8 @@ namespace talus
 
   namespace
   {
-    /// Ask for a cell. (Not inlined, GCC leaves it out.)
+    /// Prefetch a cell. (GCC drops the prefetches unless the function is
+    /// inlined.)
     template <int dim>
     TALUS_ALWAYS_INLINE void
     prefetch(const Cell<dim> &cell)
@@ -223,10 +226,10 @@ namespace talus
 
 
 
-  // A block goes across cells, since a cell has too few points to fill
-  // registers; but not across bodies, whose loads differ, nor across sizes of
-  // cells, which all lengths are divided by. It ends in the middle of a cell if
-  // it is full.
+  // A block spans several cells, since a cell has too few points to fill
+  // registers. A block has one body, since loads differ between bodies, and one
+  // cell size, since all lengths are divided by the cell size. A full block
+  // ends in the middle of a cell.
   template <int dim>
   bool
   BlockWalk<dim>::next(Block<dim> &block)
@@ -238,7 +241,7 @@ namespace talus
       {
         const Segment   &segment = segments[segment_];
         const Cell<dim> &cell    = cells[segment.cell];
-        // The last block may have ended within this segment.
+        // The previous block may have ended within this segment.
         if (n_pieces == 0)
           {
             point_          = std::max(point_, segment.begin);
@@ -248,8 +251,8 @@ namespace talus
           }
         else if (segment.body != block.body || cell.size != block.cell_size)
           break;
-        // The first phase of the next batch would else wait for each of its
-        // cells: each one is asked for when its turn is a batch later.
+        // The first phase of the next batch would wait for the data of each
+        // cell: prefetch each cell one batch ahead.
         if (const std::size_t ahead = std::size_t(segment_) + n_segments_;
             ahead < segments.size())
           prefetch(cells[segments[ahead].cell]);
@@ -257,8 +260,8 @@ namespace talus
         const unsigned int end =
           std::min(size + (segment.end - point_), Block<dim>::n_points);
         block.pieces[n_pieces++] = {size, end, segment.cell, &cell};
-        // Whole registers: what goes beyond the end is overwritten by the next
-        // piece. One is mostly enough.
+        // Whole registers: values beyond the end are overwritten by the next
+        // piece. One register is mostly enough.
 #pragma GCC unroll 1
         for (unsigned int k = size; k < end; k += simd_width)
           for (unsigned int d = 0; d < dim; ++d)

@@ -10,9 +10,10 @@ namespace talus
 
   namespace
   {
-    /// Diagonal of the symmetric factor of F = R U, or of F^T = R V.
-    /// In 2-D U = (C + J I)/sqrt(tr C + 2 J), C = F^T F, @cite hoger1984.
-    /// No eigenvectors, and so no case for equal eigenvalues.
+    /// Diagonal of the symmetric factor U of F = R U; for F^T, the diagonal of
+    /// V of F = V R. In 2-D U = (C + J I)/sqrt(tr C + 2 J), C = F^T F,
+    /// @cite hoger1984. No eigenvectors, hence no special case for equal
+    /// eigenvalues.
     template <typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, 2>
     stretch_diagonal(const Matrix<2, Number> &F, const Number J)
@@ -25,12 +26,12 @@ namespace talus
 
 
 
-    /// In 3-D the rotation comes from Newton's iteration R <- (R + R^-T)/2,
-    /// which converges quadratically from R = F, @cite higham1986.
-    /// A closed form by eigenvalues of C loses digits where they are close, as
-    /// they are in most of the soil. All points of a register iterate until the
-    /// last one is done; about four iterations are enough, fewer the less the
-    /// soil is stretched.
+    /// Diagonal of the symmetric factor U of F = R U in 3-D. The rotation comes
+    /// from Newton's iteration R <- (R + R^-T)/2, which converges quadratically
+    /// from R = F, @cite higham1986. A closed form by eigenvalues of C loses
+    /// digits for close eigenvalues, which most of the soil has. The iteration
+    /// ends when all points of a register have converged, after about four
+    /// iterations, fewer for small stretches.
     template <typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, 3>
     stretch_diagonal(const Matrix<3, Number> &F, const Number /*J*/)
@@ -47,7 +48,7 @@ namespace talus
                 R[i][j] += step;
                 change += step * step;
               }
-          // The next iterate differs by the square of this change.
+          // The next change is of the order of the square of this change.
           if (!any(change > Number(1e-16)))
             break;
         }
@@ -60,8 +61,8 @@ namespace talus
 
 
 
-    /// |F e_d|, by which the axes of the undeformed box are stretched.
-    /// No rotation changes it, so a body that only turns is never split.
+    /// Stretches |F e_d| of the axes of the undeformed box. Rotations do not
+    /// change |F e_d|, so a body in pure rotation is never split.
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
                         lengths_of_columns(const Matrix<dim, Number> &F)
@@ -79,18 +80,18 @@ namespace talus
 
 
 
-    /// For boxes parallel to the axes that know their stretch by the
-    /// deformation gradient. V and not U is the default: both are positive at
-    /// any rotation, but U measures along axes that have not turned with the
-    /// material, and lengthens a sheared box across the motion (doc/method.md,
-    /// section 1).
+    /// Stretches along the axes, from F, for boxes parallel to the axes. The
+    /// default is V and not U: both are positive at any rotation, but U
+    /// measures along axes that have not turned with the material, and
+    /// lengthens a sheared box across the motion (doc/method.md, section 1).
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
     stretch_along_axes(const Matrix<dim, Number> &F, const BoxRule rule)
     {
       if (rule == BoxRule::deformation_gradient)
         {
-          // May pass through zero; the criterion needs it positive.
+          // F_dd may pass through zero; the splitting criterion needs a
+          // positive stretch.
           std::array<Number, dim> stretch;
           for (unsigned int d = 0; d < dim; ++d)
             stretch[d] = max(F[d][d], Number(0.01));
@@ -108,8 +109,8 @@ namespace talus
 
 
 
-    /// Set the stretch of the points [begin, end) to what @p stretch_of makes
-    /// of F. (Rules that share a loop share subexpressions, and so round-off.)
+    /// Set the stretch of the points [begin, end) to stretch_of(F). (Rules that
+    /// share a loop share subexpressions and therefore round-off.)
     template <int dim, typename StretchOf>
     TALUS_ALWAYS_INLINE void
     set_stretch(const PointsView<dim> &points,
@@ -129,8 +130,9 @@ namespace talus
 
 
 
-    /// Only the splitter asks for it. By the logarithmic strain along the axis
-    /// it stays positive whatever the motion, where F_dd could vanish.
+    /// Integrate the logarithmic strain along each axis over @p dt, s. Only the
+    /// splitter reads the stretch of fixed boxes. The exponential stays
+    /// positive for any motion, whereas F_dd could vanish.
     template <int dim>
     void
     update_stretch_of_fixed_boxes(const PointsView<dim>    &points,
@@ -189,10 +191,10 @@ namespace talus
 
 
 
-  // The deformation a body starts with is none since the creation of its
-  // points: the splitter compares with what they start with. A rule without
-  // deformation gradient (fixed) begins with that of U, since there is no
-  // motion to integrate.
+  // The initial deformation of a body does not count as deformation since the
+  // creation of its points: the splitter compares with the initial stretch.
+  // Fixed boxes begin with the stretch of U, since no motion has been
+  // integrated yet.
   template <int dim>
   void
   initialize_stretch(Points<dim>       &points,
@@ -222,8 +224,8 @@ namespace talus
 
 
 
-  // Not clipped: the splitter asks how long the material of a point is, and
-  // what children inherit are these edges.
+  // Not clipped: the splitter needs the true length of the material of a point,
+  // and children inherit the edges.
   template <int dim>
   Tensor<1, dim>
   edge_of_box(const Points<dim> &points,
@@ -245,8 +247,8 @@ namespace talus
 
   namespace
   {
-    /// By the same lengths and limits as half_length_in_cells(), but before
-    /// they are clipped.
+    /// Number of axes along which the box of point @p p exceeds the limits of
+    /// half_length_in_cells(); @p size is the cell size, m.
     template <int dim>
     unsigned int
     count_clipped_axes(const Points<dim> &points,
@@ -269,8 +271,8 @@ namespace talus
 
 
 
-  // For the column of the statistics: where many boxes are clipped, they
-  // overlap or leave gaps, and the splitter should have acted.
+  // For a column of the statistics: where many boxes are clipped, boxes overlap
+  // or leave gaps, and points should have been split.
   template <int dim>
   unsigned long
   count_clipped_boxes(const Points<dim> &points,

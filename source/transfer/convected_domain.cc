@@ -7,9 +7,9 @@ namespace talus
 {
   using namespace dealii;
 
-  // A corner must lie in one of the cells that touch the point's own. Since the
-  // smallest of these decides how far it may reach, this holds wherever in its
-  // cell the point lies.
+  // All corners must lie in cells that touch the cell of the point. The size of
+  // the smallest touching cell limits the domain, so the condition holds for
+  // any position of the point in its cell.
   template <int dim>
   double
   smallest_size_around(const Grid<dim> &grid, const unsigned int c)
@@ -22,11 +22,10 @@ namespace talus
 
 
 
-  // Of all cells the one least far away, as round-off may put the place between
-  // two of them.
-  // No search in the mesh is needed, as corners reach no farther than these
-  // cells. Corners beyond the boundary see the shape functions of the nearest
-  // place of the mesh: constant along the normal, as boxes do.
+  // The nearest cell is taken, because round-off may put the position between
+  // two cells. The mesh is not searched: corners reach no farther than touching
+  // cells. Corners beyond the boundary get the shape functions of the nearest
+  // position in the mesh, constant along the normal, as for boxes.
   template <int dim>
   const Cell<dim> &
   touching_cell_at(const Grid<dim> &grid, const unsigned int c, Point<dim> &x)

@@ -13,9 +13,9 @@ namespace talus
 
   namespace
   {
-    /// The row of a point by its weights as they are defined.
-    /// Into the same row as the kernel would, so that move_points() need not
-    /// know how it came about; and so the gradient is per cell size.
+    /// Compute the row of an outsider from its weights by definition. The row
+    /// has the layout of the kernel, with the gradient per cell size, so that
+    /// move_points() treats all points alike.
     template <int dim>
     void
     interpolate_outsider(const Block<dim>                    &block,
@@ -59,11 +59,10 @@ namespace talus
 
 
 
-    /// The motion of the nodes, interpolated to all points of the block.
-    /// The addresses of the nodes are found once per run. While this is
-    /// computed, the columns of the next batch are fetched: the first ones, up
-    /// to the initial position, are all that the second sweep needs of those
-    /// that every point has.
+    /// Interpolate the motion of the nodes to all points of the block. Node
+    /// addresses are computed once per run. Meanwhile the columns of the next
+    /// batch are prefetched: the second sweep reads the common columns up to
+    /// the initial position.
     template <int dim>
     void
     interpolate_to_block(const Block<dim>        &block,
@@ -93,10 +92,10 @@ namespace talus
 
 
 
-    /// Here position and cell are in registers anyway; a search of its own,
-    /// point by point, would pass over all points once more
-    /// (doc/performance.md). Nearly all points stay, which is said to the
-    /// compiler.
+    /// Append the points outside of their cell to @p points_out_of_cell.
+    /// Position and cell are in registers already; a separate search would pass
+    /// over all points once more (doc/performance.md). Nearly all points stay
+    /// in their cell, hence the branch hint.
     template <typename Mask>
     TALUS_ALWAYS_INLINE void
     note_points_out_of_cell(const Mask                &inside,
@@ -114,15 +113,14 @@ namespace talus
 
 
 
-  // Block by block in two parts, since they want different layouts:
-  // interpolation goes point by point, with the entries of a node side by side
-  // in a register; the update of the points goes entry by entry, with several
-  // points side by side. MotionEntries transposes between them, within the
-  // first-level cache. Positions move by the velocity of the grid and not by
-  // the point's own, whose noise would let points pass through one another.
+  // Each block is processed in two parts with different layouts. Interpolation
+  // runs point by point, with the entries of a node side by side in a register.
+  // The update of the points runs entry by entry, with several points side by
+  // side. MotionEntries transposes in between, within the first-level cache.
+  // Positions move with the velocity of the grid, because the noise in the
+  // velocities of the points would let points pass through one another.
   //
-  // The power is summed in an order that does not depend on the width of the
-  // registers (OrderedSum).
+  // OrderedSum makes the power independent of the width of the registers.
   template <int dim>
   double
   Transfer<dim>::gather(const NodalFields<dim> &nodes,

@@ -13,8 +13,8 @@ namespace talus
 
   namespace
   {
-    // Norm of F beyond which it begins anew, and its longest axis then. At 1000
-    // the volume still has ten digits.
+    // Norm of F beyond which F is shortened, and new length of the longest
+    // axis. At 1000 the volume still has ten digits.
     constexpr double max_norm = 1e3, new_length = 500.;
 
 
@@ -39,7 +39,7 @@ namespace talus
     Tensor<2, dim>
     shortened(const Tensor<2, dim> &F)
     {
-      // The largest first.
+      // Eigenvalues in descending order.
       const auto     modes    = eigenvectors(symmetrize(F * transpose(F)),
                                       SymmetricTensorEigenvectorMethod::jacobi);
       const auto    &longest  = modes.front().second;
@@ -53,7 +53,7 @@ namespace talus
 
 
 
-    /// Return the stretch of point @p p by its present F.
+    /// Return the stretch of point @p p computed from its current F.
     template <int dim>
     Tensor<1, dim>
     stretch_by_F(Points<dim> &points, const unsigned int p, const BoxRule rule)
@@ -79,7 +79,7 @@ namespace talus
           for (unsigned int j = 0; j < dim; ++j)
             points.data(F_column, dim * i + j)[p] = new_F[i][j];
       };
-      // The stretch of fixed boxes does not follow from F.
+      // The stretch of fixed boxes does not depend on F.
       if (rule == BoxRule::fixed)
         {
           store();
@@ -100,8 +100,7 @@ namespace talus
 
 
 
-  // Nearly always there is nothing to do: one fast pass over F, which is in the
-  // cache.
+  // Most calls only test F, in a fast pass over data in the cache.
   template <int dim>
   void
   renew_large_deformations(Points<dim>       &points,

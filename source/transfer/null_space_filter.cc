@@ -16,24 +16,25 @@ namespace talus
     add_parameter(
       "Scheme",
       scheme_,
-      "'FLIP': points take the increments of the grid, and keep for "
-      "ever what the grid cannot see of their velocities. 'filtered "
-      "FLIP': every some steps these velocities are taken away by "
-      "XPIC, and differences of the mean stress within a cell with "
-      "the cell mean on.",
+      "Update of the velocities of the points. 'FLIP': points add the "
+      "increments of the grid, and velocities that the grid cannot see stay "
+      "for ever. 'filtered FLIP': in addition, at a fixed interval, XPIC "
+      "removes the velocities that the grid cannot see, and where B-bar is on "
+      "the mean stress of each point is replaced by the cell mean.",
       this->prm,
       Patterns::Selection("FLIP|filtered FLIP"));
     add_parameter("Filter interval",
                   interval_,
-                  "Steps from one filtering to the next [-]. Less damps more; "
-                  "near 1/(CFL number) noise has no time to grow between two.",
+                  "Number of steps between two filterings [-]. A smaller "
+                  "number damps more; near 1/(CFL number) noise has no time to "
+                  "grow in between.",
                   this->prm,
                   Patterns::Integer(1));
     add_parameter(
       "Filter order",
       order_,
-      "Number m of passes to the grid and back of XPIC(m) [-]: more "
-      "keep more of the shortest waves. 1 is PIC.",
+      "Number m of passes to the grid and back in XPIC(m) [-]. A larger number "
+      "keeps more of the shortest waves; 1 is PIC.",
       this->prm,
       Patterns::Integer(1, 20));
   }
@@ -42,11 +43,10 @@ namespace talus
 
   namespace
   {
-    /// The mean stress of the points becomes that of their cell; the deviator
-    /// stays.
-    /// By the first half of B-bar, which has the difference already. Where
-    /// B-bar is on the nodes feel the mean only, so nodal forces stay as they
-    /// are; where it is off the difference is zero, and so is the change.
+    /// Replace the mean stress of each point by the cell mean and keep the
+    /// deviator. The first half of B-bar computes the shift. With B-bar the
+    /// nodes feel the mean only, so nodal forces are unchanged; without B-bar
+    /// the shift is zero.
     template <int dim>
     void
     filter_mean_stress(Points<dim>         &points,
@@ -57,7 +57,8 @@ namespace talus
         workspace.reinit(batch.begin, batch.end);
         transfer.apply_bbar_to_stress(points, workspace, batch);
         const double *const shift = workspace.mean_stress_shift();
-        // Out of the plane, too: the deviator must not change.
+        // Shift all three normal stresses, also in 2-D: the deviator must not
+        // change.
         for (unsigned int d = 0; d < 3; ++d)
           {
             double *const stress = points.data(points.stress, d) + batch.begin;
@@ -69,8 +70,8 @@ namespace talus
 
 
 
-    /// Replace the velocities of the points by those that the grid has of them:
-    /// one pass of XPIC, which is PIC.
+    /// Replace the velocities of the points by the velocity of the grid
+    /// interpolated to them: one pass of XPIC, identical to PIC.
     template <int dim>
     void
     pass_to_grid_and_back(Points<dim>         &points,
@@ -80,7 +81,8 @@ namespace talus
                           const Transfer<dim> &transfer,
                           const double         mass_cutoff)
     {
-      // Forces are summed up, too, but no time passes in which they could act.
+      // Forces are summed, too, but have no effect in a time step of length
+      // zero.
       const double time_step = 0., flip_fraction = 0.;
       Loads<dim>   none;
       none.acceleration_of_body.resize(transfer.n_bodies());
@@ -93,8 +95,8 @@ namespace talus
       nodes.sum_over_ranks(grid);
       nodes.update_momentum(time_step, mass_cutoff);
       nodes.share_with_ghosts(grid);
-      // With no time step and no share of FLIP nothing but the velocity of the
-      // points changes, which becomes that of the grid.
+      // With zero time step and zero FLIP fraction only the velocities of the
+      // points change: they become the velocity of the grid.
       points.for_each_batch([&](const Batch &batch) {
         workspace.reinit(batch.begin, batch.end);
         transfer.gather(nodes,
@@ -111,16 +113,16 @@ namespace talus
 
 
 
-  // XPIC(m): with P the pass to the grid and back, the new velocities are
-  // (1 - (1 - P)^m) v = P v + P (1 - P) v + ..., so that the velocity column
-  // holds in turn what no pass has seen so far. A mode that P leaves at its
-  // share lambda is left at 1 - (1 - lambda)^m: the null space vanishes (lambda
-  // = 0), and smooth motion, whose lambda is close to 1, stays.
+  // XPIC(m): with P a pass to the grid and back, the new velocities are
+  // (1 - (1 - P)^m) v = P v + P (1 - P) v + ..., so the velocity column holds
+  // in turn the part of v that no pass has seen. A mode with eigenvalue lambda
+  // of P is multiplied by 1 - (1 - lambda)^m: the null space (lambda = 0)
+  // vanishes, and smooth motion (lambda close to 1) stays.
 
-  // The column of the velocities itself is what is passed on, since the kernels
-  // read and write it: no second transfer that would have to be kept equal to
-  // the first. It costs m passes over points and nodes, every some steps. Sums
-  // and momentum are kept because each pass keeps them.
+  // The velocity column itself is passed on, since the kernels read and write
+  // it; a second transfer would have to be kept equal to the first. The cost is
+  // m passes over points and nodes per filtering. Each pass conserves mass and
+  // momentum.
   template <int dim>
   void
   NullSpaceFilter<dim>::apply(Points<dim>         &points,
@@ -158,7 +160,8 @@ namespace talus
       std::copy(seen[d].begin(),
                 seen[d].end(),
                 points.data(points.velocity, d));
-    // Nobody has moved; those that rest outside their cell were noted again.
+    // No point has moved; points resting outside of their cell were listed
+    // again.
     workspace.points_out_of_cell().clear();
   }
 

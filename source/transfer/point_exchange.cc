@@ -10,8 +10,8 @@ namespace talus
 
   namespace
   {
-    // Its bits may be those of a number that is none: they are copied, never
-    // computed with.
+    // The bits of a key may be a NaN as a double: keys are copied, never used
+    // in arithmetic.
     static_assert(sizeof(unsigned long) == sizeof(double),
                   "The key of a cell travels among doubles.");
 
@@ -19,9 +19,8 @@ namespace talus
 
 
 
-  /// A message is the list of its points, each the key of its new cell and then
-  /// all columns. The sender has found the cell, so the receiver need not look
-  /// for it.
+  /// Pack the messages: for each point the key of its new cell, then all
+  /// columns. The sender has found the cell, so the receiver need not search.
   template <int dim>
   void
   PointExchange<dim>::pack(const std::vector<OutgoingPoint> &outgoing,
@@ -50,7 +49,7 @@ namespace talus
 
 
 
-  /// Append the points of the message of one neighbour.
+  /// Append the points in the message of one neighbour rank.
   template <int dim>
   void
   PointExchange<dim>::append(const NeighborExchange::Message &message,
@@ -75,8 +74,8 @@ namespace talus
 
 
 
-  // Messages are taken in the order of the ranks: the order of the points in a
-  // cell is part of the state, and a run must be the same bit by bit each time.
+  // Messages are appended in the order of the ranks: the order of the points in
+  // a cell is part of the state, and runs must be bit-identical.
   template <int dim>
   const std::vector<typename PointExchange<dim>::IncomingPoint> &
   PointExchange<dim>::exchange(const std::vector<OutgoingPoint> &outgoing,

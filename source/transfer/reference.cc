@@ -10,7 +10,7 @@ namespace talus
 
   namespace
   {
-    /// What weight and body force give to point @p p per mass, m/s^2.
+    /// Acceleration of point @p p by weight and body force, m/s^2.
     template <int dim>
     Tensor<1, dim>
     acceleration_of_point(const Loads<dim>  &loads,
@@ -25,8 +25,8 @@ namespace talus
 
 
 
-    /// Stress of point @p p within the dimensions of the mesh, with the mean
-    /// over its cell, Pa.
+    /// Stress of point @p p in the dimensions of the mesh, Pa, with its mean
+    /// averaged over the cell (B-bar).
     template <int dim>
     Tensor<2, dim>
     averaged_stress(const Points<dim>        &points,
@@ -46,9 +46,9 @@ namespace talus
 
 
 
-  // Written to be read beside the formulas, and not to be fast: the tests hold
-  // the kernels to it, so it should have no trick in common with them. It
-  // shares with them only how the stress and the volume of a point are read.
+  // Written to be read beside the formulas, not to be fast. The tests compare
+  // the kernels with the functions below, so they share no optimization with
+  // the kernels, only the functions that read stress and volume of a point.
   template <int dim>
   void
   scatter_by_definition(const Points<dim>        &points,
@@ -62,7 +62,8 @@ namespace talus
   {
     for (unsigned int p = segment.begin; p < segment.end; ++p)
       {
-        // One list for all nodes, with the room of the point before.
+        // One list of weights for all nodes; it reuses the memory of the
+        // previous point.
         weights_of_point(points, grid, shape, segment.cell, p, room);
         const double m     = points.data(points.mass)[p];
         const double V0    = points.data(points.reference_volume)[p];
@@ -70,8 +71,7 @@ namespace talus
         const auto   v     = load_vector(points, points.velocity, p);
         const auto   b     = acceleration_of_point(loads, segment.body, p);
         const auto   sigma = averaged_stress(points, workspace, p);
-        // The stress is symmetric: from which side it takes the gradient is all
-        // one.
+        // The stress is symmetric: sigma . grad S = grad S . sigma.
         for (const auto &w : room)
           nodes.add_sums(w.node,
                          w.value * m,
@@ -83,7 +83,7 @@ namespace talus
 
 
 
-  // A node may be in the list several times: a sum over entries is one over
+  // A node may be listed several times: the sum over entries is the sum over
   // nodes.
   template <int dim>
   MotionByDefinition<dim>
@@ -110,8 +110,8 @@ namespace talus
 
 
 
-  // The power is that of the mean velocity of the step, v - dv/2: only so is
-  // the work of a constant force exact (doc/method.md, section 7).
+  // The power uses the mean velocity of the step, v - dv/2: only then is the
+  // work of a constant force exact (doc/method.md, section 7).
   template <int dim>
   double
   gather_by_definition(const NodalFields<dim> &nodes,
@@ -132,7 +132,7 @@ namespace talus
       {
         const auto [v, dv, L] = interpolate_by_definition(
           points, segment.cell, p, grid, shape, nodes, room);
-        // All that is interpolated is known now: the point may move.
+        // Interpolation is complete: the point may move.
         bool is_inside = true;
         for (unsigned int i = 0; i < dim; ++i)
           {

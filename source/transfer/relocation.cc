@@ -11,7 +11,8 @@ namespace talus
 
   namespace
   {
-    /// Move a point that lies beyond a periodic face to where it enters.
+    /// Shift a point beyond a periodic face, with its initial position, by the
+    /// period.
     template <int dim>
     void
     wrap(Points<dim>            &points,
@@ -32,9 +33,9 @@ namespace talus
 
 
 
-    /// Whether the centres of all these points are in the cell; false if one is
-    /// no number.
-    /// Cells are half open, so that a point on a face belongs to one of them.
+    /// Whether the centres of all points [segment.begin, segment.end) are in
+    /// the cell. False if a coordinate is NaN. Cells are half open, so a point
+    /// on a face belongs to exactly one cell.
     template <int dim>
     bool
     all_inside(const Points<dim> &points,
@@ -55,10 +56,10 @@ namespace talus
 
 
 
-  /// Throw ExcPoint if point @p p lies farther outside than the conditions on
-  /// the faces allow, in cells of @p cell_size. Beside a wall its centre may: a
-  /// wall stops nodes and not points, and the boundary cell goes on outside of
-  /// it.
+  /// Throw ExcPoint if point @p p lies farther outside of the mesh than the
+  /// boundary conditions allow, in cells of @p cell_size, m. The centre of a
+  /// point may lie beyond a wall: a wall stops nodes and not points, and the
+  /// boundary cell continues outside.
   template <int dim>
   void
   Relocation<dim>::check_inside(const Points<dim> &points,
@@ -72,7 +73,7 @@ namespace talus
         const unsigned int d = face / 2;
         const double outside = (face % 2 == 0 ? grid.domain().lower[d] - x[d]
                                               : x[d] - grid.domain().upper[d]);
-        // Written so that a coordinate that is not a number fails.
+        // The condition fails if a coordinate is NaN.
         if (outside <= allowed_outside_[face] * cell_size)
           continue;
         const bool is_number = std::isfinite(x[d]);
@@ -104,10 +105,10 @@ namespace talus
 
 
 
-  /// The cell of a point that left @p old_cell. A step moves a point by a
-  /// fraction of a cell (doc/method.md, section 8), so the neighbours come
-  /// first, without a search. Beside cells of another size, beyond the mesh,
-  /// and where the neighbour is not known, the lattice decides.
+  /// Find the cell of a point that left @p old_cell. In a step a point moves by
+  /// a fraction of a cell (doc/method.md, section 8), so neighbours are tested
+  /// first, without a search. Next to cells of another size, beyond the mesh,
+  /// and for unknown neighbours, the lattice is searched.
   template <int dim>
   unsigned int
   Relocation<dim>::locate(const Points<dim> &points,
@@ -138,8 +139,9 @@ namespace talus
 
 
 
-  /// The cell of a point of which nothing is known. One outside the mesh
-  /// belongs to the nearest cell, if it may be there at all.
+  /// Find the cell of a point without knowledge of its old cell. A point
+  /// outside of the mesh belongs to the nearest cell, if the boundary condition
+  /// allows points outside.
   template <int dim>
   unsigned int
   Relocation<dim>::cell_of(const Points<dim> &points,
@@ -149,7 +151,7 @@ namespace talus
     const unsigned int c =
       grid.find_cell(load_place(points, points.position, p));
     const bool is_known = (c != numbers::invalid_unsigned_int);
-    // The wall is that of the cell it belongs to now.
+    // The distance allowed depends on the size of the current cell.
     check_inside(points,
                  grid,
                  p,
@@ -167,8 +169,8 @@ namespace talus
 
 
 
-  /// Note point @p p of @p segment if it belongs to another cell now, or leaves
-  /// the run.
+  /// List point @p p of @p segment as changed or leaving if it is outside of
+  /// its cell.
   template <int dim>
   void
   Relocation<dim>::look_for(Points<dim>       &points,
@@ -193,8 +195,7 @@ namespace talus
 
 
 
-  /// Look at all sorted points; whole segments first, since most of them lose
-  /// none.
+  /// Test all sorted points, whole segments first: most segments lose no point.
   template <int dim>
   void
   Relocation<dim>::find_sorted_changes(Points<dim>     &points,
@@ -208,10 +209,10 @@ namespace talus
 
 
 
-  /// Look at the points only that the gather and the splitter noted. Sorted,
-  /// they meet their segments in one pass, and the changes come in the order in
-  /// which a look at all points would find them: so both ways give the same
-  /// order of the points.
+  /// Test only the points listed by the gather and the splitter. In ascending
+  /// order they meet their segments in one pass, and changes are found in the
+  /// same order as by a test of all points: both ways give the same order of
+  /// the points.
   template <int dim>
   void
   Relocation<dim>::find_changes_out_of_cell(
@@ -236,8 +237,7 @@ namespace talus
 
 
 
-  /// Children of a split, and points that were just made: all of them need a
-  /// cell.
+  /// Find the cells of all appended points: children of a split, new points.
   template <int dim>
   void
   Relocation<dim>::find_appended_changes(Points<dim>     &points,
@@ -262,7 +262,8 @@ namespace talus
 
 
 
-  /// Where it was not noted which points left their cell.
+  /// Test all points, for callers without a list of points that left their
+  /// cell.
   template <int dim>
   void
   Relocation<dim>::find_all_changes(Points<dim> &points, const Grid<dim> &grid)
@@ -275,15 +276,15 @@ namespace talus
 
 
 
-  /// Let those whose new cell is a ghost travel to its owner.
-  /// A ghost's owner is a neighbour, so that no other rank need be asked.
-  /// Points that arrive are appended, and sorted in with those of this rank.
+  /// Send the points whose new cell is a ghost cell to the owner of the cell.
+  /// Owners of ghost cells are neighbour ranks, so no other rank is involved.
+  /// Points received are appended and listed as changes.
   template <int dim>
   void
   Relocation<dim>::send_departed(Points<dim> &points, const Grid<dim> &grid)
   {
     outgoing_.clear();
-    // All ranks are here the first time, those without neighbours, too.
+    // connect() is collective: ranks without neighbours call it, too.
     exchange_.connect(grid.communicator());
     if (grid.neighbor_ranks().empty())
       return;
@@ -305,20 +306,20 @@ namespace talus
 
 
 
-  // Why points are kept sorted by cell: all that B-bar, scatter and gather do
-  // goes cell by cell, so neighbours in memory share nodes, cells and means;
-  // points in the order in which they were made would fetch the nodes anew for
-  // each of them. And why not sorted anew: in a step few points change their
-  // cell. So what changes is listed, sent, and merged into the order of the
-  // rest (Reordering), in three stages:
+  // Why points are sorted by cell: B-bar, scatter and gather loop over cells,
+  // so neighbours in memory share nodes, cells and means; unsorted points would
+  // load the nodes again for each point. Why points are not sorted from
+  // scratch: few points change their cell in a step. The changes are listed,
+  // sent, and merged into the order of the remaining points (Reordering), in
+  // three stages:
   //
-  // 1. which points belong to another cell now: find_...(),
-  // 2. which of these belong to another rank: send_departed(),
-  // 3. where each goes in memory: sort_in().
+  // 1. find the points whose cell changed: find_...(),
+  // 2. send points to the owners of their new cells: send_departed(),
+  // 3. merge the points into the order in memory: sort_in().
   //
-  // Afterwards every point lies in its cell and on the rank that owns it,
-  // points of a cell stand together, by body, and those that stayed have kept
-  // their order.
+  // Afterwards every point is in its cell and on the rank that owns the cell,
+  // the points of a cell are contiguous, grouped by body, and points that
+  // stayed have kept their order.
   template <int dim>
   bool
   Relocation<dim>::update(Points<dim> &points, const Grid<dim> &grid)
@@ -347,7 +348,8 @@ namespace talus
 
 
 
-  /// If no point moves the order stays. All ranks must call it, as a point may
+  /// Send and merge the changes. Return whether the set of occupied cells
+  /// changed. Without changes the order stays. Collective, since points may
   /// arrive.
   template <int dim>
   bool
@@ -361,17 +363,16 @@ namespace talus
 
 
 
-  /// Returns whether the set of the occupied cells changed.
-  /// Merge the changes into the order, and move the data. The number of points is
-  /// checked in every build: a point that got lost would take its mass along,
-  /// and nothing else would notice.
+  /// Merge the changes into the order and move the data. Return whether the set
+  /// of occupied cells changed. The number of points is checked in every build:
+  /// the mass of a lost point would disappear without any other error.
   template <int dim>
   bool
   Relocation<dim>::sort_in(Points<dim> &points)
   {
     departed_.clear();
     for (const auto &point : outgoing_)
-      // Appended points are in no segment that they could leave.
+      // Appended points belong to no segment.
       if (point.index < points.n_sorted())
         departed_.push_back(point.index);
     for (const unsigned int p : leaving_)
@@ -391,7 +392,7 @@ namespace talus
                                 " left the mesh by an outflow face.")));
     reordering_.apply(points);
     // At the start and after a change of the mesh all points move, in a step
-    // only a few: the long lists would be a waste of memory.
+    // only a few: release the memory of the long lists.
     if (changes_.size() > points.size() / 8)
       {
         std::vector<CellChange>().swap(changes_);
@@ -402,8 +403,9 @@ namespace talus
 
 
 
-  /// Segments ascend by cell, so that a cell with several bodies is met in
-  /// turn. Nodes are activated anew only if this returns true.
+  /// Update the list of occupied cells. Return whether it changed; only then
+  /// the active nodes change. Segments ascend by cell, so the bodies of a cell
+  /// are adjacent.
   template <int dim>
   bool
   Relocation<dim>::find_occupied_cells(const Points<dim> &points)

@@ -10,14 +10,14 @@ namespace talus
 {
   using namespace dealii;
 
-  // Three steps per block. What each point gives (mass, momentum, forces;
-  // NodalSum) is computed entry by entry for several points at once, and
-  // transposed, so that it lies there point by point. Then run by run it is
-  // multiplied by the weights and added to the nodes, a register of entries at
-  // a time. Points that are in no run go last, node by node.
+  // A block takes three steps. The contributions of the points (mass, momentum,
+  // forces; NodalSum) are computed entry by entry for several points at once,
+  // and transposed to rows, one per point. Then they are multiplied by the
+  // weights and added to the nodes, run by run, a register of entries at a
+  // time. Outsiders are added last, node by node.
   //
-  // Points add to nodes, in the order of the points: nothing is added in
-  // parallel, so no locks, and sums that are the same bit by bit in each run.
+  // Points add to nodes in the order of the points. The sum is sequential: it
+  // needs no locks and is bit-identical in every run.
   template <int dim>
   void
   Transfer<dim>::scatter(const Points<dim>        &points,
@@ -40,7 +40,7 @@ namespace talus
           return nodes.sum(node);
         });
         fill(contributions, block, columns, work, loads.view(block.body));
-        // Up to the elastic energy: the first sweep reads no columns beyond.
+        // The first sweep reads no column beyond the elastic energy.
         points.fetch_ahead(block.begin,
                            block.begin + block.size,
                            points.elastic_energy);

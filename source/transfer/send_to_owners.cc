@@ -10,12 +10,12 @@ namespace talus
 
   namespace
   {
-    /// All arrays of a point, one after the other.
+    /// All arrays of a point, in sequence.
     using PackedPoint = std::vector<double>;
 
 
 
-    /// Whether a point lies in a cell of this rank.
+    /// Whether a point lies in a cell owned by this rank.
     template <int dim>
     bool
     is_at_home(const PackedPoint &record,
@@ -25,7 +25,7 @@ namespace talus
       Point<dim> x;
       for (unsigned int d = 0; d < dim; ++d)
         x[d] = record[points.position + d];
-      // Points outside of the mesh are an error of the relocation.
+      // The relocation reports points outside of the mesh.
       const unsigned int c = grid.find_cell(x);
       return c != numbers::invalid_unsigned_int && c < grid.n_owned_cells();
     }
@@ -33,12 +33,12 @@ namespace talus
 
 
 
-  // No rank knows who owns a cell far away: so each shows the points that lie
-  // elsewhere to all others, and takes from theirs what lies in its own cells.
-  // That is a message of all to all, and memory for all these points on every
-  // rank, which is simple and good enough where points are made or the mesh
-  // changes; in a step points go to neighbours only (PointExchange). Points that
-  // stay come first, in their order, then the others, by rank.
+  // No rank knows the owner of a distant cell. Therefore each rank broadcasts
+  // its points in cells of others, and picks the points in its own cells. The
+  // message of all to all, with memory for all these points on every rank, is
+  // simple and good enough when points are created or the mesh changes; in a
+  // step points go to neighbours only (PointExchange). Points that stay come
+  // first, in their order, then points received, by rank.
   template <int dim>
   void
   send_points_to_owners(Points<dim> &points, const Grid<dim> &grid)
@@ -61,8 +61,8 @@ namespace talus
         if (is_at_home(record, points, grid))
           here.push_back(record);
 
-    // A place has one cell and a cell one owner, so that no point is lost or
-    // doubled: unless ranks do not agree about the mesh.
+    // A position has one cell and a cell has one owner, so no point is lost or
+    // doubled, unless the ranks have different meshes.
     const double n_before =
       Utilities::MPI::sum(1. * points.size(), communicator);
     points.clear();

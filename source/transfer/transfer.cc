@@ -16,21 +16,21 @@ namespace talus
   {
     add_parameter("FLIP fraction",
                   flip_fraction_,
-                  "Share of the old velocity plus the increment of the grid "
-                  "(FLIP) in the new velocity of a point; the rest is the "
-                  "velocity of the grid (PIC), which damps [-].",
+                  "Weight of FLIP (old velocity plus increment of the grid) in "
+                  "the new velocity of a point [-]. The remaining weight is "
+                  "given to PIC (velocity of the grid), which damps.",
                   this->prm,
                   Patterns::Double(0., 1.));
     add_parameter("Box rule",
                   box_rule_,
-                  "How the box of a point follows its deformation: 'fixed' "
-                  "(uniform GIMP; the children of a split then do not tile "
-                  "their parent), 'deformation gradient' (F_dd), 'right "
-                  "stretch' (U_dd of F = R U, blind to where the material has "
-                  "turned) or 'left stretch' (V_dd of F = V R), all of them "
-                  "parallel to the axes; or 'convected domain' (CPDI), a "
-                  "parallelogram that turns, stretches and shears with F: for "
-                  "bodies that bend or turn far, at several times the cost.",
+                  "How the box of a point follows its deformation. Parallel to "
+                  "the axes: 'fixed' (uniform GIMP; the children of a split do "
+                  "not tile their parent), 'deformation gradient' (F_dd), "
+                  "'right stretch' (U_dd of F = R U, in axes that do not turn "
+                  "with the material) or 'left stretch' (V_dd of F = V R). Not "
+                  "parallel: 'convected domain' (CPDI), a parallelogram that "
+                  "turns, stretches and shears with F, for bodies that bend or "
+                  "turn far, at several times the cost.",
                   this->prm,
                   Patterns::Selection(
                     "fixed|deformation gradient|right stretch|left stretch|"
@@ -38,26 +38,25 @@ namespace talus
     add_parameter(
       "Minimum half-size",
       box_shape_.least_half,
-      "Half of the length of a box is clipped to at least this many "
-      "cell sizes for the weights; thinner boxes would lower the "
-      "stable time step. Of a convected domain: half of the distance between "
-      "opposite sides [-].",
+      "Lower limit of the half length of a box in the weights, in cell sizes "
+      "[-]; thinner boxes would lower the stable time step. For a convected "
+      "domain: lower limit of half the distance between opposite sides.",
       this->prm,
       Patterns::Double(1e-3, 0.5));
     add_parameter("Maximum half-size",
                   box_shape_.most_half,
-                  "Half of the length of a box is clipped to at most this many "
-                  "cell sizes for the weights; a longer box would reach beyond "
-                  "the cells around its own. A convected domain may reach "
-                  "twice as far from its centre along each axis, in sizes of "
-                  "the smallest cell around [-].",
+                  "Upper limit of the half length of a box in the weights, in "
+                  "cell sizes [-]; a longer box would reach beyond the "
+                  "touching cells. A convected domain may reach twice as far "
+                  "from its centre along each axis, in sizes of the smallest "
+                  "touching cell.",
                   this->prm,
                   Patterns::Double(1e-3, 0.5));
     add_parameter("Mass cut-off",
                   mass_cut_off_,
-                  "Nodes with less mass than this fraction of a full cell's "
-                  "carry nothing [-]. A large value acts as a wall in front of "
-                  "the slide.",
+                  "Nodes with less mass than this fraction of the mass of a "
+                  "full cell are inactive [-]. A large value acts as a wall in "
+                  "front of the slide.",
                   this->prm,
                   Patterns::Double(0., 1e-3));
     parse_parameters_call_back.connect([this]() {
@@ -86,7 +85,7 @@ namespace talus
 
 
 
-  // In shares of a full cell, so that it means the same on every mesh.
+  // As a fraction of a full cell the cut-off is the same on every mesh.
   template <int dim>
   double
   Transfer<dim>::mass_cutoff(const double density, const double cell_size) const
@@ -96,7 +95,7 @@ namespace talus
 
 
 
-  // Bodies without it should not pay for it.
+  // Batches without B-bar skip the averaging.
   template <int dim>
   bool
   Transfer<dim>::takes_bbar(const Points<dim> &points, const Batch &batch) const
@@ -109,8 +108,11 @@ namespace talus
 
 
 
-  /// The mean of a quantity over each cell, at its points: over those of all
-  /// bodies whose law asks for it. At the others the quantity itself.
+  /// Compute the mean of a quantity over each cell, weighted by volume, for the
+  /// points of all bodies that use B-bar; for other points copy the quantity.
+  /// @param quantity value at each point of the batch
+  /// @param weighted pairs of volume times quantity and volume, m^3, per point
+  /// @param mean result per point of the batch
   template <int dim>
   void
   Transfer<dim>::set_cell_means(const Points<dim> &points,
@@ -119,10 +121,10 @@ namespace talus
                                 const double      *weighted,
                                 double            *mean) const
   {
-    // A cell has few points, so that what counts is how few instructions go
-    // around them. Sums go point by point, lest they depend on the registers,
-    // product and volume in one. What a register writes behind a segment, the
-    // next one overwrites.
+    // A cell has few points, so the number of instructions around them decides.
+    // Sums run point by point, so that they do not depend on the width of the
+    // registers; a register holds product and volume. Values that a register
+    // writes behind a segment are overwritten by the next segment.
     using Number              = Simd<simd_width>;
     const Segment *segment    = points.segments().data() + batch.first_segment;
     const Segment *const last = points.segments().data() + batch.last_segment;
@@ -165,13 +167,11 @@ namespace talus
 
 
 
-  /// Call add(p, difference) with the difference between the mean over the cell
-  /// of quantity(p) and itself.
-  /// Both halves of B-bar are this, with another quantity. It takes three
-  /// passes, each in the order that suits it: several points at a time for the
-  /// quantity and its product with the volume, cell by cell for the means,
-  /// several points at a time again. All of it stays in the cache, as it is a
-  /// batch's.
+  /// Call add(p, difference) with the cell mean of quantity(p) minus
+  /// quantity(p). Three passes, each in its best order: several points at a
+  /// time for the quantity and its product with the volume, cell by cell for
+  /// the means, several points at a time for the differences. The data of a
+  /// batch stay in the cache.
   template <int dim>
   template <typename Quantity, typename Add>
   void
@@ -207,21 +207,20 @@ namespace talus
 
 
 
-  // Both means are weighted with the volume at the start of the step and taken
-  // over the same points: only then is the pair adjoint,
-  // sum V sigma : D' = sum V sigma' : D, and no energy appears. Bodies that
-  // share a cell share its mean: with one mean each, nothing would tie the
-  // pressures in that cell to one another.
+  // Both means are weighted with the volume at the start of the step and run
+  // over the same points: only then the pair is adjoint, sum V sigma : D' =
+  // sum V sigma' : D, and creates no energy. Bodies in one cell share the mean:
+  // separate means would leave the pressures in the cell uncoupled.
 
-  // Soil that hardly changes its volume locks on bilinear cells: each of the
-  // four points of a cell asks for its own volume to stay, but there is one
-  // node per cell, with two components. The mean asks once (doc/method.md,
+  // Nearly incompressible soil locks on bilinear cells: each of the four points
+  // of a cell constrains its own volume, but there is only one node per cell,
+  // with two components. The mean is one constraint per cell (doc/method.md,
   // section 3). With q = tr_dim(sigma)/dim and the means <.> over the cell
   //   sigma' = sigma + (<q> - q) I,  D' = D + (<tr D> - tr D)/dim I.
-  // In 2-D q is the mean in the plane and not the pressure: D' has only these
-  // components, and with the pressure the pair would not be adjoint. The shift
-  // is kept apart from the stress, which remains the point's own: it is needed
-  // for the forces only.
+  // In 2-D q is the mean stress in the plane and not the pressure: D' has only
+  // the components in the plane, and with the pressure the pair would not be
+  // adjoint. The shift is stored separately: only the forces need it, and the
+  // stress of the point stays unchanged.
   template <int dim>
   void
   Transfer<dim>::apply_bbar_to_stress(const Points<dim>  &points,
@@ -252,8 +251,8 @@ namespace talus
 
 
 
-  // The velocity gradient itself is changed, so that deformation gradient,
-  // volume and stress all follow the same D'.
+  // The velocity gradient itself is changed, so deformation gradient, volume
+  // and stress all follow the same D'.
   template <int dim>
   void
   Transfer<dim>::apply_bbar_to_dilatation(const Points<dim>  &points,

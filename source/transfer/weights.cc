@@ -13,17 +13,17 @@ namespace talus
 
   namespace
   {
-    /// A box, and one over its length along each axis.
+    /// Box of a point, m, with the inverse of its length along each axis, 1/m.
     template <int dim>
     struct BoxOfPoint
     {
       std::array<double, dim> lower, upper, inverse_length;
-      bool                    is_beyond_mesh; ///< in part, or the whole
+      bool                    is_beyond_mesh; ///< partly or wholly
     };
 
 
 
-    /// Share of the two hats of one cell in a box, along one axis.
+    /// Weights of the two hat functions of one cell, along one axis.
     struct CellShare
     {
       std::array<double, 2> value{};
@@ -32,14 +32,12 @@ namespace talus
 
 
 
-    /// The cell [lower, upper] is continued with constant shape functions where
-    /// it lies at the boundary of the mesh.
-    /// Along one axis, of the box [a, b] with one over its length, and the cell
-    /// [lower, upper] with one over its size: the means of the two hats of the
-    /// cell over the box, as far as the cell covers it, and of their
-    /// derivatives, 1/m. A hat is linear in the cell, so its mean over the
-    /// overlap is its value at the middle: exact. What lies beyond the boundary
-    /// of the mesh sees the boundary node with the value one, and no gradient.
+    /// Compute, along one axis, the means over the box [a, b] of the two hat
+    /// functions of the cell [lower, upper], as far as the cell covers the box,
+    /// and of their derivatives, 1/m. A hat function is linear in the cell, so
+    /// the mean over the overlap is the value at its middle: exact. A cell at
+    /// the boundary of the mesh is continued outwards with constant shape
+    /// functions: value 1 of the boundary node, no gradient.
     inline CellShare
     share_of_cell(const double a,
                   const double b,
@@ -67,10 +65,10 @@ namespace talus
 
 
 
-    /// @param lower corner of the cell or, across a periodic face, of its
-    /// image. Add what one cell gives to the weights of a box: products of its
-    /// shares along the axes, at its 2^dim nodes. Nothing if they do not
-    /// overlap.
+    /// Add the weights of a box at the 2^dim nodes of one cell: products of the
+    /// CellShare along the axes. Adds nothing if cell and box do not overlap.
+    /// @param lower corner of the cell or, across a periodic face, of the
+    ///   periodic image of the cell, m
     template <int dim>
     void
     add_cell(const Grid<dim>              &grid,
@@ -128,7 +126,7 @@ namespace talus
 
 
 
-    /// Whether the box overlaps no other cell.
+    /// Whether the box lies inside @p cell.
     template <int dim>
     bool
     is_inside(const BoxOfPoint<dim> &box, const Cell<dim> &cell)
@@ -143,14 +141,13 @@ namespace talus
 
 
 
-  // The definition of doc/method.md, section 1, cell by cell, with no regard to
-  // which nodes the cells share: so it holds for cells of any sizes side by
-  // side, for hanging nodes, at walls and across periodic faces. A point
-  // treated so takes some 3000 instructions per step in 2-D, one in a run 500
-  // (doc/performance.md): so it is used only where the kernel for uniform cells
-  // (axis_weights()) does not apply, which the tests hold to it. A node is
-  // listed once for each cell that has it, as whoever uses the list sums over
-  // it.
+  // The definition of doc/method.md, section 1, cell by cell, without using
+  // shared nodes: valid for neighbouring cells of different sizes, hanging
+  // nodes, walls and periodic faces. In 2-D a point takes about 3000
+  // instructions per step, a point in a run 500 (doc/performance.md). Therefore
+  // the definition is used only where the kernel for uniform cells
+  // (axis_weights()) does not apply, and in the tests of the kernel. A node is
+  // listed once for each of its cells; users of the list sum over the entries.
   template <int dim>
   void
   general_weights(const Grid<dim>              &grid,
@@ -180,8 +177,8 @@ namespace talus
           if (const unsigned int n = cell.neighbors[k];
               n != numbers::invalid_unsigned_int)
             {
-              // By the own cell and not by the neighbour's: across a periodic
-              // face it is the image of the neighbour that the box overlaps.
+              // Computed from the own cell: across a periodic face the box
+              // overlaps the periodic image of the neighbour.
               Point<dim> lower = cell.lower;
               for (unsigned int d = 0; d < dim; ++d)
                 lower[d] += (k / power(3, d) % 3 - 1.) * cell.size;
@@ -200,11 +197,12 @@ namespace talus
 
   namespace
   {
-    /// Corner by corner; a node of several corners is listed several times.
-    /// In place of integrals over a parallelogram, which crosses cells at any
-    /// angle, CPDI takes the mean of an interpolation between the corners
-    /// (doc/method.md, section 1): it reproduces 1 and x as the shape functions
-    /// do, and takes values at 2^dim places only.
+    /// Compute the weights of a convected domain corner by corner; a node of
+    /// several corners is listed several times. CPDI replaces integrals over a
+    /// parallelogram, which crosses cells at any angle, by the mean of an
+    /// interpolation between the corners (doc/method.md, section 1). The
+    /// interpolation reproduces 1 and x, as the shape functions do, and needs
+    /// values at 2^dim positions only.
     template <int dim>
     void
     convected_weights(const Grid<dim>              &grid,
@@ -226,7 +224,7 @@ namespace talus
 
 
 
-    /// With the half lengths as the kernel clips them.
+    /// Compute the weights of a box with half lengths clipped as in the kernel.
     template <int dim>
     void
     weights_of_box(const Points<dim>            &points,
@@ -248,7 +246,7 @@ namespace talus
 
 
 
-  // That the weights sum to one is what conserves mass and momentum.
+  // Conservation of mass and momentum requires weights that sum to one.
   template <int dim>
   void
   weights_of_point(const Points<dim>            &points,

@@ -11,39 +11,39 @@
 
 namespace talus
 {
-  /// Points of a block: bit k is point k.
+  /// Set of points of a block: bit k stands for point k.
   using PointsOfBlock = std::uint64_t;
 
 
 
-  /// Up to n_points consecutive points of one body, in cells of one size, with
-  /// what the kernels need of them side by side: small enough for the first-level
-  /// cache, large enough that loops over points fill the registers although a
-  /// cell may have only a few.
+  /// Up to n_points consecutive points of one body in cells of equal size, with
+  /// the data the kernels need, side by side. The size of a block fits into the
+  /// first-level cache, and lets loops over points fill the registers although
+  /// a cell may hold only a few points.
   template <int dim>
   struct Block
   {
     static constexpr unsigned int n_points = 64; ///< bits of PointsOfBlock
-    /// What is filled a register at a time may go beyond the last point.
+    /// Length of arrays written a register at a time, beyond the last point.
     static constexpr unsigned int n_with_spare =
       n_points + Points<dim>::n_spare;
 
-    /// Weights along an axis, point by point in rows: at the nodes -1, 0, 1 and
-    /// 2 of the cell, and their derivatives there, per cell size.
+    /// Weights along an axis in eight rows, a column per point: values at the
+    /// nodes -1, 0, 1 and 2 of the cell [-], then derivatives per cell size.
     static constexpr unsigned int begin_of_gradient = 4 * n_points;
     using Weights = std::array<double, 8 * n_points>;
 
-    /// Points in one cell with weights at the same 3^dim nodes.
+    /// Points of one cell with weights at the same 3^dim nodes.
     struct Run
     {
       PointsOfBlock points;
-      /// The first of the nodes in the patch of the cell, see Cell::patch; 4
-      /// nodes of the patch are a row.
+      /// First of the 3^dim nodes in the patch of the cell, see Cell::patch. A
+      /// row of the patch has 4 nodes.
       const unsigned int *patch;
-      /// The rows of the weights of that node.
+      /// Rows of Block::weights at the first node, by axis.
       std::array<const double *, dim> weights;
 
-      /// Weight of point @p k at node @p i of three along axis @p d.
+      /// Return the weight of point @p k at node @p i of three along axis @p d.
       TALUS_ALWAYS_INLINE double
       value(const unsigned int d,
             const unsigned int i,
@@ -52,7 +52,7 @@ namespace talus
         return weights[d][n_points * i + k];
       }
 
-      /// Its derivative along the axis, per cell size.
+      /// Return the derivative of value() along axis @p d, per cell size.
       TALUS_ALWAYS_INLINE double
       gradient(const unsigned int d,
                const unsigned int i,
@@ -62,23 +62,23 @@ namespace talus
       }
     };
 
-    /// The points of a cell.
+    /// Consecutive points of the block in one cell.
     struct Piece
     {
-      unsigned int     begin, end; ///< among those of the block
+      unsigned int     begin, end; ///< indices in the block
       unsigned int     cell;
       const Cell<dim> *cell_data;
     };
 
-    /// A point that reaches into a cell of another size, or whose domain is no
-    /// box: runs leave it out, and its weights are those by definition.
+    /// A point that no run contains: it reaches into a cell of another size, or
+    /// its domain is not a box. Its weights are computed by weights_of_point().
     struct Outsider
     {
-      unsigned int k; ///< point of the block
+      unsigned int k; ///< index in the block
       unsigned int cell;
     };
 
-    unsigned int begin = 0; ///< first point
+    unsigned int begin = 0; ///< index of the first point in Points
     unsigned int size  = 0;
     unsigned int body  = 0;
     double       cell_size;
@@ -89,12 +89,12 @@ namespace talus
     std::array<Run, n_points>      runs;
     unsigned int                   n_outsiders = 0;
     std::array<Outsider, n_points> outsiders;
-    /// Patches of cells that are not uniform; where an entry is invalid, a node
-    /// of the cell, as no run has a weight there.
+    /// Patches of the cells that are not uniform. An invalid node is replaced
+    /// by a node of the cell, since no run has a weight at an invalid node.
     unsigned int                                                  n_patches = 0;
     std::array<std::array<unsigned int, power(4, dim)>, n_points> patches;
 
-    /// Corner of the cell of each point, m.
+    /// Lower corner of the cell of each point, m.
     alignas(64) std::array<std::array<double, n_with_spare>, dim> cell_lower;
 
     alignas(64) std::array<Weights, dim> weights;
@@ -102,7 +102,7 @@ namespace talus
 
 
 
-  /// Walks over the points of a batch in blocks.
+  /// Splits the points of a batch into blocks.
   template <int dim>
   class BlockWalk
   {
@@ -119,7 +119,7 @@ namespace talus
       , n_segments_(batch.last_segment - batch.first_segment)
     {}
 
-    /// Fill @p block with the next points; false if there are none left.
+    /// Fill @p block with the next points. Return false if no point is left.
     bool
     next(Block<dim> &block);
 
@@ -132,16 +132,16 @@ namespace talus
     const BoxShape    &shape_;
     unsigned int       segment_;
     unsigned int       last_segment_;
-    unsigned int       n_segments_; ///< of the batch
-    unsigned int       point_ = 0;  ///< the next one
+    unsigned int       n_segments_; ///< number of segments in the batch
+    unsigned int       point_ = 0;  ///< next point
   };
 
 
 
-  /// Ask for the memory of all nodes near the block, which begins at
-  /// address(node). On a large mesh it is not in the cache, and the machine,
-  /// which sees ahead of loops over points, does not see which nodes will be
-  /// next: without this a step on 640 000 points takes a quarter longer.
+  /// Prefetch the data of all nodes near the block; address(node) is where the
+  /// data of a node begin. On a large mesh the cache does not hold the nodes,
+  /// and the processor cannot predict which nodes a loop over points will read:
+  /// without prefetching a step on 640 000 points takes 25 % longer.
   template <int dim, typename Address>
   TALUS_ALWAYS_INLINE void
   prefetch_nodes(const Block<dim> &block, const Address &address)
@@ -155,7 +155,7 @@ namespace talus
 
 
 
-  /// Call action(k) for each of the points.
+  /// Call action(k) for each point k of the set.
   template <typename Action>
   TALUS_ALWAYS_INLINE void
   for_each_bit(const PointsOfBlock points, const Action &action)

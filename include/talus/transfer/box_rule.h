@@ -9,9 +9,11 @@
 
 namespace talus
 {
-  /// Set the stretch of the points [begin, end) from their deformation gradient,
-  /// after a step of @p dt. With the rule `fixed` the box does not use it, only the
-  /// splitter does: it is exp(integral of D_dd dt), positive by construction.
+  /// Set the stretch [-] of the points [begin, end) after a step of length
+  /// @p dt, s, from their deformation gradient. With the rule `fixed` the
+  /// weights ignore the stretch and only the splitter reads it: the stretch
+  /// then is exp(integral of D_dd dt), always positive, computed from the
+  /// velocity gradient in @p workspace.
   template <int dim>
   void
   update_stretch(Points<dim>              &points,
@@ -21,8 +23,8 @@ namespace talus
                  BoxRule                   rule,
                  double                    dt);
 
-  /// Set the stretch of the points [begin, end), and that at their creation,
-  /// to that of a deformation gradient they start with.
+  /// Set the stretch and the stretch at creation [-] of the points [begin, end)
+  /// from their initial deformation gradient.
   template <int dim>
   void
   initialize_stretch(Points<dim> &points,
@@ -30,9 +32,9 @@ namespace talus
                      unsigned int end,
                      BoxRule      rule);
 
-  /// Edge @p d of the box of point @p p, whole and not clipped, m: along axis d,
-  /// stretch times reference length; or, of a convected domain, where F takes
-  /// that of the undeformed box.
+  /// Edge @p d of the box of point @p p, m, without clipping. A box parallel to
+  /// the axes has the edge stretch times reference length along axis d; a
+  /// convected domain has the edge F e_d times reference length.
   template <int dim>
   dealii::Tensor<1, dim>
   edge_of_box(const Points<dim> &points,
@@ -40,7 +42,8 @@ namespace talus
               unsigned int       d,
               unsigned int       p);
 
-  /// Number of axes of boxes that are clipped for the weights.
+  /// Count the pairs of box and axis that are clipped for the weights, on this
+  /// rank.
   template <int dim>
   unsigned long
   count_clipped_boxes(const Points<dim> &points,

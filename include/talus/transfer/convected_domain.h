@@ -13,10 +13,11 @@
 
 namespace talus
 {
-  /// The domain of a point that goes with its material (CPDI): the undeformed
-  /// box as F deforms it, a parallelogram or parallelepiped. In it the shape
-  /// functions are interpolated between their values at the corners, whose mean
-  /// and mean gradient are the point's weights. @cite sadeghirad2011
+  /// Domain of a point that convects with the material (CPDI): the undeformed
+  /// box mapped by F, a parallelogram or parallelepiped. The shape functions
+  /// are interpolated between their values at the corners; mean and mean
+  /// gradient of the interpolation are the weights of the point.
+  /// @cite sadeghirad2011
   ///
   /// An edge belongs to an axis of the undeformed box, not of the mesh.
   template <int dim>
@@ -25,28 +26,31 @@ namespace talus
   public:
     static constexpr unsigned int n_corners = 1u << dim;
 
-    /// The domain of point @p p in @p cell as its weights see it:
+    /// Compute the domain of point @p p in @p cell, limited for the weights:
     /// - Opposite sides are at least twice `Minimum half-size` cells apart,
-    ///   which keeps the step stable. Moving a side outwards leaves the others.
-    /// - Along each axis of the mesh it is scaled about its centre, so that
-    ///   corners lie in the cells around: with the default `Maximum half-size`
-    ///   no farther from the centre than the smallest of these cells is long.
+    ///   which keeps the step stable. A side that moves outwards leaves the
+    ///   planes of the other sides unchanged.
+    /// - Along each axis of the mesh the domain is scaled about its centre, so
+    ///   that all corners lie in touching cells: with the default
+    ///   `Maximum half-size` no farther from the centre than the size of the
+    ///   smallest touching cell.
     ConvectedDomain(const Points<dim> &points,
                     const Grid<dim>   &grid,
                     const BoxShape    &shape,
                     unsigned int       cell,
                     unsigned int       p);
 
-    /// Place of corner @p v, m; bit d: at the upper end of edge d.
+    /// Position of corner @p v, m. Bit d of @p v is set at the upper end of
+    /// edge d.
     dealii::Point<dim>
     corner(unsigned int v) const;
 
-    /// A shape function's value at corner @p v times this is the corner's share
-    /// of the mean gradient, 1/m.
+    /// Factor of corner @p v in the mean gradient, 1/m: the mean gradient of a
+    /// shape function is the sum over corners of value times factor.
     dealii::Tensor<1, dim>
     gradient_factor(unsigned int v) const;
 
-    /// How many pairs of sides and axes of the mesh were limited.
+    /// Number of limits applied: pairs of sides pushed apart plus axes scaled.
     unsigned int
     n_clipped() const
     {
@@ -63,15 +67,16 @@ namespace talus
 
     dealii::Point<dim>                      centre_;
     std::array<dealii::Tensor<1, dim>, dim> half_edge_; ///< m
-    /// Normals of the sides over the half widths: row d times half edge e is
-    /// one for d = e, else zero.
+    /// Unit normals of the sides divided by the half widths: row d times half
+    /// edge e is 1 for d = e, otherwise 0.
     std::array<dealii::Tensor<1, dim>, dim> dual_; ///< 1/m
     unsigned int                            n_clipped_ = 0;
   };
 
 
 
-  /// The shape functions at a place: those of the nodes of its cell.
+  /// Shape functions at a position, for the nodes of the cell around the
+  /// position.
   template <int dim>
   struct NodesAround
   {
@@ -81,13 +86,15 @@ namespace talus
 
 
 
-  /// Size of the smallest cell that touches cell @p c, which is not uniform, m.
+  /// Size of the smallest cell among @p c and the cells touching it, m. Cell
+  /// @p c must not be uniform.
   template <int dim>
   double
   smallest_size_around(const Grid<dim> &grid, unsigned int c);
 
-  /// Move @p x into the mesh. Returns the cell that touches cell @p c, or that
-  /// cell, which holds it; where @p c is not uniform.
+  /// Move @p x, m, to the nearest position in the mesh. Return the cell nearest
+  /// to @p x among @p c and the cells touching @p c. Cell @p c must not be
+  /// uniform.
   template <int dim>
   const Cell<dim> &
   touching_cell_at(const Grid<dim>    &grid,
@@ -96,7 +103,8 @@ namespace talus
 
 
 
-  // The rest is inline: each corner of each point comes by here twice a step.
+  // The bodies below are inline: the functions run twice per step for each
+  // corner of each point.
 
   template <int dim>
   TALUS_ALWAYS_INLINE
@@ -137,9 +145,10 @@ namespace talus
 
 
 
-  // With n the normal of the sides at the ends of edge d, and row d of the dual
-  // basis n/w: adding (least - w) n to the half edge makes the half width
-  // w = least. The dual basis follows by the formula of Sherman and Morrison.
+  // Let n be the unit normal of the sides at the ends of edge d and w the half
+  // width; row d of the dual basis is n/w. Adding (least - w) n to the half
+  // edge makes the half width w = least. The dual basis follows from the
+  // formula of Sherman and Morrison.
   template <int dim>
   TALUS_ALWAYS_INLINE void
   ConvectedDomain<dim>::widen(const double least_half_width)
@@ -201,8 +210,8 @@ namespace talus
 
 
 
-  // The mean of the derivative along edge d is the mean over the corners at its
-  // upper end minus that over those at its lower end.
+  // The mean derivative along edge d is the mean over the corners at the upper
+  // end minus the mean over the corners at the lower end.
   template <int dim>
   TALUS_ALWAYS_INLINE dealii::Tensor<1, dim>
   ConvectedDomain<dim>::gradient_factor(const unsigned int v) const
@@ -216,8 +225,8 @@ namespace talus
 
 
 
-  /// The shape functions at @p x, in cell @p c or one that touches it. Beyond
-  /// the boundary of the mesh they are continued constantly along the normal.
+  /// Shape functions at @p x, m, in cell @p c or a touching cell. Beyond the
+  /// boundary of the mesh the shape functions are constant along the normal.
   template <int dim>
   TALUS_ALWAYS_INLINE NodesAround<dim>
                       nodes_around(const Grid<dim>   &grid,
@@ -225,7 +234,7 @@ namespace talus
                                    dealii::Point<dim> x)
   {
     const Cell<dim> *cell       = &grid.cells()[c];
-    unsigned int     first      = 0; // of the patch
+    unsigned int     first      = 0; // index in the patch
     double           lower      = 0.;
     const bool       is_uniform = cell->uniform;
     if (!is_uniform)
@@ -235,8 +244,8 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       {
         const double t = (x[d] - cell->lower[d]) * inverse_size;
-        // A patch continues the cells beyond the boundary, and knows what is
-        // across a periodic face.
+        // The patch continues the cells beyond the boundary and contains the
+        // nodes across a periodic face.
         if (is_uniform)
           lower = std::clamp(std::floor(t), -1., 1.);
         first += static_cast<unsigned int>(lower + 1.) * power(4, d);

@@ -8,16 +8,17 @@
 
 #include <algorithm>
 
-// Points whose domains are convected, corner by corner, with the rows of
-// scatter_kernel.h and gather_kernel.h: what a corner sends to the nodes of its
-// cell, or gets from them, is put together once. Registers run over the entries
-// of a node. scatter_by_definition() in reference.h says what is computed.
+// Kernels for points with a convected domain, corner by corner, on the rows of
+// scatter_kernel.h and gather_kernel.h. The data of a corner are computed once
+// for all nodes of the cell around the corner. Registers run over the entries
+// of a node. The formulas are those of scatter_by_definition() in reference.h.
 
 namespace talus
 {
   inline namespace TALUS_SIMD_NAMESPACE
   {
-    /// Entries of NodalSum up to the whole force, in whole registers.
+    /// Number of entries of NodalSum up to the total force, rounded up to whole
+    /// registers.
     template <int dim>
     inline constexpr unsigned int n_given = 8;
     static_assert(NodalSum<2>::force + 2 <= n_given<2> &&
@@ -25,8 +26,8 @@ namespace talus
 
 
 
-    /// What corner @p v of the domain gives, in the order of NodalSum, the whole
-    /// force in one place.
+    /// Compute the contribution of corner @p v of the domain of point @p k, in
+    /// the order of NodalSum, with the total force as one entry per component.
     template <int dim>
     TALUS_ALWAYS_INLINE void
     give_to_corner(const Contributions<dim>   &contributions,
@@ -43,7 +44,7 @@ namespace talus
       for (unsigned int e = 0; e < n_given<dim>; ++e)
         of_corner[e] =
           (e < Sum::force_by_x ? record[e] * (1. / domain.n_corners) : 0.);
-      // The stress is that over the cell size.
+      // contributions hold the stress divided by the cell size.
       const auto factor = cell_size * domain.gradient_factor(v);
       for (unsigned int i = 0; i < dim; ++i)
         {
@@ -56,7 +57,7 @@ namespace talus
 
 
 
-    /// Add what point @p k of the block gives.
+    /// Add the contribution of point @p k of the block to the nodal sums.
     template <int dim>
     TALUS_ALWAYS_INLINE void
     add_corners(const Contributions<dim>   &contributions,
@@ -89,7 +90,8 @@ namespace talus
 
 
 
-    /// The row of point @p k of the block.
+    /// Compute the row of InterpolatedMotion for one point with a convected
+    /// domain.
     template <int dim>
     TALUS_ALWAYS_INLINE void
     interpolate_corners(const ConvectedDomain<dim> &domain,

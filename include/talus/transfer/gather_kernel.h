@@ -8,17 +8,17 @@
 #include <talus/transfer/loads_kernel.h>
 #include <talus/transfer/transpose.h>
 
-// Grid to points, as registers see it: the same as scatter_kernel.h the other
-// way round, along x, then y, then z. Gradients are those of the velocity, the
-// first half of a NodalMotion.
+// Interpolation from grid to points in registers: the loops of scatter_kernel.h
+// reversed, first along x, then y, then z. Gradients are computed for the
+// velocity only, the first half of a NodalMotion.
 
 namespace talus
 {
   inline namespace TALUS_SIMD_NAMESPACE
   {
-    /// The motion of the nodes interpolated to the points of a block, row by
-    /// row: velocity and increment in the order of NodalMotion, then derivatives
-    /// of the velocity along each axis, per cell size.
+    /// Motion of the nodes interpolated to the points of a block, a row per
+    /// point: velocity and increment in the order of NodalMotion, m/s, then
+    /// derivatives of the velocity along each axis, per cell size.
     template <int dim>
     struct InterpolatedMotion
     {
@@ -28,7 +28,7 @@ namespace talus
       static constexpr unsigned int n_entries =
         (gradient + half * dim + simd_width - 1) / simd_width * simd_width;
 
-      /// Place of dv_i/dx_d.
+      /// Index of dv_i/dx_d in a row.
       static constexpr unsigned int
       place_of_gradient(const unsigned int i, const unsigned int d)
       {
@@ -41,7 +41,7 @@ namespace talus
 
 
 
-    /// A register, or all of them, of the nodes' motion at a point.
+    /// Interpolated entries of NodalMotion at a point, one register or all.
     template <unsigned int dim, unsigned int width>
     struct MotionAtPoint
     {
@@ -52,7 +52,7 @@ namespace talus
 
 
     /// Interpolate entries [at, at + width) of the motion of 3^dim nodes to
-    /// point @p k of the run, with or without their derivatives.
+    /// point @p k of the run, with or without derivatives.
     template <int dim, unsigned int width, bool with_gradient>
     TALUS_ALWAYS_INLINE MotionAtPoint<dim, width>
                         interpolate(const typename Block<dim>::Run &run,
@@ -105,7 +105,8 @@ namespace talus
 
 
 
-    /// Interpolate to point @p k of the run and store its row.
+    /// Interpolate the motion to point @p k of the run and store the row of the
+    /// point.
     template <int dim>
     TALUS_ALWAYS_INLINE void
     interpolate(const typename Block<dim>::Run &run,
@@ -117,8 +118,8 @@ namespace talus
       constexpr unsigned int half = I::half;
       if constexpr (simd_width > half)
         {
-          // One register holds velocity and increment; of the derivatives only
-          // those of the velocity are kept.
+          // One register holds velocity and increment; only the derivatives of
+          // the velocity are kept.
           constexpr unsigned int width = 2 * half;
           const auto p = interpolate<dim, width, true>(run, k, nodes, 0);
           store(row, p.value);
@@ -143,7 +144,8 @@ namespace talus
 
 
 
-    /// The addresses of the nodes at which the points of a run have weights.
+    /// Compute the addresses of the nodes at which the points of a run have
+    /// weights.
     template <int dim>
     TALUS_ALWAYS_INLINE void
     find_nodes(const typename Block<dim>::Run &run,
@@ -160,7 +162,8 @@ namespace talus
 
 
 
-    /// The rows of some points entry by entry.
+    /// Rows of simd_width points (or one point), transposed: a register per
+    /// entry.
     template <int dim, typename Number>
     struct MotionEntries
     {
@@ -179,7 +182,7 @@ namespace talus
             }
         else
           for (unsigned int e = 0; e < I::n_entries; ++e)
-            // Of each point the caller has set all.
+            // The caller has set all entries of each row.
             // NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage)
             entry[e] = row[0][e];
       }
@@ -187,8 +190,10 @@ namespace talus
 
 
 
-    /// v_p <- flip (v_p + dv) + (1 - flip) v(x_p), x_p <- x_p + dt v(x_p).
-    /// Returns the power of the loads on the points: m b . (mean velocity).
+    /// Update the points: v_p <- flip (v_p + dv) + (1 - flip) v(x_p),
+    /// x_p <- x_p + dt v(x_p). Write the velocity gradient, 1/s, into
+    /// @p workspace. Return the power of the loads on the points, m b . (mean
+    /// velocity), W.
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE Number
     move_points(const PointsView<dim>            &points,
@@ -220,8 +225,8 @@ namespace talus
 
 
 
-    /// Whether point(s) @p p are in the cell that begins at @p lower; false if a
-    /// position is no number, too.
+    /// Whether point(s) @p p are in the cell whose lower corner is @p lower.
+    /// False if a coordinate is NaN.
     template <int dim, typename Number, typename Columns>
     TALUS_ALWAYS_INLINE auto
     is_inside(const Columns     &points,

@@ -7,15 +7,15 @@
 
 namespace talus
 {
-  /// Let the deformation gradients F of the points [begin, end) whose norm exceeds
-  /// 1000 begin anew: F <- M F, where M is symmetric, has the axes of the left
-  /// stretch and the determinant 1, and shortens the longest axis to 500.
+  /// Shorten the deformation gradient F of the points [begin, end) where |F|
+  /// exceeds 1000: F <- M F, where M is symmetric, has the axes of the left
+  /// stretch and determinant 1, and shortens the longest axis to 500.
   ///
-  /// Each step rounds det F with an error of |F|^2 1e-16, so that soil that has
-  /// flowed for long would lose the digits of its volume. Volume, boxes and what
-  /// the splitter compares stay as they are: reference lengths and stretches at
-  /// creation are scaled with F. Only for materials whose stress does not follow
-  /// from F.
+  /// Each step rounds det F with an error of |F|^2 1e-16, so soil that flows
+  /// for a long time would lose the digits of its volume. Volume, boxes and the
+  /// quantities compared by the splitter are unchanged: reference lengths and
+  /// stretches at creation are scaled together with F. Only for materials whose
+  /// stress is not a function of F.
   template <int dim>
   void
   renew_large_deformations(Points<dim> &points,

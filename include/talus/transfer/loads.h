@@ -10,24 +10,26 @@
 
 namespace talus
 {
-  /// The loads on the points of one body, as functions of one point take them.
+  /// Loads on the points of one body, for functions of one point.
   template <int dim>
   struct LoadsView
   {
-    /// Weight divided by mass, m/s^2.
+    /// Weight per mass, m/s^2.
     std::array<double, dim> weight;
-    /// What is added at each point, m/s^2; null if nothing is.
+    /// Additional acceleration of each point, m/s^2, by axis; null if none.
     std::array<const double *, dim> of_point;
   };
 
-  /// Forces on the points that do not come from stress, as accelerations, m/s^2.
+  /// Forces on the points that do not come from stress, as
+  /// accelerations, m/s^2.
   template <int dim>
   struct Loads
   {
-    /// Weight divided by mass, for each body.
+    /// Weight per mass, for each body.
     std::vector<dealii::Tensor<1, dim>> acceleration_of_body;
 
-    /// True if acceleration_of_point holds what is to be added for each point.
+    /// True if acceleration_of_point holds an additional acceleration per
+    /// point.
     bool                                           varies = false;
     std::array<dealii::AlignedVector<double>, dim> acceleration_of_point;
 

@@ -10,36 +10,40 @@
 
 namespace talus
 {
-  /// Takes from the points what the background grid cannot see.
+  /// Removes velocities and mean stresses of the points that are invisible to
+  /// the background grid.
   ///
-  /// Points outnumber the nodes, so that there are velocities of the points that
-  /// sum to nothing at every node: the null space of the transfer. FLIP leaves
-  /// them alone, and they gather: in a slide at rest points run about at up to
-  /// 1 m/s. Every some steps the velocities are replaced by those of XPIC(m),
-  /// which keeps all that m passes to the grid and back can see, and so hardly
-  /// damps the motion. @cite hammerquist2017 Momentum is kept; the kinetic
-  /// energy that is taken belongs to the remainder of the energy budget.
+  /// Points outnumber nodes, so there are velocities of the points that sum to
+  /// zero at every node: the null space of the transfer. FLIP never changes
+  /// null-space velocities, and they accumulate: in a slide at rest points move
+  /// at up to 1 m/s. At fixed intervals the filter replaces the velocities by
+  /// XPIC(m), which keeps everything that m passes to the grid and back can
+  /// see, and hardly damps the motion. @cite hammerquist2017 Momentum is
+  /// conserved; the kinetic energy removed is part of the remainder of the
+  /// energy budget.
   ///
-  /// The same for the mean stress: under B-bar the nodes feel the
-  /// mean over the cell only, and what the points differ from it gathers as they
-  /// wander from cell to cell. It is replaced by that mean, which changes no nodal
-  /// force. @cite alkafaji2013 (Laws that compute the stress from the deformation
-  /// gradient find theirs again.)
+  /// The mean stress has a null space, too: under B-bar the nodes feel only the
+  /// mean over the cell, and the differences of the points from the mean
+  /// accumulate as points move from cell to cell. The filter replaces the mean
+  /// stress by the cell mean, which changes no nodal force. @cite alkafaji2013
+  /// Laws that compute the stress from the deformation gradient restore their
+  /// stress in the next step.
   template <int dim>
   class NullSpaceFilter : public dealii::ParameterAcceptor
   {
   public:
     NullSpaceFilter();
 
-    /// Whether the step after @p step steps begins with the filter.
+    /// Whether the filter runs at the beginning of the step after @p step
+    /// steps.
     bool
     is_due(const unsigned int step) const
     {
       return scheme_ == "filtered FLIP" && step > 0 && step % interval_ == 0;
     }
 
-    /// Filter velocity and mean stress of all points. The nodes are left with
-    /// sums of no further use. Collective.
+    /// Filter velocity and mean stress of all points. Overwrites the sums in
+    /// @p nodes. Collective.
     void
     apply(Points<dim>         &points,
           StepWorkspace<dim>  &workspace,

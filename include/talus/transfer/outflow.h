@@ -14,48 +14,49 @@
 
 namespace talus
 {
-  /// Account of the material points that leave the mesh for good through the
-  /// faces of kind `outflow`. Such a point is taken out of the run when its
-  /// centre lies beyond the face; mass, momentum and energy of the point are
-  /// added to the account, so that the balances of the run close. Each rank
-  /// keeps the share of the points that left from that rank.
+  /// Account of the material points that leave the mesh through the faces of
+  /// kind `outflow`. A point is removed from the run when its centre lies
+  /// beyond the face. Mass, momentum and energy of the point are added to the
+  /// account, so that the balances of the run close. Each rank accounts for the
+  /// points that left from the rank.
   template <int dim>
   class Outflow
   {
   public:
-    /// Let points leave through the faces of the mesh that @p is_open marks.
+    /// Let points leave through the faces of the mesh marked in @p is_open.
     void
     open(const std::array<bool, 2 * dim> &is_open);
 
-    /// Whether points may leave at all.
+    /// Whether any face is open.
     bool
     is_open() const;
 
-    /// Whether place @p x, m, lies beyond an open face of @p domain. False if a
-    /// coordinate is not a number.
+    /// Whether position @p x, m, lies beyond an open face of @p domain. False
+    /// if a coordinate is not a number.
     bool
     is_beyond(const dealii::Point<dim> &x, const Box<dim> &domain) const;
 
-    /// Add point @p p to the account. @p added_mass is that of State.
+    /// Add point @p p to the account. @p added_mass is State::added_mass: added
+    /// mass divided by mass [-] of each body, or empty.
     void
     book(const Points<dim>         &points,
          unsigned int               p,
          const std::vector<double> &added_mass);
 
-    /// Energy that left from this rank, J: kinetic energy of soil and added
-    /// mass, elastic energy, and the plastic work that the points had stored.
+    /// Energy of the points that left from this rank, J: kinetic energy of soil
+    /// and added mass, elastic energy, and plastic work.
     double
     energy() const
     {
       return energy_;
     }
 
-    /// Append number, mass and momentum of the points that left, over all ranks,
-    /// if points may leave. Collective.
+    /// Append number, mass and momentum of the points that left, summed over
+    /// all ranks, if any face is open. Collective.
     void
     list_quantities(MPI_Comm communicator, Quantities &list) const;
 
-    /// Add the account to the state of the run, if points may leave.
+    /// Add the account to the state of the run, if any face is open.
     void
     list_state(StateList &list);
 

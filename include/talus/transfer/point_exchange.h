@@ -10,8 +10,8 @@
 
 namespace talus
 {
-  /// Takes points whose cell belongs to another rank there: one message to each
-  /// neighbour, empty or not, and no operation of all ranks.
+  /// Sends points to the rank that owns their cell: one message to each
+  /// neighbour rank, empty or not, and no operation over all ranks.
   template <int dim>
   class PointExchange
   {
@@ -19,13 +19,13 @@ namespace talus
     struct OutgoingPoint
     {
       unsigned int index; ///< of the point
-      unsigned int cell;  ///< a ghost
+      unsigned int cell;  ///< ghost cell
     };
 
     struct IncomingPoint
     {
-      unsigned int index; ///< of the point, appended
-      unsigned int cell;  ///< an owned cell
+      unsigned int index; ///< of the appended point
+      unsigned int cell;  ///< owned cell
     };
 
     /// Prepare for exchanges; see NeighborExchange::connect(). Collective.
@@ -35,8 +35,9 @@ namespace talus
       messages_.connect(communicator);
     }
 
-    /// Send these points, which stay here as dead copies, and append those that
-    /// come in, in the order of the ranks and of their lists. Collective.
+    /// Send the points of @p outgoing and append the points received, ordered
+    /// by rank and by position in the message. Points sent stay in @p points as
+    /// dead copies. Return the points received. Collective.
     const std::vector<IncomingPoint> &
     exchange(const std::vector<OutgoingPoint> &outgoing,
              const Grid<dim>                  &grid,
@@ -56,7 +57,7 @@ namespace talus
 
     // Kept between calls so that a step does not allocate.
     std::vector<IncomingPoint>             arrivals_;
-    std::vector<NeighborExchange::Message> outgoing_; ///< for each neighbour
+    std::vector<NeighborExchange::Message> outgoing_; ///< by neighbour rank
   };
 } // namespace talus
 

@@ -9,10 +9,11 @@
 #include <talus/transfer/loads.h>
 #include <talus/transfer/weights.h>
 
-// The transfer as doc/method.md, section 2, has it: point by point and node by
-// node, with the weights by their definition. Read this first; scatter_kernel.h
-// and gather_kernel.h compute the same many points at a time, and the tests hold
-// them to it. Also what is used for points that reach into cells of another size.
+// The transfer as defined in doc/method.md, section 2: point by point and node
+// by node, with weights by definition. Read this file first. scatter_kernel.h
+// and gather_kernel.h compute the same result for many points at a time; the
+// tests compare the kernels with the functions below. Points that reach into
+// cells of another size use the functions below, too.
 
 namespace talus
 {
@@ -20,8 +21,8 @@ namespace talus
   /// to their nodes, @cite bardenhagen2004, eq. 19 ff.:
   ///   m_i = sum_p S_ip m_p,  (mv)_i = sum_p S_ip m_p v_p,
   ///   f_i = sum_p S_ip m_p b_p - sum_p V_p sigma'_p . grad S_ip,
-  /// sigma' the stress with the mean over its cell. @p room is for the weights of
-  /// a point.
+  /// where sigma' is the stress with its mean averaged over the cell (B-bar).
+  /// @p room is scratch space for the weights of a point.
   template <int dim>
   void
   scatter_by_definition(const Points<dim>        &points,
@@ -33,7 +34,7 @@ namespace talus
                         NodalFields<dim>         &nodes,
                         NodeWeights<dim>         &room);
 
-  /// The motion of the nodes at a point.
+  /// Motion of the nodes interpolated to a point.
   template <int dim>
   struct MotionByDefinition
   {
@@ -44,7 +45,8 @@ namespace talus
 
 
 
-  /// Interpolate to point @p p in cell @p cell.
+  /// Interpolate the motion of the nodes to point @p p in cell @p cell. @p room
+  /// is scratch space for the weights.
   template <int dim>
   MotionByDefinition<dim>
   interpolate_by_definition(const Points<dim>      &points,
@@ -56,11 +58,11 @@ namespace talus
                             NodeWeights<dim>       &room);
 
   /// Move the points of a segment by the motion of the nodes,
-  ///   v_p <- flip (v_p + sum_i S_ip dv_i) + (1 - flip) sum_i S_ip v_i,
-  ///   x_p <- x_p + dt sum_i S_ip v_i,  L_p = sum_i v_i (x) grad S_ip,
-  /// with L_p in the workspace, where those are noted that left the cell.
-  /// Returns the power of the loads, sum_p m_p b_p . sum_i S_ip (v_i - dv_i/2),
-  /// W.
+  ///   v_p~<- flip (v_p + sum_i S_ip dv_i) + (1 - flip) sum_i S_ip v_i,
+  ///   x_p <- x_p + dt sum_i S_ip v_i,  L_p = sum_i v_i (x) grad S_ip.
+  /// The workspace receives L_p and the indices of the points that left the
+  /// cell. Return the power of the loads, sum_p m_p b_p . sum_i S_ip
+  /// (v_i - dv_i/2), W.
   template <int dim>
   double
   gather_by_definition(const NodalFields<dim> &nodes,

@@ -13,51 +13,54 @@
 
 namespace talus
 {
-  /// Keeps the points sorted by cell as they move, and on the rank that owns
-  /// their cell. The cost is that of looking at every point once, plus, when
-  /// points changed cell, of shifting those between their old and new places.
+  /// Keeps moving points sorted by cell, on the rank that owns their cell. The
+  /// cost is a test of every point, and a shift in memory of the points between
+  /// old and new position of each point that changed cell.
   template <int dim>
   class Relocation
   {
   public:
-    /// For each face of the mesh, how far outside a point's centre may lie and
-    /// still belong to the boundary cell, in units of that cell: half a cell at
-    /// a wall, nothing at a free face.
+    /// Set, for each face of the mesh, how far outside the centre of a point
+    /// may lie and still belong to the boundary cell, in sizes of the boundary
+    /// cell: 0.5 at a wall, 0 at a free face.
     void
     allow_outside(const std::array<double, 2 * dim> &fraction)
     {
       allowed_outside_ = fraction;
     }
 
-    /// Find the cells of all points and sort those that changed cell, and those
-    /// appended since the last call, into the order; those whose new cell
-    /// belongs to another rank travel there. Returns whether the set of the
-    /// occupied cells changed. One that left through a periodic face goes on at
-    /// the opposite one, its initial position shifted as far, so that its
-    /// displacement does not jump. Throws ExcPoint, naming the point, if one
-    /// left the mesh. Collective.
+    /// Find the cells of all points, and sort the points that changed cell or
+    /// were appended since the last call into the order. A point whose new cell
+    /// belongs to another rank is sent there. A point that leaves through a
+    /// periodic face enters through the opposite face; its initial position is
+    /// shifted by the same vector, so that the displacement does not jump.
+    /// Return whether the set of occupied cells changed. Throw ExcPoint with
+    /// the id of the point if a point left the mesh. Collective.
     bool
     update(Points<dim> &points, const Grid<dim> &grid);
 
-    /// Whether the point of this index leaves the run. Asked once for each point
-    /// that left its cell, in the order of the indices.
+    /// Whether the point with the given index leaves the run. Called once for
+    /// each point that left its cell, in ascending order of the indices.
     using Leaves = std::function<bool(unsigned int)>;
 
-    /// The same if only these points can have left their cell, in any order,
-    /// some perhaps twice; see StepWorkspace::points_out_of_cell(). The list is
-    /// empty afterwards. Points that @p leaves says so of are taken out of
-    /// @p points; no point, if it is empty.
+    /// Do the work of update(), if only the points in @p out_of_cell and
+    /// appended points can have left their cell; see
+    /// StepWorkspace::points_out_of_cell(). The list may be unordered and
+    /// contain duplicates, and is cleared. Points for which @p leaves returns
+    /// true are removed from @p points; an empty @p leaves removes none.
+    /// Collective.
     bool
     update_points_out_of_cell(Points<dim>               &points,
                               const Grid<dim>           &grid,
                               std::vector<unsigned int> &out_of_cell,
                               const Leaves              &leaves = {});
 
-    /// The same after the mesh changed: nothing is known of the old cells.
+    /// Find and sort all points after a change of the mesh, when the old cells
+    /// are meaningless. Collective.
     void
     rebuild(Points<dim> &points, const Grid<dim> &grid);
 
-    /// The same if the owned cell of each point is known.
+    /// Sort all points into the given owned cells, one per point.
     void
     rebuild(Points<dim> &points, const std::vector<unsigned int> &cells);
 
@@ -122,7 +125,7 @@ namespace talus
     std::vector<CellChange>                                 changes_;
     std::vector<typename PointExchange<dim>::OutgoingPoint> outgoing_;
     std::vector<unsigned int> leaving_;  ///< points that leave the run
-    std::vector<unsigned int> departed_; ///< indices of outgoing and leaving
+    std::vector<unsigned int> departed_; ///< outgoing and leaving points
     std::vector<unsigned int> formerly_occupied_cells_;
   };
 } // namespace talus

@@ -8,39 +8,41 @@
 #include <talus/transfer/loads_kernel.h>
 #include <talus/transfer/transpose.h>
 
-// Points to grid, as registers see it; scatter_by_definition() in reference.h
-// says what is computed.
+// Points to grid in registers; scatter_by_definition() in reference.h has the
+// formulas.
 //
 // The weight of a point at a node is a product of factors along the axes, so
-// the record that a point gives (NodalSum) is multiplied axis by axis, z, y, x.
-// On the way the part of the force by the gradient along z and y joins the rest;
-// the part by the gradient along x has entries of its own, so that along x, where
-// most of the work is, each entry takes one multiply-add. Points that follow
-// each other and have the same nodes are summed up in registers, nine nodes at a
-// time: memory is touched once for all of them. A register at a time of the
-// record, so that nine sums, and what they need, fit into sixteen registers.
+// the record of a point (NodalSum) is multiplied axis by axis, z, y, x. The
+// force by the gradient along z and y is added on the way. The force by the
+// gradient along x has entries of its own, so that along x, where most of the
+// work is, each entry takes one multiply-add. Consecutive points with the same
+// nodes are summed in registers, nine nodes at a time: memory is accessed once
+// for all of them. The record is processed a register at a time, so that nine
+// sums and their operands fit into sixteen registers.
 
 namespace talus
 {
   inline namespace TALUS_SIMD_NAMESPACE
   {
-    /// What the points of a block give: row by row what is multiplied by the
-    /// weight, or by the gradient along x, in the order of NodalSum; and for the
-    /// axes from y on the force by the gradient, in the place of the force.
+    /// Contributions of the points of a block to the nodal sums. `record` has a
+    /// row per point in the order of NodalSum: entries multiplied by the
+    /// weight, then entries multiplied by the gradient along x. `flux` has, for
+    /// the axes from y on, the force entries multiplied by the gradient along
+    /// the axis.
     template <int dim>
     struct Contributions
     {
       using Sum                              = NodalSum<dim>;
       static constexpr unsigned int n_points = Block<dim>::n_points;
 
-      /// The registers that hold the force begin with this entry, and these are
-      /// their entries.
+      /// First entry of the registers that hold the force, and number of
+      /// entries in them.
       static constexpr unsigned int first_of_force =
         Sum::force / simd_width * simd_width;
       static constexpr unsigned int n_of_force =
         (simd_width < 4 ? 4 : simd_width);
       static_assert(Sum::force == 4);
-      /// Entries in whole registers.
+      /// Number of entries in whole registers.
       static constexpr unsigned int n_entries =
         (Sum::n_entries + simd_width - 1) / simd_width * simd_width;
 
@@ -50,9 +52,10 @@ namespace talus
 
 
 
-    /// f_i = -sum_p V_p sigma_p . grad S_ip + sum_p m_p b_p S_ip, and the sums
-    /// of mass, momentum and reference volume, for point(s) @p p: entry by
-    /// entry. The stress has the mean over its cell. @cite bardenhagen2004, eq.
+    /// Compute mass, momentum, reference volume and force of point(s) @p p,
+    /// entry by entry,
+    /// f_i = -sum_p V_p sigma_p . grad S_ip + sum_p m_p b_p S_ip. The mean of
+    /// the stress is averaged over the cell (B-bar). @cite bardenhagen2004, eq.
     /// 19 ff.
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE void
@@ -102,7 +105,7 @@ namespace talus
 
 
 
-    /// The contributions of all points of the block.
+    /// Compute the contributions of all points of the block.
     template <int dim>
     TALUS_ALWAYS_INLINE void
     fill(Contributions<dim>                  &contributions,
@@ -140,8 +143,8 @@ namespace talus
 
 
 
-    /// The factor along x of the entries of register @p part: weight or
-    /// gradient.
+    /// Factors along x for the entries of register @p part: @p value up to the
+    /// force, @p gradient from force_by_x on.
     template <int dim, unsigned int part, int... j>
     TALUS_ALWAYS_INLINE Simd<simd_width>
                         factor_along_x(const double value,
@@ -168,7 +171,8 @@ namespace talus
 
 
 
-    /// Add register @p part of what the points of a run give.
+    /// Add register @p part of the contributions of the points of a run to the
+    /// nodal sums.
     template <int dim, unsigned int part>
     TALUS_ALWAYS_INLINE void
     add_register(const Contributions<dim>       &contributions,
@@ -232,7 +236,7 @@ namespace talus
 
 
 
-    /// Add all that the points of a run give.
+    /// Add the contributions of the points of a run to the nodal sums.
     template <int dim, unsigned int part = 0>
     TALUS_ALWAYS_INLINE void
     add_run(const Contributions<dim>       &contributions,

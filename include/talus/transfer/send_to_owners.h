@@ -7,9 +7,8 @@
 
 namespace talus
 {
-  /// Bring points that were just made, and are in no order yet, to the ranks
-  /// that own their cells, however far away: what Relocation does for
-  /// neighbours only. Collective.
+  /// Send new, unsorted points to the ranks that own their cells, at any
+  /// distance. Relocation sends to neighbour ranks only. Collective.
   template <int dim>
   void
   send_points_to_owners(Points<dim> &points, const Grid<dim> &grid);

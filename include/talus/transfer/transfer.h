@@ -14,20 +14,20 @@
 
 namespace talus
 {
-  /// Carries mass, momentum and forces from the points to the background grid
-  /// and motion back, with the weights of the generalized interpolation
-  /// material point method. @cite bardenhagen2004
+  /// Transfers mass, momentum and forces from the points to the background grid
+  /// and the motion of the grid back, with the weights of the generalized
+  /// interpolation material point method. @cite bardenhagen2004
   template <int dim>
   class Transfer : public dealii::ParameterAcceptor
   {
   public:
     Transfer();
 
-    /// Throw ExcUser if the parameters contradict each other.
+    /// Throw ExcUser if parameters contradict each other.
     void
     check() const;
 
-    /// For which bodies B-bar over cells is on.
+    /// Set for each body whether the cell averages of B-bar are used.
     void
     use_bbar(const std::vector<bool> &of_body)
     {
@@ -46,11 +46,12 @@ namespace talus
       return bbar_of_body_[body] != 0;
     }
 
-    // The workspace must be that of the points of the batch.
+    // Precondition of all functions below: the workspace belongs to the batch.
 
-    /// First half of the B-bar pair: store at each point the difference
-    /// between the mean of q = tr_dim(sigma)/dim over the points of its cell whose
-    /// law asks for it, of whatever body, and its own q.
+    /// First half of the B-bar pair: store for each point the shift <q> -
+    /// q, Pa, with q = tr_dim(sigma)/dim and <q> the mean over the points of
+    /// the cell, of all bodies that use B-bar. The shift is zero for other
+    /// bodies.
     void
     apply_bbar_to_stress(const Points<dim>  &points,
                          StepWorkspace<dim> &workspace,
@@ -67,8 +68,9 @@ namespace talus
             NodalFields<dim>         &nodes) const;
 
     /// Update velocity and position of the points from the motion of the nodes
-    /// and put their velocity gradient into the workspace, where those are noted
-    /// that left their cell. Returns the work of the loads, J.
+    /// over @p dt, s. The workspace receives the velocity gradients and the
+    /// indices of the points that left their cell. Return the work of the
+    /// loads, J.
     double
     gather(const NodalFields<dim> &nodes,
            const Grid<dim>        &grid,
@@ -82,8 +84,8 @@ namespace talus
         nodes, grid, loads, points, workspace, batch, dt, flip_fraction_);
     }
 
-    /// The same with another share of FLIP in the velocities than that of the
-    /// parameters [-]; 0 makes them those of the grid.
+    /// Overload with a FLIP fraction [-] that replaces the parameter; with 0
+    /// the points receive the velocity of the grid.
     double
     gather(const NodalFields<dim> &nodes,
            const Grid<dim>        &grid,
@@ -94,8 +96,8 @@ namespace talus
            double                  dt,
            double                  flip_fraction) const;
 
-    /// Second half of the B-bar pair: replace the rate of volume change
-    /// by its mean over the cell.
+    /// Second half of the B-bar pair: replace the rate of volume change of each
+    /// point by the mean over the cell.
     void
     apply_bbar_to_dilatation(const Points<dim>  &points,
                              StepWorkspace<dim> &workspace,
@@ -107,13 +109,13 @@ namespace talus
       return box_shape_;
     }
 
-    /// Mass below which a node near cells of this size and soil of this density
-    /// carries nothing, kg.
+    /// Mass, kg, below which a node is inactive; for cells of size
+    /// @p cell_size, m, and soil of @p density, kg/m^3.
     double
     mass_cutoff(const double density, const double cell_size) const;
 
   private:
-    /// Whether any body in the batch is averaged over its cells.
+    /// Whether any body in the batch uses B-bar.
     bool
     takes_bbar(const Points<dim> &points, const Batch &batch) const;
 

@@ -12,7 +12,7 @@ namespace talus
   {
     namespace internal
     {
-      /// Exchange the blocks of @p size entries off the diagonal of [a; b].
+      /// Exchange the off-diagonal blocks of @p size entries of [a; b].
       template <unsigned int size, unsigned int n, int... j>
       TALUS_ALWAYS_INLINE void
       swap_blocks(Simd<n> &a, Simd<n> &b, std::integer_sequence<int, j...>)
@@ -27,8 +27,8 @@ namespace talus
 
 
 
-    /// Swap rows and columns: afterwards entry j of rows[i] is what entry i of
-    /// rows[j] was. Blocks of one, two and four entries change sides.
+    /// Transpose the matrix in place: entry j of rows[i] becomes entry i of
+    /// rows[j]. Swaps blocks of one, two and four entries.
     template <unsigned int size = 1, unsigned int n>
     TALUS_ALWAYS_INLINE void
     transpose(Simd<n> *rows)
@@ -46,7 +46,7 @@ namespace talus
 
 
 
-    /// The first half of @p a, then that of @p b.
+    /// Join the first half of @p a and the first half of @p b.
     template <unsigned int n, int... j>
     TALUS_ALWAYS_INLINE Simd<n>
                         first_halves(const Simd<n> &a,
@@ -86,7 +86,7 @@ namespace talus
       }
     } // namespace internal
 
-    /// The first entries of both, then the second ones, ...
+    /// Store a and b interleaved: a[0], b[0], a[1], b[1], ...
     template <unsigned int n>
     TALUS_ALWAYS_INLINE void
     store_pairs(double *to, const Simd<n> &a, const Simd<n> &b)

@@ -25,12 +25,16 @@ namespace talus
 
 
 
-  /// Weights by the definition: for every cell that the box overlaps, the mean
-  /// of its shape functions over the overlap, times the overlap's share of the
-  /// box. Any cells may touch cell @p c, hanging nodes included (whose share
-  /// NodalFields::sum_over_ranks() passes on); a node may be listed several times.
+  /// Compute the weights of a box by definition: for every cell that the box
+  /// overlaps, the mean of the shape functions over the overlap, times the
+  /// fraction of the box in the overlap. Cells of any size may touch cell @p c.
+  /// A node may be listed several times. Hanging nodes are listed;
+  /// NodalFields::sum_over_ranks() distributes their sums.
   ///
-  /// @param half half lengths of the box, m, at most half of the cell.
+  /// @param c cell of the point
+  /// @param centre of the box, m
+  /// @param half half lengths of the box, m, at most half of the cell
+  /// @param weights result; previous entries are removed
   template <int dim>
   void
   general_weights(const Grid<dim>              &grid,
@@ -39,7 +43,8 @@ namespace talus
                   const dealii::Tensor<1, dim> &half,
                   std::vector<NodeWeight<dim>> &weights);
 
-  /// The same for the box of point @p p in cell @p c.
+  /// Compute the weights of point @p p in cell @p c by definition, for any box
+  /// rule; see general_weights().
   template <int dim>
   void
   weights_of_point(const Points<dim>            &points,

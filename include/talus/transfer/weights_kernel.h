@@ -9,8 +9,8 @@
 
 namespace talus
 {
-  /// Half of the length of the box along axis @p d divided by the cell size,
-  /// clipped as the weights need it.
+  /// Half length of the box of point(s) @p p along axis @p d in cell sizes [-],
+  /// clipped to the limits of @p shape.
   template <int dim, typename Number, typename Columns>
   TALUS_ALWAYS_INLINE Number
   half_length_in_cells(const Columns     &points,
@@ -28,24 +28,24 @@ namespace talus
 
 
 
-  /// Mean over a box of the one-dimensional shape functions around a cell and of
-  /// their derivatives: at the nodes -1, 0, 1 and 2 in units of the cell, with
-  /// the origin at its lower face.
+  /// Mean over a box of the one-dimensional shape functions of four nodes, and
+  /// of their derivatives. The nodes are at -1, 0, 1 and 2 in cell sizes,
+  /// measured from the lower face of the cell.
   template <typename Number>
   struct AxisWeights
   {
     std::array<Number, 4> value;
     std::array<Number, 4> gradient; ///< per cell size
-    /// Where the box ends, from the lower and from the upper face on.
+    /// Ends of the box relative to the lower face and to the upper face.
     Number lower_end, upper_end;
   };
 
 
 
-  /// Weights of the box [centre - half, centre + half], which must lie in
-  /// [-1, 2], along one axis. Shape functions are the hats of the nodes. Only
-  /// the outer two means are integrals; the others follow, since the hats
-  /// interpolate 1 and x exactly: sum w_i = 1 and sum x_i w_i = centre.
+  /// Compute the weights of the box [centre - half, centre + half], which must
+  /// lie in [-1, 2], along one axis. Shape functions are hat functions. Only
+  /// the outer two means are integrals; the inner two follow from sum w_i = 1
+  /// and sum x_i w_i = centre, since hat functions interpolate 1 and x exactly.
   /// @cite bardenhagen2004, eq. 36 ff.
   template <typename Number>
   TALUS_ALWAYS_INLINE AxisWeights<Number>
@@ -55,8 +55,8 @@ namespace talus
     const Number        zero(0.);
     w.lower_end = centre - half;
     w.upper_end = centre + half - 1.;
-    // Ends of what lies below and above the cell; a box in front of a wall may
-    // lie beyond the face as a whole.
+    // Parts of the box below and above the cell. A box at a wall may lie
+    // completely beyond the face.
     const Number below_from = min(w.lower_end, zero);
     const Number below_to   = min(w.upper_end + 1., zero);
     const Number above_from = max(w.lower_end - 1., zero);
