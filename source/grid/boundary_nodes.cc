@@ -9,8 +9,8 @@ namespace talus
 
   namespace
   {
-    /// The nodes of cell @p c on face @p face of the mesh; none if the cell
-    /// does not lie at it, or if the face is periodic, and so no boundary.
+    /// Nodes of cell @p c on face @p face of the mesh; none if the cell does
+    /// not touch the face or the face is periodic, hence no boundary.
     template <int dim>
     std::vector<unsigned int>
     nodes_on_face(const MeshLayout<dim> &layout,
@@ -34,13 +34,11 @@ namespace talus
 
 
 
-  // Which nodes lie on which faces, and what they stand for there: summed over
-  // the cells of all ranks.
-  // The shape functions are bilinear, so the integral of one over a face of
-  // its cell is (size/2)^(dim-1), and over the cell (size/2)^dim: no
-  // quadrature. Each cell is counted by its owner only. A hanging node carries
-  // nothing, so its share goes to its masters as its forces do; the sum over
-  // the nodes remains the area of the face.
+  // Shares are summed over the cells of all ranks. Shape functions are
+  // bilinear, so the integral over a face of the cell is (size/2)^(dim-1), and
+  // over the cell (size/2)^dim: no quadrature. Only the owner counts a cell.
+  // The shares of hanging nodes go to their masters, as the forces do; the sum
+  // over nodes remains the area of the face.
   template <int dim>
   void
   BoundaryNodes<dim>::prepare_boundary(const MeshLayout<dim>    &layout,
@@ -79,8 +77,8 @@ namespace talus
         exchange.add_to_owners(shares.data());
         face_shares_[face].clear();
         for (unsigned int node = 0; node < nodes.n_owned_nodes(); ++node)
-          // Few nodes lie on a face: a table by node would be empty but for
-          // them.
+          // Few nodes lie on a face: a table of all nodes would be nearly
+          // empty.
           if (shares[2 * node] > 0)
             face_shares_[face][node] = {shares[2 * node], shares[2 * node + 1]};
       }

@@ -10,7 +10,7 @@ namespace talus
 
   namespace
   {
-    /// Digits of @p number to the base @p base, one per axis, x first.
+    /// Digits of @p number in base @p base, one per axis, x first.
     template <int dim>
     std::array<int, dim>
     digits(unsigned int number, const unsigned int base)
@@ -23,7 +23,7 @@ namespace talus
 
 
 
-    /// The inverse of digits().
+    /// Inverse of digits().
     template <int dim>
     unsigned int
     number(const std::array<int, dim> &digits, const unsigned int base)
@@ -44,29 +44,30 @@ namespace talus
 
 
 
-  // The transfer asks millions of times a second which nodes are around a
-  // place; deal.II's iterators answer that through several tables, and find
-  // neighbours of the same size only level by level. So what is needed is
-  // written down once per mesh: two lines of the cache per cell in 2-D, seven
-  // in 3-D, and a pass over all cells whenever the mesh changes.
+  // The transfer queries the nodes around a position millions of times per
+  // second; iterators of deal.II need several tables for the answer, and find
+  // neighbours of equal size only level by level. The cache stores the answers:
+  // two cache lines per cell in 2-D, seven in 3-D, and a pass over all cells
+  // when the mesh changes.
   //
-  // Own nodes of all cells are there before patches are put together from them.
+  // Patches are filled from the nodes of neighbours, so all cells are listed
+  // first.
   template <int dim>
   void
   CellCache<dim>::prepare_cells(const NodeNumbering<dim> &nodes)
   {
     list_cells(nodes);
     touching_.clear();
-    // Ghosts are not linked: no point is in them, and not all of their
-    // neighbours are known here.
+    // Ghost cells are not linked: they contain no points, and this rank does
+    // not know all of their neighbours.
     for (unsigned int c = 0; c < n_owned_cells_; ++c)
       link_cell(c);
   }
 
 
 
-  /// Fill what a cell knows of itself: place, size and own nodes; and the lists
-  /// that go with it. Neighbours come in link_cell().
+  /// List all cells with position, size and nodes, and fill the tables by cell.
+  /// link_cell() finds the neighbours.
   template <int dim>
   void
   CellCache<dim>::list_cells(const NodeNumbering<dim> &nodes)
@@ -85,8 +86,8 @@ namespace talus
         const unsigned int level = cell->level();
         const auto         place = mesh_.lattice_place(cell->center(), level);
         Cell<dim>          data;
-        // By the place in the lattice and not by deal.II's vertices, which come
-        // from halving after halving: the same whatever the mesh was before.
+        // Computed from the lattice. The vertices of deal.II come from repeated
+        // halving and depend on the history of the mesh.
         data.lower   = mesh_.lower_corner_of(place, level);
         data.size    = mesh_.size_of_level(level);
         data.uniform = false;
@@ -113,8 +114,8 @@ namespace talus
 
 
 
-  /// Indices of cells are those of one rank and one mesh; the place in the
-  /// lattice of a level is the same for all.
+  /// Cell indices differ between ranks and meshes; level and position in the
+  /// lattice do not.
   template <int dim>
   unsigned long
   CellCache<dim>::key_of_cell(const unsigned int c) const
@@ -134,14 +135,14 @@ namespace talus
 
 
 
-  /// Find the neighbours of an owned cell by their places in the lattice of its
-  /// level, and with them whether the cell is uniform, that is, all that
-  /// touches it has its size or lies beyond the boundary of the mesh.
+  /// Find the neighbours of an owned cell from their positions in the lattice
+  /// of its level. The cell is uniform if everything that touches it has its
+  /// size or lies beyond the boundary of the mesh.
   ///
-  /// This parts the cells for all of the transfer: points in uniform cells find
-  /// their nodes in the patch, and only those in other cells that do reach
-  /// across pay for weights by definition (see part_from_outsiders()). So a
-  /// graded mesh costs where the sizes meet and nowhere else.
+  /// The transfer treats the two kinds of cells differently: points in uniform
+  /// cells find their nodes in the patch. In other cells, points that reach
+  /// across need weights by definition (see part_from_outsiders()). A graded
+  /// mesh therefore has extra cost only where sizes meet.
   template <int dim>
   void
   CellCache<dim>::link_cell(const unsigned int c)
@@ -165,16 +166,16 @@ namespace talus
             inside = inside && (periodicity.along(d) ||
                                 (other[d] >= 0 && other[d] < extent[d]));
           }
-        // Beyond a periodic face the mesh goes on; beyond another one there is
-        // nothing that could have another size.
+        // Beyond a periodic face the mesh continues. Beyond a boundary face no
+        // cell exists, hence no cell of another size.
         if (!inside)
           continue;
         periodicity.wrap(other, extent);
         cell.neighbors[k] = cell_at(other, level);
         if (cell.neighbors[k] != numbers::invalid_unsigned_int)
           continue;
-        // A neighbour of another size counts for all sides that it lies at: one
-        // across a face, more across an edge or a corner.
+        // A neighbour of another size counts for all sides it touches: one side
+        // across a face, several across an edge or corner.
         cell.uniform = false;
         for (unsigned int d = 0; d < dim; ++d)
           if (offset[d] != 1)
@@ -187,13 +188,13 @@ namespace talus
 
 
 
-  /// Collect the nodes around a cell from the own nodes of its neighbours,
-  /// which list_cells() has set. Along each axis entry 0 is the lower node of
-  /// the neighbour below, 1 and 2 are the cell's own, and 3 is the upper node
-  /// of the neighbour above. At the boundary the outer row is the boundary row
-  /// once more: with two weights at one node the shape functions are constant
-  /// along the normal there, and a box that dips below the seabed still acts on
-  /// the seabed's nodes, with weights that sum to one (doc/method.md, section
+  /// Collect the nodes around a cell from the nodes of its neighbours, set by
+  /// list_cells(). Along each axis entry 0 is the lower node of the neighbour
+  /// below, entries 1 and 2 are nodes of the cell, and entry 3 is the upper
+  /// node of the neighbour above. At the boundary the outer row repeats the
+  /// boundary row: with two weights at one node the shape functions are
+  /// constant along the normal. A box that dips below the seabed acts on the
+  /// nodes of the seabed, with weights that sum to one (doc/method.md, section
   /// 1).
   template <int dim>
   void
@@ -209,7 +210,7 @@ namespace talus
         std::array<int, dim> neighbor, node;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            // Beyond the boundary: the boundary row once more.
+            // Beyond the boundary the boundary row is repeated.
             const bool folds = !mesh_.periodicity().along(d);
             if (folds && at[d] == 0 && place[d] == 0)
               at[d] = 1;
@@ -226,9 +227,9 @@ namespace talus
 
 
 
-  /// List the cells of any size that share a corner with cell @p c, itself
-  /// included: what the box of one of its points may overlap. Ascending, so
-  /// that sums over them have one order.
+  /// List the cells of any size that share a corner with cell @p c, including
+  /// @p c: the box of a point in @p c overlaps no further cells. The list
+  /// ascends, so that sums over the cells have a fixed order.
   template <int dim>
   void
   CellCache<dim>::find_touching_cells(const unsigned int c)
@@ -243,8 +244,8 @@ namespace talus
         Lattice<dim> first, last;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            // One row of cells of this level around those in which the cell
-            // lies, or into which it would be divided.
+            // Range on level l: the cells that contain cell c or would result
+            // from its division, and one row of cells around them.
             first[d] = (l == level + 1 ? 2 * place[d] - 1 : place[d] - 1);
             last[d]  = (l == level + 1 ? 2 * place[d] + 2 : place[d] + 1);
             // Division rounds towards zero, but -1 must remain outside.
@@ -273,21 +274,21 @@ namespace talus
 
 
 
-  /// A node is marked if it is a corner of a cell larger than h, on whatever
-  /// rank, or hangs on one; or of a small cell that touches a larger one, where
-  /// obstacles could not have soil.
-  /// Which cells have points that could touch a mark: those with one in their
-  /// patch, or in that of a cell that touches them. Nodes and not cells are
-  /// marked, as a larger cell may lie beyond the ghosts this rank knows, but
-  /// its nodes are known. MeshTracking changes the mesh as soon as such a cell
-  /// is occupied.
+  /// Find the cells whose points may touch a marked node. A node is marked if
+  /// it is a vertex of a cell larger than h on any rank, or hangs on a marked
+  /// node, or is a vertex of a cell that touches a larger cell, where obstacles
+  /// do not support soil. A cell is near a larger cell if its patch, or the
+  /// patch of a touching cell, contains a marked node. Nodes and not cells are
+  /// marked: a larger cell may lie beyond the ghost cells of this rank, but its
+  /// nodes are known. MeshTracking changes the mesh as soon as a cell near a
+  /// larger cell is occupied.
   template <int dim>
   void
   CellCache<dim>::find_larger_cells(const NodeNumbering<dim> &nodes,
                                     NodalExchange<dim>       &exchange)
   {
     is_near_larger_cell_.assign(n_owned_cells_, false);
-    // Of the two numbers that travel for each node, the second is not used.
+    // Two numbers per node are exchanged; the second is unused.
     AlignedVector<double> mark(2 * nodes.n_nodes(), 0.);
     const auto            is_larger = [this](const unsigned int c) {
       return level_of_cell_[c] < mesh_.base_level();
@@ -327,7 +328,7 @@ namespace talus
 
 
 
-  // By the centre, which round-off cannot move into a neighbour.
+  // From the centre, which round-off cannot move into a neighbour.
   template <int dim>
   Lattice<dim>
   CellCache<dim>::place_of_cell(const unsigned int c) const
@@ -340,10 +341,10 @@ namespace talus
 
 
 
-  /// The active cell of this level at this place; invalid_unsigned_int if there
-  /// is none, or none that this rank knows. Negative numbers would run into the
-  /// other fields of the key; places beyond the upper end have keys that no
-  /// cell has.
+  /// Return the active cell of @p level at @p place; invalid_unsigned_int if
+  /// none exists or this rank does not know the cell. Negative coordinates
+  /// would overwrite other fields of the key and are excluded first; keys of
+  /// places beyond the upper end match no cell.
   template <int dim>
   unsigned int
   CellCache<dim>::cell_at(const Lattice<dim> &place,
@@ -357,9 +358,9 @@ namespace talus
 
 
 
-  // From the smallest cells on: most points are in one of these. One look into
-  // a hash table per level, whatever the number of cells. It is for points that
-  // are new or went astray; Relocation::locate() asks the neighbours first.
+  // Start with the smallest cells, where most points are: one hash lookup per
+  // level, for any number of cells. For new points and points far from their
+  // old cell; Relocation::locate() tests the neighbours first.
   template <int dim>
   unsigned int
   CellCache<dim>::find_cell(const Point<dim> &x) const

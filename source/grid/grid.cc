@@ -12,8 +12,8 @@ namespace talus
 
 
 
-  // Nodes need numbers before cells can list them, and messages between ranks
-  // need the lists of owned and ghost nodes.
+  // The tables of cells need node numbers, and messages between ranks need the
+  // lists of owned and ghost nodes.
   template <int dim>
   void
   Grid<dim>::prepare()

@@ -3,10 +3,9 @@
 
 namespace talus
 {
-  // 6 bits for the level, the rest shared by the axes.
-  // A place is one number so that it can be looked up by one hash and sent in a
-  // message. That leaves 29 bits for an axis in 2-D and 19 in 3-D;
-  // Grid::create() refuses meshes whose lattice is larger.
+  // 6 bits for the level, the remaining bits divided among the axes. A single
+  // number can be hashed and sent in a message. An axis has 29 bits in 2-D and
+  // 19 in 3-D; MeshLayout::check_lattice() rejects larger lattices.
   template <int dim>
   unsigned long
   key_of_place(const Lattice<dim> &place, const unsigned int level)
@@ -20,8 +19,8 @@ namespace talus
 
 
 
-  // Halving the place along each axis is what p4est's division into 2^dim
-  // children means. The level must not be that of the trees.
+  // p4est divides a cell into 2^dim children, so halving the position along
+  // each axis gives the parent. The level must not be zero.
   template <int dim>
   unsigned long
   key_of_parent(const unsigned long key)

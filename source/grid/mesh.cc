@@ -11,11 +11,11 @@ namespace talus
 {
   using namespace dealii;
 
-  // Neighbours differ by one level at most across corners, too, since the boxes
-  // of the points reach across them: so the cells that touch a cell are of
-  // three levels (CellCache::find_touching_cells()). Cells change their rank
-  // only when we ask for it: points travel with them (LoadBalance), or wait to
-  // be sent (BackgroundMesh).
+  // Neighbours differ by at most one level, also across corners, since the
+  // boxes of points reach across corners: the cells touching a cell are on at
+  // most three levels (CellCache::find_touching_cells()). Cells change their
+  // rank only by explicit repartitioning: points travel with their cells
+  // (LoadBalance) or are sent later (BackgroundMesh).
   template <int dim>
   Mesh<dim>::Mesh(MPI_Comm communicator)
     : triangulation_(
@@ -46,8 +46,8 @@ namespace talus
 
 
 
-  // First down to h everywhere, for which no rank needs another, and the cells
-  // are spread over the ranks; then the boxes, which may lie on one of them.
+  // First refine all cells to h, which needs no communication, and distribute
+  // the cells; then refine the boxes, which may lie on one rank.
   template <int dim>
   void
   Mesh<dim>::refine()
@@ -64,11 +64,10 @@ namespace talus
 
 
 
-  /// Returns how many cells of all ranks are flagged to be divided, and how
-  /// many to be joined. Whether a cell is to be divided or joined follows from
-  /// what lies in it now, not from its history: a cell is joined with its
-  /// siblings if what contains them all asks for nothing. So two runs that come
-  /// to the same soil have the same mesh.
+  /// Flag cells to be refined or coarsened. Return the numbers of flagged cells
+  /// on all ranks, {refine, coarsen}. Flags follow from the current content of
+  /// a cell, not from its history: a cell is coarsened if its parent needs no
+  /// refinement. Two runs that arrive at the same soil have the same mesh.
   template <int dim>
   std::array<double, 2>
   Mesh<dim>::flag_cells(const WantsFiner &wants_finer)
@@ -106,10 +105,11 @@ namespace talus
 
 
 
-  /// Of the cells that are flagged to be joined, some always stay: beside smaller
-  /// ones, or without their siblings on this rank. Whether any rank can join any,
-  /// without the attempt, after which all cells would be copied from p4est. If so
-  /// they are flagged as before. Collective.
+  /// Return whether any rank can coarsen any flagged cell. Some flagged cells
+  /// always stay: next to smaller cells, or without their siblings on this
+  /// rank. The test avoids a useless coarsening, after which deal.II copies all
+  /// cells from p4est. If the answer is true, the coarsening flags are
+  /// restored. Collective.
   template <int dim>
   bool
   Mesh<dim>::can_join_cells()
@@ -121,7 +121,7 @@ namespace talus
     for (const auto &cell : triangulation_.active_cell_iterators())
       {
         can = can || (cell->is_locally_owned() && cell->coarsen_flag_set());
-        // Of artificial cells it wants some to be divided.
+        // deal.II also sets refinement flags on artificial cells.
         cell->clear_refine_flag();
         cell->clear_coarsen_flag();
       }
@@ -134,9 +134,9 @@ namespace talus
 
 
   // deal.II changes cells by one level at a time, and keeps neighbours within a
-  // factor of two by dividing more, or joining fewer, than were flagged: so
-  // flag and change until nothing is left to do. Each round looks at every cell
-  // once; what they agree on is the same on all ranks.
+  // factor of two by refining more or coarsening fewer cells than flagged:
+  // repeat until nothing changes. Each round visits every cell once. Counts are
+  // global, so all ranks stop in the same round.
   template <int dim>
   bool
   Mesh<dim>::refine(const WantsFiner &wants_finer, const bool spread)
@@ -153,13 +153,14 @@ namespace talus
                              (GeometryInfo<dim>::max_children_per_cell - 1.) *
                                n_divided);
         triangulation_.execute_coarsening_and_refinement();
-        // deal.II knows its neighbourhood, p4est the whole mesh.
+        // deal.II tests the cells known to a rank, p4est the whole mesh: p4est
+        // may reject all changes.
         if (n_divided == 0 &&
             n_before == triangulation_.n_global_active_cells())
           return changed;
         changed = true;
-        // Only before there are points, which would be left behind on the rank
-        // that owned their cell.
+        // Only before points exist: points would stay on the former owner of
+        // their cell.
         if (spread)
           triangulation_.repartition();
       }
@@ -167,8 +168,8 @@ namespace talus
 
 
 
-  // The mesh is state: it follows from where the soil was when the mesh was
-  // last adapted, not from where it is now.
+  // The mesh is part of the state: it follows from the position of the soil at
+  // the last adaptation, not from the current position.
   template <int dim>
   void
   Mesh<dim>::save(const std::string &path) const
@@ -187,10 +188,9 @@ namespace talus
 
 
 
-  // p4est cuts its curve where the sums of the weights ask for it, so the same
-  // weights give the same cells to the same ranks: that is how a resumed run
-  // finds the partition it had, and with it the order of all sums. deal.II asks
-  // for weights by its own cells, which are in another order than ours.
+  // p4est cuts its curve at fixed sums of weights, so the same weights give the
+  // same partition: a resumed run restores the partition, and with it the order
+  // of all sums. deal.II asks for weights in its own order of cells.
   template <int dim>
   void
   Mesh<dim>::repartition(const std::vector<double> &weights)
@@ -204,7 +204,7 @@ namespace talus
         weight_of_active_cell[cell->active_cell_index()] =
           static_cast<unsigned int>(*weight++);
 
-    // For this one time: later repartitions have other weights.
+    // Connected for one repartitioning: later ones use other weights.
     const auto connection = triangulation_.signals.weight.connect(
       [&](const typename Triangulation<dim>::cell_iterator &cell,
           const typename Triangulation<dim>::CellStatus) {
@@ -218,7 +218,8 @@ namespace talus
 
   namespace
   {
-    /// Depth first, as p4est's curve goes.
+    /// Append the active descendants of a cell, depth first, along p4est's
+    /// curve.
     template <int dim>
     void
     append_active(
@@ -238,10 +239,10 @@ namespace talus
 
 
 
-  // deal.II's own order of the cells depends on how the mesh came about.
-  // Results must not depend on what the mesh looked like before, or a resumed
-  // run would differ from one that was not interrupted: so cells go along
-  // p4est's curve. It also keeps cells close in memory that are close in space.
+  // The order of cells in deal.II depends on the history of the mesh. Results
+  // must not: otherwise a resumed run would differ from an uninterrupted run.
+  // Cells are therefore sorted along the curve of p4est, which also keeps cells
+  // that are close in space close in memory.
   template <int dim>
   std::vector<typename Triangulation<dim>::active_cell_iterator>
   Mesh<dim>::cells_in_order() const

@@ -33,35 +33,37 @@ namespace talus
                   "coordinates [m].");
     add_parameter("Cell size",
                   cell_size_,
-                  "Edge h of the cells, exact [m]. Where an extent of the box "
-                  "is no multiple of it, the upper face moves outwards, which "
-                  "is refused for walls.",
+                  "Edge of the cells before 'Initial refinement', exact [m]. "
+                  "If the extent of the box along an axis is not a multiple of "
+                  "'Cell size', the upper face moves outwards; if the face is "
+                  "a wall, the run is refused.",
                   this->prm,
                   Patterns::Double(1e-12));
     add_parameter("Coarsest level",
                   coarsest_level_,
-                  "The mesh is a forest of trees with 2^L cells per axis; L is "
-                  "the largest number up to this one that divides the cells of "
-                  "every axis. With 'Mesh tracking' it is how much coarser far "
-                  "cells may be, and faces that are free, at the upper end of "
-                  "an axis, move outwards where that takes it.",
+                  "The mesh is a forest of trees with 2^L cells per axis. L is "
+                  "the largest number up to this value for which 2^L divides "
+                  "the number of cells along every axis. With 'Mesh tracking' "
+                  "cells far from soil are up to 2^L times as large as 'Cell "
+                  "size', and free faces at the upper end of an axis move "
+                  "outwards where necessary.",
                   this->prm,
                   Patterns::Integer(0, 10));
     add_parameter(
       "Initial refinement",
       initial_refinement_,
-      "Halve all cells this many times: h is 'Cell size' divided by "
-      "2^n.",
+      "Number n of times that all cells are halved [-]: h is 'Cell size' "
+      "divided by 2^n.",
       this->prm,
       Patterns::Integer(0, 10));
     add_parameter(
       "Refinement boxes",
       refinement_boxes_,
-      "Boxes with smaller cells, separated by bars (|), each as "
-      "lower corner; upper corner; number of times the cells are "
-      "halved there: -40,0; 280,0.4; 1 makes a layer of 0.4 m at the "
-      "seabed finer. Corners in m; neighbouring cells differ by at "
-      "most a factor of two.");
+      "Boxes with smaller cells, separated by bars (|). Each box is given by "
+      "lower corner; upper corner; number of times the cells are halved. "
+      "Corners in m. Example: -40,0; 280,0.4; 1 halves the cells in a layer of "
+      "0.4 m at the seabed. Neighbouring cells differ by at most a factor of "
+      "two.");
   }
 
 
@@ -115,11 +117,11 @@ namespace talus
 
 
 
-  /// Number of cells along axis d, a multiple of @p factor; moves the upper
-  /// face for that where it may.
-  /// Cells must have exactly the size asked for, since results depend on it:
-  /// where the length of an axis does not fit it is the length that changes, at
-  /// a face where no condition holds. A wall stays where the user put it.
+  /// Compute the number of cells along axis d, a multiple of @p factor, and
+  /// move the upper face outwards if necessary and allowed. The cell size is
+  /// never changed, since results depend on it: if the length of an axis does
+  /// not fit, the length changes, at a face without boundary condition. Walls
+  /// never move.
   template <int dim>
   void
   MeshLayout<dim>::fit_axis(const unsigned int d,
@@ -131,7 +133,7 @@ namespace talus
     const double whole = std::round(exact);
     const bool   fits  = whole >= 1 && std::abs(exact - whole) <= 1e-9 * whole;
     const unsigned int face = 2 * d + 1;
-    // As doubles, before anything is rounded to an integer that could overflow.
+    // Compared as doubles, before rounding to an integer could overflow.
     AssertThrow(exact < 2e9,
                 ExcUser(text("The mesh would have ",
                              exact,
@@ -184,7 +186,8 @@ namespace talus
 
 
 
-  /// Places in the lattice of the smallest cells must fit into their keys.
+  /// Throw ExcUser if positions in the lattice of the smallest cells do not fit
+  /// into keys.
   template <int dim>
   void
   MeshLayout<dim>::check_lattice(const unsigned int level) const
@@ -195,7 +198,7 @@ namespace talus
     const double most = std::pow(2., 58 / dim);
     for (unsigned int d = 0; d < dim; ++d)
       {
-        // Far cells may add one of the largest.
+        // Growth may add one of the largest cells.
         const double n = (1. * n_cells_per_axis_[d] + (1u << level)) *
                          std::pow(2., n_halvings);
         AssertThrow(n < most,
@@ -214,10 +217,10 @@ namespace talus
 
 
 
-  /// The largest level up to the one asked for that divides the cells of all
-  /// axes that must not grow.
-  /// p4est joins cells only within a tree, so trees are as large as cells can
-  /// ever become. Every rank holds all trees: few large ones also save memory.
+  /// Return the largest level of trees, up to 'Coarsest level', whose cells
+  /// divide all axes that must not grow. p4est coarsens cells only within a
+  /// tree, so a tree is the largest possible cell. Every rank stores all trees:
+  /// few large trees also save memory.
   template <int dim>
   unsigned int
   MeshLayout<dim>::level_of_trees(const std::array<bool, 2 * dim> &may_move,
@@ -235,7 +238,9 @@ namespace talus
 
   namespace
   {
-    /// @param graded what makes cells of several sizes; empty if nothing does.
+    /// Throw ExcUser if an axis is periodic and cells have several sizes.
+    /// @param graded reason for several cell sizes, part of the message; empty
+    ///   if all cells have the same size
     template <int dim>
     void
     check_one_size(const std::array<bool, dim> &periodic,
@@ -245,20 +250,20 @@ namespace talus
         AssertThrow(!periodic[d] || graded.empty(),
                     ExcUser("The faces '" + face_names[2 * d] + "' and '" +
                             face_names[2 * d + 1] +
-                            "' are periodic, which asks for cells of one size, "
-                            "but " +
+                            "' are periodic, which requires cells of one "
+                            "size, but " +
                             graded +
-                            ". Change that, or choose another condition for "
-                            "these faces."));
+                            ". Change the parameter, or choose another "
+                            "condition for the faces."));
     }
   } // namespace
 
 
 
-  // The axes are fitted twice: first to the cells of size h, which says what
-  // divides what, then, with mesh tracking, to the largest cells that follow
-  // from it. The sentence for the log is that of the second time, which repeats
-  // what the first one found.
+  // The axes are fitted twice: first to cells of size h, which determines the
+  // level of the trees, then, with mesh tracking, to the largest cells of this
+  // level. The log gets the sentence of the second fit, which includes the
+  // first.
   template <int dim>
   std::vector<unsigned int>
   MeshLayout<dim>::lay_out(const std::array<bool, 2 * dim> &may_move,
@@ -293,7 +298,7 @@ namespace talus
         n_trees *= trees[d];
         n_cells *= 1. * n_cells_per_axis_[d] * (1u << initial_refinement_);
       }
-    // With mesh tracking the mesh of small cells never exists as a whole.
+    // With mesh tracking the small cells never fill the whole mesh.
     check_memory(grow ? n_trees : n_cells);
     tree_size_   = cell_size_ * (1u << level);
     base_level_  = level + initial_refinement_;
@@ -303,10 +308,10 @@ namespace talus
 
 
 
-  /// p4est counts cells of a rank by 32 bits; and before it or deal.II run out of
-  /// memory, which they say in words of their own, the user is told. What a cell
-  /// takes was measured (doc/cluster.md), without points and not with all that a
-  /// run may add: what is refused here cannot work.
+  /// p4est counts the cells of a rank in 32 bits. The test runs before p4est or
+  /// deal.II run out of memory with their own messages. Memory per cell was
+  /// measured without points (doc/cluster.md), and a run needs more: a rejected
+  /// mesh cannot work.
   template <int dim>
   void
   MeshLayout<dim>::check_memory(const double n_cells) const
@@ -320,9 +325,9 @@ namespace talus
                        n_cells,
                        " cells, which take some ",
                        bytes / 1e9,
-                       " GB of memory on each rank, where ",
+                       " GB of memory on each rank. ",
                        memory_per_rank_ / 1e9,
-                       " GB are to be had, and 4e8 cells are the most. "
+                       " GB are available, and 4e8 cells are the maximum. "
                        "Choose a larger Grid/Cell size than ",
                        cell_size_,
                        " m, a smaller box",
@@ -358,9 +363,9 @@ namespace talus
 
 
 
-  // Where a place lies outside of the mesh the nearest cell: a point that dips
-  // into a wall belongs to the cell at the wall. How far it may do so,
-  // Relocation checks.
+  // A position outside of the mesh gets the nearest cell: a point that dips
+  // into a wall belongs to the cell at the wall. Relocation checks how far it
+  // dips.
   template <int dim>
   typename MeshLayout<dim>::Lattice
   MeshLayout<dim>::lattice_place(const Point<dim>  &x,
@@ -372,7 +377,7 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       {
         const double at = std::floor((x[d] - domain_.lower[d]) / size);
-        // Compared as doubles: a point may be anywhere, or not a number.
+        // Compared as doubles: x may be any number or NaN.
         place[d] = !(at > 0.)            ? 0
                    : at < extent[d] - 1. ? static_cast<long>(at)
                                          : extent[d] - 1;

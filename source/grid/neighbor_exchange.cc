@@ -15,8 +15,7 @@ namespace talus
 
 
 
-  // All sends are started before the first message is awaited, so ranks cannot
-  // wait for each other in a circle.
+  // All sends start before the first receive, so ranks cannot deadlock.
   void
   NeighborExchange::exchange(
     const std::vector<unsigned int>            &ranks,

@@ -10,8 +10,8 @@ namespace talus
 
   namespace
   {
-    /// Each index becomes @p width consecutive ones: so deal.II's partitioner,
-    /// which knows single numbers only, carries records.
+    /// Replace each index by @p width consecutive indices: the partitioner of
+    /// deal.II exchanges single numbers, and thereby records.
     IndexSet
     widened(const IndexSet &indices, const unsigned int width)
     {
@@ -27,10 +27,10 @@ namespace talus
 
 
 
-  // deal.II's partitioner and not one of its vectors per quantity: all numbers
-  // of a node travel in one message per neighbour, since what a message costs
-  // hardly depends on its length. Who sends how much to whom is settled here,
-  // once per mesh; a step then needs no operation of all ranks.
+  // One partitioner instead of a deal.II vector per quantity: all numbers of a
+  // node travel in one message per neighbour, since the cost of a message
+  // hardly depends on its length. Senders and message sizes are determined once
+  // per mesh; a step needs no operation over all ranks.
   template <int dim>
   void
   NodalExchange<dim>::prepare(const NodeNumbering<dim> &nodes,
@@ -45,7 +45,8 @@ namespace talus
                              static_cast<unsigned long>(largest / width),
                              ". Choose a larger 'Grid/Cell size' or a smaller "
                              "box.")));
-    // A new one: deal.II 9.4's reinit() forgets ghosts that had become none.
+    // A new object: reinit() of deal.II 9.4 keeps the old ghosts if there are
+    // none now.
     partitioner_ = std::make_unique<Utilities::MPI::Partitioner>(
       widened(owned, width),
       widened(nodes.ghost_nodes(), width),
@@ -55,16 +56,15 @@ namespace talus
 
 
 
-  // All messages are awaited before any is added, in the order of the ranks and
-  // not in that of their arrival: so sums, and with them the run, are the same
-  // bit by bit each time. The number 0, and 1 below, keep the two kinds of
-  // messages apart.
+  // All messages arrive before any is added, in the order of the ranks and not
+  // of arrival: sums, and therefore runs, are bit-identical. Channel 0, and 1
+  // below, separate the two kinds of messages.
   template <int dim>
   void
   NodalExchange<dim>::combine_at_owners(double                       *records,
                                         const VectorOperation::values operation)
   {
-    // In doubles, not in nodes.
+    // Counted in doubles, not in nodes.
     const unsigned int      n_owned = partitioner_->locally_owned_size();
     const ArrayView<double> owned(records, n_owned);
     const ArrayView<double> ghosts(records + n_owned,

@@ -7,10 +7,10 @@ namespace talus
 {
   using namespace dealii;
 
-  // Two arrays of records and not one per quantity: what a point gives to a
-  // node, and takes from it, lies in one or two lines of the cache. Sums and
-  // motions are apart because the two sweeps of a step each need one of them
-  // only.
+  // Two arrays of records instead of one array per quantity: all data that a
+  // point adds to a node or reads from a node lie in one or two cache lines.
+  // Sums and motions are separate, because each sweep of a step needs only one
+  // of them.
   template <int dim>
   void
   NodalFields<dim>::prepare(const Grid<dim> &grid)
@@ -29,8 +29,7 @@ namespace talus
 
 
 
-  /// Put a node on the lists that loops over nodes go along, unless it is
-  /// there.
+  /// Append a node to the lists of active nodes unless it is active already.
   template <int dim>
   void
   NodalFields<dim>::add_active(const Grid<dim> &grid, const unsigned int node)
@@ -50,12 +49,12 @@ namespace talus
 
 
 
-  // The cost of a step must follow the points and not the mesh, most of which
-  // may be empty. So loops go over lists of the nodes that points may touch;
-  // these are made only when the set of occupied cells changes, in the order of
-  // the cells, so that the sums over nodes have the same order in a resumed
-  // run. Records of owned nodes that are not active are zero: they are neither
-  // cleared nor looked at in a step.
+  // The cost of a step must depend on the number of points and not on the size
+  // of the mesh, which may be mostly empty. Therefore loops run over lists of
+  // the nodes that points may touch. The lists change only with the set of
+  // occupied cells; their order follows the cells, so that sums over nodes have
+  // the same order in a resumed run. Records of inactive owned nodes are zero:
+  // a step neither clears nor reads them.
   template <int dim>
   void
   NodalFields<dim>::activate(const Grid<dim>                 &grid,
@@ -70,8 +69,8 @@ namespace talus
     active_ghosts_.clear();
     active_boundary_nodes_.clear();
 
-    // Of a cell that is not uniform only its own nodes: those of the cells
-    // around are theirs.
+    // For a cell that is not uniform only its own nodes: the touching cells add
+    // the nodes around.
     const auto add_patch = [&](const unsigned int c) {
       const Cell<dim> &cell = grid.cells()[c];
       for (unsigned int k = 0; k < cell.patch.size(); ++k)
@@ -84,7 +83,7 @@ namespace talus
       else
         for (const unsigned int t : grid.touching_cells(c))
           add_patch(t);
-    // Points on another rank may touch what is shared with it.
+    // Points on another rank may touch shared nodes.
     for (const unsigned int node : grid.interface_nodes())
       add_active(grid, node);
     for (const auto &hanging : grid.hanging_nodes())
@@ -92,7 +91,7 @@ namespace talus
         for (const auto &master : hanging.masters)
           add_active(grid, master.first);
 
-    // Nodes that soil has left are empty when it comes back.
+    // Nodes without soil must be zero when they become active again.
     for (const unsigned int node : formerly_active_nodes_)
       if (!is_active_[node])
         {
@@ -103,8 +102,7 @@ namespace talus
 
 
 
-  // Ghosts without exception: their records travel whether they are active or
-  // not.
+  // All ghosts, active or not: their records are sent in any case.
   template <int dim>
   void
   NodalFields<dim>::clear()
@@ -117,11 +115,10 @@ namespace talus
 
 
 
-  // Hanging nodes come first: masters may be ghosts, whose sums then travel
-  // with the rest. With the weights w of the constraint u_h = sum w u_m the
-  // master gets w times the sum: what is transposed to the interpolation
-  // conserves the sums, and the power of nodal forces is the same before and
-  // after.
+  // Hanging nodes come first: masters may be ghosts, whose sums are sent
+  // afterwards. With the weights w of the constraint u_h = sum w u_m the master
+  // gets w times the sum: the transpose of the interpolation conserves the
+  // sums, and the power of nodal forces stays the same.
   template <int dim>
   void
   NodalFields<dim>::sum_over_ranks(const Grid<dim> &grid)
@@ -140,16 +137,16 @@ namespace talus
 
 
 
-  // With the lumped mass each node stands alone. The cut-off is there because
-  // the mass of a node falls faster than the force on it as a point barely
-  // touches it: without it f/m has no bound. It must be small, or nodes in
-  // front of the slide act as a wall.
+  // The lumped mass decouples the nodes. Without the cut-off f/m is unbounded:
+  // when a point barely touches a node, the mass of the node falls faster than
+  // the force. The cut-off must be small; otherwise nodes in front of the slide
+  // act as a wall.
   template <int dim>
   void
   NodalFields<dim>::update_momentum(const double dt, const double mass_cutoff)
   {
-    // The list goes from cell to cell, so that the machine does not see which
-    // node will be next: ask for it some nodes before.
+    // The list follows the cells, so the processor cannot predict the next
+    // node: prefetch some nodes ahead.
     constexpr std::size_t ahead = 16;
     const std::size_t     n     = active_nodes_.size();
     for (std::size_t i = 0; i < n; ++i)
@@ -176,7 +173,8 @@ namespace talus
 
 
 
-  // The other way round: ghosts first, since they may be masters.
+  // Reverse order of sum_over_ranks(): ghosts first, since masters may be
+  // ghosts.
   template <int dim>
   void
   NodalFields<dim>::share_with_ghosts(const Grid<dim> &grid)
@@ -195,8 +193,8 @@ namespace talus
 
 
 
-  /// Unlike velocity times mass it is what the points sent, untouched by the
-  /// step.
+  /// The sum of the contributions of points. Unlike velocity times mass it is
+  /// not changed by the step.
   template <int dim>
   Tensor<1, dim>
   NodalFields<dim>::momentum(const unsigned int node) const
@@ -209,7 +207,7 @@ namespace talus
 
 
 
-  /// The two parts in which the kernels add it up (NodalSum) together.
+  /// Sum of the two parts of NodalSum.
   template <int dim>
   Tensor<1, dim>
   NodalFields<dim>::force(const unsigned int node) const
@@ -274,8 +272,8 @@ namespace talus
 
 
 
-  // The increment changes with the velocity, so that FLIP gives the points what
-  // boundaries do, too, and the mean velocity of the step stays right.
+  // The increment changes with the velocity, so that FLIP transfers the action
+  // of boundaries to the points, and the mean velocity of the step is correct.
   template <int dim>
   Tensor<1, dim>
   NodalFields<dim>::set_velocity(const unsigned int    node,
@@ -295,8 +293,9 @@ namespace talus
 
 
 
-  // A constant force over dt does the work dt f . (v_before + v_after)/2
-  // exactly; v_after alone would falsify the energy budget by (dt f)^2/(2 m).
+  // A constant force over dt does exactly the work dt f . (v_before +
+  // v_after)/2; with v_after alone the energy budget would have an error of (dt
+  // f)^2/(2 m).
   template <int dim>
   Tensor<1, dim>
   NodalFields<dim>::mean_velocity(const unsigned int node) const
@@ -310,7 +309,7 @@ namespace talus
 
 
 
-  // Ghosts are left out, so that the sum over the ranks counts each node once.
+  // Without ghosts, so that the sum over the ranks counts each node once.
   template <int dim>
   double
   NodalFields<dim>::kinetic_energy() const

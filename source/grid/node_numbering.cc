@@ -15,11 +15,11 @@ namespace talus
 
   namespace
   {
-    /// A hanging node and its masters, by their indices over all ranks.
+    /// Masters of each hanging node with weights, by global indices.
     using Masters = std::vector<std::pair<types::global_dof_index, double>>;
     using Hanging = std::map<types::global_dof_index, Masters>;
 
-    /// The ghosts by the rank that owns them. Collective.
+    /// Sort the ghosts by owner. Collective.
     std::map<unsigned int, std::vector<types::global_dof_index>>
     sort_by_owner(const IndexSet &owned, const IndexSet &ghosts, MPI_Comm comm)
     {
@@ -33,8 +33,9 @@ namespace talus
 
 
 
-    /// The hanging nodes of the cells this rank knows, and their masters, which
-    /// do not hang themselves: close() puts those of a master in its place.
+    /// Return the hanging nodes of the cells known to this rank, and their
+    /// masters. Masters do not hang: close() replaces a hanging master by its
+    /// masters.
     template <int dim>
     Hanging
     masters_of_hanging_nodes(const DoFHandler<dim> &dof_handler,
@@ -51,8 +52,9 @@ namespace talus
 
 
 
-    /// Cells of one size have no hanging nodes; but of the twin of a node at
-    /// the edge of what a rank knows, it may have to ask the owner as well.
+    /// Return the twins of nodes on upper periodic faces as single masters with
+    /// weight 1. A uniform mesh has no hanging nodes, but for nodes at the edge
+    /// of the known cells the rank may have to ask the owner for the twin.
     template <int dim>
     Hanging
     masters_at_seams(const DoFHandler<dim>  &dof_handler,
@@ -68,18 +70,18 @@ namespace talus
 
 
 
-    /// A hanging node at the edge of what a rank knows may hang on a cell that
-    /// it does not know: ask the owner. The owner itself, in 3-D, may have to
-    /// be told by one who knows. Why this matters: boxes reach across corners,
-    /// so points send sums to nodes at the far side of the ghost cells, which
-    /// hang on cells that deal.II does not show this rank. Without their
-    /// masters these sums would reach the owner of the node when it has passed
-    /// on its own, and be lost. One layer of ghosts more would do as well, but
-    /// deal.II has one.
+    /// Complete the hanging nodes at the edge of the cells known to a rank,
+    /// which may hang on cells unknown to the rank: ask the owner. In 3-D even
+    /// the owner may have to learn from another rank. The reason: boxes reach
+    /// across corners, so points add sums to nodes at the far side of the ghost
+    /// cells, which may hang on cells that deal.II does not show to this rank.
+    /// Without known masters the sums would reach the owner of the node after
+    /// it has distributed its sums, and would be lost. A second layer of ghost
+    /// cells would help, too, but deal.II has one layer.
     ///
-    /// Three rounds of messages among the ranks that know each other's nodes,
-    /// once per mesh: what we know of your nodes, which of your nodes we need,
-    /// what we know of ours. Collective.
+    /// Three rounds of messages among ranks that know nodes of each other, once
+    /// per mesh: known masters of nodes of other ranks, requests for nodes of
+    /// other ranks, answers. Collective.
     void
     complete_hanging_nodes(
       const IndexSet &owned,
@@ -157,12 +159,12 @@ namespace talus
 
 
 
-  /// Number the nodes as the cells in their order meet them.
-  /// deal.II numbers nodes in an order that depends on how the mesh came about.
-  /// This one depends on the mesh alone, so that sums over nodes have the same
-  /// order in a resumed run; and nodes of cells that follow each other are near
-  /// each other in memory. Only owned nodes are renumbered, within the numbers
-  /// of the rank, so no rank need know what the others do.
+  /// Number the nodes in the order of their first occurrence in the cells. The
+  /// numbering of deal.II depends on the history of the mesh. This numbering
+  /// depends on the mesh only, so that sums over nodes have the same order in a
+  /// resumed run; and nodes of consecutive cells are close in memory. Only
+  /// owned nodes are renumbered within the index range of the rank, without
+  /// communication.
   template <int dim>
   void
   NodeNumbering<dim>::number_nodes(const Mesh<dim> &mesh)
@@ -185,15 +187,14 @@ namespace talus
 
 
 
-  /// Number of a node among those of this rank, by its index over all ranks:
-  /// first the owned ones, then the ghosts, which follow by owner since indices
-  /// do.
+  /// Return the local number of a node from its global index: owned nodes
+  /// first, then ghosts, sorted by global index and hence by owner.
   template <int dim>
   unsigned int
   NodeNumbering<dim>::local_node(const types::global_dof_index node) const
   {
-    // Cells at an upper periodic face get the nodes of the lower one: those of
-    // their own are never used.
+    // Cells at an upper periodic face use the nodes of the lower face; the
+    // nodes on the upper face are never used.
     const auto twin = twins_.find(node);
     const auto n    = (twin == twins_.end() ? node : twin->second);
     return owned_nodes_.is_element(n)
@@ -203,15 +204,15 @@ namespace talus
 
 
 
-  /// Set the lists of owned, ghost and hanging nodes.
-  /// At a hanging node the shape functions of its large and small cells do not
-  /// fit together; its value is therefore a mean of those of its masters, which
-  /// makes the interpolation continuous. The transfer ignores that: it adds
-  /// sums to hanging nodes as to any other, and NodalFields passes them on, by
-  /// the transposed constraint, so that no mass or momentum is lost.
+  /// Set the lists of owned, ghost and hanging nodes. At a hanging node the
+  /// shape functions of large and small cells do not match; the node therefore
+  /// takes the weighted mean of its masters, which makes the interpolation
+  /// continuous. The transfer ignores the constraint and adds sums to hanging
+  /// nodes as to all nodes. NodalFields distributes the sums by the transposed
+  /// constraint, so that no mass or momentum is lost.
   ///
-  /// A node on an upper periodic face, in contrast, is its twin: cells simply
-  /// get the number of the twin, and nothing has to be passed on.
+  /// A node on an upper periodic face is identical to its twin: cells use the
+  /// number of the twin, and no sums need to be distributed.
   template <int dim>
   void
   NodeNumbering<dim>::find_ghost_nodes(const Mesh<dim> &mesh)
@@ -253,7 +254,8 @@ namespace talus
           HangingNode entry{local_node(node), {}};
           for (const auto &[master, weight] : masters)
             {
-              // So sums need to be passed on once only, in any order.
+              // Masters do not hang: one pass in any order distributes the
+              // sums.
               Assert(hanging.count(master) == 0, ExcInternalError());
               entry.masters.emplace_back(local_node(master), weight);
             }
@@ -267,7 +269,7 @@ namespace talus
   void
   NodeNumbering<dim>::find_interface_nodes(const MPI_Comm communicator)
   {
-    // The partitioner has asked the other ranks what they import from here.
+    // The partitioner has asked the other ranks for their imports.
     const Utilities::MPI::Partitioner partitioner(owned_nodes_,
                                                   ghost_nodes_,
                                                   communicator);

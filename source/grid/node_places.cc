@@ -9,9 +9,8 @@ namespace talus
 
   namespace
   {
-    /// Call action(node, place, level) for the corners of the owned cells that
-    /// this rank owns as nodes: all owned nodes are among them, some more than
-    /// once.
+    /// Call action(node, place, level) for all corners of owned cells whose
+    /// node this rank owns. All owned nodes are visited, some more than once.
     template <int dim, typename Action>
     void
     for_each_owned_corner(const Grid<dim> &grid, const Action &action)
@@ -33,8 +32,8 @@ namespace talus
 
 
   // For expressions in x, y, z at nodes. A node on a periodic face has two
-  // places, of which that of the last cell is taken: what is given there must
-  // repeat with the mesh (doc/method.md, section 9).
+  // positions; the position in the last cell is returned. Expressions must
+  // therefore have the period of the mesh (doc/method.md, section 9).
   template <int dim>
   std::vector<Point<dim>>
   places_of_owned_nodes(const Grid<dim> &grid)
@@ -51,8 +50,8 @@ namespace talus
 
 
 
-  // A place that is even along all axes lies in the lattice of the level above,
-  // too: the coarsest of these lattices gives the key.
+  // A position with even coordinates is also in the lattice one level coarser:
+  // the key belongs to the coarsest possible lattice.
   template <int dim>
   std::vector<unsigned long>
   keys_of_owned_nodes(const Grid<dim> &grid)

@@ -9,7 +9,7 @@ namespace talus
 {
   using namespace dealii;
 
-  // Whether any axis repeats is asked per point in the relocation: once known.
+  // The relocation calls any() for each point: stored once.
   template <int dim>
   Periodicity<dim>::Periodicity(const std::array<bool, dim> &axes,
                                 const Box<dim>              &domain)
@@ -35,8 +35,8 @@ namespace talus
 
 
 
-  // So that cells at the opposite face are ghosts where they belong to another
-  // rank, and points may cross in a step as they do elsewhere.
+  // Cells at the opposite face become ghosts if they belong to another rank,
+  // and points may cross the face in a step as in the interior.
   template <int dim>
   void
   Periodicity<dim>::join_faces(
@@ -54,8 +54,8 @@ namespace talus
 
 
 
-  // By their places: so the twin of a node on several faces is found at once,
-  // however little of the mesh between them this rank knows.
+  // Twins are matched by position: the twin of a node on several faces is found
+  // directly, even if this rank knows little of the mesh between them.
   template <int dim>
   std::map<types::global_dof_index, types::global_dof_index>
   Periodicity<dim>::find_twins(const DoFHandler<dim> &dof_handler,
@@ -77,7 +77,7 @@ namespace talus
                   std::lround((cell->vertex(v)[d] - domain_.lower[d]) / size);
                 is_upper = is_upper || (axes_[d] && place[d] == extent[d]);
               }
-            // All others on the boundary may be the twin of one.
+            // All other boundary nodes may be twins.
             (is_upper ? upper : lower)[place] = cell->vertex_dof_index(v, 0);
           }
 

@@ -11,8 +11,8 @@ namespace talus
 
   namespace
   {
-    /// A corner of a refinement box, m; @p boxes is the whole parameter, for
-    /// the messages.
+    /// Parse a corner of a refinement box, m; @p boxes is the whole parameter,
+    /// for messages.
     template <int dim>
     Point<dim>
     parse_corner(const std::string &corner, const std::string &boxes)
@@ -21,15 +21,15 @@ namespace talus
       Point<dim> x;
       AssertThrow(numbers.size() == dim,
                   ExcUser("'Grid/Refinement boxes = " + boxes +
-                          "' contains the corner '" + corner + "', where " +
+                          "' contains the corner '" + corner + "'; expected " +
                           std::to_string(dim) +
-                          " numbers separated by commas were expected."));
+                          " numbers separated by commas."));
       for (unsigned int d = 0; d < dim; ++d)
         {
           AssertThrow(Patterns::Double().match(numbers[d]),
                       ExcUser("'Grid/Refinement boxes = " + boxes +
                               "' contains '" + numbers[d] +
-                              "', where a number was expected."));
+                              "'; expected a number."));
           x[d] = Utilities::string_to_double(numbers[d]);
         }
       return x;
@@ -38,8 +38,8 @@ namespace talus
 
 
 
-  // A box outside of the mesh is an error: nothing would be refined, and nobody
-  // would notice.
+  // A box outside of the mesh is an error: it would have no effect without any
+  // message.
   template <int dim>
   std::vector<RefinementBox<dim>>
   parse_refinement_boxes(const std::string &boxes, const Box<dim> &domain)
@@ -52,8 +52,8 @@ namespace talus
                       Patterns::Integer(1, 10).match(parts[2]),
                     ExcUser("'Grid/Refinement boxes = " + boxes +
                             "' contains '" + entry +
-                            "', where 'lower corner; upper corner; n' was "
-                            "expected, with n from 1 to 10."));
+                            "'; expected 'lower corner; upper corner; n' with "
+                            "n from 1 to 10."));
         const Box<dim> box{parse_corner<dim>(parts[0], boxes),
                            parse_corner<dim>(parts[1], boxes)};
         for (unsigned int d = 0; d < dim; ++d)
@@ -81,8 +81,8 @@ namespace talus
 
 
 
-  // Cells that only share a face with a box do not overlap it, whatever the
-  // round-off in their corners.
+  // The tolerance excludes cells that only share a face with the box, for any
+  // round-off in the corners.
   template <int dim>
   bool
   overlap(const RefinementBox<dim> &box,

@@ -362,7 +362,7 @@ class BadInput(Case):
 
     def test_mesh_that_does_not_fit(self):
         words = ("The mesh would have", "cells, which take some",
-                 "GB are to be had", "Grid/Cell size", "more machines")
+                 "GB are available", "Grid/Cell size", "more machines")
         self.refuse_set(["Grid/Cell size=1e-4"], *words)
         # 2.5e7 cells, of which a shell allows a quarter.
         self.assert_refused(self.run_limited(4000000, "8e-4"), *words)
@@ -380,7 +380,7 @@ class BadInput(Case):
                  ["Mesh tracking/Enabled=true", "Grid/Coarsest level=6"],
                  "Grid/Coarsest level")):
             self.assert_refused(self.run_limited(kilobytes, size, *settings),
-                                "The mesh would have", "GB are to be had",
+                                "The mesh would have", "GB are available",
                                 advice)
 
     def test_points_that_do_not_fit(self):

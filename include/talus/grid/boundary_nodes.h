@@ -10,30 +10,32 @@
 
 namespace talus
 {
-  /// What a node on a face of the mesh stands for, hanging nodes condensed.
+  /// Part of a mesh face that a node represents. The share of a hanging node is
+  /// distributed to its masters.
   struct FaceShare
   {
-    /// Integral of its shape function over the face, m^(dim-1).
+    /// Integral of the shape function over the face, m^(dim-1).
     double area = 0;
-    /// Integral of its shape function over the cells at the face, m^dim.
+    /// Integral of the shape function over the cells at the face, m^dim.
     double volume = 0;
   };
 
 
 
-  /// Which nodes lie on the faces of the mesh, and their shares in them.
+  /// Nodes on the faces of the mesh, and their shares in the faces.
   template <int dim>
   class BoundaryNodes
   {
   public:
-    /// Bit f is set if the node lies on face f of the mesh.
+    /// Faces of the mesh that contain the node: bit f is set for face f.
     unsigned char
     faces_of_node(const unsigned int node) const
     {
       return faces_of_node_[node];
     }
 
-    /// Share of node @p node, owned by this rank, in face @p face of the mesh.
+    /// Share of an owned node in face @p face of the mesh. The node must lie on
+    /// the face.
     const FaceShare &
     face_share(const unsigned int face, const unsigned int node) const
     {
@@ -41,7 +43,8 @@ namespace talus
     }
 
   protected:
-    /// When cells and nodes are known. @p exchange has two doubles per node.
+    /// Find the nodes on the faces of the mesh and compute their shares. Cells
+    /// and nodes must be prepared; @p exchange must carry two doubles per node.
     /// Collective.
     void
     prepare_boundary(const MeshLayout<dim>    &layout,

@@ -17,7 +17,7 @@ namespace talus
     return exponent == 0 ? 1 : base * power(base, exponent - 1);
   }
 
-  /// Entry of a patch that is the cell's own node at vertex @p v.
+  /// Index in a patch of the node of the cell at vertex @p v.
   template <int dim>
   constexpr unsigned int
   patch_of_vertex(const unsigned int v)
@@ -30,36 +30,36 @@ namespace talus
 
 
 
-  /// What the transfer needs to know about a cell of the background grid. In 2-D
-  /// two lines of the cache: what finding a point's cell takes, and the patch.
+  /// Data of a cell of the background grid for the transfer. In 2-D two cache
+  /// lines: first the data for locating points, then the patch.
   template <int dim>
   struct alignas(64) Cell
   {
-    dealii::Point<dim> lower; ///< corner, m
+    dealii::Point<dim> lower; ///< lower corner, m
     double             size;  ///< length of the edges, m
 
-    /// True if all neighbours, across corners too, have the same size. Then
-    /// the patch is complete.
+    /// True if all neighbours, also across edges and corners, have the size of
+    /// the cell. Then the patch is complete.
     bool uniform;
 
-    /// Bit 2 d (2 d + 1) is set if those at the lower (upper) face of axis d, its
-    /// edges and corners included, have the same size, or the mesh ends there.
+    /// Bit 2 d (2 d + 1) is set if all neighbours at the lower (upper) face of
+    /// axis d, including its edges and corners, have the size of the cell, or
+    /// if the mesh ends at the face.
     unsigned char sides_of_same_size;
 
-    /// Neighbours of the same size, 3 per axis, x fastest, the cell itself in
-    /// the middle; invalid_unsigned_int beyond the boundary of the mesh or
-    /// where there is no active cell of the same size.
+    /// Indices of the neighbours of equal size, 3 per axis, x fastest, with the
+    /// cell in the middle. invalid_unsigned_int beyond the boundary of the mesh
+    /// or where no active cell of equal size exists.
     std::array<unsigned int, power(3, dim)> neighbors;
 
-    /// Nodes of the patch from one cell below to one cell above, 4 per axis,
-    /// x fastest. Beyond the boundary of the mesh the outer row repeats the
-    /// boundary row: the boundary cell is continued outwards with shape
-    /// functions that are constant along the normal. The inner 2^dim entries
-    /// are the cell's own nodes; invalid_unsigned_int where there is no
-    /// neighbour of the same size.
+    /// Nodes from one cell below to one cell above, 4 per axis, x fastest. The
+    /// inner 2^dim entries are the nodes of the cell. Beyond the boundary of
+    /// the mesh the outer row repeats the boundary row: the boundary cell is
+    /// continued outwards with shape functions that are constant along the
+    /// normal. invalid_unsigned_int where no neighbour of equal size exists.
     std::array<unsigned int, power(4, dim)> patch;
 
-    /// The cell's own nodes in deal.II's order, x fastest.
+    /// Return the nodes of the cell in the order of deal.II, x fastest.
     std::array<unsigned int, power(2, dim)>
     nodes() const
     {
@@ -69,7 +69,7 @@ namespace talus
       return result;
     }
 
-    /// Place of vertex @p v in this order, m.
+    /// Position of vertex @p v, in the order of nodes(), m.
     dealii::Point<dim>
     vertex(const unsigned int v) const
     {
@@ -88,7 +88,7 @@ namespace talus
 
 
 
-  /// Whether entry @p k of a patch is one of the cell's own nodes.
+  /// Whether entry @p k of a patch is a node of the cell.
   template <int dim>
   constexpr bool
   is_own_node(const unsigned int k)

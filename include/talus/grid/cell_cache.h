@@ -10,9 +10,9 @@
 
 namespace talus
 {
-  /// The cells as the transfer sees them: flat, in the order of the mesh, those
-  /// this rank owns first, then its ghosts; what lies around each; and which
-  /// cell a point is in.
+  /// Flat list of cells for the transfer, in the order of the mesh, owned cells
+  /// first, then ghost cells; with the neighbours of each cell, and a search
+  /// for the cell of a point.
   template <int dim>
   class CellCache
   {
@@ -35,7 +35,7 @@ namespace talus
       return level_of_cell_[c];
     }
 
-    /// Rank that owns the cell.
+    /// Return the rank that owns the cell.
     unsigned int
     owner_of_cell(const unsigned int c) const
     {
@@ -44,8 +44,8 @@ namespace talus
                : owner_of_ghost_[c - n_owned_cells_];
     }
 
-    /// Ranks that own ghost cells of this one, ascending; this rank owns ghost
-    /// cells of theirs.
+    /// Ranks that own ghost cells of this rank, ascending. The relation is
+    /// symmetric: this rank owns ghost cells of each neighbour rank.
     const std::vector<unsigned int> &
     neighbor_ranks() const
     {
@@ -55,37 +55,38 @@ namespace talus
     Lattice<dim>
     place_of_cell(unsigned int c) const;
 
-    /// Name of a cell that all ranks know it by.
+    /// Return the key of a cell, identical on all ranks.
     unsigned long
     key_of_cell(unsigned int c) const;
 
-    /// The inverse of key_of_cell(); invalid_unsigned_int if this rank does not
-    /// know the cell.
+    /// Return the cell with the given key; invalid_unsigned_int if this rank
+    /// does not know the cell.
     unsigned int
     cell_of_key(unsigned long key) const;
 
-    /// The cells that share at least a corner with cell @p c, itself included,
-    /// whatever their size; kept only for cells that are not uniform.
+    /// Cells of any size that share at least a corner with cell @p c, including
+    /// @p c. Stored only for cells that are not uniform.
     const std::vector<unsigned int> &
     touching_cells(const unsigned int c) const
     {
       return touching_.at(c);
     }
 
-    /// Whether the points of an owned cell may touch a node of a cell larger
-    /// than h.
+    /// Whether points in an owned cell may have weights at a node of a cell
+    /// larger than h.
     bool
     is_near_larger_cell(const unsigned int c) const
     {
       return is_near_larger_cell_[c];
     }
 
-    /// The cell that contains @p x, which is moved onto the mesh first where it
-    /// lies outside; invalid_unsigned_int if this rank does not know that cell.
+    /// Return the cell that contains @p x, m, or the boundary cell nearest to a
+    /// position outside of the mesh; invalid_unsigned_int if this rank does not
+    /// know the cell.
     unsigned int
     find_cell(const dealii::Point<dim> &x) const;
 
-    /// Index among cells() of an active deal.II cell.
+    /// Index in cells() of an active deal.II cell.
     unsigned int
     index_of(
       const typename dealii::Triangulation<dim>::cell_iterator &cell) const
@@ -94,14 +95,15 @@ namespace talus
     }
 
   protected:
-    /// The mesh must live as long as this.
+    /// Keeps a reference: the mesh must outlive this object.
     explicit CellCache(const Mesh<dim> &mesh);
 
     void
     prepare_cells(const NodeNumbering<dim> &nodes);
 
-    /// Learn which cells are near a larger one, when they and the nodes are
-    /// known. @p exchange has two doubles per node. Collective.
+    /// Find the owned cells near a cell larger than h, for
+    /// is_near_larger_cell(). Cells and nodes must be prepared; @p exchange
+    /// must carry two doubles per node. Collective.
     void
     find_larger_cells(const NodeNumbering<dim> &nodes,
                       NodalExchange<dim>       &exchange);

@@ -6,10 +6,10 @@
 
 namespace talus
 {
-  /// The background grid: a p4est mesh of square (cubic) cells over a box, with
-  /// Q1 elements, and what the transfer needs to know of it. It is what its
-  /// parts are, and adds nothing but the order in which they follow from each
-  /// other; who needs one part only takes that one by reference.
+  /// The background grid: a p4est mesh of square (cubic) cells in a box with Q1
+  /// elements, and the tables for the transfer. The base classes do the work;
+  /// Grid adds only the order of their preparation. Code that needs one part
+  /// takes a reference to the base class.
   template <int dim>
   class Grid : public Mesh<dim>,
                public NodeNumbering<dim>,
@@ -19,7 +19,7 @@ namespace talus
   public:
     explicit Grid(MPI_Comm communicator);
 
-    /// Number the nodes, list the cells and find the boundary; to be called
+    /// Number the nodes, build the tables of cells and find the boundary. Call
     /// after each change of the mesh. Collective.
     void
     prepare();

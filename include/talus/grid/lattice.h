@@ -6,18 +6,19 @@
 
 namespace talus
 {
-  /// Place of a cell in the lattice of its level: how many cells of its size
-  /// lie before it along each axis.
+  /// Position of a cell in the lattice of its level: number of cells of equal
+  /// size before the cell along each axis.
   template <int dim>
   using Lattice = std::array<long, dim>;
 
-  /// One number for a place in the lattice of a level, whether or not there is
-  /// a cell.
+  /// Return the key of a position in the lattice of a level, also where no cell
+  /// exists.
   template <int dim>
   unsigned long
   key_of_place(const Lattice<dim> &place, unsigned int level);
 
-  /// That for what contains it on the level above.
+  /// Return the key of the parent cell, one level coarser, from the key of a
+  /// cell.
   template <int dim>
   unsigned long
   key_of_parent(unsigned long key);

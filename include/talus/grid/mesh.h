@@ -13,77 +13,80 @@
 
 namespace talus
 {
-  /// The cells of p4est, on all ranks: how they are divided and joined, shared
-  /// out, saved and loaded. After each change Grid::prepare() must follow.
+  /// The p4est mesh on all ranks: refinement and coarsening, partition, saving
+  /// and loading. Call Grid::prepare() after each change.
   template <int dim>
   class Mesh : public MeshLayout<dim>
   {
   public:
     using typename MeshLayout<dim>::Lattice;
 
-    /// Whether something in the cell at this place and level asks for smaller
-    /// cells.
+    /// Whether the cell at @p place on @p level must be refined.
     using WantsFiner =
       std::function<bool(const Lattice &place, unsigned int level)>;
 
-    /// Lay out the domain and its coarsest cells from the parameters.
-    /// @p may_move tells for each face (see face_names) whether it may be moved
-    /// outwards when the extent is not a multiple of the cell size, or, if
-    /// cells are to @p grow far from soil, of the largest cells; along
-    /// @p periodic axes the mesh repeats. Throws ExcUser if that is impossible.
+    /// Create the domain and its coarsest cells from the parameters. Throws
+    /// ExcUser if the parameters are inconsistent.
+    ///
+    /// @param may_move for each face (see face_names) whether the face may move
+    ///   outwards if the extent is not a multiple of the cell size or, with
+    ///   @p grow, of the size of the largest cells
+    /// @param grow whether cells far from soil may be larger than h
+    /// @param periodic axes along which the mesh repeats
     void
     create(const std::array<bool, 2 * dim> &may_move,
            bool                             grow     = false,
            const std::array<bool, dim>     &periodic = {});
 
-    /// Divide all cells down to h, and further in the refinement boxes.
+    /// Refine all cells down to h, and further in the refinement boxes.
     void
     refine();
 
-    /// Divide and join cells until those are divided that contain something
-    /// that asks for it, those in the refinement boxes, and those that must be
-    /// because neighbours differ by a factor of two at most. Cells stay on
-    /// their rank unless they are to be @p spread evenly. Returns whether the
+    /// Refine the cells for which @p wants_finer is true and cells in
+    /// refinement boxes, coarsen the others, and keep neighbours within a
+    /// factor of two, until nothing changes. Cells stay on their rank unless
+    /// @p spread is true, which distributes cells evenly. Return whether the
     /// mesh changed. Collective.
     bool
     refine(const WantsFiner &wants_finer, bool spread);
 
-    /// Write the mesh to the file @p path and to others whose names begin like
-    /// that. Collective.
+    /// Write the mesh to the file @p path and to files whose names begin with
+    /// @p path. Collective.
     void
     save(const std::string &path) const;
 
-    /// Make the mesh that save() wrote, after create() in place of refine().
-    /// p4est then shares the cells evenly among the ranks. Collective.
+    /// Load the mesh written by save(). Call after create() in place of
+    /// refine(). p4est distributes the cells evenly among the ranks.
+    /// Collective.
     void
     load(const std::string &path);
 
-    /// Share the cells out among the ranks by their weights; those of the cells
-    /// this rank owns are given in the order of the cells. Collective.
+    /// Distribute the cells among the ranks by weight; @p weights has an entry
+    /// for each owned cell in the order of the cells. Collective.
     void
     repartition(const std::vector<double> &weights);
 
-    /// The cells that this rank knows, in the order of p4est's space-filling
-    /// curve, those it owns first: an order that depends on the mesh alone and
-    /// not on how it came about.
+    /// Active cells known to this rank, owned cells first, along the
+    /// space-filling curve of p4est. The order depends on the mesh only and not
+    /// on its history.
     std::vector<typename dealii::Triangulation<dim>::active_cell_iterator>
     cells_in_order() const;
 
-    /// Edge of the smallest cells, m.
+    /// Edge of the smallest cells on all ranks, m.
     double
     finest_size() const
     {
       return this->size_of_level(triangulation_.n_global_levels() - 1);
     }
 
-    /// Active cells of all ranks.
+    /// Number of active cells on all ranks.
     unsigned long
     n_global_cells() const
     {
       return triangulation_.n_global_active_cells();
     }
 
-    /// Cells that this rank owns.
+    /// Number of cells owned by this rank.
     unsigned int
     n_locally_owned_cells() const
     {

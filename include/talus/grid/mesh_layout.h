@@ -15,31 +15,30 @@
 
 namespace talus
 {
-  /// Names of the faces of the mesh in deal.II's order of boundary ids.
+  /// Names of the faces of the mesh, in the order of deal.II's boundary ids.
   extern const std::array<std::string, 6> face_names;
 
-  /// Where cells may lie: the box that they fill, the trees of p4est that it
-  /// consists of, and the lattice that the cells of a level would make if they
-  /// filled it all. Follows from the parameters, before there is any cell, and
-  /// is the same on all ranks.
+  /// Geometry of the mesh without cells: the box filled by the mesh, the trees
+  /// of p4est, and the lattice of all possible cells of a level. Computed from
+  /// the parameters before any cell exists; identical on all ranks.
   template <int dim>
   class MeshLayout : public dealii::ParameterAcceptor
   {
   public:
     using Lattice = talus::Lattice<dim>;
 
-    /// Throw ExcUser if the parameters contradict each other.
+    /// Throw ExcUser if parameters contradict each other.
     void
     check() const;
 
-    /// The box that the mesh fills.
+    /// Box filled by the mesh.
     const Box<dim> &
     domain() const
     {
       return domain_;
     }
 
-    /// The box without what far cells were added for.
+    /// Box of the mesh before upper faces moved outwards for the largest cells.
     const Box<dim> &
     domain_before_growth() const
     {
@@ -52,29 +51,29 @@ namespace talus
       return periodicity_;
     }
 
-    /// Sentence for the log if a face had to be moved, else empty.
+    /// Sentence for the log if a face was moved, otherwise empty.
     const std::string &
     adjustment() const
     {
       return adjustment_;
     }
 
-    /// The level of the cells of size h.
+    /// Level of the cells of size h.
     unsigned int
     base_level() const
     {
       return base_level_;
     }
 
-    /// Edge h of the cells where nothing asks for smaller ones, m.
+    /// Edge h of the cells at base_level(), m.
     double
     cell_size() const
     {
       return size_of_level(base_level_);
     }
 
-    /// Edge of the smallest cells that the parameters ask for anywhere in
-    /// @p box, m.
+    /// Edge of the smallest cells requested by the refinement boxes that
+    /// overlap @p box, m.
     double
     finest_size_in(const Box<dim> &box) const;
 
@@ -85,29 +84,32 @@ namespace talus
       return tree_size_ / (1u << level);
     }
 
-    /// See memory_per_rank(), before there was a mesh; bytes.
+    /// Memory per rank before the mesh was created, bytes; see
+    /// talus::memory_per_rank().
     double
     memory_per_rank() const
     {
       return memory_per_rank_;
     }
 
-    /// Number of cells of this level along each axis of the mesh.
+    /// Number of cells of @p level along each axis of the mesh.
     Lattice
     extent_of_lattice(unsigned int level) const;
 
-    /// Place of the cell of this level that contains @p x, moved onto the mesh.
+    /// Position of the cell of @p level that contains @p x, m, or of the
+    /// nearest cell if @p x lies outside of the mesh.
     Lattice
     lattice_place(const dealii::Point<dim> &x, unsigned int level) const;
 
-    /// Lower corner of the cell of this level at this place, m.
+    /// Lower corner of the cell of @p level at @p place, m.
     dealii::Point<dim>
     lower_corner_of(const Lattice &place, unsigned int level) const;
 
   protected:
     MeshLayout();
 
-    /// See Mesh::create(). Returns the number of trees along each axis.
+    /// Set up the box and the trees, see Mesh::create(). Return the number of
+    /// trees along each axis.
     std::vector<unsigned int>
     lay_out(const std::array<bool, 2 * dim> &may_move,
             bool                             grow,
@@ -119,12 +121,12 @@ namespace talus
       return !boxes_.empty();
     }
 
-    /// Whether the cell at this place overlaps a refinement box that asks for
+    /// Whether the cell at @p place overlaps a refinement box that requests
     /// smaller cells.
     bool
     box_wants_finer(const Lattice &place, unsigned int level) const;
 
-    /// Throw ExcUser if the ranks together cannot hold so many cells.
+    /// Throw ExcUser if the ranks together cannot hold @p n_cells cells.
     void
     check_memory(double n_cells) const;
 

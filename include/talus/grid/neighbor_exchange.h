@@ -10,32 +10,32 @@
 
 namespace talus
 {
-  /// Passes a list of doubles, of any length, to each neighbouring rank and
-  /// receives one from each. An empty list is a message, too: without it a
-  /// neighbour could not know that nothing will come, short of an operation of
-  /// all ranks in every step.
+  /// Sends a list of doubles of any length to each neighbour rank, and receives
+  /// a list from each. Empty lists are sent, too: without the message a
+  /// neighbour would need an operation over all ranks in every step to know
+  /// that nothing arrives.
   class NeighborExchange
   {
   public:
     using Message = std::vector<double>;
 
-    /// Prepare for exchanges. Only the first call does something: all ranks
-    /// duplicate the communicator together. Collective over all ranks, also
-    /// those without neighbours.
+    /// Prepare for exchanges. The first call duplicates the communicator; later
+    /// calls do nothing. Collective over all ranks, including ranks without
+    /// neighbours.
     void
     connect(MPI_Comm communicator);
 
     /// Send @p outgoing[i] to @p ranks[i], and call @p receive(message) for the
-    /// message of each of @p ranks, in their order and not in that of arrival,
-    /// so that results are the same in every run. @p ranks must be symmetric
-    /// (Grid::neighbor_ranks()). Collective.
+    /// message of each of @p ranks, in the order of @p ranks and not in the
+    /// order of arrival, so that results are identical in every run. @p ranks
+    /// must be symmetric (Grid::neighbor_ranks()). Collective.
     void
     exchange(const std::vector<unsigned int>            &ranks,
              const std::vector<Message>                 &outgoing,
              const std::function<void(const Message &)> &receive);
 
   private:
-    // Own tags need an own communicator.
+    // Separate tags need a separate communicator.
     std::unique_ptr<dealii::Utilities::MPI::DuplicatedCommunicator>
       communicator_;
 

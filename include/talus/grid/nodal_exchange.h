@@ -12,30 +12,31 @@
 
 namespace talus
 {
-  /// Carries records of doubles at the nodes between the rank that owns a node
-  /// and those that have it as a ghost, in one message per neighbour.
+  /// Exchanges records of doubles between the owner of a node and the ranks
+  /// where the node is a ghost, in one message per neighbour.
   ///
   /// The arrays hold the records of all nodes of the grid in the order of their
-  /// numbers, that is, the owned ones and then the ghosts. Collective.
+  /// numbers, owned nodes first, then ghosts. All exchanges are collective.
   template <int dim>
   class NodalExchange
   {
   public:
-    /// @p width: doubles per node. Throws ExcUser if the mesh is too large for
-    /// deal.II's indices.
+    /// Set up the messages for @p width doubles per node. Throws ExcUser if the
+    /// mesh is too large for deal.II's indices.
     void
     prepare(const NodeNumbering<dim> &nodes, unsigned int width);
 
-    /// Add what the ghosts hold to their owners' records, in the order of the
-    /// ranks, so that the sums are the same in each run. Ghosts become zero.
+    /// Add the records of ghosts to the records of their owners, in the order
+    /// of the ranks, so that sums are identical in each run. Ghosts become
+    /// zero.
     void
     add_to_owners(double *records);
 
-    /// Give owners the least of their own numbers and those of the ghosts.
+    /// Set the numbers at owners to the minimum over owner and ghosts.
     void
     minimum_to_owners(double *records);
 
-    /// Copy the owners' records to the ghosts.
+    /// Copy the records of owners to the ghosts.
     void
     copy_to_ghosts(double *records);
 

@@ -13,8 +13,8 @@
 
 namespace talus
 {
-  /// The nodal values of one step on the background grid. Only nodes near soil
-  /// are active; nothing here loops over the others.
+  /// Nodal values of one step on the background grid. Only nodes near soil are
+  /// active; all loops run over active nodes.
   template <int dim>
   class NodalFields
   {
@@ -22,42 +22,44 @@ namespace talus
     using Sum    = NodalSum<dim>;
     using Motion = NodalMotion<dim>;
 
-    /// Allocate for the nodes of @p grid; none is active.
+    /// Allocate the records for the nodes of @p grid; no node is active.
     void
     prepare(const Grid<dim> &grid);
 
-    /// Make the nodes of the patches of these cells (ascending) active, and
-    /// those this rank shares with others, which may have points near them.
+    /// Activate the nodes in the patches of the given cells (ascending), and
+    /// the nodes shared with other ranks, which may have points near them.
     void
     activate(const Grid<dim> &grid, const std::vector<unsigned int> &cells);
 
-    /// Set all sums of the active nodes, and of all ghosts, to zero.
+    /// Set all sums of active nodes and of all ghosts to zero.
     void
     clear();
 
-    /// Add the sums at hanging nodes to their masters', and those of the ghosts
-    /// to their owners': one message to each neighbour. Collective.
+    /// Add the sums at hanging nodes to their masters, and the sums of ghosts
+    /// to their owners, with one message per neighbour. Collective.
     void
     sum_over_ranks(const Grid<dim> &grid);
 
-    /// v += dt f/m on all active nodes of this rank with more mass than
-    /// @p mass_cutoff; the others carry nothing and get no velocity.
+    /// Compute increment dt f/m and new velocity of all active nodes of this
+    /// rank with more mass than @p mass_cutoff, kg; other nodes get zero
+    /// velocity. @p dt is in s.
     void
     update_momentum(double dt, double mass_cutoff);
 
-    /// Give ghosts the motion of their owners, and hanging nodes the one that
-    /// their masters imply: one message to each neighbour. Collective.
+    /// Copy the motion of owners to the ghosts, and interpolate the motion of
+    /// hanging nodes from their masters, with one message per neighbour.
+    /// Collective.
     void
     share_with_ghosts(const Grid<dim> &grid);
 
-    /// Active nodes that this rank owns.
+    /// Active nodes owned by this rank.
     const std::vector<unsigned int> &
     active_nodes() const
     {
       return active_nodes_;
     }
 
-    /// Those of them on a face of the mesh.
+    /// Active nodes owned by this rank that lie on a face of the mesh.
     const std::vector<unsigned int> &
     active_boundary_nodes() const
     {
@@ -70,7 +72,7 @@ namespace talus
       return sum(node)[Sum::mass];
     }
 
-    /// Volume of the soil in its reference density, m^dim.
+    /// Volume of the soil at reference density, m^dim.
     double
     volume(const unsigned int node) const
     {
@@ -88,7 +90,8 @@ namespace talus
     void
     add_force(unsigned int node, const dealii::Tensor<1, dim> &force);
 
-    /// Add what a point sends to a node.
+    /// Add the contribution of a point to the sums of a node: mass, kg,
+    /// reference volume, m^dim, momentum, kg m/s, and force, N.
     void
     add_sums(unsigned int                  node,
              double                        mass,
@@ -96,7 +99,7 @@ namespace talus
              const dealii::Tensor<1, dim> &momentum,
              const dealii::Tensor<1, dim> &force);
 
-    /// Give a node these sums in place of what the points sent.
+    /// Replace the sums of a node, with the units of add_sums().
     void
     set_sums(unsigned int                  node,
              double                        mass,
@@ -104,38 +107,39 @@ namespace talus
              const dealii::Tensor<1, dim> &momentum,
              const dealii::Tensor<1, dim> &force);
 
-    /// Multiply mass and momentum of a node, but not its velocity.
+    /// Multiply mass and momentum of a node by @p factor; the velocity is
+    /// unchanged.
     void
     scale_inertia(unsigned int node, double factor);
 
     dealii::Tensor<1, dim>
     velocity(const unsigned int node) const;
 
-    /// What the step added to the velocity of a node, m/s.
+    /// Change of the velocity of a node in the step, m/s.
     dealii::Tensor<1, dim>
     increment(const unsigned int node) const;
 
-    /// Set the new velocity of a node and its increment accordingly. Returns
-    /// the impulse that this takes, N s.
+    /// Set the new velocity of a node, m/s, and change the increment by the
+    /// same amount. Return the impulse of the change, N s.
     dealii::Tensor<1, dim>
     set_velocity(unsigned int node, const dealii::Tensor<1, dim> &velocity);
 
-    /// Mean of the velocities before and after the step: what a force's work
-    /// over the step is to be taken with.
+    /// Mean of the velocities before and after the step, m/s. The work of a
+    /// nodal force over the step is force times time step times mean velocity.
     dealii::Tensor<1, dim>
     mean_velocity(const unsigned int node) const;
 
-    /// Set velocity and increment of a node, in place of those of the step.
+    /// Set velocity and increment of a node, m/s, independent of the step.
     void
     set_motion(unsigned int                  node,
                const dealii::Tensor<1, dim> &velocity,
                const dealii::Tensor<1, dim> &increment);
 
-    /// Kinetic energy of the nodes of this rank, J.
+    /// Kinetic energy of the nodes owned by this rank, J.
     double
     kinetic_energy() const;
 
-    // The records of a node, for the kernels of the transfer.
+    // Records of a node, for the kernels of the transfer.
 
     double *
     sum(const unsigned int node)

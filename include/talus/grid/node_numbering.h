@@ -16,7 +16,7 @@
 
 namespace talus
 {
-  /// A hanging node: its value is a mean of those of its masters.
+  /// Hanging node; its value is the weighted mean of its masters' values.
   struct HangingNode
   {
     unsigned int                                 node;
@@ -25,10 +25,10 @@ namespace talus
 
 
 
-  /// The nodes of the mesh that this rank knows, and their numbers: as the
-  /// owned cells, in the order of the mesh, meet them; then come the ghosts, by
-  /// owner. Ghosts are the nodes of the cells around the owned ones, and the
-  /// masters of those among them that hang.
+  /// Numbers of the nodes known to this rank: owned nodes in the order of their
+  /// first occurrence in the owned cells, then ghosts by owner. Ghosts are the
+  /// nodes of owned and ghost cells owned by other ranks, and the masters of
+  /// hanging nodes among them.
   template <int dim>
   class NodeNumbering
   {
@@ -36,7 +36,7 @@ namespace talus
     using CellIterator =
       typename dealii::Triangulation<dim>::active_cell_iterator;
 
-    /// Nodes this rank knows.
+    /// Number of nodes known to this rank.
     unsigned int
     n_nodes() const
     {
@@ -49,7 +49,7 @@ namespace talus
       return owned_nodes_.n_elements();
     }
 
-    /// Indices over all ranks of the nodes this rank owns, and of its ghosts.
+    /// Global indices of the nodes owned by this rank.
     const dealii::IndexSet &
     owned_nodes() const
     {
@@ -62,7 +62,7 @@ namespace talus
       return ghost_nodes_;
     }
 
-    /// Nodes of this rank that are ghosts elsewhere, ascending.
+    /// Owned nodes that are ghosts on other ranks, ascending.
     const std::vector<unsigned int> &
     interface_nodes() const
     {
@@ -75,7 +75,7 @@ namespace talus
       return hanging_nodes_;
     }
 
-    /// The nodes at the vertices of a cell, in deal.II's order.
+    /// Return the nodes at the vertices of a cell, in the order of deal.II.
     std::vector<unsigned int>
     nodes_of(const CellIterator &cell) const;
 
@@ -88,6 +88,7 @@ namespace talus
   protected:
     explicit NodeNumbering(const Mesh<dim> &mesh);
 
+    /// Number the nodes and find ghost, hanging and interface nodes.
     /// Collective.
     void
     prepare_nodes(const Mesh<dim> &mesh);

@@ -10,15 +10,15 @@
 
 namespace talus
 {
-  /// Places of the nodes this rank owns, m: counted on the lattice, and so the
-  /// same on any number of ranks.
+  /// Return the positions of the nodes owned by this rank, m, by node. Computed
+  /// from the lattice, hence identical on any number of ranks.
   template <int dim>
   std::vector<dealii::Point<dim>>
   places_of_owned_nodes(const Grid<dim> &grid);
 
-  /// Keys of the places of the nodes this rank owns, by node. Keys do not depend
-  /// on mesh and ranks. A node on a periodic face has the key of its twin on the
-  /// lower face.
+  /// Return the keys of the positions of the nodes owned by this rank, by node.
+  /// Keys do not depend on mesh and ranks. A node on an upper periodic face has
+  /// the key of its twin on the lower face.
   template <int dim>
   std::vector<unsigned long>
   keys_of_owned_nodes(const Grid<dim> &grid);

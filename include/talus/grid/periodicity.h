@@ -17,14 +17,14 @@
 
 namespace talus
 {
-  /// Axes along which a uniform mesh repeats: what leaves it through the upper
-  /// face enters through the lower one, and the nodes of the upper face are
-  /// those of the lower one.
+  /// Periodic axes of a uniform mesh: a point that leaves through the upper
+  /// face enters through the lower face, and the nodes of both faces are
+  /// identical.
   template <int dim>
   class Periodicity
   {
   public:
-    /// A mesh that does not repeat.
+    /// Mesh without periodic axes.
     Periodicity() = default;
 
     Periodicity(const std::array<bool, dim> &axes, const Box<dim> &domain);
@@ -41,9 +41,9 @@ namespace talus
       return any_;
     }
 
-    /// How far @p coordinate along axis @p d lies beyond the mesh, in whole
-    /// lengths of it, m: subtracted, it lies in the mesh. Zero along an axis
-    /// that is not periodic, and where the coordinate is not finite.
+    /// Distance by which @p coordinate along axis @p d lies beyond the mesh, in
+    /// whole lengths of the mesh, m: coordinate minus shift lies in the mesh.
+    /// Zero if the axis is not periodic or the coordinate is not finite.
     double
     shift(const unsigned int d, const double coordinate) const
     {
@@ -53,20 +53,20 @@ namespace talus
       return std::isfinite(n) ? n * length_[d] : 0.;
     }
 
-    /// Move a place beyond a lattice of @p extent cells into it along the
-    /// periodic axes.
+    /// Move a lattice position beyond a lattice of @p extent cells into the
+    /// lattice along the periodic axes.
     void
     wrap(Lattice<dim> &place, const Lattice<dim> &extent) const;
 
     /// Make cells neighbours across the periodic faces of a mesh of coarse
-    /// cells whose faces have deal.II's boundary ids.
+    /// cells whose faces have the boundary ids of deal.II.
     void
     join_faces(
       dealii::parallel::distributed::Triangulation<dim> &triangulation) const;
 
-    /// For each node on upper periodic faces whose twin on the lower ones this
-    /// rank knows, too: that twin. Cells have edges of @p size, m. The owner of
-    /// a node knows its twin.
+    /// Return the twin on the lower faces of each node on upper periodic faces,
+    /// if this rank knows both. Cells have edges of @p size, m. The owner of a
+    /// node always knows the twin.
     std::map<dealii::types::global_dof_index, dealii::types::global_dof_index>
     find_twins(const dealii::DoFHandler<dim> &dof_handler, double size) const;
 

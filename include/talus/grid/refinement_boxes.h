@@ -11,7 +11,7 @@
 
 namespace talus
 {
-  /// A box in which cells are halved some times.
+  /// Box in which cells are halved n_levels times.
   template <int dim>
   struct RefinementBox
   {
@@ -19,14 +19,14 @@ namespace talus
     unsigned int n_levels;
   };
 
-  /// The boxes that the parameter 'Grid/Refinement boxes' names. Throws ExcUser
-  /// if it cannot be read, or if a box lies outside of @p domain.
+  /// Parse the parameter 'Grid/Refinement boxes'. Throws ExcUser if the text
+  /// has the wrong format, or if a box lies outside of @p domain.
   template <int dim>
   std::vector<RefinementBox<dim>>
   parse_refinement_boxes(const std::string &boxes, const Box<dim> &domain);
 
-  /// Whether the cell with this lower corner and size, m, has its volume, or
-  /// some of it, in the box.
+  /// Whether the volume of the cell with the given lower corner and size, m,
+  /// intersects the box.
   template <int dim>
   bool
   overlap(const RefinementBox<dim> &box,
