@@ -8,9 +8,9 @@ namespace talus
 {
   using namespace dealii;
 
-  /// The columns that every point has. Their order is that of PointColumns, so
-  /// that kernels know the place of each at compile time, and that in which a
-  /// step needs them, so that fetch_ahead() can ask for the first ones only.
+  /// Add the columns of every point in the order of PointColumns: kernels know
+  /// the indices at compile time, and columns used first in a step come first,
+  /// for fetch_ahead().
   template <int dim>
   Points<dim>::Points()
   {
@@ -82,8 +82,9 @@ namespace talus
 
 
 
-  /// Bodies of one material, and materials of one law, ask for the same column:
-  /// they share it if they agree on its shape and on what a split makes of it.
+  /// Add a column or share an existing one. Bodies of one material, and
+  /// materials of one law, add the same column: shape and inheritance must
+  /// agree.
   template <int dim>
   unsigned int
   Points<dim>::add(const Column &column)
@@ -98,7 +99,7 @@ namespace talus
                                        "' exists with another shape."));
           return old.first;
         }
-    // All arrays move: views of the points are no longer valid.
+    // All arrays move: views of the points become invalid.
     columns_.push_back(column);
     columns_.back().first = arrays_.size();
     arrays_.reshape(arrays_.size() + column.n_components, capacity_ + n_spare);
@@ -107,8 +108,8 @@ namespace talus
 
 
 
-  /// A search by name, for those who did not add the column themselves: once,
-  /// before a loop over points, not within it.
+  /// A search by name, for code that did not add the column: call before a loop
+  /// over points, not within.
   template <int dim>
   unsigned int
   Points<dim>::find(const std::string &name) const
@@ -128,22 +129,22 @@ namespace talus
   {
     if (n <= capacity_)
       return;
-    // Little by little, as most of the memory of a run is here. A step over
-    // all points costs about as much as making all arrays larger.
+    // Growth in small increments, since most of the memory of a run is here.
+    // Reallocation costs about as much as a step over all points.
     capacity_ = std::max(n, capacity_ + capacity_ / 8);
     arrays_.reshape(arrays_.size(), capacity_ + n_spare);
   }
 
 
 
-  // Behind the sorted ones, so that the segments remain right; Relocation sorts
-  // them in.
+  // Appended behind the sorted points, so that segments remain valid;
+  // Relocation sorts the new points in.
   template <int dim>
   unsigned int
   Points<dim>::append(const unsigned int n)
   {
-    // To zero in any case: what was there before may be left of points that
-    // went to another rank.
+    // Always zeroed: the memory may contain old data of points sent to another
+    // rank.
     const unsigned int first = size_;
     reserve(size_ + n);
     size_ += n;
@@ -154,7 +155,7 @@ namespace talus
 
 
 
-  /// All columns, so that a child of a split need not know what laws added.
+  /// Copy all columns, so that splitting works for columns added by laws.
   template <int dim>
   void
   Points<dim>::copy(const unsigned int from, const unsigned int to)
@@ -165,9 +166,9 @@ namespace talus
 
 
 
-  /// In place and not by copying all points into a second set of arrays: in a
-  /// step few points change their cell, and a second set would double the
-  /// memory of the run. What is left behind the last point means nothing.
+  /// Reorders in place, without a second set of arrays: few points change their
+  /// cell in a step, and a second set would double the memory of the run.
+  /// Entries behind the last point are undefined.
   template <int dim>
   void
   Points<dim>::reorder(const std::vector<BlockMove>   &block_moves,
@@ -182,7 +183,7 @@ namespace talus
 
 
 
-  /// With what is kept spare behind the points and between the rows.
+  /// Includes spare entries behind the points and between the rows.
   template <int dim>
   std::size_t
   Points<dim>::memory_consumption() const

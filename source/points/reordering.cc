@@ -9,8 +9,8 @@ namespace talus
 {
   namespace
   {
-    /// Cell and body, compared as one number.
-    /// See Points: the order is by cell, and within a cell by body.
+    /// Cell and body as one number, for comparison in the order of Points: by
+    /// cell, then by body.
     template <typename Item>
     std::uint64_t
     key(const Item &item)
@@ -21,8 +21,8 @@ namespace talus
 
 
 
-  /// Let what is added next belong to this cell and body. Segments are opened
-  /// only when a point is added, so none is ever empty.
+  /// Set the segment of the points added next. A segment is created just before
+  /// a point is added, so no segment is empty.
   void
   Reordering::open_segment(const unsigned int cell, const unsigned int body)
   {
@@ -33,7 +33,7 @@ namespace talus
 
 
 
-  /// Add a point that comes from elsewhere, at the end of its segment.
+  /// Append a changed or new point to its segment.
   void
   Reordering::add_change(const CellChange &change)
   {
@@ -44,12 +44,12 @@ namespace talus
 
 
 
-  /// Add points that stay in the segment that is open.
+  /// Append points that stay in the current segment.
   void
   Reordering::add_run(const unsigned int begin, const unsigned int end)
   {
-    // Runs that are neighbours before and after are one: what Points moves is
-    // copied in few long pieces.
+    // Merge ranges that are adjacent before and after the move, so that data
+    // are copied in few long pieces.
     if (begin != n_points_)
       {
         if (!block_moves_.empty() && block_moves_.back().end == begin &&
@@ -65,8 +65,11 @@ namespace talus
 
 
 
-  /// Add the points of an old segment except those that leave it.
-  /// @param skip next entry of leaving_.
+  /// Append the points of an old segment that do not leave the segment.
+  ///
+  /// @param segment old segment
+  /// @param skip index of the next entry of leaving_; advanced beyond the
+  ///   segment
   void
   Reordering::add_staying(const Segment &segment, std::size_t &skip)
   {
@@ -89,7 +92,7 @@ namespace talus
 
 
 
-  /// Add the segments [@p begin, @p end) of @p segments as they are: their
+  /// Append the segments [begin, end) of @p segments without change: their
   /// points move together.
   void
   Reordering::add_unchanged(const std::vector<Segment> &segments,
@@ -113,18 +116,17 @@ namespace talus
 
 
 
-  // Few points change their cell in a step: between the segments that are
-  // entered or left, all others are copied at once.
-  // Both lists are sorted, so one pass merges them as in merge sort; what would
-  // make it slow is to look at every segment of a large body for a few points.
-  // From where the pass is, bisection finds the next segment that a point
-  // leaves, and the one behind which the next point is entered; what lies
-  // between is copied as one run. A point goes behind those that stay in its
-  // segment, so a segment that is only entered may be copied, too.
+  // Few points change their cell in a step: all segments between two changed
+  // segments are copied at once. Both lists are sorted, so a single pass merges
+  // them as in merge sort. Visiting every segment of a large body for a few
+  // points would be slow. Bisection finds the next segment that a point leaves,
+  // and the segment behind which the next point is inserted; everything before
+  // is copied as one range. A new point comes behind the points that stay, so a
+  // segment that only gains points may be copied, too.
   //
-  // Within a segment the order is part of the state, since sums depend on it:
-  // the points that stay keep theirs, and the others follow by their index. So
-  // runs are the same bit by bit, however the changes were found.
+  // The order within a segment is part of the state, since sums depend on it:
+  // points that stay keep their order, and changed points follow by index.
+  // Results are therefore bit-identical, however the changes were found.
   void
   Reordering::merge(const std::vector<Segment>      &segments,
                     std::vector<CellChange>         &changes,
@@ -152,8 +154,8 @@ namespace talus
     auto        change = changes.begin();
     for (std::size_t s = 0; s < segments.size(); ++s)
       {
-        // The first segment behind the one that is entered next, and the first
-        // that is left.
+        // First segment behind the segment of the next change, and first
+        // segment that a point leaves.
         const auto entered = std::partition_point(
           segments.begin() + s, segments.end(), [&](const Segment &segment) {
             return change == changes.end() || key(segment) <= key(*change);
@@ -167,7 +169,7 @@ namespace talus
         s = next;
         if (s == segments.size())
           break;
-        // Segments that did not exist, and those behind the one copied last.
+        // Changes into new segments, and into the segment copied last.
         for (; change != changes.end() && key(*change) < key(segments[s]);
              ++change)
           add_change(*change);

@@ -9,8 +9,8 @@ namespace talus
 {
   namespace
   {
-    /// Rows begin at different places of a page of 4 kB: those that begin at
-    /// the same one share few places in the caches.
+    /// Distance between rows, in doubles. Rows begin at different offsets in a
+    /// page of 4 kB, since rows with equal offsets compete for few cache sets.
     std::size_t
     pitch_of(const std::size_t length)
     {
@@ -30,7 +30,7 @@ namespace talus
 
 
 
-  /// The entries of the rows only, not what move() keeps between calls.
+  /// Copy the rows without the scratch memory of move().
   Rows::Rows(const Rows &other)
   {
     reshape(other.n_rows_, other.length_);
@@ -40,11 +40,11 @@ namespace talus
 
 
 
-  /// Row by row into new memory, and each row of the old one given back to the
-  /// system as soon as it is copied: most of the memory of a run is here, and
-  /// to hold all of it twice, even for a moment, would halve the largest run
-  /// that a machine can do. The new memory is mapped first, and takes up none
-  /// until it is written to; where that fails nothing has changed.
+  /// Rows are copied one by one into new memory, and each old row is returned
+  /// to the system after copying. Most of the memory of a run is here: holding
+  /// all rows twice, even briefly, would halve the largest run possible on a
+  /// machine. The new memory is mapped first and uses no physical memory until
+  /// written; if mapping fails, nothing has changed.
   void
   Rows::reshape(const unsigned int n_rows, const std::size_t length)
   {
@@ -67,9 +67,9 @@ namespace talus
 
   namespace
   {
-    /// Since the runs keep their order, each lands between its neighbours:
-    /// those that go down, first to last, and then those that go up, last to
-    /// first, never overwrite one that is still to move.
+    /// Move ranges within a row. Ranges keep their order: moving first the
+    /// ranges that go down, in ascending order, then the ranges that go up, in
+    /// descending order, never overwrites a range still to be moved.
     void
     move_runs(double *row, const std::vector<BlockMove> &block_moves)
     {
@@ -86,10 +86,10 @@ namespace talus
 
 
 
-  /// The single entries are taken out first and put back last: in between the
-  /// runs may pass over both their old and their new places. Row by row, since
-  /// the runs of one row are what the hardware reads ahead; several rows at a
-  /// time took longer (doc/performance.md).
+  /// Single entries are saved first and stored last, since ranges may overwrite
+  /// their old and new positions. One row at a time, because the hardware
+  /// prefetches sequential ranges; several rows at a time took longer
+  /// (doc/performance.md).
   void
   Rows::move(const std::vector<BlockMove>   &block_moves,
              const std::vector<ElementMove> &element_moves)

@@ -10,16 +10,16 @@ namespace talus
   {
     begin_ = begin;
     end_   = end;
-    // As the columns of the points, rows have room for a whole register behind
-    // the last point, and begin at different places of a page.
+    // As in Points, rows have space for a whole register behind the last point,
+    // and begin at different offsets in a page.
     constexpr std::size_t line = 8;
     const std::size_t     n    = end - begin + Points<dim>::n_spare;
-    // Batches differ by what is left of their last cell: memory only grows, and
-    // after some steps no batch allocates.
+    // Batches differ in size by the rest of the last cell: memory only grows,
+    // and after some steps no batch allocates.
     if (pitch_ >= n)
       return;
     pitch_ = (n + line - 1) / line * line + line;
-    // Without content, which would else be copied.
+    // Emptied first: resizing would copy the content.
     memory_.resize(0);
     memory_.resize(n_rows * pitch_, 0.);
   }

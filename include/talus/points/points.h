@@ -13,38 +13,38 @@
 
 namespace talus
 {
-  /// What a column becomes when its point is split.
+  /// How children inherit the value of a column when a point is split.
   enum class Inheritance
   {
-    /// Intensive: every child has the parent's value.
+    /// Intensive quantity: every child gets the value of the parent.
     copied,
-    /// Extensive: the parent's value is shared equally by the children.
+    /// Extensive quantity: the value of the parent is divided equally.
     divided
   };
 
-  /// What the components of a column are to each other, and in which order.
+  /// Meaning and order of the components of a column.
   enum class ColumnKind
   {
-    scalars,          ///< one number, or a list of numbers
+    scalars,          ///< a number or a list of numbers
     vector,           ///< dim components
     symmetric_tensor, ///< xx, yy, zz, xy (xz, yz): also out of the plane
     tensor,           ///< dim x dim components, row by row; 0 out of the plane
-    deformation       ///< the same, but 1 out of the plane
+    deformation       ///< as tensor, but 1 out of the plane
   };
 
-  /// A named property of the points.
+  /// Named quantity of the points.
   struct Column
   {
     std::string  name;
-    std::string  unit; ///< "-" if there is none
+    std::string  unit; ///< "-" if dimensionless
     ColumnKind   kind;
     unsigned int n_components;
     Inheritance  inheritance;
-    /// Index of the first component among the scalar arrays.
+    /// Index of the first component in the scalar arrays.
     unsigned int first;
   };
 
-  /// The points of one body in one cell: [begin, end) in the sorted order.
+  /// Points of one body in one cell: [begin, end) in the sorted order.
   struct Segment
   {
     unsigned int cell;
@@ -53,28 +53,28 @@ namespace talus
     unsigned int end;
   };
 
-  /// Consecutive segments: what a phase of the step works on at a time.
+  /// Consecutive segments, processed together by a phase of the step.
   struct Batch
   {
     unsigned int first_segment;
-    unsigned int last_segment; ///< behind the last one
+    unsigned int last_segment; ///< behind the last segment
     unsigned int begin;        ///< first point
     unsigned int end;
   };
 
-  /// The material points: a structure of arrays with columns by name.
+  /// The material points: a structure of arrays with named columns.
   ///
   /// Every column is stored as n_components contiguous arrays of doubles, so
-  /// that a loop over points is a loop over contiguous memory; output, sorting,
-  /// splitting and (later) checkpoints go over columns() and need not know what
-  /// a column means. Materials add their own internal variables.
+  /// that a loop over points is a loop over contiguous memory. Output, sorting,
+  /// splitting and checkpoints loop over columns() without knowledge of the
+  /// meaning of a column. Materials add columns for internal variables.
   ///
-  /// Points are sorted by cell, then by body (see Segment); within a segment
-  /// their order is part of the state. Points beyond n_sorted() were appended
-  /// and wait for Relocation::update() to sort them in.
+  /// Points are sorted by cell, then by body (see Segment); the order within a
+  /// segment is part of the state. Points beyond n_sorted() are appended, and
+  /// Relocation::update() sorts them in.
   ///
-  /// Arrays have n_spare entries behind the last point, so that as many points
-  /// as a register of any machine holds may be read at any point.
+  /// Arrays have n_spare entries behind the last point, so that a whole
+  /// register can be read at any point on any machine.
   template <int dim>
   class Points : public PointColumns<dim>
   {
@@ -83,15 +83,16 @@ namespace talus
 
     Points();
 
-    /// Add a column, filled with zero, or return the one of that name. Throws
-    /// if one with this name exists with another shape.
+    /// Add a column filled with zeros, or find the column with the same name.
+    /// Return the index of the first scalar array. Throws if a column of the
+    /// same name has another shape.
     unsigned int
     add_column(const std::string &name,
                const std::string &unit,
                ColumnKind         kind,
                Inheritance        inheritance);
 
-    /// The same with this many numbers, each a scalar.
+    /// Add or find a column of @p n_scalars numbers per point.
     unsigned int
     add_column(const std::string &name,
                const std::string &unit,
@@ -104,12 +105,12 @@ namespace talus
       return columns_;
     }
 
-    /// First scalar array of the column called @p name; throws if there is
-    /// none.
+    /// Return the index of the first scalar array of the column @p name; throws
+    /// if no such column exists.
     unsigned int
     find(const std::string &name) const;
 
-    /// Number of scalar arrays that hold the columns.
+    /// Number of scalar arrays of all columns.
     unsigned int
     n_arrays() const
     {
@@ -128,7 +129,8 @@ namespace talus
       return arrays_[column + component];
     }
 
-    /// What functions of one point take; valid until points are added.
+    /// View for functions of one point; valid until points or columns are
+    /// added.
     PointsView<dim>
     view()
     {
@@ -153,25 +155,27 @@ namespace talus
       return segments_.empty() ? 0 : segments_.back().end;
     }
 
-    /// Append @p n points with all columns zero. Returns the first new index.
+    /// Append @p n points with all columns zero. Return the first new index.
     unsigned int
     append(unsigned int n);
 
-    /// Copy all columns of a point.
+    /// Copy all columns of point @p from to point @p to.
     void
     copy(unsigned int from, unsigned int to);
 
-    /// Reorder in place. @p block_moves are the runs of points that keep their order
-    /// but not their place: ascending in begin, and so in @p to; @p element_moves are
-    /// all other points that move. Those named by neither stay where they are,
-    /// or, if they went to another rank, are overwritten. @p segments describes
-    /// the new order, and is exchanged for the description of the old one.
+    /// Reorder the points in place. Points in no move stay in place; points
+    /// sent to another rank may be overwritten.
+    ///
+    /// @param block_moves ranges of points that move without changing their
+    ///   order, ascending in begin and in `to`
+    /// @param element_moves all other points that move
+    /// @param segments the new segments; contains the old segments afterwards
     void
     reorder(const std::vector<BlockMove>   &block_moves,
             const std::vector<ElementMove> &element_moves,
             std::vector<Segment>           &segments);
 
-    /// Remove all points: they went elsewhere.
+    /// Remove all points.
     void
     clear()
     {
@@ -179,7 +183,7 @@ namespace talus
       segments_.clear();
     }
 
-    /// Forget the cells: all points wait to be sorted in.
+    /// Remove all segments: all points become unsorted.
     void
     forget_order()
     {
@@ -192,14 +196,14 @@ namespace talus
       return segments_;
     }
 
-    /// All sorted points.
+    /// Batch of all sorted points.
     Batch
     all() const
     {
       return {0, static_cast<unsigned int>(segments_.size()), 0, n_sorted()};
     }
 
-    /// Cell of a sorted point.
+    /// Return the cell of a sorted point.
     unsigned int
     cell_of(const unsigned int p) const
     {
@@ -213,13 +217,13 @@ namespace talus
       return (behind - 1)->cell;
     }
 
-    /// Points of a batch, but for what is left of the last cell.
+    /// Number of points in a batch, not counting the rest of the last cell.
     static constexpr unsigned int batch_size = 512;
 
-    /// Call action(batch) for batches that together hold all sorted points, in
-    /// their order, and whole cells each. A batch is so small that what one phase of the step writes,
-    /// the next one finds in a cache, and so large that the loops over several
-    /// points at a time have few rests.
+    /// Call action(batch) for consecutive batches of whole cells that cover all
+    /// sorted points. A batch is small enough that a phase of the step finds
+    /// the results of the previous phase in a cache, and large enough that
+    /// loops over several points at a time have few remainders.
     template <typename Action>
     void
     for_each_batch(const Action &action) const
@@ -235,7 +239,7 @@ namespace talus
         }
     }
 
-    /// Call action(batch) for the points of each cell of a batch.
+    /// Call action(batch) for the points of each cell of @p batch.
     template <typename Action>
     TALUS_ALWAYS_INLINE void
     for_each_cell(const Batch &batch, const Action &action) const
@@ -249,10 +253,10 @@ namespace talus
         }
     }
 
-    /// Ask for the first @p n_arrays arrays of the points one batch behind
-    /// [@p begin, @p end), which are about to be computed: else memory would rest
-    /// while a batch is computed, and the arithmetic while it is fetched. (If it
-    /// is not inlined, GCC sees that it changes nothing, and leaves it out.)
+    /// Prefetch the first @p n_arrays arrays of the points one batch behind
+    /// [begin, end), which are processed next: otherwise memory would be idle
+    /// during computation and arithmetic during loading. (Unless inlined, GCC
+    /// removes the function because it has no visible effect.)
     TALUS_ALWAYS_INLINE void
     fetch_ahead(const unsigned int begin,
                 const unsigned int end,
@@ -268,12 +272,12 @@ namespace talus
                              into_second_level_cache);
     }
 
-    /// Bytes of memory held.
+    /// Memory of all points, bytes.
     std::size_t
     memory_consumption() const;
 
   private:
-    /// Whether segment @p s lies in the cell of the one before.
+    /// Whether segment @p s lies in the same cell as the previous segment.
     bool
     in_same_cell(const unsigned int s) const
     {
@@ -295,7 +299,7 @@ namespace talus
 
 
 
-  /// Read a column of vectors at point p.
+  /// Return the vector in column @p column at point @p p.
   template <int dim>
   inline dealii::Tensor<1, dim>
   load_vector(const Points<dim> &points,
@@ -310,7 +314,7 @@ namespace talus
 
 
 
-  /// Read a column of places, m, at point p.
+  /// Return the position in column @p column at point @p p, m.
   template <int dim>
   inline dealii::Point<dim>
   load_place(const Points<dim> &points,

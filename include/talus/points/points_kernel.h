@@ -6,12 +6,12 @@
 #include <talus/base/small_matrix.h>
 #include <talus/points/points_view.h>
 
-// What functions of one point read and write. @p Columns is Points or a
-// PointsView, Number a double or as many points as a Simd holds.
+// Access to columns for functions of one point. `Columns` is Points or
+// PointsView; `Number` is double, or Simd for several points.
 
 namespace talus
 {
-  /// Read a dim x dim tensor column at point(s) p.
+  /// Return the dim x dim tensor in column @p column at point(s) @p p.
   template <int dim, typename Number, typename Columns>
   TALUS_ALWAYS_INLINE Matrix<dim, Number>
                       load_matrix(const Columns     &points,
@@ -41,7 +41,7 @@ namespace talus
 
 
 
-  /// Read the velocity gradient at point(s) p.
+  /// Return the velocity gradient at point(s) @p p, 1/s.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Matrix<dim, Number>
   load_velocity_gradient(const WorkspaceView<dim> &workspace,

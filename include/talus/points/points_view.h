@@ -8,9 +8,9 @@
 
 namespace talus
 {
-  /// The columns that every point has: the index of the first scalar array of
-  /// each. Tensors are stored row by row. First what both sweeps of a step read,
-  /// then what the second one reads, then what is read now and then.
+  /// Columns of every point: index of the first scalar array of each column.
+  /// Tensors are stored row by row. The order is: columns read by both sweeps
+  /// of a step, columns read by the second sweep, columns read rarely.
   template <int dim>
   struct PointColumns
   {
@@ -33,23 +33,23 @@ namespace talus
     static constexpr unsigned int creation_stretch =
       plastic_work + 1; ///< dim, stretch when created
     static constexpr unsigned int generation =
-      creation_stretch + dim; ///< 1, number of splits behind it
+      creation_stretch + dim; ///< 1, number of splits in its history
     static constexpr unsigned int initial_position = generation + 1; ///< dim, m
     static constexpr unsigned int id   = initial_position + dim; ///< 1, unique
-    static constexpr unsigned int body = id + 1; ///< 1, index of its body
+    static constexpr unsigned int body = id + 1; ///< 1, index of the body
     static constexpr unsigned int n_arrays = body + 1;
   };
 
 
 
-  /// What a function of one point needs of the points: where the columns lie.
-  /// Trivially copyable, and knows nothing of how they came there. Laws have
-  /// columns of their own, whose index they know.
+  /// Access to the columns of points, for functions of one point. Trivially
+  /// copyable and independent of the container. Laws know the indices of their
+  /// additional columns.
   template <int dim, typename Value = double>
   struct PointsView : PointColumns<dim>
   {
     Value      *memory;
-    std::size_t pitch; ///< from the beginning of an array to the next one
+    std::size_t pitch; ///< doubles from one array to the next
 
     Value *
     data(const unsigned int column, const unsigned int component = 0) const
@@ -60,8 +60,8 @@ namespace talus
 
 
 
-  /// The same for what one step computes for a range of points, which is no
-  /// state; see StepWorkspace. Row r of point p is row(r)[p].
+  /// Access to a StepWorkspace for functions of one point. Row r of point p is
+  /// row(r)[p].
   template <int dim>
   struct WorkspaceView
   {
@@ -75,14 +75,14 @@ namespace talus
       return memory + r * pitch - begin;
     }
 
-    /// Velocity gradient, 1/s; after the gather.
+    /// Velocity gradient dv_i/dx_j, 1/s; set by the gather.
     double *
     velocity_gradient(const unsigned int i, const unsigned int j) const
     {
       return row(dim * i + j);
     }
 
-    /// BlockMove of the mean stress by B-bar, Pa.
+    /// Shift of the mean stress by B-bar, Pa.
     double *
     mean_stress_shift() const
     {

@@ -9,7 +9,7 @@
 
 namespace talus
 {
-  /// A point that changes its segment: its new cell, its body and its index.
+  /// A point that moves to another segment: new cell, body, index of the point.
   struct CellChange
   {
     unsigned int cell;
@@ -19,21 +19,22 @@ namespace talus
 
 
 
-  /// Works out how points that change their segment, and those appended, come
-  /// into the order of those that stay. For Points::reorder(), which moves the
-  /// data; here nothing but the lists of segments and changes is looked at.
+  /// Computes the new order of the points when some change their segment, leave
+  /// or are appended. Works on the lists of segments and changes only;
+  /// Points::reorder() moves the data.
   class Reordering
   {
   public:
-    /// The points of @p segments but for the @p changes, which become sorted,
-    /// and for those @p departed elsewhere, merged with the changes. Within a
-    /// segment those that stay come first, then the changes, by their index.
+    /// Compute the order of the points in @p segments without @p departed, with
+    /// the @p changes (sorted by this function) moved to their new segments.
+    /// Within a segment points that stay come first, then changed points by
+    /// index.
     void
     merge(const std::vector<Segment>      &segments,
           std::vector<CellChange>         &changes,
           const std::vector<unsigned int> &departed);
 
-    /// Let Points::reorder() move the points.
+    /// Apply the new order to @p points.
     template <int dim>
     void
     apply(Points<dim> &points)
@@ -48,7 +49,7 @@ namespace talus
       return n_points_;
     }
 
-    /// Forget all, memory included.
+    /// Clear all lists and free their memory.
     void
     clear();
 

@@ -8,7 +8,7 @@
 
 namespace talus
 {
-  /// Entries that a reordering moves as they are: [begin, end) begins at @p to.
+  /// Range of entries [begin, end) moved as a whole to begin at @p to.
   struct BlockMove
   {
     unsigned int begin;
@@ -16,14 +16,14 @@ namespace talus
     unsigned int to;
   };
 
-  /// A single entry that changes its place among the others.
+  /// Single entry moved to another position.
   struct ElementMove
   {
     unsigned int from;
     unsigned int to;
   };
 
-  /// Rows of doubles, equally long, in one piece of memory on large pages.
+  /// Rows of doubles of equal length in one block of memory on large pages.
   class Rows
   {
   public:
@@ -32,15 +32,15 @@ namespace talus
     Rows &
     operator=(Rows &&other) = default;
 
-    /// Make it @p n_rows rows of at least @p length entries each. What was there
-    /// stays, as far as there is room; what is new is zero. Takes twice the
-    /// memory of a few rows only, not of all, while it works. If there is not
-    /// enough, throws std::bad_alloc and changes nothing.
+    /// Resize to @p n_rows rows of at least @p length entries. Old entries
+    /// within the new size are kept, new entries are zero. Only a few rows
+    /// exist twice at any time. Throws std::bad_alloc if memory is
+    /// insufficient, with no change.
     void
     reshape(unsigned int n_rows, std::size_t length);
 
-    /// Move the same entries of every row: @p block_moves ascend in begin and in
-    /// @p to.
+    /// Move entries in every row; @p block_moves must ascend in begin and in
+    /// `to`.
     void
     move(const std::vector<BlockMove>   &block_moves,
          const std::vector<ElementMove> &element_moves);
@@ -63,7 +63,7 @@ namespace talus
       return memory_.get() + i * pitch_;
     }
 
-    /// From the beginning of a row to the next.
+    /// Number of doubles from the beginning of a row to the next.
     std::size_t
     pitch() const
     {
@@ -88,7 +88,7 @@ namespace talus
     unsigned int                   n_rows_ = 0;
     std::size_t                    length_ = 0;
     std::size_t                    pitch_  = 0;
-    std::vector<double>            jumping_; ///< in move()
+    std::vector<double>            jumping_; ///< scratch of move()
   };
 } // namespace talus
 

@@ -11,18 +11,18 @@
 
 namespace talus
 {
-  /// What a step computes at the points of a range, usually a batch, and the
-  /// next phase of the same step reads. No state: undefined once reinit() was
-  /// called for other points. Rows are indexed by p - begin.
+  /// Temporary quantities of the points of a range, usually a batch, passed
+  /// from one phase of a step to the next. Not part of the state: reinit() for
+  /// another range makes all values undefined. Rows are indexed by p - begin.
   template <int dim>
   class StepWorkspace
   {
   public:
-    /// Make it that of the points [begin, end). Its content is lost.
+    /// Assign the workspace to the points [begin, end). Old values are lost.
     void
     reinit(unsigned int begin, unsigned int end);
 
-    /// Give the memory back.
+    /// Free the memory.
     void
     clear();
 
@@ -37,9 +37,9 @@ namespace talus
       return {const_cast<double *>(memory_.data()), pitch_, begin_};
     }
 
-    /// Velocity gradient after B-bar, dim*dim, 1/s: written by
-    /// the gather, read by the stress update of the same step. A load step of
-    /// the static stages has its displacement gradient here.
+    /// Velocity gradient dv_i/dx_j after B-bar, 1/s: written by the gather,
+    /// read by the stress update of the same step. In load steps of static
+    /// stages: displacement gradient [-].
     double *
     velocity_gradient(const unsigned int i, const unsigned int j)
     {
@@ -52,23 +52,24 @@ namespace talus
       return const_cast<StepWorkspace *>(this)->row(dim * i + j);
     }
 
-    /// Shift of the mean stress to that of the cell (B-bar), Pa.
+    /// Shift of the mean stress to the cell mean (B-bar), Pa.
     double *
     mean_stress_shift()
     {
       return row(dim * dim);
     }
 
-    /// Four rows for what a phase needs within itself.
+    /// Four scratch rows for use within a phase.
     double *
     scratch(const unsigned int i)
     {
       return row(dim * dim + 1 + i);
     }
 
-    /// Sorted points that may lie outside the cell of their segment, in any
-    /// order, some perhaps twice. Those that move points note them here, while
-    /// the positions are at hand, for Relocation::update_points_out_of_cell().
+    /// Sorted points that may lie outside of the cell of their segment, in any
+    /// order, possibly with duplicates. Code that moves points adds them here,
+    /// while positions are in registers, for
+    /// Relocation::update_points_out_of_cell().
     std::vector<unsigned int> &
     points_out_of_cell()
     {
