@@ -17,10 +17,11 @@ namespace talus
 
   namespace
   {
-    /// muParser reads an expression when it is first used: do that now. Returns
-    /// its error, or nothing. Only the caller knows the parameter's name,
-    /// hence the catch; deal.II prints details before it throws, hence the
-    /// silence.
+    /// Return the parse error of an expression; empty without error. muParser
+    /// parses at the first evaluation, so the function evaluates once. The
+    /// exception is caught because only the caller knows the name of the
+    /// parameter; std::cerr is silenced because deal.II prints details before
+    /// the exception.
     template <int dim>
     std::string
     parse_error(const FunctionParser<dim> &function)
@@ -45,7 +46,7 @@ namespace talus
 
 
 
-    /// Whether there is a single =, which muParser takes as an assignment.
+    /// Whether the expression contains a single =, an assignment in muParser.
     bool
     has_assignment(const std::string &expression)
     {
@@ -64,8 +65,8 @@ namespace talus
 
 
 
-    /// Whether there is a comma that does not stand between the arguments of a
-    /// function: muParser takes what stands before it, and drops it.
+    /// Whether the expression contains a comma outside of function arguments:
+    /// muParser would drop the part before the comma.
     bool
     has_loose_comma(const std::string &expression)
     {
@@ -81,8 +82,8 @@ namespace talus
 
 
 
-    /// Whether a constant may be called so: a word that muParser reads as one
-    /// name, and that is neither a variable nor a constant defined before.
+    /// Whether @p name is a valid new name of a constant: a single name for
+    /// muParser, neither a variable nor a known constant.
     bool
     is_new_name(const std::string                   &name,
                 const std::map<std::string, double> &known)
@@ -108,17 +109,17 @@ namespace talus
   {
     add_parameter("Constants",
                   definitions_,
-                  "Numbers for the expressions of this file, as name = value, "
-                  "separated by semicolons; a value may be an expression in "
-                  "pi and the names before it: L = 25; b = pi/(2*L).");
+                  "Named constants for the expressions of this file, as name = "
+                  "value, separated by semicolons. A value may be an "
+                  "expression in pi and names defined before: L = 25; b = "
+                  "pi/(2*L).");
   }
 
 
 
-  /// In the order in which they are written: a value may use the constants
-  /// before it, as muParser replaces only names it is given. A name that is
-  /// defined twice is an error, not a new value, since either of them could be
-  /// what was meant.
+  /// Definitions are evaluated in their order: a value may use earlier
+  /// constants, the only names muParser knows. A second definition of a name is
+  /// an error, not a new value, since the user may have meant either.
   std::map<std::string, double>
   Constants::values() const
   {
@@ -131,9 +132,9 @@ namespace talus
         AssertThrow(equals != std::string::npos && is_new_name(name, values),
                     ExcUser(text("'Constants' contains '",
                                  definition,
-                                 "', where 'name = value' was expected with a "
-                                 "new name of letters, digits and '_' other "
-                                 "than pi, x, y, z, t; separate constants by "
+                                 "'; expected 'name = value' with a new name "
+                                 "of letters, digits and '_' other than pi, x, "
+                                 "y, z, t. Separate constants by "
                                  "semicolons.")));
         const std::string expression =
           Utilities::trim(definition.substr(equals + 1));
@@ -141,15 +142,14 @@ namespace talus
                       !has_loose_comma(expression),
                     ExcUser(text("'Constants' contains '",
                                  definition,
-                                 "', where one value was expected behind "
-                                 "the first =; write decimals with a point and "
-                                 "separate constants by semicolons.")));
+                                 "'; expected one value after the first =. "
+                                 "Write decimals with a point and separate "
+                                 "constants by semicolons.")));
         FunctionParser<1> value(1);
-        // deal.II wants a variable, which must be none that a user may mean: x
-        // would be 0 without a word.
+        // deal.II needs a variable. A name of the user must not match: x would
+        // silently be 0.
         value.initialize("unused_variable", expression, values);
-        // An expression without variables has one value; where it is asked for
-        // does not matter.
+        // Without variables the value does not depend on the position.
         std::string  error  = parse_error(value);
         const double number = error.empty() ? value.value(Point<1>()) : 0.;
         if (!std::isfinite(number))
@@ -159,8 +159,8 @@ namespace talus
                                  definition,
                                  "', whose value cannot be understood: ",
                                  error,
-                                 " A finite expression in pi and the constants "
-                                 "before it was expected; correct it.")));
+                                 " Expected a finite expression in pi and "
+                                 "constants defined before.")));
         values[name] = number;
       }
     return values;
@@ -170,7 +170,7 @@ namespace talus
 
   namespace
   {
-    /// What muParser would take for something else than the user meant.
+    /// Reject forms that muParser would interpret differently from the user.
     void
     check_form(const std::string &name,
                const std::string &expressions,
@@ -191,25 +191,24 @@ namespace talus
                     text(name,
                          " = '",
                          expressions,
-                         "' gives a variable a value by =, where a formula "
-                         "was expected; compare by == and define names in "
-                         "'Constants'.")));
+                         "' assigns a value by =; expected a formula. Compare "
+                         "by == and define names in 'Constants'.")));
       AssertThrow(!has_loose_comma(expressions),
                   ExcUser(
                     text(name,
                          " = '",
                          expressions,
-                         "' has a comma outside of a function's arguments, "
-                         "where one formula for each component was "
-                         "expected. Separate components by semicolons and "
-                         "write decimals with a point.")));
+                         "' has a comma outside of a function's arguments; "
+                         "expected one formula for each component. Separate "
+                         "components by semicolons and write decimals with a "
+                         "point.")));
     }
   } // namespace
 
 
 
-  /// Parsed, and with that checked, here and not when the first value is
-  /// needed, which may be hours later, and then in the middle of a step.
+  /// Expressions are parsed, and thereby checked, at construction and not at
+  /// the first evaluation, perhaps hours later in the middle of a step.
   template <int dim>
   Expression<dim>::Expression(const std::string &name,
                               const std::string &expressions,
@@ -230,7 +229,7 @@ namespace talus
                                variable,
                                "', but in ",
                                name,
-                               " that is a variable. Give the constant "
+                               " the name is a variable. Give the constant "
                                "another name.")));
     function_.initialize(variables,
                          expressions,
@@ -247,10 +246,9 @@ namespace talus
                              expressions,
                              "' cannot be understood: ",
                              error,
-                             " An expression in ",
+                             " Expected an expression in ",
                              known_names,
-                             "pi and the names of 'Constants' was expected; "
-                             "correct it.")));
+                             "pi and the names of 'Constants'.")));
   }
 
 
@@ -271,9 +269,8 @@ namespace talus
 
 
 
-  /// What is wrong may show only at some place and time of the run, as a root
-  /// of a negative number does: hence ExcPoint, which also has the last state
-  /// written.
+  /// An error may depend on position and time, as for the root of a negative
+  /// number: ExcPoint, which also writes the last state.
   template <int dim>
   double
   Expression<dim>::finite_value(const Point<dim>  &x,
@@ -288,8 +285,8 @@ namespace talus
                               "' is ",
                               result,
                               place_and_time(variables_, x, t),
-                              ", where a finite number was expected; correct "
-                              "the expression.")));
+                              "; expected a finite number. Correct the "
+                              "expression.")));
     return result;
   }
 

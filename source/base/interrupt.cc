@@ -7,12 +7,12 @@ namespace talus
 {
   namespace
   {
-    // All that a signal handler may touch.
+    // The only type that a signal handler may modify.
     volatile std::sig_atomic_t last_signal = 0;
 
-    /// Only notes the signal: whoever leads the run asks for it between two
-    /// steps, where state and files are whole. Writing a checkpoint from within
-    /// the handler could find a step, or an allocation, half done.
+    /// Only store the signal: the time loop queries it between steps, when
+    /// state and files are consistent. A checkpoint written by the handler
+    /// could interrupt a step or an allocation.
     extern "C" void
     talus_remember_signal(const int signal)
     {
@@ -31,14 +31,14 @@ namespace talus
       {
         struct sigaction before = {};
         sigaction(signal, nullptr, &before);
-        // By `nohup`, or a shell that runs it in the background.
+        // Ignored by `nohup` or by a shell for programs in the background.
         if (before.sa_handler == SIG_IGN)
           continue;
         struct sigaction action = {};
         action.sa_handler       = &talus_remember_signal;
-        // A write that was under way goes on.
+        // An interrupted write is continued.
         action.sa_flags = SA_RESTART;
-        // The second Ctrl-C finds the default handler, which ends the program.
+        // The second Ctrl-C meets the default handler, which ends the program.
         if (signal == SIGINT)
           action.sa_flags |= SA_RESETHAND;
         sigaction(signal, &action, nullptr);
@@ -62,7 +62,7 @@ namespace talus
           return "SIGHUP";
         case SIGXCPU:
           return "SIGXCPU";
-        // Whoever read the standard output has gone.
+        // The reader of the standard output has ended.
         case SIGPIPE:
           return "SIGPIPE";
         default:

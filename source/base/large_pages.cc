@@ -9,18 +9,18 @@ namespace talus
 {
   namespace
   {
-    // 2 MB, the large page of x86-64. Where large pages have another size the
-    // memory is as good, only perhaps not on such pages.
+    // 2 MB, the large page of x86-64. With another page size the memory is
+    // valid, but perhaps not on large pages.
     constexpr std::size_t page = std::size_t(1) << 21;
 
-    /// @p bytes rounded up to whole large pages.
+    /// Round @p bytes up to whole large pages.
     std::size_t
     whole_pages(const std::size_t bytes)
     {
       return (bytes + page - 1) / page * page;
     }
 
-    /// The first address from @p memory on at which a large page can begin.
+    /// First address from @p memory on at which a large page can begin.
     char *
     next_page(void *memory)
     {
@@ -28,7 +28,8 @@ namespace talus
       return static_cast<char *>(memory) + (page - address % page) % page;
     }
 
-    /// What the system does not know it does not do: the memory is as good.
+    /// Request large pages, if the system supports the request; otherwise the
+    /// memory remains valid on small pages.
     void
     advise([[maybe_unused]] char             *memory,
            [[maybe_unused]] const std::size_t bytes)
@@ -41,16 +42,14 @@ namespace talus
 
 
 
-  /// By mmap() and madvise() and not from a pool of reserved pages
-  /// (MAP_HUGETLB), which an administrator would have to set up. The system
-  /// only replaces small pages by a large one that begins at a multiple of its
-  /// size, and mmap() knows multiples of 4 kB only: so more is mapped than is
-  /// needed, and cut.
+  /// mmap() and madvise() need no administrator, unlike a pool of reserved
+  /// pages (MAP_HUGETLB). The system uses large pages only at multiples of
+  /// their size, and mmap() aligns to 4 kB only: the mapping is one page larger
+  /// than needed and is cut.
   void *
   map_large_pages(const std::size_t bytes)
   {
-    // One page more than asked for, so that there is a place to begin; what is
-    // before and behind goes back.
+    // One page more than needed, for alignment; both ends are returned.
     const std::size_t size = whole_pages(bytes);
     void *const       all  = mmap(nullptr,
                            size + page,
@@ -83,8 +82,7 @@ namespace talus
   void
   empty_large_pages(void *begin, void *end)
   {
-    // Only pages that lie within as a whole: the others hold something else,
-    // too.
+    // Only pages completely inside: other pages contain other data, too.
     char *const first = next_page(begin);
     char *const last  = next_page(end) - (next_page(end) == end ? 0 : page);
     if (first < last)

@@ -11,8 +11,8 @@ namespace talus
 {
   namespace
   {
-    /// Bytes of the addresses that the process has taken, its libraries' among
-    /// them; 0 where the system does not tell.
+    /// Address space used by the process with its libraries, bytes; 0 if the
+    /// system does not provide the number.
     double
     taken_addresses()
     {
@@ -39,7 +39,7 @@ namespace talus
 
 
 
-  // A limit on addresses counts all of them: the libraries alone take 0.5 GB.
+  // A limit on addresses includes libraries, about 0.5 GB.
   double
   memory_per_rank(const MPI_Comm communicator)
   {

@@ -4,13 +4,12 @@
 
 namespace talus
 {
-  /// In a file of its own, since it is compiled for each level of the
-  /// processor, as the kernels are: it says what was compiled, not what the
-  /// machine could do.
+  /// Compiled for each instruction set, like the kernels, hence in a separate
+  /// file: the text describes the compiled code, not the machine.
   std::string
   processor()
   {
-    // TALUS_LEVEL is what CMake gave the compiler as -march.
+    // CMake defines TALUS_LEVEL with the value of -march.
     const std::string level = TALUS_LEVEL;
     return (level == "native"    ? "this machine (native)"
             : level == "generic" ? "any processor"

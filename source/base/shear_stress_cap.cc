@@ -42,13 +42,13 @@ namespace talus
                              " Pa",
                              place,
                              ", but a shear stress that resists sliding cannot "
-                             "be negative. Change it.")));
+                             "be negative. Correct the value.")));
     return value;
   }
 
 
 
-  // The mudline is looked for only where somebody asks how deep it is.
+  // The mudline is searched only if the expression uses the depth.
   template <int dim>
   double
   ShearStressCap<dim>::at(const Point<dim> &x) const

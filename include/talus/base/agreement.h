@@ -16,9 +16,9 @@ namespace talus
 
 
 
-  /// The sentence of the first rank that has one, on all ranks; empty if none
-  /// has. Collective: what went wrong on one rank is to end all of them, with
-  /// none left waiting for a message.
+  /// Return the error sentence of the lowest rank with an error, on all ranks;
+  /// empty if no rank has an error. Collective: an error on one rank must end
+  /// all ranks, and no rank may keep waiting for a message.
   inline std::string
   first_sentence(const std::string &own, const MPI_Comm communicator)
   {

@@ -2,15 +2,16 @@
 #ifndef talus_base_always_inline_h
 #define talus_base_always_inline_h
 
-/// For functions inside the loops over points: GCC leaves some of them out of
-/// line, which costs more than they do.
+/// Inline a function used inside loops over points: GCC leaves some of the
+/// functions out of line, where a call costs more than the body.
 #define TALUS_ALWAYS_INLINE inline __attribute__((always_inline))
 
-/// The same for a lambda function: [](...) TALUS_INLINE_LAMBDA { ... }.
+/// Inline a lambda function: [](...) TALUS_INLINE_LAMBDA { ... }.
 #define TALUS_INLINE_LAMBDA __attribute__((always_inline))
 
-/// In front of a loop that usually ends after a few turns: with deal.II's flags
-/// GCC unrolls all loops, and then most of the work is to find the way in.
+/// Disable unrolling of a loop that usually ends after a few iterations: with
+/// the flags of deal.II GCC unrolls all loops, and entering an unrolled loop
+/// costs more than the loop.
 #if defined(__GNUC__) && !defined(__clang__)
 #  define TALUS_SHORT_LOOP _Pragma("GCC unroll 1")
 #else

@@ -6,7 +6,7 @@
 
 namespace talus
 {
-  /// Axis-aligned box, lengths in m.
+  /// Axis-aligned box, coordinates in m.
   template <int dim>
   struct Box
   {

@@ -7,12 +7,12 @@
 
 namespace talus
 {
-  /// A number with its derivatives by n variables: forward algorithmic
-  /// differentiation. A formula that is a template on Number, called with Dual,
-  /// gives its own derivative, exact to round-off.
+  /// Number with derivatives by n variables (forward algorithmic
+  /// differentiation). A formula templated on Number and called with Dual gives
+  /// its derivatives, exact to round-off.
   ///
-  /// Trilinos' Sacado does the same, but its operators return expressions that
-  /// refer to temporaries, which `auto` and `? :` in our formulas do not bear.
+  /// Trilinos' Sacado is similar, but its operators return expressions that
+  /// refer to temporaries, which breaks `auto` and `? :` in our formulas.
   template <unsigned int n>
   struct Dual
   {
@@ -25,7 +25,8 @@ namespace talus
       : value(v)
     {}
 
-    /// Apply a function with this value and slope.
+    /// Chain rule: result of a function with value @p v and derivative @p slope
+    /// at this number.
     Dual
     chain(const double v, const double slope) const
     {
@@ -110,8 +111,8 @@ namespace talus
       return a.value > b.value;
     }
 
-    /// At zero the slope is infinite; there it is taken as zero, which is right
-    /// for lengths of vectors that the rest of a formula multiplies by zero.
+    /// At zero the infinite slope is replaced by zero, which is correct for
+    /// lengths of vectors multiplied by zero elsewhere in the formula.
     friend Dual
     sqrt(const Dual &a)
     {

@@ -10,21 +10,20 @@
 
 namespace talus
 {
-  /// A point met a state that the simulation cannot continue from. The message
-  /// names the point, its place and the likely cure; the program writes the
-  /// last state before it stops.
+  /// A point has a state from which the simulation cannot continue. The message
+  /// names the point, its position and the likely remedy; the program writes
+  /// the last state before it stops.
   DeclException1(ExcPoint, std::string, << arg1);
 
-  /// What the user asked for cannot be done: one sentence that says what was
-  /// found, where, what was expected and what to do.
+  /// Input of the user is invalid. The message is a sentence with the value
+  /// found, its location, the value expected and the remedy.
   DeclException1(ExcUser, std::string, << arg1);
 
 
 
-  /// Stream the arguments into one string: text("h = ", h, " m"). With ten
-  /// digits, so that numbers that differ look different, and places in UTM
-  /// coordinates are told to the millimetre; a sentence that wants fewer of a
-  /// computed number says std::setprecision.
+  /// Stream the arguments into a string: text("h = ", h, " m"). Ten digits
+  /// distinguish different numbers and give UTM coordinates to the millimetre;
+  /// use std::setprecision for fewer digits of a computed number.
   template <typename... Arguments>
   std::string
   text(const Arguments &...arguments)

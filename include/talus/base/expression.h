@@ -10,15 +10,14 @@
 
 namespace talus
 {
-  /// Numbers that the user gives names to, for the expressions of the
-  /// parameter file.
+  /// Named constants of the user, for expressions in the parameter file.
   class Constants : public dealii::ParameterAcceptor
   {
   public:
     Constants();
 
-    /// The constants by name, with pi. Throws ExcUser if the parameter cannot
-    /// be understood.
+    /// Return the constants by name, including pi. Throws ExcUser if a
+    /// definition is invalid.
     std::map<std::string, double>
     values() const;
 
@@ -28,25 +27,30 @@ namespace talus
 
 
 
-  /// Function of place and time given by the user, one expression for each
-  /// component, separated by semicolons. Variables: x, y (, z), t, or others of
-  /// the same number; constants: pi and those of the user; functions: those of
-  /// muParser.
+  /// Function of position and time given by the user, with an expression per
+  /// component, separated by semicolons. Variables: x, y (, z), t, or the same
+  /// number of other names. Constants: pi and the constants of the user.
+  /// Functions: all functions of muParser.
   template <int dim>
   class Expression
   {
   public:
-    /// @p name of the parameter, for messages. Throws ExcUser if there is not
-    /// one expression for each component, or if one cannot be parsed.
-    /// @p variables are names other than x, y (, z), t, separated by commas;
-    /// nobody is told of those that begin with 'unused'.
+    /// Parse the expressions. Throws ExcUser if the number of expressions is
+    /// not @p n_components, or if parsing fails.
+    ///
+    /// @param name of the parameter, for messages
+    /// @param expressions separated by semicolons
+    /// @param n_components number of expressions required
+    /// @param constants of the user
+    /// @param variables names in place of x, y (, z), t, separated by commas;
+    ///   messages do not mention names that begin with 'unused'
     Expression(const std::string &name,
                const std::string &expressions,
                unsigned int       n_components,
                const Constants   &constants,
                const std::string &variables = dim == 2 ? "x,y,t" : "x,y,z,t");
 
-    /// Value of one component at @p x and time @p t.
+    /// Return the value of a component at @p x, m, and time @p t, s.
     double
     value(const dealii::Point<dim> &x,
           const double              t,
@@ -56,7 +60,7 @@ namespace talus
       return function_.value(x, component);
     }
 
-    /// The same, but throws ExcPoint if it is not finite.
+    /// Return value(); throws ExcPoint if it is not finite.
     double
     finite_value(const dealii::Point<dim> &x, double t, unsigned int component);
 

@@ -6,12 +6,13 @@
 
 namespace talus
 {
-  /// From now on SIGTERM, SIGINT, SIGUSR1, SIGHUP and SIGXCPU do not end the
-  /// program but are remembered. A second SIGINT (Ctrl-C) ends it at once.
+  /// Install handlers: SIGTERM, SIGINT, SIGUSR1, SIGHUP, SIGXCPU and SIGPIPE no
+  /// longer end the program but are remembered. A second SIGINT (Ctrl-C) ends
+  /// the program at once.
   void
   remember_signals();
 
-  /// Name of the signal that came since, the last one; empty if none did.
+  /// Name of the last signal since remember_signals(); empty if none arrived.
   std::string
   remembered_signal();
 } // namespace talus

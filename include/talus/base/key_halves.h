@@ -6,8 +6,8 @@
 
 namespace talus
 {
-  /// Upper and lower 32 bits of the key of a cell or node, for tables of
-  /// doubles: one double does not hold all digits of a key.
+  /// Return the upper and lower 32 bits of the key of a cell or node, for
+  /// tables of doubles: a double cannot hold all bits of a key.
   inline std::array<double, 2>
   halves_of_key(const unsigned long key)
   {

@@ -8,28 +8,28 @@
 
 namespace talus
 {
-  // Memory on pages of 2 MB, for what every step passes over. The machine keeps
-  // track of some thousand pages at a time; of 4 kB each, a body of 160 000
-  // points has several times as many, and a step takes a tenth longer.
+  // Memory on pages of 2 MB for data read in every step. The processor caches
+  // the addresses of some thousand pages; a body of 160 000 points has several
+  // times as many pages of 4 kB, and a step takes 10 % longer.
 
-  /// Zeroed memory that begins with such a page. Where the system has none,
-  /// small ones take their place. Throws std::bad_alloc.
+  /// Allocate zeroed memory aligned to a large page. Without large pages in the
+  /// system, small pages are used. Throws std::bad_alloc.
   void *
   map_large_pages(std::size_t bytes);
 
-  /// Return what map_large_pages() gave for as many bytes.
+  /// Free memory allocated by map_large_pages() with the same @p bytes.
   void
   unmap_large_pages(void *memory, std::size_t bytes);
 
-  /// Give back the pages within [begin, end), whose content is no longer needed,
-  /// before the whole is unmapped.
+  /// Return the physical pages within [begin, end), whose content is no longer
+  /// needed, to the system. The addresses stay mapped.
   void
   empty_large_pages(void *begin, void *end);
 
 
 
-  /// For containers: what fills an eighth of a page or more comes on pages of
-  /// 2 MB, less from the heap.
+  /// Allocator for containers: blocks of at least an eighth of a page on pages
+  /// of 2 MB, smaller blocks from the heap.
   template <typename T>
   struct LargePageAllocator
   {

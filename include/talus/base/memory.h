@@ -6,9 +6,9 @@
 
 namespace talus
 {
-  /// Bytes that each rank can have at most: an equal part of the memory of its
-  /// machine, or what is left if the user's shell or a queue has set a limit
-  /// (ulimit -v); that of the rank that can have least. Collective.
+  /// Maximum memory per rank, bytes: an equal part of the memory of the
+  /// machine, or the rest of a limit set by the shell or a queue (ulimit -v);
+  /// minimum over all ranks. Collective.
   double
   memory_per_rank(MPI_Comm communicator);
 } // namespace talus

@@ -6,18 +6,18 @@
 
 namespace talus
 {
-  /// Tell Open MPI what suits talus, unless the user has a say; to be called
-  /// before MPI_Init. Other MPIs do not read this.
+  /// Set options of Open MPI, unless the user has set them. Call before
+  /// MPI_Init. Other MPI libraries ignore the options.
   ///
-  /// Files are written by ROMIO: Open MPI's own MPI-IO guards a file that it
-  /// opens by a semaphore which is named after the file without its folder and
-  /// outlives a program that is killed: one killed there, and all checkpoints on
-  /// this machine would wait for ever.
+  /// Files are written by ROMIO. The MPI-IO of Open MPI protects an open file
+  /// by a semaphore named after the file without its folder. The semaphore
+  /// survives a killed program: all later checkpoints on the machine would wait
+  /// for ever.
   ///
-  /// A program that no launcher has started is alone and need not look at all
-  /// kinds of networks, which takes 0.2 s. (It could do without the daemon that
-  /// Open MPI starts for it, too, but then several programs at a time would have
-  /// the same names of folders and of shared memory.)
+  /// A program without a launcher has one rank and need not search for
+  /// networks, which takes 0.2 s. (Open MPI also starts a daemon for the
+  /// program. Without the daemon several programs at a time would use the same
+  /// names of folders and shared memory.)
   inline void
   prepare_mpi()
   {

@@ -8,14 +8,13 @@
 
 namespace talus
 {
-  /// A sum over numbers that follow each other, the same bits however many of
-  /// them are added at a time: the k-th one belongs to the (k mod 8)-th of
-  /// eight sums.
+  /// Sum over consecutive numbers with bit-identical result for any number of
+  /// simultaneous additions: number k is added to partial sum k mod 8.
   class OrderedSum
   {
   public:
-    /// Add those of index @p k and following. @p k must be a multiple of their
-    /// number.
+    /// Add @p numbers with indices k, ..., k + n - 1; @p k must be a multiple
+    /// of n.
     template <unsigned int n>
     TALUS_ALWAYS_INLINE void
     add(const unsigned int k, const Simd<n> &numbers)

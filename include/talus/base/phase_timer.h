@@ -8,13 +8,13 @@
 
 namespace talus
 {
-  /// Wall time of the phases of a run. deal.II's TimerOutput asks the system for
-  /// processor times whenever a section begins or ends, which on a small mesh
-  /// takes some per cent of a step.
+  /// Wall times of the phases of a run. deal.II's TimerOutput queries processor
+  /// times at the begin and end of each section, which takes some per cent of a
+  /// step on a small mesh.
   class PhaseTimer
   {
   public:
-    /// The life of a Scope is booked on its phase.
+    /// Adds the lifetime of the object to the time of a phase.
     class Scope
     {
     public:
@@ -35,7 +35,7 @@ namespace talus
       std::chrono::steady_clock::time_point begin_;
     };
 
-    /// Phases that take turns for every batch of a sweep over the points.
+    /// Phases executed in turn for every batch of a sweep over the points.
     enum Lap
     {
       time_step,
@@ -52,7 +52,7 @@ namespace talus
       last_ = Clock::now();
     }
 
-    /// The time since start_laps() or the last lap was spent in this phase.
+    /// Add the time since start_laps() or the last lap() to @p phase.
     void
     lap(const Lap phase)
     {
@@ -61,7 +61,8 @@ namespace talus
       last_ = now;
     }
 
-    /// Phases by name with their wall time, s: the same phases on all ranks.
+    /// Wall times of all phases by name, s; the phases are identical on all
+    /// ranks.
     std::map<std::string, double>
     seconds() const
     {

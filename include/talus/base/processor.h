@@ -6,8 +6,9 @@
 
 namespace talus
 {
-  /// What the kernels that run were compiled for, for people. Nothing in this
-  /// header depends on it: of several libraries the loader chooses one.
+  /// Description of the instruction set of the running kernels, for the log.
+  /// The loader chooses among libraries for several instruction sets; this
+  /// header is independent of the choice.
   std::string
   processor();
 } // namespace talus

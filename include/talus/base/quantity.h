@@ -7,14 +7,14 @@
 
 namespace talus
 {
-  /// A number that tells of the whole run at one time, for a table.
+  /// A number for the whole run at one time, written to a table.
   struct Quantity
   {
     std::string name;
-    std::string unit; ///< empty for what is counted
+    std::string unit; ///< empty for a count
     double      value;
 
-    /// The heading of its column.
+    /// Heading of the table column.
     std::string
     heading() const
     {
@@ -22,12 +22,12 @@ namespace talus
     }
   };
 
-  /// Those of whoever has some, in the order of their columns.
+  /// Ordered list of quantities: one row of a table.
   using Quantities = std::vector<Quantity>;
 
 
 
-  /// Append a vector, one quantity for each axis.
+  /// Append a vector as one quantity per axis.
   template <int dim, typename Vector>
   void
   append_vector(Quantities        &list,

@@ -8,8 +8,8 @@
 
 namespace talus
 {
-  /// Numbers on a regular lattice of cells of a map, with where it lies. A value
-  /// belongs to the centre of its cell, not to a corner.
+  /// Numbers on a regular grid of rectangular map cells, with its position. A
+  /// value belongs to the centre of a cell, not to a corner.
   struct Raster
   {
     unsigned int n_columns = 0; ///< from west to east
@@ -17,14 +17,14 @@ namespace talus
     double       west      = 0; ///< outer edge of the first column, m
     double       south     = 0; ///< outer edge of the last row, m
     double       dx        = 1; ///< width of a cell, m
-    double       dy        = 1; ///< its height on the map, m
-    /// Row by row, the northernmost first, each from west to east; NaN where
-    /// there is no datum.
+    double       dy        = 1; ///< height of a cell on the map, m
+    /// Values row by row, from north to south, each row from west to east; NaN
+    /// where no value exists.
     std::vector<double> values;
-    /// What stands for NaN in a file.
+    /// Value written for NaN in a file.
     double nodata = -9999.;
-    /// The map that it lies on, as well-known text or EPSG:NUMBER; empty if the
-    /// file does not say it.
+    /// Coordinate reference system as well-known text or EPSG:NUMBER; empty if
+    /// the file does not contain one.
     std::string coordinate_system;
 
     /// Easting of the centre of a column, m.

@@ -4,12 +4,13 @@
 
 #include <talus/base/simd_math.h>
 
-// One explicit step strains a point by less than a per cent: series that are as
-// quick as they are exact for such small numbers, and right for all others.
+// Series for small arguments: an explicit step strains a point by less than
+// 1 %. The series are exact to round-off for small numbers; larger numbers use
+// the exact functions.
 
 namespace talus
 {
-  /// Where the series below are not exact to round-off.
+  /// Whether the series are inexact at @p x, beyond round-off.
   template <typename Number>
   TALUS_ALWAYS_INLINE auto
   is_beyond_series(const Number &x)
@@ -19,7 +20,8 @@ namespace talus
 
 
 
-  /// exp(x); the next term of the series is below 1e-18 for |x| < 0.02.
+  /// Return exp(x). The first neglected term of the series is below 1e-18 for
+  /// |x| < 0.02.
   template <typename Number>
   TALUS_ALWAYS_INLINE Number
   exp_by_series(const Number &x)
@@ -33,7 +35,7 @@ namespace talus
                    x * (1. / 24. + x * (1. / 120. +
                                         x * (1. / 720. + x * (1. / 5040.)))))));
     const auto large = is_beyond_series(x);
-    // Entry by entry, so that a point's result never depends on its neighbours.
+    // Selected entry by entry, so that results do not depend on neighbours.
     if (__builtin_expect(any(large), 0))
       return select(large, exp(x), series);
     return series;
@@ -41,8 +43,8 @@ namespace talus
 
 
 
-  /// ln(1 + x) by the series 2 artanh(x/(2+x)); next term: below 1e-20 relative
-  /// for |x| < 0.02.
+  /// Return ln(1 + x) by the series of 2 artanh(x/(2+x)). The first neglected
+  /// term is below 1e-20 relative for |x| < 0.02.
   template <typename Number>
   TALUS_ALWAYS_INLINE Number
   log1p_by_series(const Number &x)

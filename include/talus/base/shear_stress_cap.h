@@ -13,23 +13,23 @@
 
 namespace talus
 {
-  /// The largest shear stress that a surface passes to the soil, as the user
-  /// gives it: a number, or an expression in the place and `depth`, which is how
-  /// far the place lies below the mudline of the start.
+  /// Maximum shear stress between a surface and the soil, Pa, given by the user
+  /// as a number or an expression in position and `depth`, the depth of the
+  /// position below the initial mudline, m.
   template <int dim>
   class ShearStressCap
   {
   public:
-    /// Depth below the mudline at the start, m; 0 where there was no soil above.
+    /// Depth below the initial mudline, m; 0 without soil above at the start.
     using Depth = std::function<double(const dealii::Point<dim> &)>;
 
-    /// @p path of the parameter, for messages. Throws ExcUser if @p words cannot
-    /// be understood.
+    /// Parse @p words, the value of the parameter @p path. Throws ExcUser if
+    /// @p words is invalid.
     ShearStressCap(const std::string &path,
                    const std::string &words,
                    const Constants   &constants);
 
-    /// The number, Pa, if it is one.
+    /// Return the value, Pa, if it is a constant number.
     const std::optional<double> &
     number() const
     {
@@ -49,8 +49,8 @@ namespace talus
       depth_ = depth;
     }
 
-    /// At @p x, Pa. Throws ExcUser if it is negative, ExcPoint if it is not
-    /// finite.
+    /// Return the maximum shear stress at @p x, Pa. Throws ExcUser if it is
+    /// negative, ExcPoint if it is not finite.
     double
     at(const dealii::Point<dim> &x) const;
 
@@ -61,7 +61,7 @@ namespace talus
     std::string                      path_, words_;
     bool                             depends_on_depth_;
     std::optional<double>            number_;
-    std::unique_ptr<Expression<dim>> expression_; ///< unless it is a number
+    std::unique_ptr<Expression<dim>> expression_; ///< null for a number
     Depth                            depth_;
   };
 } // namespace talus

@@ -14,16 +14,16 @@
 
 // Several points per instruction, on any processor.
 //
-// A Simd<n> is a vector of the compiler (GCC and clang have the same), so that
-// one source serves all processors; it is as wide as the registers of the
-// target, because GCC turns comparisons, selections and shuffles of a wider one
-// into scalar code through memory. It is a class, so that functions are found
-// by their arguments. The alternatives: std::experimental::simd is of one
-// standard library only, has no transpose, and calls exp and pow entry by entry;
-// Highway's vectors must not be members of a class, so that no formula could
-// be shared with double; deal.II's VectorizedArray is as wide as the registers
-// of the machine that deal.II was built for, one double in Debian's packages.
-// xsimd is what computes exp, log and pow, see simd_math.h.
+// A Simd<n> wraps a vector type of the compiler (the same in GCC and clang), so
+// one source serves all processors. It has the width of the registers of the
+// target, because GCC translates comparisons, selections and shuffles of wider
+// vectors into scalar code through memory. It is a class, so that functions are
+// found by argument-dependent lookup. Alternatives: std::experimental::simd
+// exists in one standard library only, has no transpose, and computes exp and
+// pow entry by entry. Highway's vectors cannot be members of a class, so
+// formulas could not be shared with double. deal.II's VectorizedArray has the
+// width of the machine for which deal.II was built, a single double in Debian's
+// packages. xsimd computes exp, log and pow, see simd_math.h.
 
 #ifndef TALUS_SIMD_WIDTH
 #  if defined(__AVX512F__)
@@ -35,8 +35,8 @@
 #  endif
 #endif
 
-// Everything that depends on the width lives in a namespace that says so: what
-// was compiled for another width does not link, instead of being wrong.
+// Code that depends on the width is in a namespace named after the width:
+// mixing widths is a linker error instead of a wrong result.
 #define TALUS_SIMD_PASTE(a, b) a##b
 #define TALUS_SIMD_NAME(width) TALUS_SIMD_PASTE(simd_, width)
 #define TALUS_SIMD_NAMESPACE TALUS_SIMD_NAME(TALUS_SIMD_WIDTH)
@@ -48,16 +48,16 @@ namespace talus
     /// Number of doubles in a register.
     constexpr unsigned int simd_width = TALUS_SIMD_WIDTH;
 
-    /// What holds n doubles, and the results of n comparisons. One is a
-    /// double: so the same class serves the points that are left over.
+    /// Types of n doubles and of n results of comparisons. For n = 1 scalar
+    /// types, so that the same class serves the remaining points.
     template <unsigned int n>
     struct SimdRegister
     {
       typedef double    Doubles __attribute__((vector_size(8 * n)));
       typedef long long Mask __attribute__((vector_size(8 * n)));
 
-      /// As doubles lie in memory. (GCC 12 forgets the alignment of a vector
-      /// type that depends on n, but not that of a structure.)
+      /// Doubles with the alignment of memory. (GCC 12 loses the alignment of a
+      /// vector type that depends on n, but not of a structure.)
       struct Unaligned
       {
         Doubles value;
@@ -78,7 +78,7 @@ namespace talus
 
 
 
-    /// Results of comparisons, one for each of n points.
+    /// Results of comparisons, for n points.
     template <unsigned int n>
     class SimdMask
     {
@@ -94,7 +94,7 @@ namespace talus
         : value(value)
       {}
 
-      /// The opposite of bits(); more bits than entries do not count.
+      /// Inverse of bits(); bits beyond n are ignored.
       static TALUS_ALWAYS_INLINE SimdMask
       of_bits(const unsigned long long bits)
       {
@@ -237,13 +237,13 @@ namespace talus
         return x;
       }
 
-      /// n doubles that follow each other. Not by std::memcpy, which the compiler
-      /// takes to change any memory: it would compute all addresses anew.
+      /// Load n consecutive doubles. Without std::memcpy: the compiler assumes
+      /// that it may change any memory and would compute all addresses again.
       static TALUS_ALWAYS_INLINE Simd
       load(const double *from)
       {
         using Unaligned = typename SimdRegister<n>::Unaligned;
-        // A copy, since a reference would be taken to be aligned.
+        // A copy, since a reference would be assumed to be aligned.
         const Register value = reinterpret_cast<const Unaligned *>(from)->value;
         return of(value);
       }
@@ -375,8 +375,7 @@ namespace talus
         return of(mask.value ? a.value : b.value);
       }
 
-      // a > b ? a : b, also where one is no number; GCC finds the instruction for
-      // it only sometimes.
+      // a > b ? a : b, also for NaN; GCC does not always find the instruction.
       friend TALUS_ALWAYS_INLINE Simd
       max(const Simd &a, const Simd &b)
       {
@@ -435,9 +434,9 @@ namespace talus
 
 
 
-  // One-point formulas are templates on Number: Simd of the target's width for
-  // the bulk of the points, Simd<1> for the rest, double and Dual where there
-  // is one point only. These let double read the same.
+  // Formulas for points are templates on Number: Simd of the target's width for
+  // most points, Simd<1> for the remaining points, double and Dual for single
+  // points. The functions below give double the same interface.
   using std::sqrt;
 
   template <typename Number>
@@ -516,8 +515,8 @@ namespace talus
 
 
 
-  /// Call @p kernel (with an index and a number to deduce the type from) for all
-  /// points of [begin, end): a register full at a time, then one by one.
+  /// Call @p kernel, with an index and a number of the type to use, for all
+  /// points of [begin, end): whole registers first, then single points.
   template <typename Kernel>
   TALUS_ALWAYS_INLINE void
   for_each_simd(const unsigned int begin,

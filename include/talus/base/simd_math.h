@@ -15,9 +15,9 @@ namespace talus
 
   inline namespace TALUS_SIMD_NAMESPACE
   {
-    /// Apply @p function of xsimd's registers, which compute all entries alike.
-    /// Simd of another width goes through registers of this one, so that a
-    /// point's result does not depend on how many are computed side by side.
+    /// Apply @p function to registers of xsimd. Simd of another width is copied
+    /// through registers of the native width, so that the result at a point
+    /// does not depend on the number of points computed together.
     template <unsigned int n, typename Function>
     TALUS_ALWAYS_INLINE Simd<n>
                         by_xsimd(const Simd<n> &x, const Function &function)
@@ -51,7 +51,7 @@ namespace talus
 
 
 
-    /// exp(x) - 1, exact for small x, too.
+    /// Return exp(x) - 1, accurate also for small x.
     template <unsigned int n>
     TALUS_ALWAYS_INLINE Simd<n>
                         expm1(const Simd<n> &x)
@@ -70,7 +70,7 @@ namespace talus
 
 
 
-    /// x^exponent for x > 0; relative error up to |ln x^exponent| ulp.
+    /// Return x^exponent for x > 0; relative error up to |ln x^exponent| ulp.
     template <unsigned int n>
     TALUS_ALWAYS_INLINE Simd<n>
                         pow(const Simd<n> &x, const double exponent)

@@ -8,7 +8,7 @@
 
 namespace talus
 {
-  /// dim x dim matrix of numbers, A[row][column].
+  /// dim x dim matrix, A[row][column].
   template <int dim, typename Number>
   struct Matrix
   {
@@ -27,8 +27,8 @@ namespace talus
     }
   };
 
-  /// Number of independent components of the stress. In 2-D it is plane strain
-  /// with the stress out of the plane kept: xx, yy, zz, xy. In 3-D: xx, yy, zz,
+  /// Number of independent components of the stress. In 2-D (plane strain) the
+  /// stress out of the plane is included: xx, yy, zz, xy. In 3-D: xx, yy, zz,
   /// xy, xz, yz.
   template <int dim>
   constexpr unsigned int n_stress_components = (dim == 2 ? 4 : 6);
@@ -37,7 +37,7 @@ namespace talus
   template <int dim, typename Number>
   using Stress = std::array<Number, n_stress_components<dim>>;
 
-  /// Place of component (i,j), i and j < dim, in a Stress.
+  /// Index of component (i, j) in a Stress, for i, j < dim.
   template <int dim>
   constexpr unsigned int
   stress_index(const unsigned int i, const unsigned int j)
@@ -105,8 +105,7 @@ namespace talus
 
 
 
-  /// det(I + A) - 1, without the cancellation that taking the determinant
-  /// first would bring for small A.
+  /// Return det(I + A) - 1, without cancellation for small A.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Number
   determinant_increment(const Matrix<dim, Number> &A)
@@ -141,7 +140,7 @@ namespace talus
       for (unsigned int i = 0; i < 3; ++i)
         for (unsigned int j = 0; j < 3; ++j)
           {
-            // Cofactors with cyclic indices carry their sign.
+            // Cofactors with cyclic indices include the sign.
             const unsigned int a = (j + 1) % 3, b = (j + 2) % 3;
             const unsigned int c = (i + 1) % 3, d = (i + 2) % 3;
             B[i][j] = (A[a][c] * A[b][d] - A[a][d] * A[b][c]) * scale;

@@ -13,21 +13,21 @@
 
 namespace talus
 {
-  /// What the shares of the ranks are to each other; decides what becomes of
-  /// them on another number of ranks.
+  /// Relation between the values of a number on different ranks; determines the
+  /// values after a restart on another number of ranks.
   enum class Reduction
   {
-    sum,     ///< each rank has a part; the first one gets all of it
-    maximum, ///< every rank gets the largest
-    equal    ///< the same on every rank
+    sum,     ///< each rank has a part; the first rank gets the sum
+    maximum, ///< every rank gets the maximum
+    equal    ///< identical on every rank
   };
 
 
 
-  /// The state of a run besides its points and its mesh: numbers and texts by
-  /// name, with how to read and to set them. Every class that has such state
-  /// adds it in its `list_state(StateList &)`; checkpoints go over the list and
-  /// need not know what it means. What is added must outlive the list.
+  /// State of a run besides points and mesh: named numbers, texts and tables,
+  /// with functions that get and set them. Each class with state adds it in
+  /// `list_state(StateList &)`; checkpoints loop over the list without
+  /// knowledge of the meaning. Variables in the list must outlive the list.
   class StateList
   {
   public:
@@ -40,8 +40,8 @@ namespace talus
       std::function<void(double)> set;
     };
 
-    /// The same on all ranks, or known to the first one only: that is the one
-    /// whose text is saved, and all get it back.
+    /// Text that is identical on all ranks, or known to the first rank only.
+    /// The text of the first rank is saved, and all ranks get it back.
     struct Text
     {
       std::string                              name;
@@ -49,17 +49,17 @@ namespace talus
       std::function<void(const std::string &)> set;
     };
 
-    /// Rows of numbers, of which each rank has some.
+    /// Table distributed over the ranks by rows.
     struct Table
     {
       std::string                                      name;
       std::string                                      columns; ///< with units
       unsigned int                                     n_columns;
-      std::function<std::vector<double>()>             get; ///< this rank's
-      std::function<void(const std::vector<double> &)> set; ///< gets all ranks'
+      std::function<std::vector<double>()>             get; ///< of this rank
+      std::function<void(const std::vector<double> &)> set; ///< all rows
     };
 
-    /// Add a number. Integers up to 2^53 survive the way through a double.
+    /// Add a number. Integers up to 2^53 are exact as doubles.
     template <typename Value>
     void
     add(const std::string &name,
@@ -121,7 +121,7 @@ namespace talus
     }
 
   private:
-    /// What does not fit into an integer would become any number.
+    /// Throw ExcUser if @p saved does not fit into an integer type.
     template <typename Value>
     static void
     check_that_it_fits(const std::string &name, const double saved)
@@ -135,9 +135,9 @@ namespace talus
                                  name,
                                  "' of a checkpoint is ",
                                  saved,
-                                 ", where a whole number was expected. Remove "
-                                 "this checkpoint, so that the one before it "
-                                 "is used.")));
+                                 "; expected a whole number. Remove the "
+                                 "checkpoint, so that the previous one is "
+                                 "used.")));
     }
 
     std::vector<Number> numbers_;
@@ -147,8 +147,8 @@ namespace talus
 
 
 
-  /// What rank @p rank gets of the shares that were saved. On as many ranks as
-  /// there were, each one its own.
+  /// Return the value of rank @p rank from the saved values @p shares of all
+  /// ranks. With the same number of ranks each rank gets its own value.
   inline double
   restored_share(const std::vector<double> &shares,
                  const Reduction            reduction,

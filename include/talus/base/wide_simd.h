@@ -8,9 +8,9 @@ namespace talus
 {
   inline namespace TALUS_SIMD_NAMESPACE
   {
-    /// More doubles than a register holds: several registers side by side. For
-    /// iterations, whose steps wait for each other: the processor works on one
-    /// while another waits.
+    /// Mask of WideSimd: several registers side by side. For iterations with
+    /// dependent steps: the processor works on one register while another waits
+    /// for its result.
     template <unsigned int n_parts>
     class WideMask
     {
@@ -43,7 +43,8 @@ namespace talus
 
 
 
-    /// See WideMask.
+    /// More doubles than a register holds: several registers side by side, see
+    /// WideMask.
     template <unsigned int n_parts>
     class WideSimd
     {
@@ -62,7 +63,7 @@ namespace talus
           part[i] = x;
       }
 
-      /// Apply @p function to each register.
+      /// Build from @p function(i), the value of register i.
       template <typename Function>
       static TALUS_ALWAYS_INLINE WideSimd
       of(const Function &function)

@@ -8,29 +8,29 @@
 
 namespace talus
 {
-  /// What loads, boundaries and damping did to the soil in one step, or in all
-  /// steps so far.
+  /// Work and impulse of loads, boundaries and damping on the soil, in one step
+  /// or in all steps.
   template <int dim>
   struct Works
   {
-    /// Work of weight and body forces, J.
+    /// Work of weight and body forces on the soil, J.
     double gravity = 0;
-    /// Energy that friction took from the soil, J.
+    /// Energy dissipated by friction, J.
     double friction = 0;
-    /// Energy that normal contact, walls and tractions took from the soil, J;
-    /// negative where they drive it.
+    /// Energy taken from the soil by normal contact, walls and tractions, J;
+    /// negative if they drive the soil.
     double contact = 0;
-    /// Energy that local damping took from the soil, J.
+    /// Energy dissipated by local damping, J.
     double damping = 0;
-    /// Energy that the drag of water took from the soil, J.
+    /// Energy taken from the soil by the drag of water, J.
     double drag = 0;
-    /// Energy that merging took from the points, J; listed by State.
+    /// Energy lost by merging points, J; listed by State.
     double merging = 0;
-    /// Impulse that the seabed gave to the soil, N s.
+    /// Impulse of the seabed on the soil, N s.
     dealii::Tensor<1, dim> seabed_impulse;
-    /// Impulse that walls and tractions gave to the soil, N s.
+    /// Impulse of walls and tractions on the soil, N s.
     dealii::Tensor<1, dim> wall_impulse;
-    /// Impulse that the drag of water gave to the soil, N s.
+    /// Impulse of the drag of water on the soil, N s.
     dealii::Tensor<1, dim> drag_impulse;
 
     Works &
