@@ -13,7 +13,7 @@ namespace talus
 
   namespace
   {
-    /// The unit of the parameters.
+    /// Convert to minutes, the unit of the parameters.
     double
     minutes(const std::chrono::steady_clock::duration duration)
     {
@@ -29,27 +29,27 @@ namespace talus
   {
     add_parameter("Step interval",
                   step_interval_,
-                  "Number of steps between two checkpoints [-]; 0 for none by "
-                  "steps.",
+                  "Number of steps between two checkpoints [-]; 0: no "
+                  "checkpoints by steps.",
                   this->prm,
                   Patterns::Integer(0));
     add_parameter("Wall time interval",
                   wall_interval_,
-                  "Time on the clock between two checkpoints [min]; 0 for none "
-                  "by the clock.",
+                  "Wall time between two checkpoints [min]; 0: no checkpoints "
+                  "by wall time.",
                   this->prm,
                   Patterns::Double(0.));
     add_parameter("Wall time limit",
                   wall_time_limit_,
-                  "After this time on the clock [min] the run writes a "
-                  "checkpoint and ends with exit status 75; `talus --resume` "
-                  "goes on. 0 for no limit.",
+                  "Wall time after which the run writes a checkpoint and ends "
+                  "with exit status 75 [min]; `talus --resume` continues the "
+                  "run. 0: no limit.",
                   this->prm,
                   Patterns::Double(0.));
     add_parameter("At the end",
                   at_the_end_,
-                  "Write a checkpoint at the end time, too, so that the run "
-                  "can be continued to a later one.");
+                  "Write a checkpoint also at the end time, so that the run "
+                  "can be continued to a later end time.");
   }
 
 
@@ -66,9 +66,9 @@ namespace talus
 
 
 
-  /// The newest checkpoint is the one the run came from. Those that are newer
-  /// by name are damaged, or it would have been taken; they stay until a good
-  /// one takes their place. Only the first rank touches the folder.
+  /// The checkpoint used is the newest valid one. Newer ones are damaged,
+  /// otherwise they would have been used; they stay until replaced. Only the
+  /// first rank changes the folder.
   template <int dim>
   void
   Checkpoint<dim>::begin(const fs::path &output_folder,
@@ -89,7 +89,7 @@ namespace talus
       }
     // The run may have been killed before it removed the third newest.
     std::vector<fs::path> kept = find_checkpoints(output_folder_);
-    // The newest first: behind the one used comes the one before it.
+    // Newest first: the previous checkpoint follows the checkpoint used.
     const auto used = std::find(kept.begin(), kept.end(), resumed_from);
     if (kept.end() - used > 2)
       {
@@ -100,8 +100,8 @@ namespace talus
 
 
 
-  /// By steps all ranks agree; by the clock the first one says so alone, since
-  /// clocks differ and a rank that began to write by itself would wait for the
+  /// All ranks agree on steps. On the wall time the first rank decides alone,
+  /// since clocks differ and a rank that began to write would wait for the
   /// others. See StepAgreement.
   template <int dim>
   bool
@@ -125,11 +125,11 @@ namespace talus
 
 
 
-  /// A crash at any time leaves the checkpoints before this one whole. For that
-  /// the order is fixed: write all under a temporary name; bring every file to
-  /// the disk; rename; and only then remove the third newest. Errors of one
-  /// rank are told to all after each part. Points and grid are only read, so
-  /// that a run goes on bitwise as it would have without. Collective.
+  /// A crash at any time leaves earlier checkpoints intact. Therefore the order
+  /// is fixed: write everything under a temporary name; flush every file to
+  /// disk; rename; and only then remove the third newest. Each part ends with
+  /// an exchange of errors among the ranks. Points and grid are only read, so
+  /// the run continues with bit-identical results. Collective.
   template <int dim>
   fs::path
   Checkpoint<dim>::write(const Content &content, const Grid<dim> &grid)
@@ -141,10 +141,10 @@ namespace talus
     check_on_all_ranks(is_first ? make_temporary_folder(path) : "");
     write_mesh(part, grid);
     write_state(part, content);
-    // Every node of a cluster brings its own part to the disk.
+    // Each node of a cluster flushes its own part to disk.
     check_on_all_ranks(sync_folder(part));
     check_on_all_ranks(is_first ? commit(path) : "");
-    // Written anew at the same step, it leaves the one before it alone.
+    // A checkpoint rewritten at the same step keeps the previous one.
     if (is_first && path != last_)
       remove_checkpoints_but(output_folder_, {path, last_});
     last_      = path;
@@ -161,27 +161,27 @@ namespace talus
     const std::string sentence = first_sentence(error, communicator_);
     if (sentence.empty())
       return;
-    // What was written so far only takes space.
+    // The incomplete files only use space.
     if (is_first_rank(communicator_))
       remove_unfinished(output_folder_);
     AssertThrow(false,
                 ExcUser("A checkpoint could not be written to '" +
                         output_folder_.string() + "' (" + sentence +
-                        "). Earlier ones are still there: free some space and "
-                        "go on with --resume, or choose another folder with "
+                        "). Earlier checkpoints remain: free some space and "
+                        "continue with --resume, or choose another folder with "
                         "--output."));
   }
 
 
 
-  /// An estimate from above for the few files of p4est and deal.II; the space
-  /// may be taken by others meanwhile, but that is the exception. Collective.
+  /// Save the mesh, if there is space for an upper estimate of its few files.
+  /// Other programs may fill the disk meanwhile, but rarely. Collective.
   template <int dim>
   void
   Checkpoint<dim>::write_mesh(const fs::path  &folder,
                               const Grid<dim> &grid) const
   {
-    // p4est ends the program where the disk is full.
+    // p4est ends the program if the disk is full.
     const double    needed = 1e5 + 64. * grid.n_global_cells();
     std::error_code error;
     const auto      space = fs::space(folder, error);
@@ -193,9 +193,9 @@ namespace talus
 
 
 
-  /// One HDF5 file for all ranks. The mesh is written before, since its
-  /// checksums are in this file: so one file says whether the whole checkpoint
-  /// is sound. Collective.
+  /// Write a single HDF5 file for all ranks. The mesh is written before, since
+  /// this file contains its checksums: one file tells whether the checkpoint is
+  /// valid. Collective.
   template <int dim>
   void
   Checkpoint<dim>::write_state(const fs::path &folder,
@@ -215,7 +215,7 @@ namespace talus
     save_points(file, content.points, content.cell_weights);
     save_state(file, content.state);
     file.write_text("parameters", content.parameters);
-    // The mesh is complete: all ranks have left save().
+    // All ranks have returned from save(): the mesh is complete.
     file.write_text("mesh",
                     is_first_rank(communicator_) ? mesh_checksums(folder) : "");
     file.close();

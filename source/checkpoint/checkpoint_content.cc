@@ -13,7 +13,7 @@ namespace talus
 
   namespace
   {
-    /// For readers of the file who do not have this program.
+    /// Name of the reduction, for readers of the file without talus.
     const char *
     name_of(const Reduction reduction)
     {
@@ -30,7 +30,7 @@ namespace talus
 
 
 
-    /// A slash in a name would make a group of its own in HDF5.
+    /// Return @p name; a slash would create a group in HDF5.
     std::string
     checked(const std::string &name)
     {
@@ -41,10 +41,10 @@ namespace talus
 
 
 
-    /// The file has the components of a point side by side, as h5py wants them;
-    /// points have a row per component. @p first is the first row of this rank.
-    /// The number of rows and columns follows from the file, so what another
-    /// version wrote is noticed. Collective.
+    /// Load a column. The file stores the components of a point side by side,
+    /// as expected by h5py; Points has a row per component. The number of rows
+    /// and columns is taken from the file, so that differences between versions
+    /// are detected. @p first is the first row of this rank. Collective.
     template <int dim>
     void
     load_column(Hdf5InputFile      &file,
@@ -55,13 +55,14 @@ namespace talus
       const unsigned int        n    = column.n_components;
       const std::string         name = "points/" + column.name;
       const std::vector<double> rows = file.read(name, first, points.size());
-      /// HDF5's own error is part of the sentence.
+      /// The error of HDF5 becomes part of the message.
       check_read(file);
       AssertThrow(file.shape(name).second == n,
                   ExcUser("In '" + file.path().string() + "' the column '" +
                           column.name +
-                          "' has another number of components than now. Resume "
-                          "with the version of talus that wrote it."));
+                          "' has a different number of components from this "
+                          "version of talus. Resume with the version of talus "
+                          "that wrote the file."));
       for (unsigned int c = 0; c < n; ++c)
         for (unsigned int p = 0; p < points.size(); ++p)
           points.data(column.first, c)[p] = rows[std::size_t(n) * p + c];
@@ -70,7 +71,7 @@ namespace talus
 
 
 
-  /// Attributes of the file: h5dump shows them without reading any array.
+  /// Attributes of the file: h5dump shows attributes without reading arrays.
   void
   save_head(Hdf5OutputFile &file, const CheckpointHead &head)
   {
@@ -86,8 +87,7 @@ namespace talus
 
 
 
-  /// The format comes first: of another format the other entries may not be
-  /// there.
+  /// The format is read first: other formats may lack the other entries.
   CheckpointHead
   load_head(Hdf5InputFile &file)
   {
@@ -107,11 +107,10 @@ namespace talus
 
 
 
-  /// Columns by name, in the order of the cells, whatever rank owns them:
-  /// another number of ranks reads the same rows in other portions. How many
-  /// points a cell has is saved, too, so that they need not be searched for,
-  /// and the order within a cell, on which sums depend, comes back as it was.
-  /// Collective.
+  /// Columns are saved by name in the order of the cells, independent of the
+  /// owners: another number of ranks reads the same rows in other portions. The
+  /// number of points per cell is saved, so that loading needs no search, and
+  /// the order within a cell, on which sums depend, is restored. Collective.
   template <int dim>
   void
   save_points(Hdf5OutputFile            &file,
@@ -126,7 +125,7 @@ namespace talus
     file.write("cells/weight", cell_weights, 1);
 
     file.create_group("points");
-    // One column at a time: a checkpoint takes the memory of the largest one.
+    // One column at a time: the extra memory is that of the largest column.
     std::vector<double> rows;
     for (const Column &column : points.columns())
       {
@@ -143,8 +142,8 @@ namespace talus
 
 
 
-  /// The partition is state: it decides in which order the sums of ranks are
-  /// taken.
+  /// The partition is part of the state: it determines the order of sums over
+  /// ranks.
   std::vector<double>
   load_cell_weights(Hdf5InputFile &file, const unsigned int n_cells)
   {
@@ -155,10 +154,10 @@ namespace talus
 
 
 
-  /// Cells of this rank begin where those of the ranks before it end, in the
-  /// file and along p4est's curve alike; points follow from the numbers of
-  /// points per cell. More or fewer columns than now would be state that is
-  /// lost or made up, so both are errors. Collective.
+  /// The cells of a rank follow the cells of lower ranks, in the file as along
+  /// the curve of p4est; rows of points follow from the numbers of points per
+  /// cell. A missing or additional column would be lost or invented state: both
+  /// are errors. Collective.
   template <int dim>
   std::vector<unsigned int>
   load_points(Hdf5InputFile     &file,
@@ -171,16 +170,18 @@ namespace talus
     AssertThrow(file.shape("cells/points").first ==
                   file.first_and_total(n_cells).second,
                 ExcUser("The checkpoint file '" + file.path().string() +
-                        "' has another number of cells than its mesh. Remove "
-                        "this checkpoint so that the one before it is used."));
+                        "' has a different number of cells from its mesh. "
+                        "Remove the checkpoint, so that the previous one is "
+                        "used."));
     const double n_points =
       std::accumulate(points_of_cell.begin(), points_of_cell.end(), 0.);
     points.append(static_cast<unsigned int>(n_points));
 
     AssertThrow(file.names("points").size() == points.columns().size(),
                 ExcUser("In '" + file.path().string() +
-                        "' the points have other columns than now. Resume "
-                        "with the version of talus that wrote it."));
+                        "' the points have different columns from this version "
+                        "of talus. Resume with the version of talus that wrote "
+                        "the file."));
     const std::uint64_t first = file.first_and_total(points.size()).first;
     for (const Column &column : points.columns())
       load_column(file, column, first, points);
@@ -193,8 +194,9 @@ namespace talus
 
 
 
-  /// Each rank's share by itself, not the sum: on the same number of ranks
-  /// every rank gets its own back, and with it the same round-off. Collective.
+  /// The value of each rank is saved, not the sum: with the same number of
+  /// ranks every rank gets its own value back with identical round-off.
+  /// Collective.
   void
   save_state(Hdf5OutputFile &file, const StateList &list)
   {
@@ -211,8 +213,7 @@ namespace talus
         std::vector<double>      shares;
         for (const std::vector<double> &numbers : of_ranks)
           shares.push_back(numbers[i]);
-        // After the exchange all ranks know all shares: one message for all
-        // numbers.
+        // After a single exchange of all numbers, all ranks know all values.
         file.write_known(name, shares);
         file.set_attribute(name, "unit", number.unit);
         file.set_attribute(name, "over ranks", name_of(number.reduction));
@@ -232,9 +233,8 @@ namespace talus
 
 
 
-  /// What a share becomes on another number of ranks is the business of
-  /// restored_share(): sums and maxima of the whole run stay what they were.
-  /// Collective.
+  /// restored_share() computes the values for another number of ranks: sums and
+  /// maxima of the whole run are unchanged. Collective.
   void
   load_state(Hdf5InputFile &file, const StateList &list)
   {
@@ -244,8 +244,7 @@ namespace talus
     const std::uint64_t n_ranks_then = file.integer_attribute("/", "ranks");
     for (const StateList::Number &number : list.numbers())
       {
-        // A number that this program has and the file has not ends in
-        // check_read().
+        // check_read() throws if the file lacks a number of this program.
         const std::vector<double> shares =
           file.read("state/" + number.name, 0, n_ranks_then);
         check_read(file);
@@ -266,8 +265,9 @@ namespace talus
         AssertThrow(shape.second == table.n_columns,
                     ExcUser("In '" + file.path().string() + "' the table '" +
                             table.name +
-                            "' has another number of columns than now. Resume "
-                            "with the version of talus that wrote it."));
+                            "' has a different number of columns from this "
+                            "version of talus. Resume with the version of "
+                            "talus that wrote the file."));
         table.set(rows);
       }
   }
@@ -286,9 +286,9 @@ namespace talus
 
 
 
-  /// Sorted, as the order of a folder is nobody's promise. What others put
-  /// there, as a user's notes or what a file system keeps of a file that was
-  /// removed while it was open, does not count.
+  /// Sorted, since the order of directory entries is undefined. Other files in
+  /// the folder, such as notes of the user or remains of removed open files,
+  /// are ignored.
   std::string
   mesh_checksums(const std::filesystem::path &checkpoint)
   {
@@ -312,9 +312,9 @@ namespace talus
     AssertThrow(file.error().empty(),
                 ExcUser("The checkpoint file '" + file.path().string() +
                         "' cannot be used: " + file.error() +
-                        ". Resume with the version of talus that wrote it, or "
-                        "remove this checkpoint so that the one before it is "
-                        "used."));
+                        ". Resume with the version of talus that wrote the "
+                        "file, or remove the checkpoint, so that the previous "
+                        "one is used."));
   }
 
 

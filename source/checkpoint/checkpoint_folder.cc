@@ -18,11 +18,10 @@ namespace talus
   {
     const std::string part_ending = ".part";
 
-    /// As many digits as keep the order of the names that of the steps.
+    /// Enough digits that the names sort in the order of the steps.
     constexpr unsigned int n_digits = 10;
 
-    /// In a folder of their own, so that nothing else in the output folder is
-    /// touched.
+    /// Folder of all checkpoints, separate from other output.
     fs::path
     folder_of_all(const fs::path &output_folder)
     {
@@ -31,7 +30,7 @@ namespace talus
 
 
 
-    /// The files of a checkpoint: the state, and what deal.II writes of a mesh.
+    /// Whether @p name is a file of a checkpoint: the state, or part of a mesh.
     bool
     is_written_by_us(const std::string &name)
     {
@@ -40,9 +39,9 @@ namespace talus
 
 
 
-    /// Open MPI keeps the file pointer that all ranks share in a hidden file
-    /// (".mesh.shfp.<job>.<number>") beside each file that it has open; it
-    /// stays if the run is killed at that moment.
+    /// Whether @p path is a file of a checkpoint or a hidden file of Open MPI
+    /// (".mesh.shfp.<job>.<number>"). Open MPI keeps the shared file pointer of
+    /// an open file in a hidden file, which remains if the run is killed.
     bool
     is_file_of_checkpoint(const fs::path &path)
     {
@@ -55,12 +54,12 @@ namespace talus
 
 
 
-    /// What is in a folder; nothing if there is no such folder.
+    /// List the entries of a folder; empty if the folder does not exist.
     std::vector<fs::path>
     content(const fs::path &folder)
     {
-      // Without exceptions: a folder that is not there, or goes meanwhile, has
-      // nothing.
+      // Without exceptions: a missing folder, also one removed meanwhile, is
+      // empty.
       std::vector<fs::path> result;
       std::error_code       error;
       for (fs::directory_iterator entry(folder, error), end;
@@ -72,9 +71,9 @@ namespace talus
 
 
 
-    /// Whether @p path may be a checkpoint, by @p name: that of a step as
-    /// checkpoint_path() makes it, and files of ours within, or none. Anything
-    /// else in the folder is somebody else's, and stays as it is.
+    /// Whether @p path may be a checkpoint: @p name is a step as in
+    /// checkpoint_path(), and the folder contains files of a checkpoint or no
+    /// files. All other folders belong to the user.
     bool
     is_checkpoint(const fs::path &path, const std::string &name)
     {
@@ -100,9 +99,9 @@ namespace talus
 
 
 
-    /// Remove a checkpoint but for what others have put into its folder. The
-    /// state goes first: without it a half-removed one is damaged, and is no
-    /// checkpoint once the mesh has gone, too.
+    /// Remove the files of a checkpoint, and the folder if it is empty then.
+    /// The state is removed first: a partly removed checkpoint without state is
+    /// damaged, and without the mesh it is no checkpoint any more.
     std::error_code
     remove_checkpoint(const fs::path &path)
     {
@@ -121,9 +120,9 @@ namespace talus
 
 
 
-    /// Into a folder that is there, as others have files in it, and may not be
-    /// replaced. The state comes last: until then it is damaged, as one is that
-    /// is removed half.
+    /// Move files into an existing folder that must not be replaced, because it
+    /// contains files of the user. The state is moved last: until then the
+    /// checkpoint is damaged, like a partly removed one.
     std::error_code
     move_files(const fs::path &from, const fs::path &to)
     {
@@ -150,7 +149,8 @@ namespace talus
 
 
 
-    /// All ranks must see the same, whatever their file systems show them.
+    /// All ranks get the list of the first rank, since file systems may show
+    /// different states.
     std::vector<fs::path>
     list_for_all_ranks(const fs::path &output_folder,
                        const MPI_Comm  communicator)
@@ -165,7 +165,8 @@ namespace talus
 
 
 
-    /// Throw where no older checkpoint would do either.
+    /// Throw ExcUser if format or dimension is wrong, which older checkpoints
+    /// could not repair.
     void
     check_kind(const fs::path       &checkpoint,
                const CheckpointHead &head,
@@ -179,7 +180,7 @@ namespace talus
                                ", but this talus reads version ",
                                checkpoint_format,
                                ". Resume with the version of talus that wrote "
-                               "it.")));
+                               "the checkpoint.")));
       AssertThrow(head.dimension == dimension,
                   ExcUser(text("The checkpoint '",
                                checkpoint.string(),
@@ -187,8 +188,8 @@ namespace talus
                                head.dimension,
                                ", but Dimension = ",
                                dimension,
-                               " was given. Give the parameters of that run, "
-                               "or another output folder.")));
+                               " was given. Use the parameters of the run to "
+                               "resume, or another output folder.")));
     }
   } // namespace
 
@@ -210,7 +211,7 @@ namespace talus
 
 
 
-  /// By name, which has leading zeros, so that the greatest is the newest.
+  /// Sorted by name, which has leading zeros: the greatest is the newest.
   std::vector<fs::path>
   find_checkpoints(const fs::path &output_folder)
   {
@@ -240,7 +241,7 @@ namespace talus
     const fs::path  part  = temporary_path(checkpoint);
     std::error_code error = remove_checkpoint(part);
     if (!error && fs::exists(part, error))
-      return text("'", part.string(), "' is there and no checkpoint");
+      return text("'", part.string(), "' exists and is not a checkpoint");
     if (!error)
       fs::create_directories(part, error);
     return error ? error.message() : "";
@@ -248,7 +249,7 @@ namespace talus
 
 
 
-  /// First the content of the files, then their names.
+  /// Flush the content of the files first, then the directory entries.
   std::string
   sync_folder(const fs::path &folder)
   {
@@ -260,13 +261,13 @@ namespace talus
 
 
 
-  /// A rename is on the disk only when the folder is, and that folder may
-  /// itself be new in the output folder: so both are synced.
+  /// A rename is on disk only after the folder is flushed. The folder itself
+  /// may be new in the output folder, so both are flushed.
   std::string
   commit(const fs::path &checkpoint)
   {
-    // One of the same step is there if it was damaged and the run resumed from
-    // the one before.
+    // A damaged checkpoint of the same step exists if the run resumed from the
+    // previous checkpoint.
     const fs::path  part  = temporary_path(checkpoint);
     std::error_code error = remove_checkpoint(checkpoint);
     std::error_code ignored;
@@ -291,7 +292,7 @@ namespace talus
     for (const fs::path &path : find_checkpoints(output_folder))
       if (std::find(kept.begin(), kept.end(), path) == kept.end())
         {
-          // Under another name first: a half-removed one is none.
+          // Renamed first: a partly removed checkpoint must not count as one.
           const fs::path part =
             has_foreign_files(path) ? path : temporary_path(path);
           fs::rename(path, part, ignored);
@@ -301,9 +302,9 @@ namespace talus
 
 
 
-  /// From the newest on; one that is damaged (as a copy that was cut off) is
-  /// noted for the log and the one before it is tried. Another format or
-  /// dimension ends the search: older ones are of the same run.
+  /// Checkpoints are tried from the newest on; damaged ones (such as incomplete
+  /// copies) are listed for the log. Another format or dimension ends the
+  /// search: older checkpoints are of the same run.
   FoundCheckpoint
   find_checkpoint(const fs::path    &output_folder,
                   const unsigned int dimension,
@@ -335,16 +336,16 @@ namespace talus
                         "' to resume from. Name the output folder of the "
                         "run with Output/Folder or --output, or start the "
                         "run without --resume."
-                    : all + "There is no other one to resume from. Start "
-                            "the run anew with --overwrite."));
+                    : all + "There is no other checkpoint to resume from. "
+                            "Start a new run with --overwrite."));
     return found;
   }
 
 
 
-  /// The newest one tells: a run that reached its end has a checkpoint at that
-  /// time, if it was asked for. One that cannot be read counts as unfinished,
-  /// since nobody knows what it holds.
+  /// The newest checkpoint decides: a finished run has a checkpoint at its end
+  /// time, if requested. An unreadable checkpoint counts as unfinished, since
+  /// its content is unknown.
   void
   check_nothing_unfinished(const fs::path &output_folder,
                            const MPI_Comm  communicator)
@@ -367,8 +368,7 @@ namespace talus
         is_readable
           ? text("at t = ", head.time, " s of a run to ", head.end_time, " s")
           : "of a run, which cannot be read",
-        ". Go on with that run with --resume, or start "
-        "anew over it with --overwrite, or choose another "
-        "folder with --output.")));
+        ". Continue the run with --resume, or overwrite it with --overwrite, "
+        "or choose another folder with --output.")));
   }
 } // namespace talus

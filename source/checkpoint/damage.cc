@@ -17,13 +17,13 @@ namespace talus
 
   namespace
   {
-    /// Every value that would be loaded against its checksum: costs one reading
-    /// of the file.
+    /// Compare every value to be loaded with its checksum, in one pass over the
+    /// file.
     void
     verify_all(Hdf5InputFile &file)
     {
       std::vector<std::string> groups = {"cells", "points", "state", "text"};
-      // Runs without obstacles have none.
+      // Runs without obstacles have no tables.
       const std::vector<std::string> all = file.names("/");
       if (std::count(all.begin(), all.end(), "tables") > 0)
         groups.push_back("tables");
@@ -36,8 +36,8 @@ namespace talus
 
 
 
-    /// The attributes have no checksums of their own. The folder has the step as
-    /// its name.
+    /// Check the attributes, which have no checksums. The name of the folder is
+    /// the step.
     std::string
     fault_of(const CheckpointHead        &head,
              const std::filesystem::path &checkpoint)
@@ -50,14 +50,14 @@ namespace talus
       if (checkpoint_path({}, head.step).filename() != checkpoint.filename())
         return text("it is of step ",
                     head.step,
-                    ", where that of its name was expected");
+                    ", but the name of its folder is another step");
       return "";
     }
 
 
 
-    /// The body of each point is the number of one. How many there are, only the
-    /// parameters tell.
+    /// Check that the body of each point is a valid index. The number of bodies
+    /// is known from the parameters only.
     std::string
     fault_of_bodies(Hdf5InputFile &file)
     {
@@ -79,16 +79,17 @@ namespace talus
         if (!(body >= 0. && body < n_bodies && body == std::floor(body)))
           return text("a point is of body ",
                       body,
-                      ", where there are ",
+                      ", but there are ",
                       n_bodies,
-                      ", counted from 0");
+                      " bodies, counted from 0");
       return "";
     }
 
 
 
-    /// Numbers of points per cell are whole, weights are positive or 0. Returns
-    /// the sum of the rows that this rank looks at, or NaN.
+    /// Check that numbers of points per cell are whole and weights finite and
+    /// not negative. Return the sum of the numbers of points in the rows read
+    /// by this rank, or NaN.
     double
     sum_of_counts(Hdf5InputFile &file, const std::uint64_t n_cells)
     {
@@ -115,9 +116,8 @@ namespace talus
 
 
 
-    /// Whether all arrays are as long as they have to be: those of the cells
-    /// alike, those of the points as the cells have points, and a share of each
-    /// rank in the numbers.
+    /// Check the lengths of all arrays: equal for arrays of cells, the number
+    /// of points for columns, the number of ranks for numbers of the state.
     std::string
     fault_of_extents(Hdf5InputFile &file, const std::uint64_t n_ranks)
     {
@@ -127,8 +127,8 @@ namespace talus
       if (!file.error().empty())
         return file.error();
       if (std::isnan(n_points) || file.shape("cells/weight").first != n_cells)
-        return "the numbers of points per cell, or the weights of the cells, "
-               "cannot be such";
+        return "the numbers of points per cell or the weights of the cells are "
+               "impossible";
       for (const auto &[group, expected] :
            {std::pair<std::string, double>("points", n_points),
             std::pair<std::string, double>("state", n_ranks)})
@@ -141,17 +141,18 @@ namespace talus
                         name,
                         "' has ",
                         n,
-                        " rows, where ",
+                        " rows; ",
                         expected,
-                        " were expected");
+                        " expected");
       return file.error();
     }
   } // namespace
 
 
 
-  /// All is looked at before anything is used: a damaged checkpoint is then left
-  /// for the one before it. The mesh files are looked at by the first rank only.
+  /// Everything is checked before anything is used: instead of a damaged
+  /// checkpoint the previous one is loaded. Only the first rank reads the mesh
+  /// files.
   std::string
   find_damage(Hdf5InputFile &file, const CheckpointHead &head)
   {
@@ -163,7 +164,7 @@ namespace talus
       error = fault_of(head, checkpoint);
     if (error.empty())
       error = fault_of_extents(file, head.n_ranks);
-    // Extents are told to all ranks alike, so that all of them come here.
+    // Errors in extents are identical on all ranks, so all ranks continue here.
     if (error.empty())
       error = fault_of_bodies(file);
     if (error.empty() && is_first_rank(file.communicator()) &&

@@ -20,10 +20,9 @@ namespace talus
   {
     using Values = std::map<std::string, std::string>;
 
-    /// Values by path, "Section/Subsection/Entry".
-    /// deal.II's own parser would need the declarations of the program that
-    /// wrote the text; here both texts come from print_parameters(), whose form
-    /// is simple.
+    /// Read values by path, "Section/Subsection/Entry". deal.II's parser would
+    /// need the declarations of the program that wrote the text; both texts
+    /// come from print_parameters(), whose format is simple.
     Values
     read_parameters(const std::string &parameters)
     {
@@ -52,17 +51,17 @@ namespace talus
 
 
 
-    /// Whether the state of the run does not depend on it.
-    /// By name, and all others are not: a new parameter is refused until
-    /// somebody has thought about it.
+    /// Whether the state of the run is independent of a parameter. Harmless
+    /// parameters are listed by name: a new parameter is relevant until added
+    /// here.
     bool
     is_harmless(const std::string &path)
     {
-      // A series of files has one index, which knows one format.
-      // The columns of a table cannot change.
+      // A series of files has one index with one format, and a table cannot
+      // change its columns.
       if (path == "Output/Format" || path == "Output/Runout")
         return false;
-      // A run may be continued to a later time, and to more points.
+      // A run may continue to a later time and to more points.
       for (const std::string name :
            {"Title",
             "End time",
@@ -79,7 +78,8 @@ namespace talus
 
 
 
-    /// 1e-3 is 0.001, and blanks around separators do not count.
+    /// Normal form of a value for comparison: 1e-3 equals 0.001, and blanks
+    /// around separators are ignored.
     std::string
     normal_form(const std::string &value)
     {
@@ -99,8 +99,9 @@ namespace talus
 
 
 
-    /// Stages that are done may be followed by dynamics. (Strength reduction
-    /// needs a column of the points that others do not have.)
+    /// Whether the only difference is an added stage 'dynamics' at the end.
+    /// (Strength reduction cannot be added: it needs an additional column of
+    /// the points.)
     bool
     adds_dynamics(const std::string &path,
                   const std::string &before,
@@ -112,8 +113,8 @@ namespace talus
 
 
 
-    /// As the message says it: an entry that another version did not have has
-    /// no value.
+    /// Value for the message: "no value" for an entry that another version did
+    /// not have.
     std::string
     value_of(const Values &values, const std::string &path)
     {
@@ -134,11 +135,11 @@ namespace talus
 
 
 
-  /// Over the names of both: a parameter that only one of them has differs,
-  /// too. These come last: they follow from another one, as those of a law do
-  /// from its name, and that is what the user has changed. What state depends on
-  /// must not change on the way, or the result would be that of neither
-  /// parameter file.
+  /// Parameters in only one of the two texts count as different. They are
+  /// compared last: they usually follow from another parameter, as the
+  /// parameters of a law from its name, and the message should name the
+  /// parameter changed by the user. Parameters that affect the state must not
+  /// change, otherwise the result would match neither parameter file.
   void
   check_parameter_changes(const std::string &saved, const std::string &now)
   {
@@ -159,8 +160,8 @@ namespace talus
                       is_harmless(path) || adds_dynamics(path, before, after),
                     ExcUser("The parameter '" + path + "' is '" + after +
                             "', but in the run to resume it was '" + before +
-                            "'. Give it the value of that run, or start anew "
-                            "in another folder."));
+                            "'. Restore the value, or start a new run in "
+                            "another folder."));
       }
   }
 } // namespace talus

@@ -16,70 +16,71 @@
 
 namespace talus
 {
-  /// Writes checkpoints, from which a run can go on as if nothing had happened:
-  /// a folder `checkpoints/STEP` in the output folder, with the points and all
-  /// other state in `state.h5` and the mesh in files of p4est beside it.
-  /// Writing one changes nothing in the run. A checkpoint has its name only
-  /// when it is complete and on the disk; the newest two are kept.
+  /// Writes checkpoints, from which a run continues with bit-identical results:
+  /// a folder `checkpoints/STEP` in the output folder, with points and all
+  /// other state in `state.h5` and the mesh in files of p4est. Writing does not
+  /// change the run. A checkpoint gets its name only after it is complete and
+  /// on disk; the newest two are kept.
   template <int dim>
   class Checkpoint : public dealii::ParameterAcceptor
   {
   public:
     Checkpoint();
 
-    /// Let a run start anew over the checkpoints of an unfinished one.
+    /// Let a new run overwrite the checkpoints of an unfinished run.
     void
     allow_overwriting()
     {
       may_overwrite_ = true;
     }
 
-    /// Throw ExcUser if the folder holds the checkpoint of an unfinished run,
-    /// unless that may be overwritten. Collective.
+    /// Throw ExcUser if the folder holds a checkpoint of an unfinished run,
+    /// unless allow_overwriting() was called. Collective.
     void
     check_nothing_is_lost(const std::filesystem::path &output_folder,
                           MPI_Comm                     communicator) const;
 
-    /// Start the clock. Checkpoints of an earlier run are removed; a run that
-    /// resumes from @p resumed_from keeps that one, the one before it and
-    /// those, damaged ones, after it. What is half-written goes.
+    /// Start the clock, and remove checkpoints of an earlier run and incomplete
+    /// checkpoints. A run resumed from @p resumed_from keeps the checkpoint,
+    /// the previous one, and newer checkpoints, which are damaged.
     void
     begin(const std::filesystem::path &output_folder,
           MPI_Comm                     communicator,
           const std::filesystem::path &resumed_from = {});
 
-    /// Whether one is due after step @p step. Only the first rank looks at the
-    /// clock, so the ranks must agree on what comes of it.
+    /// Whether a checkpoint is due after step @p step. The wall time counts on
+    /// the first rank only, so ranks must agree on the result.
     bool
     is_due(unsigned long step) const;
 
-    /// Whether the run has taken as long as it may; on the first rank only.
+    /// Whether the wall time limit is reached; always false on all but the
+    /// first rank.
     bool
     limit_is_reached() const;
 
-    /// Whether one is wanted at the end of the run.
+    /// Whether a checkpoint is written at the end of the run.
     bool
     is_wanted_at_the_end() const
     {
       return at_the_end_;
     }
 
-    /// What is saved besides the mesh.
+    /// Content of a checkpoint besides the mesh.
     struct Content
     {
       const Points<dim> &points; ///< sorted
-      /// Of each cell this rank owns, at the last repartition.
+      /// Weight of each owned cell at the last repartition.
       const std::vector<double> &cell_weights;
       const StateList           &state;
-      const std::string         &parameters; ///< as understood
+      const std::string         &parameters; ///< in their final form
       unsigned long              step;
       double                     time;     ///< s
       double                     end_time; ///< s
     };
 
-    /// Write one, remove all but this one and the one before, and return its
-    /// path. Throws ExcUser if that fails; then the earlier ones are still
-    /// there. Collective.
+    /// Write a checkpoint, remove all but this and the previous checkpoint, and
+    /// return the path. Throws ExcUser if writing fails; earlier checkpoints
+    /// remain. Collective.
     std::filesystem::path
     write(const Content &content, const Grid<dim> &grid);
 
@@ -92,7 +93,7 @@ namespace talus
     void
     write_mesh(const std::filesystem::path &folder,
                const Grid<dim>             &grid) const;
-    /// Throw ExcUser, on all ranks, if there is an error on any.
+    /// Throw ExcUser on all ranks if @p error is not empty on any rank.
     void
     check_on_all_ranks(const std::string &error) const;
 
@@ -107,7 +108,7 @@ namespace talus
     MPI_Comm              communicator_ = MPI_COMM_WORLD;
     Clock::time_point     start_        = Clock::now();
     Clock::time_point     last_time_    = start_;
-    std::filesystem::path last_; // empty if there is none
+    std::filesystem::path last_; // empty if none
   };
 } // namespace talus
 

@@ -13,17 +13,17 @@
 
 namespace talus
 {
-  // What is in a checkpoint: the mesh in files of p4est, all else in the file
-  // `state.h5`; see doc/output.md.
+  // Content of a checkpoint: the mesh in files of p4est, everything else in the
+  // file `state.h5`; see doc/output.md.
 
   constexpr const char *state_file_name = "state.h5";
   constexpr const char *mesh_file_name  = "mesh";
 
-  /// To be raised when a talus of today could not read the file of tomorrow, or
-  /// the other way round.
+  /// Version of the file format. Increase when old and new versions of talus
+  /// cannot read each other's files.
   constexpr std::uint64_t checkpoint_format = 6;
 
-  /// What one wants to know of a checkpoint first: attributes of the file.
+  /// Summary of a checkpoint: attributes of the file.
   struct CheckpointHead
   {
     std::uint64_t format    = checkpoint_format;
@@ -31,62 +31,64 @@ namespace talus
     std::uint64_t n_ranks   = 0;
     std::uint64_t step      = 0;
     double        time      = 0; ///< s
-    double        end_time  = 0; ///< of the run as it was planned, s
+    double        end_time  = 0; ///< planned end of the run, s
     std::string   version;       ///< of talus
-    std::string   revision;      ///< git's
+    std::string   revision;      ///< of git
   };
 
   void
   save_head(Hdf5OutputFile &file, const CheckpointHead &head);
 
-  /// Where the file has another format only that is right.
+  /// Load the summary. If the format differs, all other fields are undefined.
   CheckpointHead
   load_head(Hdf5InputFile &file);
 
 
 
-  /// Save the points, sorted, and for each cell that this rank owns the number
-  /// of its points and its weight at the last repartition. All are in the order
-  /// of the cells, those of the first rank first.
+  /// Save the sorted points, and for each owned cell the number of points and
+  /// the weight at the last repartition. Rows are in the order of the cells,
+  /// ranks in ascending order. Collective.
   template <int dim>
   void
   save_points(Hdf5OutputFile            &file,
               const Points<dim>         &points,
               const std::vector<double> &cell_weights);
 
-  /// Load the weights of the @p n_cells cells this rank owns now.
+  /// Load the weights of the @p n_cells cells owned by this rank.
   std::vector<double>
   load_cell_weights(Hdf5InputFile &file, unsigned int n_cells);
 
-  /// Load the points of the @p n_cells cells this rank owns now, in the order
-  /// they had, which is part of the state. Returns the cell of each; @p points
-  /// must be empty and have its columns. Throws ExcUser if the file has others.
+  /// Load the points of the @p n_cells cells owned by this rank, in their saved
+  /// order, which is part of the state. @p points must be empty and have all
+  /// columns. Return the cell of each point. Throws ExcUser if the columns in
+  /// the file differ. Collective.
   template <int dim>
   std::vector<unsigned int>
   load_points(Hdf5InputFile &file, unsigned int n_cells, Points<dim> &points);
 
 
 
-  /// Save every rank's share of the numbers, and the texts.
+  /// Save numbers of every rank, texts and tables. Collective.
   void
   save_state(Hdf5OutputFile &file, const StateList &list);
 
-  /// Set what save_state() saved. Throws ExcUser if something is missing.
+  /// Load the values saved by save_state(). Throws ExcUser if a value is
+  /// missing. Collective.
   void
   load_state(Hdf5InputFile &file, const StateList &list);
 
 
 
-  /// Whether deal.II gives a file of the mesh this name.
+  /// Whether deal.II uses @p name for a file of the mesh.
   bool
   is_mesh_file(const std::string &name);
 
-  /// Names and checksums of the mesh files in a checkpoint, one per line; to be
-  /// called on one rank.
+  /// Names and checksums of the mesh files in a checkpoint, one per line. Call
+  /// on one rank only.
   std::string
   mesh_checksums(const std::filesystem::path &checkpoint);
 
-  /// Throw ExcUser if the file could not be read.
+  /// Throw ExcUser if reading the file failed.
   void
   check_read(const Hdf5InputFile &file);
 } // namespace talus

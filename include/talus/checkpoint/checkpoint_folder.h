@@ -13,63 +13,63 @@
 namespace talus
 {
   // A checkpoint is a folder `checkpoints/STEP` in the output folder. It is
-  // written under another name and renamed when it is complete and on the disk,
-  // so that whatever has a proper name is whole. Only such folders, with files of
-  // a checkpoint in them, are looked at, and only those files are ever removed:
-  // what else lies there is the user's. Unless said otherwise one rank
-  // calls what follows; functions that may fail return why, empty if they did
-  // not.
+  // written under a temporary name and renamed when complete and on disk, so a
+  // folder with a proper name is complete. Only folders with files of a
+  // checkpoint are considered, and only files of checkpoints are ever removed:
+  // all other files belong to the user. Unless stated otherwise the functions
+  // below are called on one rank; functions that can fail return an error
+  // message, empty on success.
 
-  /// The folder of the checkpoint of step @p step.
+  /// Folder of the checkpoint of step @p step.
   std::filesystem::path
   checkpoint_path(const std::filesystem::path &output_folder,
                   unsigned long                step);
 
-  /// Where that checkpoint is written.
+  /// Folder in which @p checkpoint is written before its renaming.
   std::filesystem::path
   temporary_path(const std::filesystem::path &checkpoint);
 
-  /// All checkpoints, the newest first, without what was left half-written.
+  /// All complete checkpoints, newest first.
   std::vector<std::filesystem::path>
   find_checkpoints(const std::filesystem::path &output_folder);
 
-  /// Remove what a killed run left half-written.
+  /// Remove the incomplete checkpoints of a killed run.
   void
   remove_unfinished(const std::filesystem::path &output_folder);
 
-  /// Make the empty folder temporary_path(@p checkpoint).
+  /// Create the empty folder temporary_path(@p checkpoint).
   std::string
   make_temporary_folder(const std::filesystem::path &checkpoint);
 
-  /// Bring all files in a folder, and their names, to the disk.
+  /// Write all files in a folder, and the directory entries, to disk.
   std::string
   sync_folder(const std::filesystem::path &folder);
 
-  /// Give the complete checkpoint its name.
+  /// Rename the complete temporary folder to @p checkpoint.
   std::string
   commit(const std::filesystem::path &checkpoint);
 
-  /// Remove all checkpoints but these.
+  /// Remove all checkpoints except those in @p kept.
   void
   remove_checkpoints_but(const std::filesystem::path &output_folder,
                          const std::vector<std::filesystem::path> &kept);
 
 
 
-  /// A checkpoint that can be loaded.
+  /// Checkpoint that can be loaded.
   struct FoundCheckpoint
   {
     std::filesystem::path path;
     CheckpointHead        head;
-    /// One sentence for each newer one that is damaged.
+    /// A sentence for each newer, damaged checkpoint.
     std::vector<std::string> errors;
   };
 
 
 
-  /// The newest checkpoint in the output folder whose content agrees with its
-  /// checksums. Throws ExcUser if there is none, or if it is of another format
-  /// or dimension. Collective.
+  /// Find the newest checkpoint in the output folder whose content matches its
+  /// checksums. Throws ExcUser if none exists, or if format or dimension
+  /// differ. Collective.
   FoundCheckpoint
   find_checkpoint(const std::filesystem::path &output_folder,
                   unsigned int                 dimension,
@@ -77,9 +77,9 @@ namespace talus
 
 
 
-  /// Throw ExcUser if the output folder holds the checkpoint of a run that did
-  /// not reach its end: days of computing are not to be overwritten by a
-  /// forgotten --resume. Collective.
+  /// Throw ExcUser if the output folder holds a checkpoint of an unfinished
+  /// run: a forgotten --resume must not overwrite days of computing.
+  /// Collective.
   void
   check_nothing_unfinished(const std::filesystem::path &output_folder,
                            MPI_Comm                     communicator);

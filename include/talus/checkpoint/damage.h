@@ -6,9 +6,9 @@
 
 namespace talus
 {
-  /// What is wrong with the checkpoint of which this is the state: with its
-  /// checksums, its extents, or numbers that no run can have had; empty if
-  /// nothing is. Collective.
+  /// Return a description of the damage of a checkpoint with the state file
+  /// @p file: wrong checksums, wrong extents, or impossible numbers; empty if
+  /// there is no damage. Collective.
   std::string
   find_damage(Hdf5InputFile &file, const CheckpointHead &head);
 } // namespace talus

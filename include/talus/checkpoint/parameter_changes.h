@@ -6,16 +6,16 @@
 
 namespace talus
 {
-  /// The value of the parameter "Section/Subsection/Entry" in a text in the
-  /// language of parameter files, as a run has written it; empty without one.
+  /// Return the value of the parameter "Section/Subsection/Entry" in
+  /// @p parameters, a parameter file as written by a run; empty if missing.
   std::string
   parameter_in(const std::string &parameters, const std::string &path);
 
-  /// Compare the parameters of a checkpoint with those of the run that is to go
-  /// on from it, both in the language of parameter files. Throws ExcUser,
-  /// naming the first one that differs, unless all that differ are harmless: the
-  /// title, the end time, the limit on the number of points, and those of
-  /// output, checkpoints and load balance; or a stage 'dynamics' was added.
+  /// Compare the parameters of a checkpoint, @p saved, with the parameters of
+  /// the run to be resumed, @p now; both as parameter files. Throws ExcUser
+  /// with the first relevant difference. Allowed are differences in the title,
+  /// end time, end at rest, maximum number of points, in output (except format
+  /// and runout), checkpoints and load balance, and an added stage 'dynamics'.
   void
   check_parameter_changes(const std::string &saved, const std::string &now);
 } // namespace talus

@@ -224,7 +224,8 @@ namespace
     flip_a_bit(newest / "mesh");
     flip_a_bit(previous / "mesh.info");
     const std::string sentence = sentence_thrown_by([&]() { find(); });
-    EXPECT_NE(sentence.find("no other one"), std::string::npos) << sentence;
+    EXPECT_NE(sentence.find("no other checkpoint"), std::string::npos)
+      << sentence;
     EXPECT_NE(sentence.find("mesh"), std::string::npos) << sentence;
     EXPECT_NE(sentence.find(previous.string()), std::string::npos) << sentence;
   }
