@@ -286,9 +286,9 @@ namespace talus
 
 
 
-  /// Sorted, since the order of directory entries is undefined. Other files in
-  /// the folder, such as notes of the user or remains of removed open files,
-  /// are ignored.
+  /// Names are sorted, since the order of directory entries is undefined. Other
+  /// files in the folder are ignored: notes of the user, remains of open files
+  /// removed on a network file system.
   std::string
   mesh_checksums(const std::filesystem::path &checkpoint)
   {

@@ -211,7 +211,7 @@ namespace talus
 
 
 
-  /// Sorted by name, which has leading zeros: the greatest is the newest.
+  /// Names have leading zeros: the greatest name is the newest checkpoint.
   std::vector<fs::path>
   find_checkpoints(const fs::path &output_folder)
   {

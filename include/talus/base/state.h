@@ -147,8 +147,11 @@ namespace talus
 
 
 
-  /// Return the value of rank @p rank from the saved values @p shares of all
-  /// ranks. With the same number of ranks each rank gets its own value.
+  /// Return the value of rank @p rank out of @p n_ranks after a restart. With
+  /// the same number of ranks each rank gets its own value.
+  ///
+  /// @param shares saved values of all ranks
+  /// @param reduction relation between the values
   inline double
   restored_share(const std::vector<double> &shares,
                  const Reduction            reduction,

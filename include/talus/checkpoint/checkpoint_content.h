@@ -45,9 +45,11 @@ namespace talus
 
 
 
-  /// Save the sorted points, and for each owned cell the number of points and
-  /// the weight at the last repartition. Rows are in the order of the cells,
-  /// ranks in ascending order. Collective.
+  /// Save the sorted points and, for each owned cell, number of points and
+  /// weight. Rows are in the order of the cells, ranks in ascending order.
+  /// Collective.
+  ///
+  /// @param cell_weights weights of the owned cells at the last repartition
   template <int dim>
   void
   save_points(Hdf5OutputFile            &file,
@@ -58,10 +60,13 @@ namespace talus
   std::vector<double>
   load_cell_weights(Hdf5InputFile &file, unsigned int n_cells);
 
-  /// Load the points of the @p n_cells cells owned by this rank, in their saved
-  /// order, which is part of the state. @p points must be empty and have all
-  /// columns. Return the cell of each point. Throws ExcUser if the columns in
-  /// the file differ. Collective.
+  /// Load the points of the cells owned by this rank in their saved order,
+  /// which is part of the state. Throws ExcUser if the columns in the file
+  /// differ. Collective.
+  ///
+  /// @param n_cells number of owned cells
+  /// @param points must be empty and have all columns
+  /// @return cell of each point
   template <int dim>
   std::vector<unsigned int>
   load_points(Hdf5InputFile &file, unsigned int n_cells, Points<dim> &points);

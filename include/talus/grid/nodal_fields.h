@@ -90,8 +90,12 @@ namespace talus
     void
     add_force(unsigned int node, const dealii::Tensor<1, dim> &force);
 
-    /// Add the contribution of a point to the sums of a node: mass, kg,
-    /// reference volume, m^dim, momentum, kg m/s, and force, N.
+    /// Add the contribution of a point to the sums of a node.
+    ///
+    /// @param mass kg
+    /// @param volume reference volume, m^dim
+    /// @param momentum kg m/s
+    /// @param force N
     void
     add_sums(unsigned int                  node,
              double                        mass,

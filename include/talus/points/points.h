@@ -84,8 +84,11 @@ namespace talus
     Points();
 
     /// Add a column filled with zeros, or find the column with the same name.
-    /// Return the index of the first scalar array. Throws if a column of the
-    /// same name has another shape.
+    /// Throws if a column of the same name has another shape.
+    ///
+    /// @param unit "-" if dimensionless
+    /// @param inheritance see Inheritance
+    /// @return index of the first scalar array
     unsigned int
     add_column(const std::string &name,
                const std::string &unit,

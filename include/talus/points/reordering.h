@@ -25,10 +25,12 @@ namespace talus
   class Reordering
   {
   public:
-    /// Compute the order of the points in @p segments without @p departed, with
-    /// the @p changes (sorted by this function) moved to their new segments.
-    /// Within a segment points that stay come first, then changed points by
-    /// index.
+    /// Compute the new order of the points. Within a segment points that stay
+    /// come first, then changed points by index.
+    ///
+    /// @param segments old segments
+    /// @param changes points with their new segments; sorted by this function
+    /// @param departed points that leave this rank or the run
     void
     merge(const std::vector<Segment>      &segments,
           std::vector<CellChange>         &changes,

@@ -9,11 +9,15 @@
 
 namespace talus
 {
-  /// Set the stretch [-] of the points [begin, end) after a step of length
-  /// @p dt, s, from their deformation gradient. With the rule `fixed` the
-  /// weights ignore the stretch and only the splitter reads it: the stretch
-  /// then is exp(integral of D_dd dt), always positive, computed from the
-  /// velocity gradient in @p workspace.
+  /// Update the stretch of the points [begin, end) after a step. The stretch
+  /// follows from the deformation gradient. With the rule `fixed` the weights
+  /// ignore the stretch and only the splitter reads it: the stretch then is
+  /// exp(integral of D_dd dt), always positive.
+  ///
+  /// @param points column `stretch` is updated [-]
+  /// @param workspace velocity gradients of the step, 1/s; read by `fixed` only
+  /// @param rule box rule of the run
+  /// @param dt time step, s
   template <int dim>
   void
   update_stretch(Points<dim>              &points,
@@ -32,9 +36,9 @@ namespace talus
                      unsigned int end,
                      BoxRule      rule);
 
-  /// Edge @p d of the box of point @p p, m, without clipping. A box parallel to
-  /// the axes has the edge stretch times reference length along axis d; a
-  /// convected domain has the edge F e_d times reference length.
+  /// Return edge @p d of the box of point @p p, m, without clipping. A box
+  /// parallel to the axes has the edge stretch times reference length along
+  /// axis d; a convected domain has the edge F e_d times reference length.
   template <int dim>
   dealii::Tensor<1, dim>
   edge_of_box(const Points<dim> &points,

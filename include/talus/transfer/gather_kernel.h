@@ -190,10 +190,14 @@ namespace talus
 
 
 
-    /// Update the points: v_p <- flip (v_p + dv) + (1 - flip) v(x_p),
-    /// x_p <- x_p + dt v(x_p). Write the velocity gradient, 1/s, into
-    /// @p workspace. Return the power of the loads on the points, m b . (mean
-    /// velocity), W.
+    /// Move point(s) @p p: v_p <- flip (v_p + dv) + (1 - flip) v(x_p),
+    /// x_p <- x_p + dt v(x_p).
+    ///
+    /// @param workspace receives the velocity gradient, 1/s
+    /// @param now interpolated motion of the nodes at the point(s)
+    /// @param flip FLIP fraction [-]
+    /// @param dt time step, s
+    /// @return power of the loads on the point(s), m b . (mean velocity), W
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE Number
     move_points(const PointsView<dim>            &points,

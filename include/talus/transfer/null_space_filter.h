@@ -42,8 +42,12 @@ namespace talus
       return scheme_ == "filtered FLIP" && step > 0 && step % interval_ == 0;
     }
 
-    /// Filter velocity and mean stress of all points. Overwrites the sums in
-    /// @p nodes. Collective.
+    /// Filter velocity and mean stress of all points. Collective.
+    ///
+    /// @param workspace scratch space
+    /// @param nodes scratch space; its sums are overwritten
+    /// @param transfer transfer scheme of the run
+    /// @param mass_cutoff see Transfer::mass_cutoff(), kg
     void
     apply(Points<dim>         &points,
           StepWorkspace<dim>  &workspace,

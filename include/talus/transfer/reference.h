@@ -22,7 +22,11 @@ namespace talus
   ///   m_i = sum_p S_ip m_p,  (mv)_i = sum_p S_ip m_p v_p,
   ///   f_i = sum_p S_ip m_p b_p - sum_p V_p sigma'_p . grad S_ip,
   /// where sigma' is the stress with its mean averaged over the cell (B-bar).
-  /// @p room is scratch space for the weights of a point.
+  ///
+  /// @param workspace shifts of the mean stress by B-bar, Pa
+  /// @param loads accelerations b, m/s^2
+  /// @param nodes receives the sums
+  /// @param room scratch space for the weights of a point
   template <int dim>
   void
   scatter_by_definition(const Points<dim>        &points,
@@ -45,8 +49,10 @@ namespace talus
 
 
 
-  /// Interpolate the motion of the nodes to point @p p in cell @p cell. @p room
-  /// is scratch space for the weights.
+  /// Interpolate the motion of the nodes to point @p p in cell @p cell.
+  ///
+  /// @param nodes motion of the nodes, m/s
+  /// @param room scratch space for the weights of the point
   template <int dim>
   MotionByDefinition<dim>
   interpolate_by_definition(const Points<dim>      &points,
@@ -58,11 +64,13 @@ namespace talus
                             NodeWeights<dim>       &room);
 
   /// Move the points of a segment by the motion of the nodes,
-  ///   v_p~<- flip (v_p + sum_i S_ip dv_i) + (1 - flip) sum_i S_ip v_i,
+  ///   v_p <- flip (v_p + sum_i S_ip dv_i) + (1 - flip) sum_i S_ip v_i,
   ///   x_p <- x_p + dt sum_i S_ip v_i,  L_p = sum_i v_i (x) grad S_ip.
-  /// The workspace receives L_p and the indices of the points that left the
-  /// cell. Return the power of the loads, sum_p m_p b_p . sum_i S_ip
-  /// (v_i - dv_i/2), W.
+  ///
+  /// @param flip_fraction flip [-]
+  /// @param dt time step, s
+  /// @param workspace receives L_p, 1/s, and the points that left the cell
+  /// @return power of the loads, sum_p m_p b_p . sum_i S_ip (v_i - dv_i/2), W
   template <int dim>
   double
   gather_by_definition(const NodalFields<dim> &nodes,

@@ -44,11 +44,13 @@ namespace talus
     using Leaves = std::function<bool(unsigned int)>;
 
     /// Do the work of update(), if only the points in @p out_of_cell and
-    /// appended points can have left their cell; see
-    /// StepWorkspace::points_out_of_cell(). The list may be unordered and
-    /// contain duplicates, and is cleared. Points for which @p leaves returns
-    /// true are removed from @p points; an empty @p leaves removes none.
-    /// Collective.
+    /// appended points can have left their cell. Collective.
+    ///
+    /// @param out_of_cell indices in any order, possibly with duplicates; see
+    ///   StepWorkspace::points_out_of_cell(); empty afterwards
+    /// @param leaves if true for a point, the point is removed from @p points;
+    ///   if empty, no point leaves
+    /// @return whether the set of occupied cells changed
     bool
     update_points_out_of_cell(Points<dim>               &points,
                               const Grid<dim>           &grid,

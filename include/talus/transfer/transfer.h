@@ -67,10 +67,13 @@ namespace talus
             const Loads<dim>         &loads,
             NodalFields<dim>         &nodes) const;
 
-    /// Update velocity and position of the points from the motion of the nodes
-    /// over @p dt, s. The workspace receives the velocity gradients and the
-    /// indices of the points that left their cell. Return the work of the
-    /// loads, J.
+    /// Update velocity and position of the points of a batch from the motion of
+    /// the nodes, with the FLIP fraction of the parameters.
+    ///
+    /// @param workspace receives the velocity gradients, 1/s, and the indices
+    ///   of the points that left their cell
+    /// @param dt time step, s
+    /// @return work of the loads, J
     double
     gather(const NodalFields<dim> &nodes,
            const Grid<dim>        &grid,
@@ -84,8 +87,8 @@ namespace talus
         nodes, grid, loads, points, workspace, batch, dt, flip_fraction_);
     }
 
-    /// Overload with a FLIP fraction [-] that replaces the parameter; with 0
-    /// the points receive the velocity of the grid.
+    /// Overload with a FLIP fraction [-] in place of the parameter; with 0 the
+    /// points receive the velocity of the grid.
     double
     gather(const NodalFields<dim> &nodes,
            const Grid<dim>        &grid,

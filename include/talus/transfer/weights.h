@@ -43,8 +43,12 @@ namespace talus
                   const dealii::Tensor<1, dim> &half,
                   std::vector<NodeWeight<dim>> &weights);
 
-  /// Compute the weights of point @p p in cell @p c by definition, for any box
-  /// rule; see general_weights().
+  /// Compute the weights of a point by definition, for any box rule; see
+  /// general_weights().
+  ///
+  /// @param c cell of the point
+  /// @param p index of the point
+  /// @param weights result; previous entries are removed
   template <int dim>
   void
   weights_of_point(const Points<dim>            &points,
