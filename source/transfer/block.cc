@@ -55,7 +55,7 @@ namespace talus
       for_each_bit(outsiders, [&](const unsigned int k) {
         block.outsiders[block.n_outsiders++] = {k, piece.cell};
       });
-      constexpr unsigned int own = (power(4, dim) - 1) / 3; // (1, 1, 1)
+      constexpr unsigned int own   = (power(4, dim) - 1) / 3; // (1, 1, 1)
       auto                  &patch = block.patches[block.n_patches++];
       for (unsigned int i = 0; i < patch.size(); ++i)
         {

@@ -55,7 +55,7 @@ namespace talus
     add_parameter("Mass cut-off",
                   mass_cut_off_,
                   "Nodes with less mass than this fraction of the mass of a "
-                  "full cell are inactive [-]. A large value acts as a wall in "
+                  "full cell do not move [-]. A large value acts as a wall in "
                   "front of the slide.",
                   this->prm,
                   Patterns::Double(0., 1e-3));

@@ -48,9 +48,9 @@ namespace talus
 
     // Precondition of all functions below: the workspace belongs to the batch.
 
-    /// First half of the B-bar pair: store for each point the shift <q> -
-    /// q, Pa, with q = tr_dim(sigma)/dim and <q> the mean over the points of
-    /// the cell, of all bodies that use B-bar. The shift is zero for other
+    /// First half of the B-bar pair: store for each point the shift
+    /// mean(q) - q, Pa, with q = tr_dim(sigma)/dim and the mean over the points
+    /// of the cell, of all bodies that use B-bar. The shift is zero for other
     /// bodies.
     void
     apply_bbar_to_stress(const Points<dim>  &points,
@@ -112,7 +112,7 @@ namespace talus
       return box_shape_;
     }
 
-    /// Mass, kg, below which a node is inactive; for cells of size
+    /// Mass, kg, below which a node does not move; for cells of size
     /// @p cell_size, m, and soil of @p density, kg/m^3.
     double
     mass_cutoff(const double density, const double cell_size) const;
