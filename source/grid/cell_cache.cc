@@ -276,12 +276,12 @@ namespace talus
 
   /// Find the cells whose points may touch a marked node. A node is marked if
   /// it is a vertex of a cell larger than h on any rank, or hangs on a marked
-  /// node, or is a vertex of a cell that touches a larger cell, where obstacles
-  /// do not support soil. A cell is near a larger cell if its patch, or the
-  /// patch of a touching cell, contains a marked node. Nodes and not cells are
-  /// marked: a larger cell may lie beyond the ghost cells of this rank, but its
-  /// nodes are known. MeshTracking changes the mesh as soon as a cell near a
-  /// larger cell is occupied.
+  /// node, or is a vertex of a cell that touches a larger cell, since contact
+  /// with obstacles needs cells of one size. A cell is near a larger cell if
+  /// its patch, or the patch of a touching cell, contains a marked node. Nodes
+  /// and not cells are marked: a larger cell may lie beyond the ghost cells of
+  /// this rank, but its nodes are known. MeshTracking changes the mesh as soon
+  /// as a cell near a larger cell is occupied.
   template <int dim>
   void
   CellCache<dim>::find_larger_cells(const NodeNumbering<dim> &nodes,
