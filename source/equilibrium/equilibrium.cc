@@ -11,7 +11,8 @@ namespace talus
 
   namespace
   {
-    /// Declare the entries of section Equilibrium that are those of @p newton.
+    /// Declare the entries of section Equilibrium that belong to Newton's
+    /// method.
     template <typename Parameters>
     void
     add_newton_parameters(ParameterAcceptor &section, Parameters &newton)
@@ -104,8 +105,8 @@ namespace talus
   {
     if (measure() == StrainMeasure::large)
       return;
-    // A hyperelastic stress is a function of F alone, and small strain leaves F
-    // as it is: such a body could never take up a load.
+    // A hyperelastic stress is a function of F alone, and F does not change at
+    // small strain: the body could never take up a load.
     for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
       AssertThrow(!materials.of_body(b).is_hyperelastic(),
                   ExcUser(text("'Equilibrium/Strain' is small, but the stress "
@@ -119,9 +120,9 @@ namespace talus
 
 
 
-  /// With large strain nodes at a free surface settle slowly, since they would
-  /// have to move far; so the default is a thousand times looser than with
-  /// small strain.
+  /// At large strain nodes at a free surface settle slowly, as they would have
+  /// to move far. Hence the default imbalance is a thousand times larger than
+  /// at small strain.
   template <int dim>
   EquilibriumLimits
   Equilibrium<dim>::limits(const StrainMeasure measure) const
@@ -155,9 +156,9 @@ namespace talus
 
 
 
-  /// Newton::begin() leaves the displacements at zero, and to commit these
-  /// gives the laws a load step without strain: what lies outside the yield
-  /// surface returns to it, all else stays as it is.
+  /// After Newton::begin() the displacements are zero. The commit gives the
+  /// laws a load step without strain: stresses outside the yield surface return
+  /// to it, all further stresses stay.
   template <int dim>
   void
   Equilibrium<dim>::return_stress(StaticProblem<dim> &problem)
@@ -168,18 +169,18 @@ namespace talus
 
 
 
-  /// A load step has no memory of the one before but the points: it begins with
-  /// the forces that the explicit scheme would find out of balance now, summed
-  /// by its own kernels and without stabilization. So the errors that a step
-  /// leaves (tolerance of Newton's method, force of the ghost penalty) are part
-  /// of what the next one takes up, and the balance that is found is the one
-  /// from which the dynamics starts. Once all load is on, further steps
-  /// ("settling") take what is left, which falls from step to step; see
-  /// doc/method.md, section 12.
+  /// A load step depends on previous steps only through the points: it starts
+  /// from the unbalanced forces of the explicit scheme, summed by the kernels
+  /// of the explicit scheme and without stabilization. Errors of a step
+  /// (tolerance of Newton's method, force of the ghost penalty) are thus part
+  /// of the imbalance in the next step, and the final balance is the balance
+  /// from which the dynamics starts. At full load, further steps ("settling")
+  /// remove the rest, which falls from step to step; see doc/method.md, section
+  /// 12.
   ///
-  /// The balance is looked at before a step is taken: points whose soil is in
-  /// balance are not changed again. The result is the same on all ranks, since
-  /// imbalance_ is a sum over them.
+  /// Balance is tested before a step is taken, so points in balance do not
+  /// change any more. The result is the same on all ranks, as imbalance_ is a
+  /// sum over all ranks.
   template <int dim>
   bool
   Equilibrium<dim>::advance(StaticProblem<dim> &problem,
@@ -193,8 +194,8 @@ namespace talus
         is_found_ = true;
         return true;
       }
-    // Out of patience: the place of the largest force tells the user where the
-    // soil flows.
+    // Give up. The place of the largest force tells the user where the soil
+    // flows.
     if (!is_settling())
       {
         const auto [largest, place] = newton_.equations().largest_imbalance();
@@ -217,13 +218,13 @@ namespace talus
 
 
 
-  /// Nodes with hardly any soil follow their own forces the more slowly the
-  /// stiffer the stabilization is against what they have of stiffness: so once
-  /// all load is on it gives way. With large strain they would move too far.
-  /// The floor of a thousandth keeps nodes without stiffness of their own from
-  /// making the matrix singular. Nodes inside obstacles have hardly any soil,
-  /// too, but all of the pressure that there is: they hold what their springs
-  /// and the stabilization pass, and follow only when that is next to nothing.
+  /// Nodes with very little soil follow their own forces more slowly the
+  /// stiffer the stabilization is compared with their own stiffness. Hence the
+  /// penalty decreases at full load; at large strain the nodes would then move
+  /// too far. The lower bound of 1e-3 keeps nodes without stiffness from making
+  /// the matrix singular. Nodes inside obstacles have very little soil, but the
+  /// full pressure: they are held by their springs and the penalty, and follow
+  /// only if the penalty is close to zero.
   template <int dim>
   typename Newton<dim>::Parameters
   Equilibrium<dim>::parameters_of_step(const bool has_obstacles) const
@@ -238,9 +239,9 @@ namespace talus
 
 
 
-  /// Whether the soil seems to come to rest now that all load is on: it has
-  /// steps left, and in the last twenty of them the imbalance fell by a tenth.
-  /// Soil that fails flows on and on.
+  /// Return whether the soil seems to come to rest at full load: settling steps
+  /// are left, and the imbalance fell by 10 % in the last 20 steps. Failing
+  /// soil flows on and on.
   template <int dim>
   bool
   Equilibrium<dim>::is_settling()
@@ -258,30 +259,30 @@ namespace talus
 
 
 
-  /// One step, as large as it succeeds; the first trial is never too small.
-  /// The load is not held as a force, but as a share of what is out of balance
-  /// now: where load_ is on, a step of the length step_ takes step_/(1 - load_)
-  /// of it. So loads and stress may have changed with the points since, and
-  /// nothing adds up from step to step.
+  /// Take one step, of the largest length that succeeds; the first trial is
+  /// never too small. The load is not stored as a force, but as a fraction of
+  /// the current imbalance: at the load load_, a step of length step_ removes
+  /// step_/(1 - load_) of the imbalance. Loads and stress may therefore have
+  /// changed with the points, and no errors add up from step to step.
   ///
-  /// A step that fails has changed nothing (Newton::solve() takes the contact
-  /// back, points change in commit() only), so that it can be tried again with
-  /// half of the share. The next step is at most half as long again as the one
-  /// that succeeded and never longer than the parameter asks for.
+  /// A failed step changes nothing (Newton::solve() restores the contact,
+  /// points change only in commit()), so it can be repeated with half the
+  /// fraction. The next step is at most 1.5 times as long as the last
+  /// successful step, and never longer than required by the parameter.
   template <int dim>
   bool
   Equilibrium<dim>::take_step(StaticProblem<dim> &problem,
                               const Observer     &observe)
   {
-    // The slack below keeps round-off in load_ from leaving a last step of next
-    // to nothing. In settling steps rest is zero, and each takes all that is
-    // left.
+    // The slack of 1e-4 prevents a last, tiny step due to round-off in load_.
+    // In settling steps rest is zero, and each step removes all of the
+    // imbalance.
     const double rest = 1. - load_;
     const bool   all  = !(rest > 1.0001 * step_);
     for (double cut = 1.; cut == 1. || cut * step_ >= limits_.smallest_step;
          cut *= 0.5)
       {
-        // Of what is out of balance now; the last step takes all of it.
+        // Fraction of the current imbalance; the last step removes all of it.
         const double share = cut * (all ? 1. : step_ / rest);
         const double after = (all && cut == 1. ? 1. : load_ + share * rest);
         const auto   outcome =
@@ -297,8 +298,8 @@ namespace talus
             continue;
           }
         newton_.commit(problem);
-        // Counted by the load before the step: the step that puts on the last
-        // load does not settle.
+        // Count by the load before the step: the step that completes the load
+        // does not settle.
         n_settling_ += (load_ >= 1.);
         load_ = after;
         step_ = std::min(1.5 * cut * step_, 1. / limits_.n_load_steps);
