@@ -20,7 +20,7 @@ namespace talus
       section.add_parameter(
         "Newton tolerance",
         newton.tolerance,
-        "Residual of Newton's method over the force of the loads "
+        "Largest residual of Newton's method over the force of the loads "
         "[-].",
         section.prm,
         Patterns::Double(0.));
@@ -34,7 +34,7 @@ namespace talus
       section.add_parameter(
         "Ghost penalty",
         newton.ghost_penalty,
-        "Stiffness that holds nodes with hardly any soil to their "
+        "Stiffness that ties nodes with very little soil to their "
         "neighbours, over the shear modulus [-].",
         section.prm,
         Patterns::Double(0.));
@@ -50,50 +50,49 @@ namespace talus
   {
     add_parameter("Strain",
                   measure_,
-                  "'small': strain is the symmetric displacement gradient, and "
-                  "points, volumes and boxes stay as they are: the soil starts "
-                  "with the stress only. 'large': that of the dynamics; the "
+                  "'small': strain is the symmetric displacement gradient; "
+                  "points, volumes and boxes stay as they are, and only the "
+                  "stress changes. 'large': strain as in the dynamics; the "
                   "soil deforms under the load.",
                   this->prm,
                   Patterns::Selection("small|large"));
     add_parameter("Load steps",
                   n_load_steps_,
-                  "Number of equal steps in which the load comes on; they are "
-                  "halved where Newton's method fails, and grow again.",
+                  "Number of equal steps in which the load is applied [-]; a "
+                  "step is halved if Newton's method fails, and later steps "
+                  "grow again.",
                   this->prm,
                   Patterns::Integer(1));
     add_parameter("Smallest load step",
                   smallest_step_,
-                  "Share of the load below which a step is not halved but the "
-                  "search given up [-]. Steps as small as 'Load steps' asks "
-                  "for are always taken.",
+                  "Smallest fraction of the load in a halved step [-]; if it "
+                  "fails, the search ends. The steps that 'Load steps' "
+                  "requires are always tried.",
                   this->prm,
                   smallest_load_steps());
     add_parameter(
       "Allowed imbalance",
       allowed_imbalance_,
-      "Force out of balance over that of the loads or of the stress, "
-      "whichever is larger (Euclidean norms over the nodes), with which the "
-      "soil counts as balanced "
-      "[-]; 0 for 1e-6 with small strain and 1e-3 with large, where "
-      "nodes with hardly any soil come to rest slowly.",
+      "Largest unbalanced force of soil in balance, over the force of the "
+      "loads or of the stress, whichever is larger (Euclidean norms over "
+      "the nodes) [-]; 0 for 1e-6 at small strain and 1e-3 at large "
+      "strain, where nodes with very little soil come to rest slowly.",
       this->prm,
       Patterns::Double(0.));
     add_parameter("Largest number of settling steps",
                   largest_settling_,
-                  "Steps without further load after which the search is given "
-                  "up if the soil is not in balance.",
+                  "Largest number of steps without further load [-]; if the "
+                  "soil is not in balance afterwards, the search ends.",
                   this->prm,
                   Patterns::Integer(1));
     add_newton_parameters(*this, newton_parameters_);
     add_parameter("Well-balanced load",
                   is_well_balanced_,
-                  "Subtract from the weight its error in cells that the soil "
-                  "fills in part only, which is the force that a pressure in "
-                  "proportion to the depth leaves at the nodes. Without it the "
-                  "soil at the mudline has to bear shear stresses of half of "
-                  "the weight of a cell, however small the cells are. Small "
-                  "strain only.");
+                  "Subtract from the weight its error in partly filled cells: "
+                  "the nodal force left by a pressure proportional to the "
+                  "depth. Otherwise the soil at the mudline has to bear shear "
+                  "stresses of half the weight of a cell, for cells of any "
+                  "size. Small strain only.");
   }
 
 
@@ -112,10 +111,10 @@ namespace talus
                   ExcUser(text("'Equilibrium/Strain' is small, but the stress "
                                "of the body '",
                                names_of_bodies[b],
-                               "' follows from its deformation, which then "
-                               "stays as it is. Set it to large, or choose a "
-                               "law in rate form ('linear elastic', 'von "
-                               "Mises').")));
+                               "' follows from its deformation, which small "
+                               "strain does not change. Set 'Strain' to large, "
+                               "or choose a law in rate form ('linear "
+                               "elastic', 'von Mises').")));
   }
 
 
@@ -202,12 +201,12 @@ namespace talus
         failure_                    = text(std::setprecision(6),
                         "After ",
                         n_settling_,
-                        " steps without further load the force out of balance "
+                        " steps without further load the unbalanced force "
                                            "is ",
                         imbalance_,
-                        " of that of the loads, where ",
+                        " of the force of the loads, but at most ",
                         limits_.allowed_imbalance,
-                        " is allowed; the largest one of a node is ",
+                        " is allowed; the largest force of a node is ",
                         largest,
                         " N, at ",
                         place);

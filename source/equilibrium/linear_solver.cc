@@ -18,22 +18,22 @@ namespace talus
     add_parameter(
       "Type",
       type_,
-      "Of the linear systems of the static stages: 'direct' (Trilinos' "
-      "Amesos), 'CG' or 'GMRES' with algebraic multigrid (Trilinos' ML); CG "
-      "is for symmetric matrices, those of small strain. 'auto': direct up "
-      "to 100 000 unknowns in 2-D and 10 000 in 3-D, else CG with small and "
-      "GMRES with large strain.",
+      "Solver of the linear systems of the static stages: 'direct' "
+      "(Trilinos' Amesos), 'CG' or 'GMRES' with algebraic multigrid "
+      "(Trilinos' ML). CG requires symmetric matrices, as at small strain. "
+      "'auto': direct up to 100 000 unknowns in 2-D and 10 000 in 3-D, "
+      "otherwise CG at small and GMRES at large strain.",
       this->prm,
       Patterns::Selection("auto|direct|CG|GMRES"));
     add_parameter("Tolerance",
                   tolerance_,
-                  "Residual over right-hand side at which CG and GMRES end "
+                  "Largest residual of CG and GMRES over the right-hand side "
                   "[-].",
                   this->prm,
                   Patterns::Double(1e-15, 1.));
     add_parameter("Largest number of iterations",
                   largest_iterations_,
-                  "Of CG and GMRES.",
+                  "Largest number of iterations of CG and GMRES [-].",
                   this->prm,
                   Patterns::Integer(1));
   }

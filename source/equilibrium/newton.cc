@@ -139,9 +139,9 @@ namespace talus
                                             i,
                                             " iterations: the residual is ",
                                             iteration.residual,
-                                            " of the forces, where ",
+                                            " of the forces, but at most ",
                                             parameters_.tolerance,
-                                            " was asked for"));
+                                            " is allowed"));
           }
         const std::string error = newton_update(problem, iteration);
         if (!observe(iteration))

@@ -13,7 +13,7 @@ namespace talus
   {
     add_parameter("First factor",
                   first_,
-                  "Number that strengths are divided by first [-].",
+                  "First number by which strengths are divided [-].",
                   this->prm,
                   Patterns::Double(1e-6));
     add_parameter("Tolerance",
@@ -24,31 +24,31 @@ namespace talus
                   Patterns::Double(1e-6, 1.));
     add_parameter("Largest factor",
                   largest_,
-                  "Factor [-] beyond which the search ends: the soil is safe "
+                  "Factor above which the search ends [-]: the soil is safe "
                   "enough.",
                   this->prm,
                   Patterns::Double(1e-6));
     add_parameter("Smallest factor",
                   smallest_,
-                  "Factor [-] below which the search ends: the soil fails "
-                  "whatever its strength.",
+                  "Factor below which the search ends [-]: the soil fails "
+                  "with any strength.",
                   this->prm,
                   Patterns::Double(1e-6));
     add_parameter("Smallest load step",
                   smallest_step_,
-                  "Share of the force that a factor puts out of balance, below "
-                  "which a step is not halved but a smaller reduction tried "
-                  "[-]. A factor within 'Tolerance' of one with which the soil "
-                  "stands, whose failure decides, has steps down to "
+                  "Smallest fraction of the imbalance of a factor in a halved "
+                  "step [-]; if it fails, a smaller reduction is tried. "
+                  "Failure of a factor within 'Tolerance' of a factor with "
+                  "which the soil stands is decisive: here steps go down to "
                   "'Equilibrium/Smallest load step'.",
                   this->prm,
                   smallest_load_steps());
     add_parameter("Allowed imbalance",
                   allowed_imbalance_,
-                  "Force out of balance over that of the loads or of the "
-                  "stress, as in the section Equilibrium, with which the soil "
-                  "counts as standing [-]; 0 for a fiftieth of 'Tolerance'. "
-                  "It must be small against 'Tolerance'.",
+                  "Largest unbalanced force of soil that stands, over the "
+                  "force of the loads or of the stress, as in section "
+                  "Equilibrium [-]; 0 for 0.02 times 'Tolerance'. Must be "
+                  "small against 'Tolerance'.",
                   this->prm,
                   Patterns::Double(0.));
     add_parameter("Seabed",
@@ -75,14 +75,15 @@ namespace talus
                        smallest_,
                        ", but 'Strength reduction/Largest factor' is ",
                        largest_,
-                       ", which must be the larger one. Exchange the two.")));
+                       ", which must be larger. Exchange the two values.")));
     AssertThrow(first_ <= largest_,
                 ExcUser(
                   text("'Strength reduction/First factor' is ",
                        first_,
-                       ", where at most 'Strength reduction/Largest factor' = ",
+                       ", but must be at most 'Strength reduction/Largest "
+                       "factor' = ",
                        largest_,
-                       " was expected. Correct one of the two.")));
+                       ". Correct one of the two values.")));
   }
 
 
@@ -214,7 +215,7 @@ namespace talus
     // safety is the middle of the bracket.
     const std::string cannot_stand =
       is_less_than_one()
-        ? " It is less than 1: the soil cannot stand with the strength it has."
+        ? " It is less than 1: the soil cannot stand with its strength."
         : "";
     if (upper_ == 0.)
       return text(std::setprecision(6),
