@@ -15,10 +15,9 @@ namespace talus
 {
   namespace
   {
-    /// All laws, one line each; add_law() appends to them.
-    /// A list that is written out, and not one at which laws register
-    /// themselves: objects that nobody refers to may be left out by the linker,
-    /// and their order would be that of the linking.
+    /// All laws, one line each; add_law() appends more. The list is explicit,
+    /// as objects that register themselves may be dropped by the linker when
+    /// nothing refers to them, and their order would depend on the linking.
     template <int dim>
     std::vector<Law<dim>> &
     laws()
@@ -37,7 +36,7 @@ namespace talus
 
 
 
-  // deal.II separates the values that a parameter may have by |.
+  // deal.II separates the allowed values of a parameter by |.
   template <int dim>
   void
   add_law(const Law<dim> &law)
@@ -71,7 +70,7 @@ namespace talus
 
 
 
-  // The message that needs it ends in "or", as sentences do.
+  // The last name follows "or", as at the end of a sentence.
   template <int dim>
   std::string
   names_of_laws_with_strength()
@@ -88,8 +87,8 @@ namespace talus
 
 
 
-  // The name comes from a parameter whose range is the list of the laws, but
-  // sections may also be made without the parser, as in tests.
+  // The name comes from a parameter whose allowed values are the laws, but
+  // tests also make materials without the parser.
   template <int dim>
   std::unique_ptr<MaterialModel<dim>>
   make_material(const std::string &name, const std::string &section)

@@ -10,8 +10,8 @@ namespace talus
 {
   namespace Patterns = dealii::Patterns;
 
-  // Two densities: the pore water moves with the soil and has inertia, but its
-  // weight is borne by the water around.
+  // Two densities: pore water moves with the soil and has inertia, but its
+  // weight is borne by the surrounding water.
   template <int dim>
   MaterialModel<dim>::MaterialModel(const std::string &section)
     : ParameterAcceptor(section)
@@ -42,7 +42,7 @@ namespace talus
 
 
 
-  // Mass divides forces: soil without any has no acceleration.
+  // Forces are divided by mass: soil without mass would have no acceleration.
   template <int dim>
   void
   MaterialModel<dim>::check() const
@@ -66,7 +66,7 @@ namespace talus
 
 
 
-  // Columns begin with zero, which as a factor would be soil without strength.
+  // New columns contain zero, a factor for soil without strength.
   template <int dim>
   void
   MaterialModel<dim>::initialize(Points<dim>       &points,
@@ -81,8 +81,7 @@ namespace talus
 
 
 
-  // Infinite, so that whoever takes the least of several need not ask which
-  // laws have one.
+  // Infinite, so that a minimum over several laws needs no test for strength.
   template <int dim>
   double
   MaterialModel<dim>::shear_strength(const Points<dim> &, unsigned int) const
@@ -92,8 +91,8 @@ namespace talus
 
 
 
-  // Plastic laws count as nearly incompressible whatever Poisson's ratio is,
-  // since plastic flow keeps the volume (RateLaw).
+  // Plastic laws count as nearly incompressible for any Poisson's ratio, since
+  // plastic flow keeps the volume (RateLaw).
   template <int dim>
   bool
   MaterialModel<dim>::uses_bbar() const
@@ -103,7 +102,7 @@ namespace talus
 
 
 
-  // Given as a list, as deal.II's numbers cannot be empty.
+  // Parsed as a list, as deal.II's numbers cannot be empty.
   template <int dim>
   double
   MaterialModel<dim>::submerged_density() const
@@ -113,8 +112,8 @@ namespace talus
 
 
 
-  // c = sqrt(M/rho) with the current density, m/V. The time step has the same
-  // for many points at a time; this is for single ones.
+  // c = sqrt(M/rho) with the current density, m/V. For a single point; the time
+  // step has its own version for many points at a time.
   template <int dim>
   double
   MaterialModel<dim>::wave_speed(const Points<dim> &points,

@@ -14,9 +14,9 @@
 
 namespace talus
 {
-  /// MaterialModel::linearize() for laws in rate form: @p moduli_at maps a
-  /// point to its moduli, @p flow a point and its trial deviator to a Flow.
-  /// Returns false if a point is turned inside out.
+  /// Implement MaterialModel::linearize() for laws in rate form: @p moduli_at
+  /// maps a point to its moduli, @p flow a point and its trial deviator to a
+  /// Flow. Returns false if a point is inverted.
   template <int dim, typename ModuliAt, typename FlowRule>
   inline bool
   linearize_rate_law(const Points<dim>        &points,
@@ -58,8 +58,8 @@ namespace talus
 
 
 
-  /// MaterialModel::commit_load_step() for laws in rate form. @p plastic is the
-  /// column of the plastic variable, or invalid_unsigned_int.
+  /// Implement MaterialModel::commit_load_step() for laws in rate form.
+  /// @p plastic is the column of the plastic variable, or invalid_unsigned_int.
   template <int dim, typename ModuliAt, typename FlowRule>
   inline void
   commit_rate_law(Points<dim>              &points,
@@ -229,7 +229,7 @@ namespace talus
 
 
 
-  /// Maps a point to its moduli.
+  /// Return a function that maps a point to its moduli.
   template <int dim, typename FlowRule>
   auto
   RateLaw<dim, FlowRule>::moduli_in_load_step(const Points<dim> &points) const
@@ -245,7 +245,8 @@ namespace talus
 
 
 
-  /// Maps a point and its trial deviator to what flows in a load step.
+  /// Return a function that maps a point and its trial deviator to the flow in
+  /// a load step.
   template <int dim, typename FlowRule>
   auto
   RateLaw<dim, FlowRule>::flow_in_load_step(const Points<dim> &points) const
