@@ -433,15 +433,14 @@ namespace talus
   namespace
   {
     /// Moves the children of a point from the centre of the parent to their
-    /// places: by a quarter of the parent's edges along @p axes. Bit i of
-    /// `child` selects the side along the i-th of the axes.
+    /// places: by a quarter of the parent's edges along each split axis. Bit i
+    /// of `child` selects the side along the i-th split axis.
     ///
     /// A box parallel to the axes is halved along the axes, a convected domain
-    /// along its edges. The initial position is moved as well, by F^-1 (x_d -
-    /// x), as loads and initial fields are functions of it. The result is exact
-    /// along the edges, which F maps from the axes of the undeformed box.
-    /// Across a sheared box it is not, as the box does not know the shear
-    /// (doc/method.md, section 6).
+    /// along its edges. The initial position moves by F^-1 (x_d - x), as loads
+    /// and initial fields are functions of it: exact along the edges, which F
+    /// maps from the axes of the undeformed box; not across a sheared box, as
+    /// the box does not know the shear (doc/method.md, section 6).
     template <int dim>
     class Offset
     {

@@ -19,8 +19,8 @@ namespace talus
 
   namespace
   {
-    /// What `--help` shows; the values go straight into @p result. The
-    /// parameter file is positional, so it is no option here.
+    /// Options shown by `--help`; parsed values are stored in @p result. The
+    /// parameter file is positional and not included.
     po::options_description
     visible_options(CommandLine &result)
     {
@@ -52,8 +52,8 @@ namespace talus
 
 
 
-  /// Nothing is returned where all is done when this ends, as after `--help`.
-  /// All ranks parse, so that all know the options, and one of them prints.
+  /// All ranks parse, so that all ranks know the options; only the first rank
+  /// prints.
   std::optional<CommandLine>
   parse_command_line(const int argc, const char *const *argv)
   {
@@ -73,7 +73,7 @@ namespace talus
               variables);
     po::notify(variables);
 
-    // A stream without buffer drops what it gets.
+    // A stream without buffer discards its input.
     std::ostream  nowhere(nullptr);
     std::ostream &out = is_first_rank(MPI_COMM_WORLD) ? std::cout : nowhere;
     if (variables.count("help"))
@@ -113,14 +113,14 @@ namespace talus
 
 
 
-  /// Which parameters there are depends on the names of bodies and materials
-  /// and on the laws, so the reference is that of an example with all of them.
-  /// In 2-D, whose parameters have the same names as those of 3-D.
+  /// The parameters depend on the names of bodies and materials and on the
+  /// laws, so the reference describes an example with all laws. The example is
+  /// 2-D; parameters in 3-D have the same names.
   void
   document(std::ostream &out)
   {
-    // The reference has a body, an obstacle and so on, and a material of each
-    // law, named after the law.
+    // The example has a body, an obstacle and so on, and for each law a
+    // material with the name of the law.
     ParameterPreview preview;
     preview.bodies    = {"slide"};
     preview.obstacles = {"bed"};

@@ -10,8 +10,8 @@ namespace talus
 
   namespace
   {
-    /// As troff wants it: a plain - would be a hyphen, and cannot be copied into
-    /// a shell.
+    /// Escape a sentence for troff: a plain - would become a hyphen, which
+    /// cannot be copied into a shell.
     std::string
     in_troff(const std::string &sentence)
     {
@@ -32,7 +32,8 @@ namespace talus
 
 
 
-  /// Generated with the package, so that it has the options that the program has.
+  /// Generated with the package, so that the page lists the options of the
+  /// program.
   void
   write_manual(std::ostream &out, const po::options_description &options)
   {
@@ -67,8 +68,8 @@ namespace talus
 
 
 
-  /// What follows an option with a value may be a folder; what is no option is a
-  /// parameter file.
+  /// A folder completes options with a value; a parameter file completes
+  /// arguments that are not options.
   void
   write_completion(std::ostream &out, const po::options_description &options)
   {

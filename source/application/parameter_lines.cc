@@ -57,8 +57,8 @@ namespace talus
 
 
 
-    /// What follows @p keyword in a line that begins with it, as deal.II finds
-    /// it: in small or in capital letters.
+    /// Return whether @p line begins with @p keyword, in small or in capital
+    /// letters, as accepted by deal.II.
     bool
     begins_with(const std::string &line, const std::string &keyword)
     {
@@ -70,7 +70,7 @@ namespace talus
 
 
 
-    /// Name of the section that a line opens; empty if it opens none.
+    /// Name of the section opened by @p line; empty if none.
     std::string
     opened_section(const std::string &line)
     {
@@ -90,7 +90,7 @@ namespace talus
 
 
 
-    /// Name and value of the entry that a line sets; both empty if it sets none.
+    /// Name and value of the entry set by @p line; both empty if none.
     std::pair<std::string, std::string>
     entry_of(const std::string &line)
     {

@@ -268,8 +268,8 @@ namespace talus
 
   /// The target of f(u) + K_g u is f(0) + s (f_ext - f(0)) - (1 - s) c, with
   /// the fraction s of the load step and the previous force c of seabed and
-  /// obstacles: inserted into the residual of doc/method.md, section 12. For s
-  /// = 1 the target is f_ext for any c.
+  /// obstacles: inserted into the residual of doc/method.md, section 12. With
+  /// s = 1 the target is f_ext for any c.
   template <int dim>
   void
   StaticEquations<dim>::take_share(const double share)

@@ -21,11 +21,11 @@ namespace talus
   /// displacements of the nodes. The residual is
   ///   r = f_ext - (1 - share) (f_ext + c - f_int(0)) + friction - f_int(u)
   ///       - ghost,
-  /// where c is the previous force of the seabed on the soil, f_ext + c -
-  /// f_int(0) the imbalance at the start of the step, and `share` the fraction
-  /// of the imbalance removed in the step. With a well-balanced load, f_ext is
-  /// the load minus its error E. Fields have dim components for each node of
-  /// Unknowns.
+  /// where c is the previous force of the seabed on the soil,
+  /// f_ext + c - f_int(0) the imbalance at the start of the step, and `share`
+  /// the fraction of the imbalance removed in the step. With a well-balanced
+  /// load, f_ext is the load minus its error E. Fields have dim components for
+  /// each node of Unknowns.
   template <int dim>
   class StaticEquations
   {

@@ -76,7 +76,7 @@ namespace talus
     Number                       shear_stress; ///< of the trial, Pa
     Number                       old_strain;   ///< plastic shear, before
     Number                       strength;     ///< at the start of the step, Pa
-    Number                       loss; ///< remoulding can remove, Pa
+    Number                       loss; ///< that remoulding can cause, Pa
   };
 
 

@@ -24,9 +24,9 @@ namespace talus
 
 
 
-  /// Advance the deformation gradient of point(s) @p p over @p dt seconds, F <-
-  /// (I + dt L') F, and store it. Exact for the motion in the step: each point
-  /// moves on a straight line.
+  /// Advance the deformation gradient of point(s) @p p over @p dt seconds,
+  /// F <- (I + dt L') F, and store it. Exact for the motion in the step: each
+  /// point moves on a straight line.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Motion<dim, Number>
                       advance_deformation(const PointsView<dim>    &points,
@@ -108,8 +108,9 @@ namespace talus
 
 
 
-  /// Half of the rotation of Hughes and Winget in 2-D, Q = (I - W/2)^-1 (I +
-  /// W/2) for the skew part W of @p G; its angle phi has tan(phi/2) = w/2.
+  /// Half of the rotation of Hughes and Winget in 2-D,
+  /// Q = (I - W/2)^-1 (I + W/2) for the skew part W of @p G; its angle phi has
+  /// tan(phi/2) = w/2.
   template <typename Number>
   TALUS_ALWAYS_INLINE HalfRotation<2, Number>
                       half_rotation(const Matrix<2, Number> &G)
@@ -201,9 +202,10 @@ namespace talus
 
 
 
-  /// Compute G = H (I + H/2)^-1. In 2-D G = (H + (det H)/2 I)/D with D = det(I
-  /// + H/2). With the difference w of the shears, half_rotation() has t = w/(4
-  /// D) and shares the division.
+  /// Compute G = H (I + H/2)^-1 and half of the rotation. In 2-D
+  ///   G = (H + (det H)/2 I)/D, D = det(I + H/2);
+  /// with the difference w of the shears, the half rotation of half_rotation(),
+  /// t = w/(4 D), shares the division.
   template <typename Number>
   TALUS_ALWAYS_INLINE MidStep<2, Number>
                       mid_step(const Matrix<2, Number> &H)
