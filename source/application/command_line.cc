@@ -28,19 +28,19 @@ namespace talus
       // clang-format off
       options.add_options()
         ("set", po::value(&result.overrides),
-         "set a parameter, over what the file says: "
+         "set a parameter in place of the file: "
          "--set \"Section/Subsection/Entry=value\"; may be repeated")
         ("output", po::value(&result.output_folder),
-         "folder for the results, over Output/Folder")
+         "folder for the results, in place of Output/Folder")
         ("resume", po::bool_switch(&result.resume),
-         "go on from the newest checkpoint in the output folder; give the same "
-         "file and options as before")
+         "continue from the newest checkpoint in the output folder; give the "
+         "same file and options as before")
         ("overwrite", po::bool_switch(&result.overwrite),
-         "start anew even if the output folder holds the checkpoint of an "
-         "unfinished run")
+         "start from the beginning even if the output folder holds the "
+         "checkpoint of an unfinished run")
         ("validate", po::bool_switch(&result.validate),
-         "read and check everything, make mesh and points, and tell what the "
-         "run will do: its size, time steps, estimated time, and all remarks")
+         "read and check everything, make mesh and points, and describe the "
+         "run: size, time steps, estimated time, and all remarks")
         ("document", po::bool_switch(&result.document),
          "print the reference of all parameters")
         ("version", "print the version")
@@ -107,7 +107,7 @@ namespace talus
                         "FILE.prm; see talus --help."));
     AssertThrow(!(result.resume && result.overwrite),
                 ExcUser("--resume and --overwrite were given, but a run can "
-                        "only go on or start anew. Give one of the two."));
+                        "only continue or start again. Give one of the two."));
     return result;
   }
 

@@ -110,13 +110,13 @@ namespace talus
       std::smatch part;
       if (std::regex_match(error, part, unknown_entry))
         return place + "there is no parameter '" + part[1].str() +
-               "' in this section; `talus --document` lists all that there "
-               "are, and those of bodies and materials are in sections named "
-               "in Bodies/Names and Materials/Names.";
+               "' in this section; `talus --document` lists all parameters. "
+               "Sections of bodies and materials are named in Bodies/Names and "
+               "Materials/Names.";
       if (std::regex_match(error, part, unknown_section))
         return place + "there is no section '" + part[1].str() +
-               "' here; `talus --document` lists all that there are, and those "
-               "of bodies and materials are named in Bodies/Names and "
+               "' here; `talus --document` lists all sections. Sections of "
+               "bodies and materials are named in Bodies/Names and "
                "Materials/Names.";
       if (std::regex_match(error, part, bad_value))
         return place + "'" + part[2].str() + "' is '" + part[1].str() +
@@ -149,9 +149,9 @@ namespace talus
       return "On the command line, " + line +
              "; `talus --help` shows what is expected.";
     if (dynamic_cast<const std::bad_alloc *>(&exception))
-      return "There is not enough memory on this machine; doc/cluster.md says "
-             "what points and cells take. Take fewer of them, or more ranks on "
-             "more machines.";
+      return "There is not enough memory on this machine; doc/cluster.md gives "
+             "the memory per point and cell. Use fewer points or cells, or "
+             "more ranks on more machines.";
     // Test before in_file, whose pattern matches, too.
     if (std::regex_match(line, part, in_command))
       return say_anew(part[1].str() + ": ", part[2]);

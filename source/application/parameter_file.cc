@@ -42,9 +42,9 @@ namespace talus
       AssertThrow(override_text.find('\n') == std::string::npos &&
                     Utilities::trim(override_text).back() != '\\',
                   ExcUser("--set '" + override_text.substr(0, equals) +
-                          "' was given a value of several lines, or with a "
-                          "backslash at its end, where one line was expected. "
-                          "Give --set once for each entry."));
+                          "' was given a value of several lines or with a "
+                          "backslash at its end, where one line was "
+                          "expected. Give --set once for each entry."));
       auto path =
         Utilities::split_string_list(override_text.substr(0, equals), '/');
       const std::string entry = path.back();
@@ -75,8 +75,8 @@ namespace talus
                               "without slashes."));
           AssertThrow(name != "Names",
                       ExcUser("'" + where + " = " + list +
-                              "' lists 'Names', which is the entry itself. "
-                              "Choose another name."));
+                              "' lists 'Names', the name of the entry itself. "
+                              "Choose a different name."));
           AssertThrow(std::count(result.begin(), result.end(), name) == 1,
                       ExcUser("'" + where + " = " + list + "' lists '" + name +
                               "' twice; names must differ."));
@@ -185,19 +185,19 @@ namespace talus
         AssertThrow(std::find(chain.begin(), chain.end(), file) == chain.end(),
                     ExcUser("The parameter file '" + chain.back() +
                             "' includes '" + file +
-                            "', which includes it in turn, directly or by "
-                            "others. Remove one of the lines 'include'."));
+                            "', so the files include each other in a circle. "
+                            "Remove one of the lines 'include'."));
         AssertThrow(n_left > 0,
                     ExcUser("The parameter file '" + chain.front() +
-                            "' includes others more than 1000 times, those "
-                            "that they include counted. Include fewer."));
+                            "' includes files more than 1000 times, directly "
+                            "and through further files. Include fewer."));
         --n_left;
         protect_input(file);
         std::vector<std::string> longer = chain;
         longer.push_back(file);
         AssertThrow(longer.size() <= 20,
                     ExcUser("The parameter file '" + chain.front() +
-                            "' includes others through more than 20 files, "
+                            "' includes files through more than 20 files, "
                             "down to '" +
                             file + "'. Include fewer."));
         check(read_parameter_file(file, Pipes::refused), longer, n_left);
@@ -309,11 +309,11 @@ namespace talus
                                    path,
                                    "' has '",
                                    word,
-                                   "', which is larger than any quantity in SI "
-                                   "units: at most ",
+                                   "', larger than any quantity in SI units: "
+                                   "at most ",
                                    largest_number,
-                                   " was expected. Correct the value, or leave "
-                                   "it out if there is to be no limit.")));
+                                   " was expected. Correct the value, or omit "
+                                   "the entry for no limit.")));
         }
     }
 
@@ -382,8 +382,8 @@ namespace talus
           AssertThrow(!prm.get("Names").empty(),
                       ExcUser("'" + section +
                               "/Names' is empty, but at least one name is "
-                              "needed: each has a section of that name with "
-                              "its parameters."));
+                              "needed: the parameters are in a section with "
+                              "this name."));
           prm.leave_subsection();
         }
     }

@@ -117,7 +117,8 @@ namespace talus
                              static_cast<int>(*control),
                              ") was found after '",
                              line.substr(0, control - line.begin()),
-                             "', where text was expected. Remove it.")));
+                             "', where text was expected. Remove the "
+                             "character.")));
     AssertThrow(!begins_with(line, "end") || closes_section(line),
                 ExcUser(
                   text(place,
@@ -159,8 +160,8 @@ namespace talus
             AssertThrow(!open.empty(),
                         ExcUser(place_of(file, line) +
                                 "'end' was found, where no 'subsection' is "
-                                "open. Remove it, or add the 'subsection' that "
-                                "it is to close."));
+                                "open. Remove 'end', or add the missing "
+                                "'subsection'."));
             open.pop_back();
           }
       }
@@ -168,9 +169,9 @@ namespace talus
                 ExcUser(text(place_of(file, open.back()),
                              "'",
                              open.back().text,
-                             "' was found, but the file ends before the 'end' "
-                             "that closes it. Close each 'subsection' with an "
-                             "'end' of its own.")));
+                             "' was found, but the file ends before a closing "
+                             "'end'. Close each 'subsection' with its own "
+                             "'end'.")));
   }
 
 

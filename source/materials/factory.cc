@@ -44,15 +44,15 @@ namespace talus
     const auto names = material_names<dim>();
     AssertThrow(std::find(names.begin(), names.end(), law.name) == names.end(),
                 ExcUser("A law '" + law.name +
-                        "' was added, but there is one of that name. Give "
-                        "add_law() another name."));
+                        "' was added, but a law of the same name exists. Give "
+                        "add_law() a different name."));
     AssertThrow(!law.name.empty() &&
                   law.name.find_first_of("|,#\n") == std::string::npos &&
                   law.name == dealii::Utilities::trim(law.name),
                 ExcUser("A law '" + law.name +
-                        "' was added, which no parameter file could ask for. "
-                        "Give add_law() a name without |, commas, # and "
-                        "spaces around it."));
+                        "' was added, but a parameter file cannot contain its "
+                        "name. Give add_law() a name without |, commas, # and "
+                        "surrounding spaces."));
     laws<dim>().push_back(law);
   }
 
@@ -103,9 +103,9 @@ namespace talus
     AssertThrow(false,
                 ExcUser(text("Section ",
                              section,
-                             " asks for the law `",
+                             " asks for the unknown law `",
                              name,
-                             "`, which there is not. Choose one of: ",
+                             "`. Choose one of: ",
                              known,
                              ".")));
     return nullptr;

@@ -33,7 +33,7 @@ namespace talus
     if (flow_law_ == FlowLaw::bingham)
       add("Viscosity",
           consistency_,
-          "Viscosity [Pa s]: what the shear stress of flowing material gains "
+          "Viscosity [Pa s]: increase of the shear stress of flowing material "
           "per rate of plastic shear.");
     else
       {
@@ -49,13 +49,13 @@ namespace talus
       }
     add("Remoulded strength ratio",
         remoulded_ratio_,
-        "Undrained shear strength of the remoulded material over that of the "
-        "undisturbed [-], one over the sensitivity. 1: no remoulding.",
+        "Remoulded over undisturbed undrained shear strength [-], the inverse "
+        "of the sensitivity. 1: no remoulding.",
         Double(0., 1.));
     add("Plastic shear strain to remould",
         strain_to_remould_,
-        "Accumulated plastic shear strain xi_95 [-] that takes away 95 % of "
-        "the strength that remoulding takes away: the strength falls as "
+        "Accumulated plastic shear strain xi_95 [-] at which 95 % of the "
+        "strength loss by remoulding is reached: the loss remaining falls as "
         "exp(-3 xi/xi_95).");
   }
 
@@ -95,9 +95,9 @@ namespace talus
                    ", but the material must not soften faster than it can "
                    "unload elastically: give more than ",
                    least,
-                   " (three times the strength that remoulding takes away over "
-                   "the shear modulus), or set `Remoulded strength ratio` to 1 "
-                   "for material that is not remoulded.")));
+                   " (three times the strength loss by remoulding over the "
+                   "shear modulus), or set `Remoulded strength ratio` to 1 for "
+                   "material without remoulding.")));
   }
 
 

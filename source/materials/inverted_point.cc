@@ -30,9 +30,8 @@ namespace talus
                         ") m was turned inside out: the determinant of its "
                         "deformation gradient is ",
                         J,
-                        " where a positive number was expected. Lower 'Time "
-                        "step/CFL number', or look for what throws the points "
-                        "there about.")));
+                        ", but must be positive. Lower 'Time step/CFL number', "
+                        "or find the cause of large velocities there.")));
       }
   }
 
@@ -54,9 +53,9 @@ namespace talus
                          points.data(points.id)[p],
                          " at (",
                          load_place(points, points.position, p),
-                         ") m could not be solved for, which should not be. "
-                         "Look for what throws the points there about, or "
-                         "change the material's consistency.")));
+                         ") m could not be computed. Find the cause of large "
+                         "velocities there, or change the consistency of the "
+                         "material.")));
   }
 
 

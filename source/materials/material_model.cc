@@ -19,23 +19,22 @@ namespace talus
   {
     this->add_parameter("Density",
                         density_,
-                        "Density of the undeformed material that gives inertia "
+                        "Density of the undeformed material, for inertia "
                         "[kg/m^3].",
                         ParameterAcceptor::prm,
                         Patterns::Double(0.));
     this->add_parameter("Submerged density",
                         submerged_density_,
-                        "Density of the undeformed material less that of the "
-                        "water, which gives weight [kg/m^3]. Empty: as "
-                        "`Density`.",
+                        "Density of the undeformed material minus the density "
+                        "of water, for weight [kg/m^3]. Empty: as `Density`.",
                         ParameterAcceptor::prm,
                         Patterns::List(Patterns::Double(0.), 0, 1));
     this->add_parameter("Cell mean",
                         bbar_,
-                        "Take the dilatation and the mean stress as their "
-                        "averages over a cell, so that nearly incompressible "
-                        "material does not lock: on, off, or auto, which is on "
-                        "for Poisson's ratio above 0.4 and for plastic laws.",
+                        "Average dilatation and mean stress over a cell, so "
+                        "that nearly incompressible material does not lock: "
+                        "on, off, or auto, that is on for Poisson's ratio "
+                        "above 0.4 and for plastic laws.",
                         ParameterAcceptor::prm,
                         Patterns::Selection("auto|on|off"));
   }
@@ -60,7 +59,7 @@ namespace talus
                              submerged_density(),
                              " kg/m^3 and `Density` ",
                              density_,
-                             " kg/m^3, but water takes from the weight. Give "
+                             " kg/m^3, but weight is smaller under water. Give "
                              "at most the density.")));
   }
 

@@ -23,8 +23,8 @@ namespace talus
   {
     add_parameter("Names",
                   listed_names_,
-                  "Names of the materials, separated by commas; each has a "
-                  "section of that name.");
+                  "Names of the materials, separated by commas; each name has "
+                  "a section.");
     const Patterns::Selection laws(
       boost::algorithm::join(material_names<dim>(), "|"));
     for (MaterialName &material : names_)
@@ -62,7 +62,7 @@ namespace talus
         AssertThrow(m < names_.size(),
                     ExcUser(text("The body '",
                                  names_of_bodies[b],
-                                 "' is to be made of '",
+                                 "' has the material '",
                                  materials_of_bodies[b],
                                  "', but Materials/Names lists only: ",
                                  known,

@@ -30,8 +30,8 @@ namespace talus
                 "so the results depend on the cell size: the displacement "
                 "across the band that takes away ",
                 softening.share_of_loss,
-                " of the strength there is to lose, and the work per area "
-                "above the strength that remains, are ",
+                " of the strength loss, and the work per area above the "
+                "remaining strength, are ",
                 numbers(cell_size),
                 ", but ",
                 numbers(cell_size / 2.),

@@ -99,7 +99,7 @@ namespace talus
     StrainMeasure                   measure_;
     std::vector<StressTangent<dim>> linearizations_;
     std::vector<double>             volumes_; ///< at the start of the step
-    std::vector<double> volumes_of_mean_; ///< volumes_, 0 without B-bar
+    std::vector<double> volumes_of_mean_;     ///< volumes_, 0 without B-bar
   };
 } // namespace talus
 

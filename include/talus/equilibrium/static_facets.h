@@ -130,9 +130,9 @@ namespace talus
       double largest_friction = 0; ///< upper bound for all normal forces, N
       Force  given, found;
       bool   is_closed = false, slips = false;
-      dealii::Tensor<1, dim> direction; ///< of friction while slipping
-      double                 cut = 0;   ///< friction over spring force [-]
-      bool sticks_first = false; ///< next tangent as if it stuck
+      dealii::Tensor<1, dim> direction;   ///< of friction while slipping
+      double                 cut = 0;     ///< friction over spring force [-]
+      bool sticks_first          = false; ///< next tangent as if it stuck
     };
 
     /// State of a contact point that is carried from load step to load step.

@@ -139,8 +139,9 @@ namespace talus
                              ": `Undrained shear strength` is ",
                              strength(),
                              " Pa. Give a positive number",
-                             needs_strength ? ", which the stiffness follows."
-                                            : ", or 0.")));
+                             needs_strength
+                               ? "; the stiffness is proportional to it."
+                               : ", or 0.")));
   }
 
 
@@ -158,14 +159,14 @@ namespace talus
         " A number, an expression in x, y (, z) and the depth below the "
         "mudline, as 2000 + 1500*depth, or 'table FILE': a CSV file with the "
         "columns 'depth [m]' and 'undrained shear strength [Pa]'. Place and "
-        "depth [m] are those at the start, without initial displacement; the "
+        "depth [m] are taken at the start, without initial displacement; the "
         "strength moves with the soil.");
     this->add_parameter(
       "Stiffness ratio",
       stiffness_ratio_,
       "Young's modulus over the undrained shear strength of undisturbed soil, "
-      "E/s_u [-], at each point; in the place of `Young's modulus`. Empty: "
-      "that.",
+      "E/s_u [-], at each point; replaces `Young's modulus`. Empty: `Young's "
+      "modulus` is used.",
       ParameterAcceptor::prm,
       Patterns::List(Patterns::Double(1e-12), 0, 1));
   }

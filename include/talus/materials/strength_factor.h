@@ -56,7 +56,7 @@ namespace talus
     /// Undrained shear strength, Pa, or invalid_unsigned_int; requires the
     /// column of the strength factor.
     unsigned int strength;
-    bool stiffness_follows; ///< moduli are proportional to the strength
+    bool         stiffness_follows; ///< moduli are proportional to the strength
   };
 
 
