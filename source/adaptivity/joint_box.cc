@@ -72,11 +72,11 @@ namespace talus
 
 
 
-  // Why second moments and not the bounding box: the bounding box of two boxes
-  // shifted slightly against each other is too large, and by an amount that
-  // depends on the box that sticks out. With second moments the nodes see, to
-  // second order, the mass at its old place, and no box needs an exact position
-  // to be merged. The scaling keeps the volume covered by the boxes.
+  // Second moments instead of the bounding box: the bounding box of two boxes
+  // shifted slightly against each other is too large, by an amount that depends
+  // on the box that sticks out. With second moments the nodes see, to second
+  // order, the mass at its old place, and no box needs an exact position to be
+  // merged. The scaling keeps the volume covered by the boxes.
   template <int dim>
   JointBox<dim>::JointBox(const Points<dim> &points,
                           const BoxRule      rule,

@@ -78,9 +78,9 @@ namespace talus
 
 
 
-  /// Return whether @p joint, a box of two points side by side along @p axis,
-  /// is nearly a box, no longer than `Merge length` and far from a split, in
-  /// cells of size @p cell_size, m.
+  /// Return whether two points along @p axis may be merged into the box
+  /// @p joint: nearly a box, no longer than `Merge length` and far from a
+  /// split, in cells of size @p cell_size, m.
   template <int dim>
   bool
   Merger<dim>::fits(const JointBox<dim> &joint,

@@ -438,9 +438,10 @@ namespace talus
     ///
     /// A box parallel to the axes is halved along the axes, a convected domain
     /// along its edges. The initial position moves by F^-1 (x_d - x), as loads
-    /// and initial fields are functions of it: exact along the edges, which F
-    /// maps from the axes of the undeformed box; not across a sheared box, as
-    /// the box does not know the shear (doc/method.md, section 6).
+    /// and initial fields are functions of it. The move is exact along the
+    /// edges, which F maps from the axes of the undeformed box. Across a
+    /// sheared box the move is not exact, as the box does not know the shear
+    /// (doc/method.md, section 6).
     template <int dim>
     class Offset
     {

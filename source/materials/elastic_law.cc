@@ -61,11 +61,10 @@ namespace talus
 
 
 
-  // The constants are the constants of the solid in 2-D, too: the strain is
-  // plane, and the stress out of the plane follows from the 3-D law. lambda and
-  // K grow without bound towards nu = 1/2, and the stable time step falls with
-  // the root of lambda + 2 mu: with nu = 0.49 it is 3.6 times smaller than with
-  // 0.3.
+  // 2-D uses the constants of the solid, too: the strain is plane, and the
+  // stress out of the plane follows from the 3-D law. lambda and K grow without
+  // bound towards nu = 1/2. The stable time step falls with the root of
+  // lambda + 2 mu: with nu = 0.49 it is 3.6 times smaller than with 0.3.
   template <int dim>
   Moduli
   ElasticLaw<dim>::moduli() const

@@ -13,15 +13,15 @@ namespace talus
   ///
   /// The joint box has the second moments of mass of the two boxes together,
   ///   l_d^2 = w_p l_pd^2 + w_q l_qd^2 + 12 w_p w_q (x_q - x_p)_d^2,
-  /// with the mass fractions w; if the union of the two boxes is a box, the
-  /// joint box is exactly the union. All lengths are then scaled by a common
-  /// factor, so that the volume is the sum of both volumes. The factor measures
-  /// how far the union is from a box. For convected domains, lengths are
-  /// measured along the edges.
+  /// with the mass fractions w. If the union of the two boxes is a box, the
+  /// result is the union. A common factor on all lengths then gives the sum of
+  /// both volumes; it measures how far the union is from a box. Lengths of
+  /// convected domains are measured along the edges.
   template <int dim>
   class JointBox
   {
   public:
+    /// Join the boxes of points @p p and @p q, which follow @p rule.
     JointBox(const Points<dim> &points,
              BoxRule            rule,
              unsigned int       p,

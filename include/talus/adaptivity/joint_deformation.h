@@ -14,6 +14,7 @@ namespace talus
   class JointDeformation
   {
   public:
+    /// Join the deformations of points @p p and @p q.
     JointDeformation(const Points<dim> &points, unsigned int p, unsigned int q);
 
     /// Joint deformation gradient [-]; meaningless unless misfit() is small.

@@ -20,17 +20,17 @@ namespace talus
   /// Merges pairs of points that lie side by side in a cell, where soil was
   /// split and is later compressed or comes to rest.
   ///
-  /// Two points of one body in one cell are merged if their boxes together are
-  /// nearly a box (JointBox::misfit()). The joint box must be no longer than
-  /// `Merge length` along the axis on which the points lie, and a further
+  /// Two points of the same body and cell are merged if their boxes together
+  /// are nearly a box (JointBox::misfit()). The joint box must be no longer
+  /// than `Merge length` along the axis on which the points lie. A further
   /// stretch by 1.25 along any axis must not cause a split. Merging keeps mass,
   /// volume, momentum, centre of mass and the volume integral of the stress;
   /// internal variables become means weighted by mass. The kinetic energy of
-  /// the relative velocity is lost. If the children of a split have not
-  /// changed, merging restores the parent.
+  /// the relative velocity is lost. Children of a split that have not changed
+  /// become their parent again.
   ///
   /// The choice of pairs depends on the positions of the points and not on ids
-  /// or storage order. Runs on different numbers of ranks merge the same pairs.
+  /// or storage order: any number of ranks merges the same pairs.
   template <int dim>
   class Merger : public dealii::ParameterAcceptor
   {

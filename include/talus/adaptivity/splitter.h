@@ -107,8 +107,8 @@ namespace talus
     void
     list_quantities(const State<dim> &state, Quantities &list) const;
 
-    /// Set the ids of children created on this rank to @p first, @p first +
-    /// @p stride, ..., so that ids are unique over all ranks.
+    /// Give the ids @p first, @p first + @p stride, ... to the children created
+    /// on this rank, so that ids are unique over all ranks.
     void
     number_from(const double first, const double stride)
     {
@@ -179,9 +179,9 @@ namespace talus
                           unsigned int       cell,
                           double            &cell_size) const;
     /// Axes along which the criterion requires a split of point @p p, sorted
-    /// into cell @p cell, before any limit is considered; with `Directions =
-    /// all` no axis or all axes. Sets @p cell_size to the size of the cell that
-    /// now contains the point, m.
+    /// into cell @p cell, without regard to limits; with `Directions = all` no
+    /// axis or all axes. Sets @p cell_size to the size of the cell that now
+    /// contains the point, m.
     unsigned int
     required_axes(const Points<dim> &points,
                   const Grid<dim>   &grid,

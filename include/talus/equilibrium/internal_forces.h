@@ -17,8 +17,8 @@ namespace talus
   ///
   /// The B-bar method is the same as in the explicit scheme. The volume change
   /// of a point becomes theta_c, the mean over the points of the cell whose
-  /// laws use B-bar, which is linear in the displacements; the stress that does
-  /// work on theta_c is averaged, too. Forces and matrix are the first and
+  /// laws use B-bar; theta_c is linear in the displacements. The stress that
+  /// does work on theta_c is averaged, too. Forces and matrix are the first and
   /// second derivative of the same work, so the matrix of elastic soil is
   /// symmetric. With volumes V and gradients of the start of the step, the
   /// nominal stress P does the work V P : H on the displacement gradient H.

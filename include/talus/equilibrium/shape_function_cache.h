@@ -17,6 +17,8 @@ namespace talus
   class ShapeFunctionCache
   {
   public:
+    /// Compute the weights of all points at the nodes with unknowns, for points
+    /// with boxes of the given shape.
     void
     compute(const Points<dim>   &points,
             const Grid<dim>     &grid,

@@ -12,9 +12,9 @@ namespace talus
 {
   /// Factor of safety by shear strength reduction @cite griffiths1999: the
   /// largest number by which all strengths can be divided with the soil still
-  /// in balance; less than 1 if the soil needs more strength to stand. The
-  /// factor is bracketed by trial factors that grow or fall by a half, then by
-  /// bisection. Failure of the soil counts only after the soil stood with
+  /// in balance. The factor is less than 1 if the soil needs more strength to
+  /// stand. Trial factors that grow or fall by a half give a bracket, which is
+  /// then bisected. Failure of the soil counts only after the soil stood with
   /// nearly the same factor, as a larger reduction may be too large for one
   /// trial.
   class StrengthReduction : public dealii::ParameterAcceptor

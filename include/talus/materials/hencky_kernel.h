@@ -113,10 +113,11 @@ namespace talus
 
 
 
-  /// Logarithmic strain in space with derivatives. Principal directions have
-  /// infinite derivatives at equal stretches, ln b has not: in principal axes,
-  /// component (k, l) of db is multiplied by (ln b_k - ln b_l)/(b_k - b_l), or
-  /// by 1/b_k in the limit @cite ogden1984, section 3.4.
+  /// Logarithmic strain in space with derivatives. At equal stretches the
+  /// derivatives of the principal directions are infinite, but the derivative
+  /// of ln b is not. In principal axes, component (k, l) of db is multiplied by
+  /// (ln b_k - ln b_l)/(b_k - b_l), or by 1/b_k in the limit @cite ogden1984,
+  /// section 3.4.
   TALUS_ALWAYS_INLINE Stress<3, Dual<9>>
   logarithmic_strain(const DeformationState<3, Dual<9>> &state)
   {

@@ -116,10 +116,10 @@ namespace talus
     }
 
     /// Multiply the whole strength (not viscosity) of each point from now on by
-    /// @p column [-], between 0 and largest_strength_factor(); ignored by laws
-    /// without strength. The factor may change at any time: a stress then
-    /// outside the yield surface is returned in the next step, and the elastic
-    /// energy released becomes plastic work.
+    /// the value in @p column [-], between 0 and largest_strength_factor();
+    /// ignored by laws without strength. The factor may change at any time: a
+    /// stress then outside the yield surface is returned in the next step, and
+    /// the elastic energy released becomes plastic work.
     void
     use_strength_factor(const unsigned int column)
     {

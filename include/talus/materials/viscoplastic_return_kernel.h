@@ -158,17 +158,18 @@ namespace talus
   /// Plastic shear strain x of the step [-] by the backward Euler method: at
   /// the end of the step the shear stress equals the strength,
   ///   trial stress - G x = strength - loss (1 - exp(-decay x))
-  ///                        + K (x/dt)^n,
-  /// with @p excess = trial stress - strength at the start of the step, Pa, and
-  /// @p loss the strength that further remoulding can remove, Pa; G > decay
-  /// loss. Zero if nothing is in excess, or if viscous material has no time to
-  /// flow.
+  ///                        + K (x/dt)^n.
+  /// Zero if nothing is in excess, or if viscous material has no time to flow.
   ///
   /// The unknown is chosen so that the equation is convex and increasing: the
   /// shear for n >= 1, the overstress K (x/dt)^n for n < 1. The iteration
   /// starts from the smallest of the values allowed by each resistance alone.
   /// The start is above the root and, without remoulding, less than twice the
   /// root.
+  /// @param excess Trial stress minus strength at the start of the step, Pa.
+  /// @param loss Strength that further remoulding can remove, Pa; G > decay
+  ///   loss.
+  /// @param r Resistance to shear.
   template <typename Number, typename Modulus = double>
   TALUS_ALWAYS_INLINE Number
   plastic_shear(const Number                      excess,
