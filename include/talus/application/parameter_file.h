@@ -39,9 +39,8 @@ namespace talus
     /// Check the lines of a file and of all included files, which become
     /// protected inputs.
     /// @param content Text of the file.
-    /// @param chain Names of the files that include each other, ending with the
-    ///   file
-    /// itself.
+    /// @param chain Names of the files whose lines `include` led to the file,
+    ///   ending with the file itself.
     /// @param n_left Number of files that may still be included; decreased.
     void
     check(const std::string              &content,

@@ -29,7 +29,7 @@ namespace talus
   {
     unsigned int n_load_steps;      ///< number of equal load steps
     double       smallest_step;     ///< smallest fraction of the load [-]
-    double       allowed_imbalance; ///< of soil in balance [-]; see Newton
+    double       allowed_imbalance; ///< limit for soil in balance [-]
     /// Whether to subtract the error of the weight (WellBalancedLoad).
     bool is_well_balanced = true;
   };

@@ -32,8 +32,7 @@ namespace talus
     /// @param gamma Factor of the penalty [-].
     /// @param shear_modulus Shear modulus G of the penalty, Pa.
     /// @param little Volume fraction of soil at a node below which the node has
-    ///   little
-    /// soil [-].
+    ///   little soil [-].
     void
     find_faces(const Grid<dim>     &grid,
                const Unknowns<dim> &unknowns,

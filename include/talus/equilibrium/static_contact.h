@@ -44,14 +44,13 @@ namespace talus
     add_contact_force(double factor, std::vector<double> &forces) const;
 
     /// Update the contact states from a solution. Soil that has moved into the
-    /// seabed is moved back.
+    /// seabed is moved back. Collective.
     /// @param problem Soil and boundaries.
     /// @param unknowns Unknowns of the load step.
     /// @param reaction Force of the boundary on the soil, N, at the nodes.
     /// @param u Displacement of the step, m, at the nodes.
     /// @return Number of nodes on all ranks whose state or friction changed,
-    ///   plus 1 if
-    /// the forces of the facets have not converged. Collective.
+    ///   plus 1 if the forces of the facets have not converged.
     unsigned int
     update_active_set(const StaticProblem<dim>  &problem,
                       const Unknowns<dim>       &unknowns,

@@ -35,8 +35,7 @@ namespace talus
     /// @param measure Strain measure.
     /// @param ghost_penalty Factor gamma of the ghost penalty [-].
     /// @param is_well_balanced Whether to use WellBalancedLoad; ignored at
-    ///   large
-    /// strain.
+    ///   large strain.
     void
     begin(StaticProblem<dim> &problem,
           StrainMeasure       measure,
@@ -78,11 +77,11 @@ namespace talus
     void
     constrain(const StaticProblem<dim> &problem);
 
-    /// Compute the residual.
+    /// Compute the residual. Collective.
     /// @param problem Soil, loads and boundaries.
     /// @param u Displacements, m; solve_tangent() uses the tangent at @p u.
     /// @param residual Residual, N; unchanged on failure.
-    /// @return False if a point on any rank would be inverted. Collective.
+    /// @return False if a point on any rank would be inverted.
     bool
     find_residual(StaticProblem<dim>        &problem,
                   const std::vector<double> &u,
