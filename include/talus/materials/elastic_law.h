@@ -15,8 +15,8 @@ namespace talus
   public:
     ElasticLaw(const std::string &section);
 
-    /// Throw ExcUser unless the elastic energy is positive: E > 0 and -1 < nu <
-    /// 1/2.
+    /// Throw ExcUser unless E > 0 and -1 < nu <= 0.49999, so that elastic
+    /// moduli are positive and finite.
     void
     check() const override;
 

@@ -45,7 +45,8 @@ namespace talus
               const unsigned int p,
               const unsigned int q)
   {
-    // Smaller root of t^2 + t (A_qq - A_pp)/A_pq = 1; zero if A_pq is zero.
+    // Root of t^2 + t (A_qq - A_pp)/A_pq = 1 of smaller magnitude; zero if
+    // A_pq is zero.
     const Number half = 0.5 * (A[q][q] - A[p][p]);
     const Number root = sqrt(half * half + A[p][q] * A[p][q]) +
                         std::numeric_limits<double>::min();

@@ -122,8 +122,8 @@ namespace talus
 
 
   /// Half of the rotation of Hughes and Winget in 3-D. With the axial vector w
-  /// of W, c = cos(phi/2) and Rodrigues' formula, r = I + c W/2 + c^2 W^2 / (4
-  /// (1 + c)) and Q = r r.
+  /// of W, c = cos(phi/2) and Rodrigues' formula,
+  ///   r = I + c W/2 + c^2 W^2 / (4 (1 + c)), Q = r r.
   template <typename Number>
   TALUS_ALWAYS_INLINE HalfRotation<3, Number>
                       half_rotation(const Matrix<3, Number> &G)

@@ -9,8 +9,8 @@
 
 namespace talus
 {
-  /// Strength factor for soil with strength by point. Flow rules and moduli
-  /// then belong to material with a strength of 1 Pa.
+  /// Strength factor for soil whose strength differs from point to point. Flow
+  /// rules and moduli then belong to material with a strength of 1 Pa.
   template <typename Number>
   struct PointStrength
   {
@@ -43,8 +43,8 @@ namespace talus
 
 
 
-  /// Multiplier [-] of strengths that the user gave in Pa, also with strength
-  /// by point.
+  /// Multiplier [-] of further strengths given by one number in Pa, such as the
+  /// residual strength.
   template <typename Factor>
   TALUS_ALWAYS_INLINE auto
   share_of_given_strength(const Factor &factor)

@@ -62,7 +62,7 @@ namespace talus
 
 
   /// Call action(factor) as with_strength_factor(), with a PointStrength if the
-  /// soil has strength by point.
+  /// strength differs from point to point.
   template <int dim, typename Action>
   inline void
   with_point_strength(const Points<dim>     &points,
