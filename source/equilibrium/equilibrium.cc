@@ -222,8 +222,8 @@ namespace talus
   /// penalty decreases at full load; at large strain the nodes would then move
   /// too far. The lower bound of 1e-3 keeps nodes without stiffness from making
   /// the matrix singular. Nodes inside obstacles have very little soil, but the
-  /// full pressure: they are held by their springs and the penalty, and follow
-  /// only if the penalty is close to zero.
+  /// full pressure: held by their springs and the penalty, they follow only if
+  /// the penalty is close to zero, hence the lower bound of 1e-9.
   template <int dim>
   typename Newton<dim>::Parameters
   Equilibrium<dim>::parameters_of_step(const bool has_obstacles) const

@@ -136,8 +136,8 @@ namespace talus
 
   /// Couple all unknowns that the points of a cell touch. Held unknowns keep
   /// their places: nodes on the seabed change their states within a load step,
-  /// and the pattern serves all matrices of the step. compress() sends rows of
-  /// nodes owned by different ranks to the owners. Collective.
+  /// and the pattern serves all matrices of the step. compress() sends the rows
+  /// of ghost nodes to their owners. Collective.
   template <int dim>
   void
   StaticEquations<dim>::make_pattern()

@@ -59,8 +59,9 @@ namespace talus
       return strength_factor_;
     }
 
-    /// Column `undrained shear strength`, Pa, of soil with strength by point;
-    /// invalid_unsigned_int if no material uses it. To be set for new points.
+    /// Column `undrained shear strength`, Pa, for strength that differs from
+    /// point to point; invalid_unsigned_int if no material uses it. To be set
+    /// for new points.
     unsigned int
     undrained_strength() const
     {
