@@ -12,7 +12,8 @@ namespace talus
 
   namespace
   {
-    /// From point @p p to @p q, m; sets the lengths of both boxes, m.
+    /// Return the vector from point @p p to point @p q, m, along the axes of
+    /// space. Sets the lengths @p l_p and @p l_q of the two boxes, m.
     template <int dim>
     Tensor<1, dim>
     offset_along_axes(const Points<dim>       &points,
@@ -36,7 +37,9 @@ namespace talus
 
 
 
-    /// The same in the frame of the mean edges of two convected domains.
+    /// Return the vector from point @p p to point @p q, m, in the frame of the
+    /// mean edges of two convected domains. Sets the lengths @p l_p and @p l_q
+    /// of the edges, m.
     template <int dim>
     Tensor<1, dim>
     offset_along_edges(const Points<dim>       &points,
@@ -45,7 +48,7 @@ namespace talus
                        std::array<double, dim> &l_p,
                        std::array<double, dim> &l_q)
     {
-      Matrix<dim, double> directions; // as columns
+      Matrix<dim, double> directions; // unit vectors of the frame, as columns
       for (unsigned int d = 0; d < dim; ++d)
         {
           const BoxRule        rule = BoxRule::convected_domain;
@@ -69,11 +72,11 @@ namespace talus
 
 
 
-  // Second moments, and not the bounding box: that of two boxes shifted a
-  // little against one another is too large, and how much too large depends on
-  // which of them sticks out. By the second moments the nodes see, to second
-  // order, the mass where it was, and a box never has to be in a certain
-  // place to be joined with another one; scaled, boxes cover as much as before.
+  // Second moments instead of the bounding box: the bounding box of two boxes
+  // shifted slightly against each other is too large, by an amount that depends
+  // on the box that sticks out. With second moments the nodes see, to second
+  // order, the mass at its old place, and no box needs an exact position to be
+  // merged. The scaling keeps the volume covered by the boxes.
   template <int dim>
   JointBox<dim>::JointBox(const Points<dim> &points,
                           const BoxRule      rule,

@@ -7,9 +7,10 @@
 
 namespace talus
 {
-  // The determinant of a mean is not the mean of determinants, and it is these
-  // that say how much soil there is: volume must not be made. Rotations that
-  // differ shrink the mean, so the same number tells whether it means anything.
+  // The determinant of a mean differs from the mean of the determinants. Only
+  // the determinants give the volume of soil, and no volume must be created.
+  // Different rotations shrink the mean, so the scaling also tells whether the
+  // mean is meaningful.
   template <int dim>
   JointDeformation<dim>::JointDeformation(const Points<dim> &points,
                                           const unsigned int p,

@@ -6,10 +6,10 @@
 
 namespace talus
 {
-  // Children tile their parent, so a split changes none of these sums but by
-  // round-off; what the ledger shows is therefore an error in the program, such
-  // as an energy that is copied where it should be divided. It goes along in
-  // every run, since it costs some operations per split only.
+  // Children tile their parent, so a split changes the sums by round-off only.
+  // A larger error is an error in the program, for example an energy that is
+  // copied where division is due. The check costs a few operations per split
+  // and runs always.
   template <int dim>
   void
   Ledger<dim>::enter(const Points<dim> &points,
@@ -29,7 +29,7 @@ namespace talus
         entry[d]       = mass * v;
         entry[dim + d] = mass * x;
       }
-    // Vectors are measured by their length: a component may well be zero.
+    // Scale vectors by their length, as a single component may well be zero.
     for (unsigned int d = 0; d < dim; ++d)
       {
         scale[d]       = mass * std::sqrt(speed_square);
@@ -41,7 +41,7 @@ namespace talus
     for (unsigned int i = 2 * dim; i < n_entries; ++i)
       scale[i] = std::abs(entry[i]);
 
-    // Before and after a split each count the whole: half of both is the scale.
+    // Each split is counted before and after, hence half of both for the scale.
     for (unsigned int i = 0; i < n_entries; ++i)
       {
         difference_[i] += sign * entry[i];
@@ -51,8 +51,7 @@ namespace talus
 
 
 
-  // Relative to the sum of absolute values and not to the sum, which may
-  // vanish.
+  // Relative to the sum of absolute values, as the plain sum may vanish.
   template <int dim>
   double
   Ledger<dim>::relative_error() const
@@ -66,7 +65,7 @@ namespace talus
 
 
 
-  // The unit differs between the entries.
+  // The unit is left empty: the entries have different units.
   template <int dim>
   void
   Ledger<dim>::list_state(StateList &list, const std::string &name)

@@ -17,14 +17,13 @@ namespace talus
     add_parameter(
       "Allowed imbalance",
       allowed_imbalance_,
-      "The mesh is shared out anew among the ranks when the largest "
-      "number of points of a rank exceeds this many times the mean "
-      "[-].",
+      "Largest number of points of a rank over the mean [-], above which "
+      "the mesh is distributed anew among the ranks.",
       this->prm,
       Patterns::Double(1.));
     add_parameter("Interval",
                   interval_,
-                  "Number of steps between two looks at the imbalance [-].",
+                  "Number of steps between two checks of the imbalance [-].",
                   this->prm,
                   Patterns::Integer(1));
   }
@@ -42,7 +41,7 @@ namespace talus
 
 
 
-  // Counting takes a message of all ranks, too much for every step.
+  // Counting needs a message between all ranks, too expensive for every step.
   template <int dim>
   bool
   LoadBalance<dim>::is_due(const unsigned long step,
@@ -54,10 +53,10 @@ namespace talus
 
 
 
-  // A cell goes to one rank as a whole, so with few cells per rank the goal may
-  // be out of reach: without the second bound the cells would be shared out in
-  // vain at each look. A twentieth more than was reached then is reason to try
-  // again.
+  // A cell belongs to one rank as a whole, so with few cells per rank the
+  // allowed imbalance may be out of reach. The second bound avoids useless
+  // repartitions: only an imbalance 5 % above the value reached last is a
+  // reason to try again.
   template <int dim>
   bool
   LoadBalance<dim>::is_needed(const Points<dim> &points,
@@ -71,7 +70,8 @@ namespace talus
 
   namespace
   {
-    /// First point of each owned cell, and one more entry.
+    /// Index of the first point of each owned cell, and at the end the number
+    /// of points.
     template <int dim>
     std::vector<unsigned int>
     first_points(const Points<dim> &points, const Grid<dim> &grid)
@@ -86,11 +86,10 @@ namespace talus
 
 
 
-    /// Weight of a cell with so many points. One without costs next to nothing,
-    /// but not nothing.
-    /// Integers, as p4est has them. The cost of a step follows the points; but
-    /// if empty cells weighed nothing one rank could get all of those at the
-    /// end of the curve, and the memory they take.
+    /// Weight of a cell with @p n_points points, for p4est: an integer. The
+    /// cost of a step is proportional to the number of points. Empty cells
+    /// weigh a little, as otherwise a single rank could receive all empty cells
+    /// at the end of the space-filling curve, and run out of memory.
     unsigned int
     weight(const unsigned int n_points)
     {
@@ -100,14 +99,13 @@ namespace talus
 
 
 
-  // Cells and points travel together, by deal.II's means for data of variable
-  // size attached to cells: points may go to any rank, and p4est knows where
-  // each cell goes, which we would else have to find out. The data of a cell
-  // are its points column by column, in their order, and so the order within a
-  // cell, which is part of the state, survives.
+  // Points travel with their cells, as deal.II's data of variable size attached
+  // to cells: p4est knows the new rank of each cell, and points may go to any
+  // rank. The data of a cell are its points, column by column. The order of the
+  // points within a cell is part of the state and is kept.
   //
-  // Points in cells that stay are packed and unpacked as well: it happens
-  // rarely, and the indices of all cells change.
+  // Points in cells that stay on their rank are packed and unpacked as well:
+  // repartitions are rare, and the indices of all cells change.
   template <int dim>
   std::vector<unsigned int>
   LoadBalance<dim>::repartition(Grid<dim> &grid, Points<dim> &points)
@@ -139,8 +137,8 @@ namespace talus
     weights.disconnect();
     grid.prepare();
 
-    // The numbers of arrays are the same on all ranks: materials add columns
-    // for all.
+    // All ranks have the same number of arrays, as materials add their columns
+    // on all ranks.
     points.clear();
     std::vector<unsigned int> cells;
     triangulation.notify_ready_to_unpack(
@@ -158,8 +156,8 @@ namespace talus
                       n * sizeof(double));
       });
     reached_imbalance_ = imbalance(points, grid.communicator());
-    // Kept, so that a resumed run gets the same cells on the same ranks, by
-    // these weights; the points have moved on by then.
+    // Keep the weights: by the time of a checkpoint the points have moved, but
+    // a resumed run must distribute the same cells to the same ranks.
     weights_.assign(grid.n_owned_cells(), weight(0));
     for (const unsigned int c : cells)
       weights_[c] += weight(1) - weight(0);

@@ -16,10 +16,10 @@ namespace talus
 
   namespace
   {
-    /// What is merged can be stretched by this much before it is split again.
+    /// Stretch that a merged point must be able to bear before a split [-].
     constexpr double margin = 1.25;
 
-    /// Misfit of boxes that fit exactly.
+    /// Misfit by round-off of boxes that fit exactly [-].
     constexpr double round_off = 1e-12;
   } // namespace
 
@@ -32,24 +32,26 @@ namespace talus
     add_parameter("Merge",
                   enabled_,
                   "Whether points of one body that lie side by side in a cell "
-                  "become one point, where soil is compressed or at rest and "
-                  "no longer needs them.");
+                  "are merged, where soil is compressed or at rest and needs "
+                  "fewer points.");
     add_parameter("Merge interval",
                   interval_,
-                  "Steps from one search for points to merge to the next [-].",
+                  "Number of steps between two searches for points to merge "
+                  "[-].",
                   this->prm,
                   Patterns::Integer(1));
     add_parameter("Merge length",
                   length_,
-                  "Merged points are at most this many cells long along the "
-                  "axis that they lie along [-]; at most 0.8 times 'Minimum "
-                  "length', so that soil is not merged and split in turn.",
+                  "Largest length of a merged point along the axis on which "
+                  "the two points lie, in cells [-]; at most 0.8 times "
+                  "'Minimum length', so that soil is not merged and split in "
+                  "turn.",
                   this->prm,
                   Patterns::Double(0., 0.8));
     add_parameter("Merge tolerance",
                   tolerance_,
-                  "By how much of their volume the boxes of two points may be "
-                  "from making a box together [-]; 0 merges those only that "
+                  "Largest relative error in volume with which the boxes of "
+                  "two points count as one box [-]; 0 merges only boxes that "
                   "fit to round-off.",
                   this->prm,
                   Patterns::Double(0., 0.5));
@@ -76,8 +78,9 @@ namespace talus
 
 
 
-  /// Whether @p joint is nearly a box, side by side along @p axis, and neither
-  /// too long nor near a threshold of the splitter, in cells of this size.
+  /// Return whether two points along @p axis may be merged into the box
+  /// @p joint: nearly a box, no longer than `Merge length` and far from a
+  /// split, in cells of size @p cell_size, m.
   template <int dim>
   bool
   Merger<dim>::fits(const JointBox<dim> &joint,
@@ -96,11 +99,12 @@ namespace talus
 
 
 
-  // Points in the order of their places, each joined with the best of those
-  // behind it until none fits. A row of boxes is so joined from its lower end,
-  // whatever round-off says of which two of them fit best: numbers of ranks
-  // differ in that.
-  /// Of the members of the segment; returns the kinetic energy lost, J.
+  /// Merge pairs of members_ along @p axis. Returns the kinetic energy lost, J.
+  ///
+  /// Each point, in the order of positions, is merged with the best fitting of
+  /// the points behind until none fits. A row of boxes is thus merged from its
+  /// lower end, independent of the round-off in the misfits, which depends on
+  /// the number of ranks.
   template <int dim>
   double
   Merger<dim>::merge_along(const unsigned int   axis,
@@ -151,8 +155,8 @@ namespace talus
 
 
 
-  // A cell beside smaller ones is taken for one of them, as its points may
-  // enter them in the next step.
+  // If a neighbour is smaller, take half the size of the cell: its points may
+  // enter the smaller cell in the next step.
   template <int dim>
   double
   Merger<dim>::merge(Points<dim>               &points,
@@ -191,7 +195,7 @@ namespace talus
 
   namespace
   {
-    /// Kinetic energy of two points that goes when they get one velocity, J.
+    /// Kinetic energy lost when two points get a common velocity, J.
     template <int dim>
     double
     kinetic_energy_lost(const Points<dim> &points,
@@ -208,8 +212,10 @@ namespace talus
 
 
 
-    /// What is extensive is summed up, the stress is the mean by volume, so that
-    /// the nodes feel the same, all else the mean by mass.
+    /// Merge all columns of points @p p and @p q into @p p. Extensive columns
+    /// are summed. The stress is the mean weighted by volume (@p volume_share
+    /// of point p), so that internal forces at the nodes are kept; all further
+    /// columns are means weighted by mass (@p mass_share of point p).
     template <int dim>
     void
     join_columns(Points<dim>       &points,
@@ -236,10 +242,10 @@ namespace talus
 
 
 
-  /// Point @p p becomes both. Its box is @p joint, and with the deformation
-  /// gradient it has another stretch, from which the splitter counts anew.
-  /// Of the splits behind the points one is undone. Returns the kinetic energy
-  /// lost, J.
+  /// Replace point @p p by the union of @p p and @p q, with the box @p joint.
+  /// The splitter measures further stretch from the new deformation gradient,
+  /// and the number of splits behind the point decreases by one. Returns the
+  /// kinetic energy lost, J.
   template <int dim>
   double
   Merger<dim>::merge_pair(Points<dim>         &points,
@@ -263,7 +269,7 @@ namespace talus
     points.data(points.body)[p]       = body;
     points.data(points.generation)[p] = std::max(0., generation - 1.);
     store_matrix(points, points.deformation_gradient, p, F.gradient());
-    // With fixed boxes it is the mean: nothing else knows it.
+    // With fixed boxes the stretch stays the mean: no formula relates it to F.
     if (rule != BoxRule::fixed)
       initialize_stretch(points, p, p + 1, rule);
     for (unsigned int d = 0; d < dim; ++d)
@@ -279,7 +285,7 @@ namespace talus
 
 
 
-  // Without merging there are no such columns, and tables are as they were.
+  // Tables have columns for merging only if merging is enabled.
   template <int dim>
   void
   Merger<dim>::list_quantities(const State<dim> &state, Quantities &list) const

@@ -17,9 +17,9 @@ namespace talus
       "Enabled",
       enabled_,
       "Whether the mesh follows the soil: cells of 'Grid/Cell size' "
-      "where there are points and around them, up to 2^(Grid/"
-      "Coarsest level) times larger ones far away. The results are "
-      "those of a mesh of small cells everywhere.");
+      "at the points and around, up to 2^(Grid/Coarsest level) times "
+      "larger cells far away. The results equal the results with small "
+      "cells everywhere.");
     add_parameter("Margin",
                   margin_,
                   "Width of the layer of small cells around the soil, in cells "
@@ -29,17 +29,18 @@ namespace talus
     add_parameter(
       "Interval",
       interval_,
-      "Number of steps after which cells that the soil has left are "
-      "joined [-]; 0 for only when the mesh changes anyway.",
+      "Number of steps between two searches for cells that the soil has "
+      "left, to coarsen the mesh [-]; 0: coarsen only when the mesh "
+      "changes for another reason.",
       this->prm,
       Patterns::Integer(0));
   }
 
 
 
-  // Only the cells with points are asked, each by a bit that was set when the
-  // mesh was made (CellCache::find_larger_cells()): next to nothing per step.
-  // Whether any rank says yes takes an operation of all of them.
+  // Test only the occupied cells, by a bit set when the mesh was made
+  // (CellCache::find_larger_cells()): the cost per step is negligible. The
+  // caller combines the answers of the ranks.
   template <int dim>
   bool
   MeshTracking<dim>::is_urgent(
@@ -58,9 +59,10 @@ namespace talus
 
   namespace
   {
-    /// Small cells are asked for in blocks of 4 per axis, where trees allow it.
-    /// Sixteen cells (64 in 3-D) then share one key to be sent and looked up,
-    /// and the soil moves some cells before it asks for another block.
+    /// Level of the blocks in which small cells are requested: 4 cells per
+    /// axis, where the trees are fine enough. Then 16 cells (64 in 3-D) share
+    /// one key to send and look up, and the soil crosses several cells before a
+    /// new block is requested.
     template <int dim>
     unsigned int
     block_level(const Grid<dim> &grid)
@@ -70,19 +72,20 @@ namespace talus
 
 
 
-    /// Make the mesh consist of small cells in the blocks that any rank wants.
-    /// All ranks learn all blocks, as a block may lie in a cell of any of them;
-    /// these are few numbers, and rarely. A cell is to be divided if it
-    /// contains a block, so whoever contains one is entered, too, level by
-    /// level: then the question for a cell is one look into a table, whatever
-    /// its size.
+    /// Refine the mesh to cells of size h in the blocks @p wanted by any rank.
+    /// Returns whether the mesh changed.
+    ///
+    /// All ranks receive all blocks, as a block may lie in a cell of any rank;
+    /// messages are short and rare. A cell must be refined if it contains a
+    /// block, so all ancestors of the blocks are added to the set, level by
+    /// level: one look-up then answers for a cell of any size.
     template <int dim>
     bool
     refine(Grid<dim>                        &grid,
            std::unordered_set<unsigned long> wanted,
            const bool                        spread)
     {
-      // Tell all ranks, and climb from the blocks to what contains them.
+      // Exchange the blocks between the ranks, then add their ancestors.
       const unsigned int               at_level = block_level(grid);
       const std::vector<unsigned long> own(wanted.begin(), wanted.end());
       for (const auto &blocks :
@@ -102,7 +105,8 @@ namespace talus
         [&](typename Grid<dim>::Lattice place, unsigned int level) {
           if (level >= grid.base_level())
             return false;
-          // Smaller than a block: as the block it lies in.
+          // For a cell smaller than a block, look up the block that contains
+          // it.
           if (level > at_level)
             {
               for (auto &p : place)
@@ -117,10 +121,10 @@ namespace talus
 
 
 
-  /// Ask for small cells from place @p first to @p last of the lattice of cells
-  /// of size h, and a margin around.
-  /// The margin lets the soil move for a while before the mesh must change
-  /// again; cells that do not exist beyond the boundary are left out.
+  /// Request small cells from place @p first to place @p last of the lattice of
+  /// cells of size h, and in a margin around; the blocks are added to
+  /// @p wanted. The margin lets the soil move for a while before the mesh must
+  /// change again. Places beyond the boundary are left out.
   template <int dim>
   void
   MeshTracking<dim>::want(const Grid<dim> &grid,
@@ -151,7 +155,7 @@ namespace talus
 
 
 
-  // Before there are points: the boxes are those around the bodies to be.
+  // Used before points exist, hence bounding boxes instead of occupied cells.
   template <int dim>
   void
   MeshTracking<dim>::adapt(Grid<dim> &grid, const std::vector<Box<dim>> &boxes)
@@ -167,22 +171,22 @@ namespace talus
 
 
 
-  // What is wanted follows from where the soil is now: cells that it has left
-  // become larger at once, and two runs that come to the same soil have
-  // the same mesh. Points keep their rank here; LoadBalance shares them out
-  // afterwards.
+  // The mesh depends only on the current place of the soil: cells left by the
+  // soil become larger at once, and two runs with the same soil have the same
+  // mesh. Points keep their rank; LoadBalance distributes them afterwards.
   template <int dim>
   bool
   MeshTracking<dim>::adapt(Grid<dim>                       &grid,
                            const std::vector<unsigned int> &occupied_cells)
   {
-    // Many cells share a block: ask once for each block.
+    // Many cells share a block: request each block once.
     const unsigned int at_level = block_level(grid);
     const unsigned int shift    = grid.base_level() - at_level;
     Blocks             occupied, wanted;
     for (const unsigned int c : occupied_cells)
       {
-        // In a refinement box cells are smaller; larger ones hold no soil.
+        // Cells in a refinement box are smaller than h; larger cells hold no
+        // soil.
         const unsigned int level = grid.level_of_cell(c);
         Lattice            block = grid.place_of_cell(c), first, last;
         for (unsigned int d = 0; d < dim; ++d)

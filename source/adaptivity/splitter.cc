@@ -34,38 +34,38 @@ namespace talus
                   Patterns::Selection("all|stretched"));
     add_parameter("Minimum length",
                   minimum_length_,
-                  "The threshold applies only to points that are longer than "
-                  "this many cells [-]; 0 to apply it always.",
+                  "Length above which the threshold applies to a point, in "
+                  "cells [-]; 0: the threshold always applies.",
                   this->prm,
                   Patterns::Double(0., 1.));
     add_parameter("Maximum generation",
                   maximum_generation_,
-                  "Number of splits a point may have behind it [-]. The "
-                  "default keeps a slide whole that thins to a fifth of a "
+                  "Largest number of successive splits of a point [-]. The "
+                  "default suffices for a slide that thins to a fifth of a "
                   "cell; thinner sheets need more. Violent shear and spray "
                   "split points as often as allowed, and light points are "
                   "thrown far. A point at the limit is not split: its box is "
-                  "clipped, and soil that stretches on may tear. "
-                  "These points are counted in statistics.csv, and log.txt "
-                  "tells when there are some.",
+                  "clipped, and soil that stretches on may tear. Points at the "
+                  "limit are counted in statistics.csv and reported in "
+                  "log.txt.",
                   this->prm,
                   Patterns::Integer(0));
     add_parameter("Maximum number of points",
                   maximum_points_,
-                  "The run stops with an error before there are more points "
-                  "than this.",
+                  "Largest number of points on all ranks [-]; the run stops "
+                  "with an error before more points are made.",
                   this->prm,
                   Patterns::Integer(1));
   }
 
 
 
-  // The paper's criterion, the stretch since creation, has no length in it: in
-  // a band where the strain goes on it asks for splits without end, in points
-  // that are small already. So it holds for points that are longer than a part
-  // of a cell only, and a point longer than a cell is split in any case, as the
-  // weights would clip its box and the soil would tear (doc/method.md, section
-  // 6).
+  // The criterion of the paper, the stretch since creation, contains no length.
+  // In a shear band with growing strain it requires splits without end, of
+  // points that are already small. Hence it applies only to points longer than
+  // a fraction of a cell. A point longer than a cell is split in any case, as
+  // the weights would clip its box and the soil would tear (doc/method.md,
+  // section 6).
   template <int dim>
   template <typename Number>
   TALUS_ALWAYS_INLINE auto
@@ -81,15 +81,14 @@ namespace talus
       stretch * load<Number>(points.data(points.reference_length, d) + p);
     const auto is_stretched = (stretch > threshold_ * at_creation) &
                               (length > Number(minimum_length_ * cell_size));
-    // Longer than a cell, a box would be clipped and leave gaps.
+    // The box of a point longer than a cell would be clipped and leave gaps.
     const auto is_too_long = length > Number((1. + 1e-9) * cell_size);
     return is_stretched | is_too_long;
   }
 
 
 
-  // By the same comparison as may_exceed(), which looks at several points at a
-  // time: what it lets pass is looked at here.
+  // Repeats the comparison of may_exceed(), for a single point.
   template <int dim>
   unsigned int
   Splitter<dim>::axes_to_split(const Points<dim> &points,
@@ -105,8 +104,8 @@ namespace talus
 
 
 
-  // In smaller cells the criterion asks for more: if it is met in none of this
-  // size, it is met in none that is larger.
+  // The criterion is stricter in smaller cells: if no point violates it in
+  // cells of this size, no point violates it in larger cells.
   template <int dim>
   bool
   Splitter<dim>::may_exceed(const Points<dim> &points,
@@ -131,8 +130,9 @@ namespace talus
 
 
 
-  // Along an axis that no child is moved along they lie where the parent does,
-  // which may lie outside at a wall: that does not keep it from being split.
+  // Along the axes without a split the children lie at the position of the
+  // parent, which may be outside the mesh at a wall. The parent is split
+  // nevertheless.
   template <int dim>
   bool
   Splitter<dim>::children_may_stay(const Points<dim> &points,
@@ -143,7 +143,7 @@ namespace talus
                                    const BoxRule      rule) const
   {
     const Box<dim> &domain = grid.domain();
-    Tensor<1, dim>  reach; // of the children' centres
+    Tensor<1, dim>  reach; // from the parent's to the children's centres, m
     for (unsigned int d = 0; d < dim; ++d)
       if (axes & (1u << d))
         {
@@ -166,8 +166,8 @@ namespace talus
 
   namespace
   {
-    /// Size of the cell at @p x, in or beside an old cell that is not uniform;
-    /// of the old one where this rank does not know the new.
+    /// Size of the cell at @p x, m, near cells of different sizes; the size of
+    /// @p old_cell if this rank does not know the cell.
     template <int dim>
     double
     size_at(const Point<dim>  &x,
@@ -182,11 +182,10 @@ namespace talus
 
 
 
-  // Cells of another size are near. A point that enters a smaller cell is held
-  // against that one at once; and where a child would come to lie in a
-  // smaller cell, it must be no longer than that along the other axes either,
-  // or its box would be clipped and leave gaps. Each axis that is added moves
-  // the children, hence the loop; it ends since axes are only added.
+  // A point that has entered a smaller cell must fit into it at once. A child
+  // that would lie in a smaller cell must fit into the cell along all axes, as
+  // otherwise its box would be clipped and leave gaps. Each further axis moves
+  // the children, hence the loop. The loop ends, as axes are only added.
   template <int dim>
   unsigned int
   Splitter<dim>::axes_near_other_sizes(const Points<dim> &points,
@@ -263,8 +262,8 @@ namespace talus
 
 
 
-  // Looked at when a row of statistics is due, and not in the step. A point
-  // that may be split counts nowhere: the next step splits it.
+  // Called when a row of statistics is due, not in every step. Points that may
+  // be split are not counted: the next step splits them.
   template <int dim>
   UnsplitPoints
   Splitter<dim>::count_unsplit(const Points<dim> &points,
@@ -306,8 +305,8 @@ namespace talus
 
 
 
-  /// Throw ExcPoint if this rank would have too many points; before any is
-  /// made, so that memory does not run out first.
+  /// Throw ExcPoint if this rank would have too many points, before any child
+  /// is created: otherwise memory might run out first.
   template <int dim>
   void
   Splitter<dim>::check_budget(const Points<dim> &points,
@@ -331,8 +330,8 @@ namespace talus
 
 
 
-  // The limit holds for all ranks together, but to count them takes a message
-  // of all: whoever has the number from elsewhere brings it.
+  // The limit applies to all ranks together, but counting needs a message
+  // between all ranks. The caller passes a number that is known already.
   template <int dim>
   void
   Splitter<dim>::check_total(const double n_points) const
@@ -348,12 +347,12 @@ namespace talus
 
 
 
-  // Nearly always no point of a batch is to be split, which a look at several
-  // points at a time tells in a few operations, for the whole batch if its
-  // cells have one size. Only where that look finds something single points are
-  // looked at, and only beside cells of another size they are located in the
-  // mesh. Marked points are split later, when no loop over points is under way:
-  // children are appended, which may move all arrays.
+  // Nearly always no point of a batch must be split. A test of several points
+  // at a time tells so in a few operations, for the whole batch if its cells
+  // have one size. Only if the test fails, points are tested one by one; only
+  // next to cells of a different size, points are located in the mesh. Marked
+  // points are split later, outside of any loop over points, as appending
+  // children may move all arrays.
   template <int dim>
   void
   Splitter<dim>::mark(const Points<dim> &points,
@@ -363,7 +362,7 @@ namespace talus
   {
     if (!enabled_)
       return;
-    // The smallest cell that a point of a segment can be in: a neighbour may
+    // Smallest cell that may contain a point of the segment: a neighbour may
     // have half the size.
     const auto least_size = [&](const Segment &segment) {
       const Cell<dim> &cell = grid.cells()[segment.cell];
@@ -389,7 +388,8 @@ namespace talus
             double             cell_size;
             const unsigned int axes =
               required_axes(points, grid, p, rule, segment.cell, cell_size);
-            // A point at the limit goes on with a clipped box: count_unsplit().
+            // A point at the limit continues with a clipped box:
+            // count_unsplit().
             if (axes != 0 &&
                 points.data(points.generation)[p] < maximum_generation_ &&
                 children_may_stay(points, p, axes, cell_size, grid, rule))
@@ -400,8 +400,9 @@ namespace talus
 
 
 
-  // Once and not until none exceeds the threshold: children are half as long,
-  // and what is still too long is split in the next step.
+  // Split each point once and not until no point exceeds the threshold:
+  // children are half as long, and a child that is still too long is split in
+  // the next step.
   template <int dim>
   bool
   Splitter<dim>::split_marked(Points<dim>               &points,
@@ -421,7 +422,7 @@ namespace talus
       }
     statistics_.n_splits += marked_.size();
     statistics_.ledger = ledger_.relative_error();
-    // Round-off of some thousand splits stays below.
+    // The round-off of several thousand splits stays below 1e-12.
     Assert(statistics_.ledger <= 1e-12, ExcInternalError());
     marked_.clear();
     return true;
@@ -431,14 +432,17 @@ namespace talus
 
   namespace
   {
-    /// Move point @p p by a quarter of the edges of the parent along @p axes;
-    /// bit i of @p child says to which side along the i-th of them.
+    /// Moves the children of a point from the centre of the parent to their
+    /// places: by a quarter of the parent's edges along each split axis. Bit i
+    /// of `child` selects the side along the i-th split axis.
+    ///
+    /// A box parallel to the axes is halved along the axes, a convected domain
+    /// along its edges. The initial position moves by F^-1 (x_d - x), as loads
+    /// and initial fields are functions of it. The move is exact along the
+    /// edges, which F maps from the axes of the undeformed box. Across a
+    /// sheared box the move is not exact, as the box does not know the shear
+    /// (doc/method.md, section 6).
     template <int dim>
-    // A box parallel to the axes is halved along them, a convected domain along
-    // its edges. The initial position follows, X + F^-1 (x_d - x): loads and
-    // initial fields are functions of it. It is exact along the edges, which F
-    // made of the axes of the undeformed box; across a sheared box it is not,
-    // as the box does not know the shear (doc/method.md, section 6).
     class Offset
     {
     public:
@@ -475,7 +479,8 @@ namespace talus
       }
 
     private:
-      /// By column d of F^-1, times @p offset, m.
+      /// Move point @p p by @p offset, m, along axis @p d; the initial position
+      /// by column @p d of F^-1 times @p offset.
       void
       move_along_axis(Points<dim>       &points,
                       const unsigned int p,
@@ -488,7 +493,7 @@ namespace talus
             to_material_[e][d] * offset;
       }
 
-      /// F^-1 takes the edge back to the axis it comes from.
+      /// Move point @p p along edge @p d. F^-1 maps the edge back to axis @p d.
       void
       move_along_edge(Points<dim>       &points,
                       const unsigned int p,
@@ -510,12 +515,14 @@ namespace talus
 
 
 
-  /// The first child is the parent's row, so that a split into n makes n - 1
-  /// new ones, and no hole that would have to be filled. F, stress and internal
-  /// variables are copied: the children are the same material in the same
-  /// state. The stretch at creation becomes that of now, on all axes, so that
-  /// the threshold counts what comes after the split; else a child could be
-  /// split again at once.
+  /// Split point @p p along @p axes, and check conservation.
+  ///
+  /// The first child takes the place of the parent, so a split into n children
+  /// appends n - 1 points and leaves no hole. F, stress and internal variables
+  /// are copied: the children are the same material in the same state. The
+  /// stretch at creation becomes the current stretch on all axes, so that the
+  /// threshold applies to the stretch after the split; otherwise a child could
+  /// be split again at once.
   template <int dim>
   void
   Splitter<dim>::split(Points<dim>       &points,
@@ -527,7 +534,7 @@ namespace talus
     const unsigned int n_children = 1u << __builtin_popcount(axes);
     const Offset<dim>  offset(points, rule, p, axes);
 
-    // The state of every child, in the parent's place.
+    // Prepare the common state of all children in the place of the parent.
     for (const Column &column : points.columns())
       if (column.inheritance == Inheritance::divided)
         for (unsigned int c = 0; c < column.n_components; ++c)
@@ -544,7 +551,7 @@ namespace talus
       std::max(statistics_.largest_generation,
                static_cast<unsigned int>(generation));
 
-    // The memory of the columns may move: no pointer into it is kept across.
+    // append() may move the columns: keep no pointer into them.
     const unsigned int first = points.append(n_children - 1);
     for (unsigned int i = 1; i < n_children; ++i)
       {
@@ -562,8 +569,8 @@ namespace talus
 
 
 
-  // Counting clipped boxes and points at limits passes over all points, so it
-  // is done when a row of statistics is due and not in the step.
+  // Counting clipped boxes and points at limits visits all points. Called only
+  // when a row of statistics is due, not in every step.
   template <int dim>
   void
   Splitter<dim>::list_quantities(const State<dim> &state,
@@ -592,7 +599,8 @@ namespace talus
 
 
 
-  // The id of the next child is state, too: ids are unique over the whole run.
+  // The id of the next child is part of the state, as ids are unique over the
+  // whole run.
   template <int dim>
   void
   Splitter<dim>::list_state(StateList &list)

@@ -19,8 +19,8 @@ namespace talus
 
   namespace
   {
-    /// What `--help` shows; the values go straight into @p result. The
-    /// parameter file is positional, so it is no option here.
+    /// Options shown by `--help`; parsed values are stored in @p result. The
+    /// parameter file is positional and not included.
     po::options_description
     visible_options(CommandLine &result)
     {
@@ -28,19 +28,19 @@ namespace talus
       // clang-format off
       options.add_options()
         ("set", po::value(&result.overrides),
-         "set a parameter, over what the file says: "
+         "set a parameter in place of the file: "
          "--set \"Section/Subsection/Entry=value\"; may be repeated")
         ("output", po::value(&result.output_folder),
-         "folder for the results, over Output/Folder")
+         "folder for the results, in place of Output/Folder")
         ("resume", po::bool_switch(&result.resume),
-         "go on from the newest checkpoint in the output folder; give the same "
-         "file and options as before")
+         "continue from the newest checkpoint in the output folder; give the "
+         "same file and options as before")
         ("overwrite", po::bool_switch(&result.overwrite),
-         "start anew even if the output folder holds the checkpoint of an "
-         "unfinished run")
+         "start from the beginning even if the output folder holds the "
+         "checkpoint of an unfinished run")
         ("validate", po::bool_switch(&result.validate),
-         "read and check everything, make mesh and points, and tell what the "
-         "run will do: its size, time steps, estimated time, and all remarks")
+         "read and check everything, make mesh and points, and describe the "
+         "run: size, time steps, estimated time, and all remarks")
         ("document", po::bool_switch(&result.document),
          "print the reference of all parameters")
         ("version", "print the version")
@@ -52,8 +52,8 @@ namespace talus
 
 
 
-  /// Nothing is returned where all is done when this ends, as after `--help`.
-  /// All ranks parse, so that all know the options, and one of them prints.
+  /// All ranks parse, so that all ranks know the options; only the first rank
+  /// prints.
   std::optional<CommandLine>
   parse_command_line(const int argc, const char *const *argv)
   {
@@ -73,7 +73,7 @@ namespace talus
               variables);
     po::notify(variables);
 
-    // A stream without buffer drops what it gets.
+    // A stream without buffer discards its input.
     std::ostream  nowhere(nullptr);
     std::ostream &out = is_first_rank(MPI_COMM_WORLD) ? std::cout : nowhere;
     if (variables.count("help"))
@@ -107,20 +107,20 @@ namespace talus
                         "FILE.prm; see talus --help."));
     AssertThrow(!(result.resume && result.overwrite),
                 ExcUser("--resume and --overwrite were given, but a run can "
-                        "only go on or start anew. Give one of the two."));
+                        "only continue or start again. Give one of the two."));
     return result;
   }
 
 
 
-  /// Which parameters there are depends on the names of bodies and materials
-  /// and on the laws, so the reference is that of an example with all of them.
-  /// In 2-D, whose parameters have the same names as those of 3-D.
+  /// The parameters depend on the names of bodies and materials and on the
+  /// laws, so the reference describes an example with all laws. The example is
+  /// 2-D; parameters in 3-D have the same names.
   void
   document(std::ostream &out)
   {
-    // The reference has a body, an obstacle and so on, and a material of each
-    // law, named after the law.
+    // The example has a body, an obstacle and so on, and for each law a
+    // material with the name of the law.
     ParameterPreview preview;
     preview.bodies    = {"slide"};
     preview.obstacles = {"bed"};

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/application/program.h>
 
-// Nothing else is in the program: it is compiled for the least processor, and a
-// function that is in it, too, would take the place of the library's.
+// The program consists of main() only. It is compiled for the oldest supported
+// processor, and any further function here would replace the version in the
+// library.
 int
 main(int argc, char **argv)
 {

@@ -10,8 +10,8 @@ namespace talus
 
   namespace
   {
-    /// As troff wants it: a plain - would be a hyphen, and cannot be copied into
-    /// a shell.
+    /// Escape a sentence for troff: a plain - would become a hyphen, which
+    /// cannot be copied into a shell.
     std::string
     in_troff(const std::string &sentence)
     {
@@ -32,7 +32,8 @@ namespace talus
 
 
 
-  /// Generated with the package, so that it has the options that the program has.
+  /// Generated with the package, so that the page lists the options of the
+  /// program.
   void
   write_manual(std::ostream &out, const po::options_description &options)
   {
@@ -43,21 +44,22 @@ namespace talus
         << ".B mpirun \\-np\n\\fIN\\fR\n.B talus\n[\\fIoptions\\fR] "
            "\\fIFILE.prm\\fR\n"
         << ".SH DESCRIPTION\n"
-        << "Simulates what the parameter file describes, and writes fields for "
-           "ParaView and tables of global quantities into one folder.\n"
+        << "Runs the simulation described by the parameter file, and writes "
+           "fields for ParaView and tables of global quantities into one "
+           "folder.\n"
         << ".SH OPTIONS\n";
     for (const auto &option : options.options())
       out << ".TP\n\\fB\\-\\-" << in_troff(option->long_name()) << "\\fR"
           << (takes_value(*option) ? " \\fIvalue\\fR" : "") << '\n'
           << in_troff(option->description()) << ".\n";
     out << ".SH EXIT STATUS\n"
-        << ".TP\n.B 0\nThe end time was reached, or what was asked for is "
+        << ".TP\n.B 0\nThe end time was reached, or the requested task is "
            "done.\n"
-        << ".TP\n.B 1\nThere was an error, which standard error tells.\n"
+        << ".TP\n.B 1\nAn error occurred; the message is on standard error.\n"
         << ".TP\n.B 75\nThe run was stopped by a signal or its limit of time; "
-           "\\fB\\-\\-resume\\fR goes on with it.\n"
+           "\\fB\\-\\-resume\\fR continues the run.\n"
         << ".SH FILES\n.TP\n.I /usr/share/talus/prm\n"
-           "Parameter files to begin with, where talus was installed by its "
+           "Parameter files to begin with, if talus was installed by its "
            "package.\n"
         << ".SH EXAMPLES\n.EX\n"
         << "talus /usr/share/talus/prm/landslide\\-quick.prm "
@@ -67,8 +69,8 @@ namespace talus
 
 
 
-  /// What follows an option with a value may be a folder; what is no option is a
-  /// parameter file.
+  /// A folder completes options with a value; a parameter file completes
+  /// arguments that are not options.
   void
   write_completion(std::ostream &out, const po::options_description &options)
   {

@@ -14,8 +14,8 @@ namespace talus
 {
   namespace
   {
-    /// Return @p word with control characters as \x1b, so that what is told of
-    /// a file cannot command the terminal.
+    /// Replace control characters of @p word as in \x1b, so that text from a
+    /// file cannot control the terminal.
     std::string
     printable(const std::string &word)
     {
@@ -31,9 +31,8 @@ namespace talus
 
 
 
-    /// The information of an exception, without line breaks.
-    /// deal.II's print_info() has what went wrong, without file, line and
-    /// stack, which tell a user nothing.
+    /// Text of an exception without line breaks. For deal.II's exceptions only
+    /// print_info(): file, line and stack tell a user nothing.
     std::string
     one_line(const std::exception &exception)
     {
@@ -52,9 +51,8 @@ namespace talus
 
 
 
-    /// deal.II's description of a pattern in plain words.
-    /// deal.II describes patterns in its own language, made for programs. The
-    /// order matters: the special cases come before the general ones.
+    /// Translate deal.II's description of a pattern, made for programs, into
+    /// plain words. The order matters: special cases come before general cases.
     std::string
     expected(const std::string &pattern)
     {
@@ -91,17 +89,16 @@ namespace talus
 
 
 
-    /// The message of the parameter parser, which starts with the place.
-    /// Known forms of deal.II's messages get a sentence that says what to do;
-    /// others are passed on as they are, so that another version of deal.II
-    /// only costs words.
+    /// Rewrite an @p error of the parameter parser as a sentence that begins
+    /// with @p place and says what to do. Unknown messages, for example of a
+    /// new version of deal.II, pass unchanged.
     std::string
     say_anew(const std::string &place, const std::string &error)
     {
       static const std::regex unknown_entry(
         "No entry with name <(.*)> was declared.*");
       static const std::regex unknown_section(
-        // As deal.II 9.4 and 9.6 say it.
+        // Wording of deal.II 9.4 and of deal.II 9.6.
         "(?:There is no such subsection to be entered: |You are trying to "
         "enter a subsection ')(.*?)(?:', but the ParameterHandler .*)?");
       static const std::regex bad_value(
@@ -113,13 +110,13 @@ namespace talus
       std::smatch part;
       if (std::regex_match(error, part, unknown_entry))
         return place + "there is no parameter '" + part[1].str() +
-               "' in this section; `talus --document` lists all that there "
-               "are, and those of bodies and materials are in sections named "
-               "in Bodies/Names and Materials/Names.";
+               "' in this section; `talus --document` lists all parameters. "
+               "Sections of bodies and materials are named in Bodies/Names and "
+               "Materials/Names.";
       if (std::regex_match(error, part, unknown_section))
         return place + "there is no section '" + part[1].str() +
-               "' here; `talus --document` lists all that there are, and those "
-               "of bodies and materials are named in Bodies/Names and "
+               "' here; `talus --document` lists all sections. Sections of "
+               "bodies and materials are named in Bodies/Names and "
                "Materials/Names.";
       if (std::regex_match(error, part, bad_value))
         return place + "'" + part[2].str() + "' is '" + part[1].str() +
@@ -135,13 +132,13 @@ namespace talus
 
 
 
-  /// Errors of this program are sentences already and pass unchanged. Those of
-  /// deal.II and of the standard library are translated here, in one place.
+  /// Messages of talus are sentences already and pass unchanged. Messages of
+  /// deal.II and of the standard library are translated here only.
   std::string
   message(const std::exception &exception)
   {
-    // deal.II says where it was parsing; the names after "file" are those that
-    // ParameterFile::parse_into() gave.
+    // deal.II's message contains the place; the names after "file" are set by
+    // ParameterFile::parse_into().
     static const std::regex in_command(
       "Line <\\d+> of file <(--set .*?)>?: (.*)");
     static const std::regex in_file("Line <(\\d+)> of file <(.*?)>?: (.*)");
@@ -152,10 +149,10 @@ namespace talus
       return "On the command line, " + line +
              "; `talus --help` shows what is expected.";
     if (dynamic_cast<const std::bad_alloc *>(&exception))
-      return "There is not enough memory on this machine; doc/cluster.md says "
-             "what points and cells take. Take fewer of them, or more ranks on "
-             "more machines.";
-    // Before in_file, whose pattern fits, too.
+      return "There is not enough memory on this machine; doc/cluster.md gives "
+             "the memory per point and cell. Use fewer points or cells, or "
+             "more ranks on more machines.";
+    // Test before in_file, whose pattern matches, too.
     if (std::regex_match(line, part, in_command))
       return say_anew(part[1].str() + ": ", part[2]);
     if (std::regex_match(line, part, in_file))

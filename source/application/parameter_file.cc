@@ -25,9 +25,10 @@ namespace talus
 
   namespace
   {
-    /// The override in the language of parameter files.
-    /// "A/B/C=value" becomes C in subsection B of subsection A. The first =
-    /// separates, so that a value, as an expression, may have others.
+    /// Write an override in the language of parameter files: "A/B/C=value"
+    /// becomes entry C in subsection B of subsection A. The first = separates
+    /// name and value; further = belong to the value, for example an
+    /// expression.
     std::string
     as_parameter_file(const std::string &override_text)
     {
@@ -36,14 +37,14 @@ namespace talus
                   ExcUser("--set '" + override_text +
                           "' was given, where 'Section/Subsection/Entry=value' "
                           "was expected."));
-      // What stood in a line of its own could include a file, and a backslash
-      // at the end joins the next line.
+      // A line break in the value could hide an `include`, and a backslash at
+      // the end joins the next line.
       AssertThrow(override_text.find('\n') == std::string::npos &&
                     Utilities::trim(override_text).back() != '\\',
                   ExcUser("--set '" + override_text.substr(0, equals) +
-                          "' was given a value of several lines, or with a "
-                          "backslash at its end, where one line was expected. "
-                          "Give --set once for each entry."));
+                          "' was given a value of several lines or with a "
+                          "backslash at its end, where one line was "
+                          "expected. Give --set once for each entry."));
       auto path =
         Utilities::split_string_list(override_text.substr(0, equals), '/');
       const std::string entry = path.back();
@@ -60,8 +61,8 @@ namespace talus
 
 
 
-    /// The names become sections, so they may have no slash and must differ; the
-    /// section has an entry `Names` already.
+    /// Split a list of names, which become sections: names must differ, contain
+    /// no slash, and not be `Names`, an entry of the section.
     std::vector<std::string>
     names(const std::string &list, const std::string &where)
     {
@@ -74,8 +75,8 @@ namespace talus
                               "without slashes."));
           AssertThrow(name != "Names",
                       ExcUser("'" + where + " = " + list +
-                              "' lists 'Names', which is the entry itself. "
-                              "Choose another name."));
+                              "' lists 'Names', the name of the entry itself. "
+                              "Choose a different name."));
           AssertThrow(std::count(result.begin(), result.end(), name) == 1,
                       ExcUser("'" + where + " = " + list + "' lists '" + name +
                               "' twice; names must differ."));
@@ -88,8 +89,8 @@ namespace talus
 
   namespace
   {
-    /// The whole of a file that parameters may be in. Only the first one may be a
-    /// pipe: those that it includes are read twice.
+    /// Read a parameter file. Only the first file may be a pipe: included files
+    /// are read twice.
     std::string
     read_parameter_file(const std::string &name, const Pipes pipes)
     {
@@ -103,8 +104,9 @@ namespace talus
 
 
 
-    /// The first rank reads and tells the others: of a pipe each would get a part,
-    /// and wait for the rest. So does what went wrong. Collective.
+    /// Read a file on the first rank and send text or error to all ranks:
+    /// several ranks would each get a part of a pipe and wait for the rest.
+    /// Collective.
     std::string
     read_by_first_rank(const std::string &name)
     {
@@ -125,7 +127,7 @@ namespace talus
 
 
 
-    /// What a line includes; empty if it does not.
+    /// Name of the file that the line includes; empty without `include`.
     std::string
     included_file(const std::string &line)
     {
@@ -141,8 +143,9 @@ namespace talus
 
 
 
-  /// deal.II's own message would show its stack. The record of an earlier run may
-  /// be replaced by that of this one, which says the same.
+  /// Read errors are reported here, as deal.II's message would include its
+  /// stack. The record of an earlier run is not protected: the new run replaces
+  /// it by an equal record.
   ParameterFile::ParameterFile(const std::string              &file_name,
                                const std::vector<std::string> &overrides)
     : file_name_(file_name)
@@ -161,9 +164,9 @@ namespace talus
 
 
 
-  // deal.II reads the files that are included, as parts of the text, but would
-  // follow a circle for ever. Files that include others twice double with each
-  // file of the chain.
+  // deal.II reads included files as parts of the text, but would follow a
+  // circle for ever. The number of inclusions is limited, as it doubles along a
+  // chain of files that include the next file twice.
   void
   ParameterFile::check(const std::string              &content,
                        const std::vector<std::string> &chain,
@@ -182,19 +185,19 @@ namespace talus
         AssertThrow(std::find(chain.begin(), chain.end(), file) == chain.end(),
                     ExcUser("The parameter file '" + chain.back() +
                             "' includes '" + file +
-                            "', which includes it in turn, directly or by "
-                            "others. Remove one of the lines 'include'."));
+                            "', so the files include each other in a circle. "
+                            "Remove one of the lines 'include'."));
         AssertThrow(n_left > 0,
                     ExcUser("The parameter file '" + chain.front() +
-                            "' includes others more than 1000 times, those "
-                            "that they include counted. Include fewer."));
+                            "' includes files more than 1000 times, directly "
+                            "and through further files. Include fewer."));
         --n_left;
         protect_input(file);
         std::vector<std::string> longer = chain;
         longer.push_back(file);
         AssertThrow(longer.size() <= 20,
                     ExcUser("The parameter file '" + chain.front() +
-                            "' includes others through more than 20 files, "
+                            "' includes files through more than 20 files, "
                             "down to '" +
                             file + "'. Include fewer."));
         check(read_parameter_file(file, Pipes::refused), longer, n_left);
@@ -203,9 +206,8 @@ namespace talus
 
 
 
-  /// What the command line sets comes after the file and so wins, in the same
-  /// language and with the same checks. Errors name the option as they would a
-  /// file.
+  /// Overrides come after the file and take precedence, with the same language
+  /// and checks. Errors name the option in place of a file.
   void
   ParameterFile::parse_into(ParameterHandler &prm,
                             const bool        skip_undefined) const
@@ -221,11 +223,11 @@ namespace talus
 
 
 
-  /// Which parameters there are depends on parameters: the dimension, the names
-  /// of bodies and materials, and the law of each. These are read first, with
-  /// all others ignored: once for the names, which say in which sections the
-  /// laws are, and then for the laws. After that every object can declare its
-  /// own, and parse() is strict.
+  /// The existing parameters depend on the dimension, the names of bodies and
+  /// materials, and the law of each material. Two passes that ignore all
+  /// further entries read first the names, which give the sections of the laws,
+  /// and then the laws. Afterwards all objects can declare their parameters,
+  /// and parse() is strict.
   ParameterPreview
   ParameterFile::preview() const
   {
@@ -280,14 +282,14 @@ namespace talus
 
   namespace
   {
-    /// No quantity in SI units comes near, and products of several such numbers
-    /// are no infinities.
+    /// Far above all quantities in SI units, and products of a few numbers of
+    /// this size do not overflow.
     constexpr double largest_number = 1e30;
 
 
 
-    /// Throw ExcUser if the value of an entry is a number that is too large, or
-    /// one of a list.
+    /// Throw ExcUser if a value, or a component of a list, is a number that is
+    /// too large.
     void
     check_size(const std::string &path, std::string value)
     {
@@ -299,7 +301,7 @@ namespace talus
         {
           char        *end    = nullptr;
           const double number = std::strtod(word.c_str(), &end);
-          // Not "inf", which some entries have for no limit.
+          // Allow "inf", which means no limit in some entries.
           const bool is_number =
             *end == '\0' && word.find_first_of("0123456789") != word.npos;
           AssertThrow(!is_number || std::abs(number) <= largest_number,
@@ -307,18 +309,18 @@ namespace talus
                                    path,
                                    "' has '",
                                    word,
-                                   "', which is larger than any quantity in SI "
-                                   "units: at most ",
+                                   "', larger than any quantity in SI units: "
+                                   "at most ",
                                    largest_number,
-                                   " was expected. Correct the value, or leave "
-                                   "it out if there is to be no limit.")));
+                                   " was expected. Correct the value, or omit "
+                                   "the entry for no limit.")));
         }
     }
 
 
 
-    /// Whether the value is a name or a text, which may look like a number, as
-    /// the folder 57e1234 does.
+    /// Return whether the value is a name or text, which may look like a
+    /// number, for example the folder 57e1234.
     bool
     is_text(const std::string &entry)
     {
@@ -336,8 +338,9 @@ namespace talus
 
 
 
-    /// All entries, by the file that they would make: what is declared knows its
-    /// place only there. Without std::regex, which takes stack by the character.
+    /// Check all entries in the form of a parameter file, as only there entries
+    /// have their sections. Avoids std::regex, whose use of stack grows with
+    /// the text.
     void
     check_sizes(const ParameterHandler &prm)
     {
@@ -368,8 +371,8 @@ namespace talus
 
   namespace
   {
-    /// Throw ExcUser if there is no body or no material. After the strict pass,
-    /// which tells if the section of the names is misspelt.
+    /// Throw ExcUser if there is no body or no material. Call after the strict
+    /// pass, which reports misspelt sections.
     void
     check_has_names(ParameterHandler &prm)
     {
@@ -379,8 +382,8 @@ namespace talus
           AssertThrow(!prm.get("Names").empty(),
                       ExcUser("'" + section +
                               "/Names' is empty, but at least one name is "
-                              "needed: each has a section of that name with "
-                              "its parameters."));
+                              "needed: the parameters are in a section with "
+                              "this name."));
           prm.leave_subsection();
         }
     }
@@ -388,7 +391,7 @@ namespace talus
 
 
 
-  /// An entry that nobody declared is an error here: it is mostly misspelt.
+  /// An undeclared entry is an error here: most are misspelt.
   void
   ParameterFile::parse() const
   {

@@ -57,8 +57,8 @@ namespace talus
 
 
 
-    /// What follows @p keyword in a line that begins with it, as deal.II finds
-    /// it: in small or in capital letters.
+    /// Return whether @p line begins with @p keyword, in small or in capital
+    /// letters, as accepted by deal.II.
     bool
     begins_with(const std::string &line, const std::string &keyword)
     {
@@ -70,7 +70,7 @@ namespace talus
 
 
 
-    /// Name of the section that a line opens; empty if it opens none.
+    /// Name of the section opened by @p line; empty if none.
     std::string
     opened_section(const std::string &line)
     {
@@ -90,7 +90,7 @@ namespace talus
 
 
 
-    /// Name and value of the entry that a line sets; both empty if it sets none.
+    /// Name and value of the entry set by @p line; both empty if none.
     std::pair<std::string, std::string>
     entry_of(const std::string &line)
     {
@@ -117,7 +117,8 @@ namespace talus
                              static_cast<int>(*control),
                              ") was found after '",
                              line.substr(0, control - line.begin()),
-                             "', where text was expected. Remove it.")));
+                             "', where text was expected. Remove the "
+                             "character.")));
     AssertThrow(!begins_with(line, "end") || closes_section(line),
                 ExcUser(
                   text(place,
@@ -159,8 +160,8 @@ namespace talus
             AssertThrow(!open.empty(),
                         ExcUser(place_of(file, line) +
                                 "'end' was found, where no 'subsection' is "
-                                "open. Remove it, or add the 'subsection' that "
-                                "it is to close."));
+                                "open. Remove 'end', or add the missing "
+                                "'subsection'."));
             open.pop_back();
           }
       }
@@ -168,9 +169,9 @@ namespace talus
                 ExcUser(text(place_of(file, open.back()),
                              "'",
                              open.back().text,
-                             "' was found, but the file ends before the 'end' "
-                             "that closes it. Close each 'subsection' with an "
-                             "'end' of its own.")));
+                             "' was found, but the file ends before a closing "
+                             "'end'. Close each 'subsection' with its own "
+                             "'end'.")));
   }
 
 

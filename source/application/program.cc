@@ -24,15 +24,14 @@ namespace
 
 
 
-  /// Tell what went wrong and return the exit status. Where all ranks failed,
-  /// as they do for a wrong parameter, they end together after one sentence;
-  /// where only some did, the others wait for them in vain and are stopped.
+  /// Print the error and return the exit status. If all ranks failed, as for a
+  /// wrong parameter, all end together after one sentence; if only some ranks
+  /// failed, the rest waits in vain and is aborted.
   int
   fail(const std::string &sentence)
   {
-    // A barrier that does not block tells whether all ranks came here: two
-    // seconds are enough for those that fail for the same reason, at the same
-    // time.
+    // A non-blocking barrier tells whether all ranks failed. Two seconds
+    // suffice for ranks that fail for the same reason at the same time.
     MPI_Request all_failed;
     int         is_complete = 0;
     MPI_Ibarrier(MPI_COMM_WORLD, &all_failed);
@@ -51,8 +50,8 @@ namespace
 
 
 
-  /// Sentence about the emergency output after an error; that the disk is full,
-  /// too, must not hide what happened.
+  /// Save the last state after an error and return a sentence about it. If the
+  /// saving fails, too, the first error must still be reported.
   template <int dim>
   std::string
   saved_state(Simulation<dim> &simulation)
@@ -75,9 +74,9 @@ namespace
 
 
 
-  /// Parameters are declared by the objects, so these are made first and then
-  /// filled. Returns the exit status. An error of a point is thrown on with a
-  /// word about where the last state is; only run_program() tells errors.
+  /// Make all objects, which declare the parameters, then fill and run the
+  /// simulation. Returns the exit status. An error of a point is rethrown with
+  /// the place of the last state; only run_program() prints errors.
   template <int dim>
   int
   run(const CommandLine &command_line, const ParameterFile &file)
@@ -115,8 +114,7 @@ namespace
 
 
 
-  /// The dimension is a parameter in the file and a template argument in the
-  /// program: this is where the one becomes the other.
+  /// Choose the template argument by the dimension in the parameter file.
   int
   act(const CommandLine &command_line)
   {
@@ -140,10 +138,10 @@ namespace talus
   int
   run_program(int argc, char **argv)
   {
-    // Before MPI starts, as MPI looks at the environment only then.
+    // Call before MPI starts, as MPI reads the environment only then.
     prepare_mpi();
-    // Without the options, which are not for the libraries: PETSc, if deal.II has
-    // it, would say at the end that they were not used.
+    // Pass no options to the libraries: PETSc, if part of deal.II, would report
+    // unused options at the end.
     int                                      n_words = 1;
     dealii::Utilities::MPI::MPI_InitFinalize mpi(n_words, argv, 1);
     try
@@ -151,7 +149,7 @@ namespace talus
         const auto command_line = parse_command_line(argc, argv);
         return command_line.has_value() ? act(*command_line) : 0;
       }
-    // The only place that ends a run after an error.
+    // Only here a run is ended after an error.
     catch (const std::exception &exception)
       {
         return fail(message(exception));

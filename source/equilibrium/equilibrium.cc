@@ -11,7 +11,8 @@ namespace talus
 
   namespace
   {
-    /// Declare the entries of section Equilibrium that are those of @p newton.
+    /// Declare the entries of section Equilibrium that belong to Newton's
+    /// method.
     template <typename Parameters>
     void
     add_newton_parameters(ParameterAcceptor &section, Parameters &newton)
@@ -19,7 +20,7 @@ namespace talus
       section.add_parameter(
         "Newton tolerance",
         newton.tolerance,
-        "Residual of Newton's method over the force of the loads "
+        "Largest residual of Newton's method over the force of the loads "
         "[-].",
         section.prm,
         Patterns::Double(0.));
@@ -33,7 +34,7 @@ namespace talus
       section.add_parameter(
         "Ghost penalty",
         newton.ghost_penalty,
-        "Stiffness that holds nodes with hardly any soil to their "
+        "Stiffness that ties nodes with very little soil to their "
         "neighbours, over the shear modulus [-].",
         section.prm,
         Patterns::Double(0.));
@@ -49,50 +50,49 @@ namespace talus
   {
     add_parameter("Strain",
                   measure_,
-                  "'small': strain is the symmetric displacement gradient, and "
-                  "points, volumes and boxes stay as they are: the soil starts "
-                  "with the stress only. 'large': that of the dynamics; the "
+                  "'small': strain is the symmetric displacement gradient; "
+                  "points, volumes and boxes stay as they are, and only the "
+                  "stress changes. 'large': strain as in the dynamics; the "
                   "soil deforms under the load.",
                   this->prm,
                   Patterns::Selection("small|large"));
     add_parameter("Load steps",
                   n_load_steps_,
-                  "Number of equal steps in which the load comes on; they are "
-                  "halved where Newton's method fails, and grow again.",
+                  "Number of equal steps in which the load is applied [-]; a "
+                  "step is halved if Newton's method fails, and later steps "
+                  "grow again.",
                   this->prm,
                   Patterns::Integer(1));
     add_parameter("Smallest load step",
                   smallest_step_,
-                  "Share of the load below which a step is not halved but the "
-                  "search given up [-]. Steps as small as 'Load steps' asks "
-                  "for are always taken.",
+                  "Smallest fraction of the load in a halved step [-]; if it "
+                  "fails, the search ends. The steps that 'Load steps' "
+                  "requires are always tried.",
                   this->prm,
                   smallest_load_steps());
     add_parameter(
       "Allowed imbalance",
       allowed_imbalance_,
-      "Force out of balance over that of the loads or of the stress, "
-      "whichever is larger (Euclidean norms over the nodes), with which the "
-      "soil counts as balanced "
-      "[-]; 0 for 1e-6 with small strain and 1e-3 with large, where "
-      "nodes with hardly any soil come to rest slowly.",
+      "Largest unbalanced force of soil in balance, over the force of the "
+      "loads or of the stress, whichever is larger (Euclidean norms over "
+      "the nodes) [-]; 0 for 1e-6 at small strain and 1e-3 at large "
+      "strain, where nodes with very little soil come to rest slowly.",
       this->prm,
       Patterns::Double(0.));
     add_parameter("Largest number of settling steps",
                   largest_settling_,
-                  "Steps without further load after which the search is given "
-                  "up if the soil is not in balance.",
+                  "Largest number of steps without further load [-]; if the "
+                  "soil is not in balance afterwards, the search ends.",
                   this->prm,
                   Patterns::Integer(1));
     add_newton_parameters(*this, newton_parameters_);
     add_parameter("Well-balanced load",
                   is_well_balanced_,
-                  "Subtract from the weight its error in cells that the soil "
-                  "fills in part only, which is the force that a pressure in "
-                  "proportion to the depth leaves at the nodes. Without it the "
-                  "soil at the mudline has to bear shear stresses of half of "
-                  "the weight of a cell, however small the cells are. Small "
-                  "strain only.");
+                  "Subtract from the weight its error in partly filled cells: "
+                  "the nodal force left by a pressure proportional to the "
+                  "depth. Otherwise the soil at the mudline has to bear shear "
+                  "stresses of half the weight of a cell, for cells of any "
+                  "size. Small strain only.");
   }
 
 
@@ -104,24 +104,24 @@ namespace talus
   {
     if (measure() == StrainMeasure::large)
       return;
-    // A hyperelastic stress is a function of F alone, and small strain leaves F
-    // as it is: such a body could never take up a load.
+    // A hyperelastic stress is a function of F alone, and F does not change at
+    // small strain: the body could never take up a load.
     for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
       AssertThrow(!materials.of_body(b).is_hyperelastic(),
                   ExcUser(text("'Equilibrium/Strain' is small, but the stress "
                                "of the body '",
                                names_of_bodies[b],
-                               "' follows from its deformation, which then "
-                               "stays as it is. Set it to large, or choose a "
-                               "law in rate form ('linear elastic', 'von "
-                               "Mises').")));
+                               "' follows from its deformation, which small "
+                               "strain does not change. Set 'Strain' to large, "
+                               "or choose a law in rate form ('linear "
+                               "elastic', 'von Mises').")));
   }
 
 
 
-  /// With large strain nodes at a free surface settle slowly, since they would
-  /// have to move far; so the default is a thousand times looser than with
-  /// small strain.
+  /// At large strain nodes at a free surface settle slowly, as they would have
+  /// to move far. Hence the default imbalance is a thousand times larger than
+  /// at small strain.
   template <int dim>
   EquilibriumLimits
   Equilibrium<dim>::limits(const StrainMeasure measure) const
@@ -155,9 +155,9 @@ namespace talus
 
 
 
-  /// Newton::begin() leaves the displacements at zero, and to commit these
-  /// gives the laws a load step without strain: what lies outside the yield
-  /// surface returns to it, all else stays as it is.
+  /// After Newton::begin() the displacements are zero. The commit gives the
+  /// laws a load step without strain: stresses outside the yield surface return
+  /// to it, all further stresses stay.
   template <int dim>
   void
   Equilibrium<dim>::return_stress(StaticProblem<dim> &problem)
@@ -168,18 +168,18 @@ namespace talus
 
 
 
-  /// A load step has no memory of the one before but the points: it begins with
-  /// the forces that the explicit scheme would find out of balance now, summed
-  /// by its own kernels and without stabilization. So the errors that a step
-  /// leaves (tolerance of Newton's method, force of the ghost penalty) are part
-  /// of what the next one takes up, and the balance that is found is the one
-  /// from which the dynamics starts. Once all load is on, further steps
-  /// ("settling") take what is left, which falls from step to step; see
-  /// doc/method.md, section 12.
+  /// A load step depends on previous steps only through the points: it starts
+  /// from the unbalanced forces of the explicit scheme, summed by the kernels
+  /// of the explicit scheme and without stabilization. Errors of a step
+  /// (tolerance of Newton's method, force of the ghost penalty) are thus part
+  /// of the imbalance in the next step, and the final balance is the balance
+  /// from which the dynamics starts. At full load, further steps ("settling")
+  /// remove the rest, which falls from step to step; see doc/method.md, section
+  /// 12.
   ///
-  /// The balance is looked at before a step is taken: points whose soil is in
-  /// balance are not changed again. The result is the same on all ranks, since
-  /// imbalance_ is a sum over them.
+  /// Balance is tested before a step is taken, so points in balance do not
+  /// change any more. The result is the same on all ranks, as imbalance_ is a
+  /// sum over all ranks.
   template <int dim>
   bool
   Equilibrium<dim>::advance(StaticProblem<dim> &problem,
@@ -193,20 +193,20 @@ namespace talus
         is_found_ = true;
         return true;
       }
-    // Out of patience: the place of the largest force tells the user where the
-    // soil flows.
+    // Give up. The place of the largest force tells the user where the soil
+    // flows.
     if (!is_settling())
       {
         const auto [largest, place] = newton_.equations().largest_imbalance();
         failure_                    = text(std::setprecision(6),
                         "After ",
                         n_settling_,
-                        " steps without further load the force out of balance "
+                        " steps without further load the unbalanced force "
                                            "is ",
                         imbalance_,
-                        " of that of the loads, where ",
+                        " of the force of the loads, but at most ",
                         limits_.allowed_imbalance,
-                        " is allowed; the largest one of a node is ",
+                        " is allowed; the largest force of a node is ",
                         largest,
                         " N, at ",
                         place);
@@ -217,13 +217,13 @@ namespace talus
 
 
 
-  /// Nodes with hardly any soil follow their own forces the more slowly the
-  /// stiffer the stabilization is against what they have of stiffness: so once
-  /// all load is on it gives way. With large strain they would move too far.
-  /// The floor of a thousandth keeps nodes without stiffness of their own from
-  /// making the matrix singular. Nodes inside obstacles have hardly any soil,
-  /// too, but all of the pressure that there is: they hold what their springs
-  /// and the stabilization pass, and follow only when that is next to nothing.
+  /// Nodes with very little soil follow their own forces more slowly the
+  /// stiffer the stabilization is compared with their own stiffness. Hence the
+  /// penalty decreases at full load; at large strain the nodes would then move
+  /// too far. The lower bound of 1e-3 keeps nodes without stiffness from making
+  /// the matrix singular. Nodes inside obstacles have very little soil, but the
+  /// full pressure: held by their springs and the penalty, they follow only if
+  /// the penalty is close to zero, hence the lower bound of 1e-9.
   template <int dim>
   typename Newton<dim>::Parameters
   Equilibrium<dim>::parameters_of_step(const bool has_obstacles) const
@@ -238,9 +238,9 @@ namespace talus
 
 
 
-  /// Whether the soil seems to come to rest now that all load is on: it has
-  /// steps left, and in the last twenty of them the imbalance fell by a tenth.
-  /// Soil that fails flows on and on.
+  /// Return whether the soil seems to come to rest at full load: settling steps
+  /// are left, and the imbalance fell by 10 % in the last 20 steps. Failing
+  /// soil flows on and on.
   template <int dim>
   bool
   Equilibrium<dim>::is_settling()
@@ -258,30 +258,30 @@ namespace talus
 
 
 
-  /// One step, as large as it succeeds; the first trial is never too small.
-  /// The load is not held as a force, but as a share of what is out of balance
-  /// now: where load_ is on, a step of the length step_ takes step_/(1 - load_)
-  /// of it. So loads and stress may have changed with the points since, and
-  /// nothing adds up from step to step.
+  /// Take one step, of the largest length that succeeds; the first trial is
+  /// never too small. The load is not stored as a force, but as a fraction of
+  /// the current imbalance: at the load load_, a step of length step_ removes
+  /// step_/(1 - load_) of the imbalance. Loads and stress may therefore have
+  /// changed with the points, and no errors add up from step to step.
   ///
-  /// A step that fails has changed nothing (Newton::solve() takes the contact
-  /// back, points change in commit() only), so that it can be tried again with
-  /// half of the share. The next step is at most half as long again as the one
-  /// that succeeded and never longer than the parameter asks for.
+  /// A failed step changes nothing (Newton::solve() restores the contact,
+  /// points change only in commit()), so it can be repeated with half the
+  /// fraction. The next step is at most 1.5 times as long as the last
+  /// successful step, and never longer than required by the parameter.
   template <int dim>
   bool
   Equilibrium<dim>::take_step(StaticProblem<dim> &problem,
                               const Observer     &observe)
   {
-    // The slack below keeps round-off in load_ from leaving a last step of next
-    // to nothing. In settling steps rest is zero, and each takes all that is
-    // left.
+    // The slack of 1e-4 prevents a last, tiny step due to round-off in load_.
+    // In settling steps rest is zero, and each step removes all of the
+    // imbalance.
     const double rest = 1. - load_;
     const bool   all  = !(rest > 1.0001 * step_);
     for (double cut = 1.; cut == 1. || cut * step_ >= limits_.smallest_step;
          cut *= 0.5)
       {
-        // Of what is out of balance now; the last step takes all of it.
+        // Fraction of the current imbalance; the last step removes all of it.
         const double share = cut * (all ? 1. : step_ / rest);
         const double after = (all && cut == 1. ? 1. : load_ + share * rest);
         const auto   outcome =
@@ -297,8 +297,8 @@ namespace talus
             continue;
           }
         newton_.commit(problem);
-        // Counted by the load before the step: the step that puts on the last
-        // load does not settle.
+        // Count by the load before the step: the step that completes the load
+        // does not settle.
         n_settling_ += (load_ >= 1.);
         load_ = after;
         step_ = std::min(1.5 * cut * step_, 1. / limits_.n_load_steps);

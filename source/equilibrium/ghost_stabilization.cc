@@ -9,10 +9,10 @@ namespace talus
 
   namespace
   {
-    /// How much of a node's share of the mesh soil fills.
-    /// A node inside has a share of one cell's volume, which each face of the
-    /// mesh that it lies on cuts in half. In units of the share, so that a node
-    /// on a full wall counts as full.
+    /// Volume fraction of soil at a node [-]: volume of soil near the node over
+    /// the node's part of the mesh. An inner node has the volume of one cell;
+    /// each face of the mesh through the node halves it. A node on a full wall
+    /// thus has the volume fraction 1.
     template <int dim>
     double
     filling(const Grid<dim>     &grid,
@@ -30,17 +30,17 @@ namespace talus
 
 
 
-  /// Each face belongs to the rank that owns the cell below it, and is found
-  /// with that cell. Its rows of three nodes (below, on and above the face) are
-  /// in the cell's patch of 4^dim nodes, which is complete in uniform cells
-  /// only: at the seam between cell sizes nothing is stabilized.
+  /// Each face belongs to the rank that owns the cell below. The rows of three
+  /// nodes (below, on and above the face) are in the patch of the cell, 4^dim
+  /// nodes, which is complete only in uniform cells: no face is stabilized
+  /// where cell sizes change.
   ///
-  /// A face takes part if all its nodes have unknowns, as one without has no
-  /// row, and if one of them has little soil. All other faces are left alone: a
-  /// penalty within full cells would stiffen the soil, and cost entries of the
-  /// matrix. The jump of the normal derivative of bilinear functions is (1, -2,
-  /// 1)/h times the nodal displacements of a row, interpolated along the face
-  /// by its own shape functions.
+  /// A face is selected if all its nodes have unknowns, as other nodes have no
+  /// row, and if one node has little soil. A penalty inside full cells would
+  /// stiffen the soil and add entries to the matrix. The jump of the normal
+  /// derivative of bilinear functions is (1, -2, 1)/h times the nodal
+  /// displacements of a row, interpolated along the face by the shape functions
+  /// of the face.
   template <int dim>
   void
   GhostStabilization<dim>::find_faces(const Grid<dim>     &grid,
@@ -56,20 +56,20 @@ namespace talus
         if (!cell.uniform)
           continue;
         const double h = cell.size;
-        // The face with the next cell along each axis.
+        // Face between the cell and the next cell along each axis.
         for (unsigned int axis = 0; axis < dim; ++axis)
           {
             constexpr unsigned int middle = power(3, dim) / 2;
-            // No cell beyond: a face of the mesh, or one where cells of another
-            // size begin.
+            // No next cell: boundary of the mesh, or change of the cell size.
             if (cell.neighbors[middle + power(3, axis)] ==
                 numbers::invalid_unsigned_int)
               continue;
             Face face;
             bool has_unknowns = true, needs_it = false;
             for (unsigned int row = 0; row < n_rows; ++row)
-              // Entry 1 of a patch is the cell's lower node, 2 its upper one,
-              // which lies on the face, and 3 that of the next cell.
+              // Entry 1 of a patch is the lower node of the cell, 2 the upper
+              // node, which lies on the face, and 3 the upper node of the next
+              // cell.
               for (unsigned int k = 0; k < 3; ++k)
                 {
                   unsigned int at = (1 + k) * power(4, axis), bit = 0;
@@ -84,7 +84,8 @@ namespace talus
                            little)
                     needs_it = true;
                 }
-            // gamma G h, times the squared unit of [du/dn] and the area.
+            // gamma G h, times the unit of [du/dn] squared, 1/h^2, and the
+            // area.
             face.stiffness =
               gamma * shear_modulus * h / (h * h) * std::pow(h, dim - 1);
             if (has_unknowns && needs_it)
@@ -95,10 +96,10 @@ namespace talus
 
 
 
-  /// Product of the jump's coefficients of both nodes in their rows, (1, -2,
-  /// 1), and of the face's mass matrix over its area: per axis 1/3 where the
-  /// rows are the same, 1/6 where they are neighbours. The rows sum up to zero,
-  /// so rigid motions and all displacements linear in space meet no force.
+  /// Product of the jump coefficients (1, -2, 1) of both nodes in their rows,
+  /// and of the mass matrix of the face over its area: per axis 1/3 for the
+  /// same row, 1/6 for neighbouring rows. The coefficients of a row sum up to
+  /// zero, so rigid motions and displacements linear in space cause no force.
   template <int dim>
   double
   GhostStabilization<dim>::coupling(const unsigned int a, const unsigned int b)
@@ -114,8 +115,9 @@ namespace talus
 
 
 
-  /// K_g u, one component after the other: the penalty does not couple them. At
-  /// ghost nodes it adds, too; the caller sends these to their owners.
+  /// Add K_g u component by component, as the penalty does not couple
+  /// components. The caller must send the values at ghost nodes to their
+  /// owners.
   template <int dim>
   void
   GhostStabilization<dim>::add_forces(const std::vector<double> &u,
@@ -133,9 +135,9 @@ namespace talus
 
 
 
-  /// The penalty may reach farther than the points of either cell: without
-  /// these entries the matrix would have no room for it. Held unknowns keep
-  /// their entries, since constraints change within a load step.
+  /// The penalty may couple nodes beyond the points of either cell, for which
+  /// the pattern has no entries yet. Held unknowns keep their entries, since
+  /// constraints change within a load step.
   template <int dim>
   void
   GhostStabilization<dim>::add_to_pattern(
@@ -156,8 +158,8 @@ namespace talus
 
 
 
-  /// The same matrix for each component. What is at ghost nodes travels to the
-  /// owners of the rows when the caller compresses the matrix.
+  /// Add the same matrix for each component. Rows of ghost nodes travel to
+  /// their owners when the caller compresses the matrix.
   template <int dim>
   void
   GhostStabilization<dim>::add_to_matrix(

@@ -6,11 +6,11 @@ namespace talus
 {
   using namespace dealii;
 
-  /// H = sum_i u_i (x) grad S_i goes into the columns of the workspace in which
-  /// the dynamics has the velocity gradient, here with a step of length 1:
-  /// kernels of B-bar and laws then serve both. The weights are those of the
-  /// beginning of the load step, so H is linear in u, and the derivative of the
-  /// forces has no part from the weights.
+  /// H = sum_i u_i (x) grad S_i replaces the velocity gradient in the
+  /// workspace, with a step of length 1, so the kernels of B-bar and laws serve
+  /// both dynamics and statics. The weights are fixed at the start of the load
+  /// step: H is linear in u, and the derivative of the forces has no
+  /// contribution from the weights.
   template <int dim>
   void
   InternalForces<dim>::set_gradients(StaticProblem<dim>            &problem,
@@ -42,11 +42,12 @@ namespace talus
 
 
 
-  /// Stress and tangent first, by the laws, over ranges of points of one
-  /// material; then the forces, cell by cell, as the mean of B-bar couples the
-  /// points of a cell, of whatever body. The tangent is kept for add_tangent():
-  /// laws give both at once (numbers that carry their derivatives), so that no
-  /// second pass over them is needed and the two cannot disagree.
+  /// First evaluate stress and tangent by the laws, for ranges of points of the
+  /// same material. Then add the forces cell by cell, as the mean of B-bar
+  /// couples all points of a cell, also of different bodies. The tangent is
+  /// kept for add_tangent(): laws return stress and tangent together (by
+  /// numbers that carry derivatives), so there is no second pass and no
+  /// inconsistency.
   template <int dim>
   bool
   InternalForces<dim>::evaluate(StaticProblem<dim>            &problem,
@@ -71,7 +72,7 @@ namespace talus
                                          measure_,
                                          linearizations_.data() + begin);
       });
-    // Nothing was added so far, so the caller may try a shorter step.
+    // No force was added, so the caller may try a shorter step.
     if (!sound)
       return false;
     find_volumes(problem);
@@ -82,8 +83,8 @@ namespace talus
 
 
 
-  /// Volumes at the start of the load step: F is changed in commit() only. Zero
-  /// marks the points that neither give to the mean of B-bar nor take it.
+  /// Compute the volumes at the start of the load step: F changes only in
+  /// commit(). In volumes_of_mean_, zero marks points without B-bar.
   template <int dim>
   void
   InternalForces<dim>::find_volumes(const StaticProblem<dim> &problem)
@@ -127,12 +128,12 @@ namespace talus
 
 
 
-  /// f_i += sum_p V (P + (qm - q) I) grad S_ip, with q the mean of the dim
-  /// normal components in the plane and qm its mean over the cell, weighted by
-  /// volumes: the derivative of V P : H' by u (doc/method.md, sections 3 and
-  /// 12). With the pressure in place of q the two halves of B-bar would not be
-  /// adjoint, and the tangent below would not be the derivative of these
-  /// forces.
+  /// Add f_i += sum_p V (P + (qm - q) I) grad S_ip, the derivative of V P : H'
+  /// by u (doc/method.md, sections 3 and 12). Here q is the mean of the dim
+  /// normal components in the plane, and qm the mean of q over the cell,
+  /// weighted by volume. With the pressure instead of q the two halves of B-bar
+  /// would not be adjoint, and add_tangent() would not give the derivative of
+  /// the forces.
   template <int dim>
   void
   InternalForces<dim>::add_forces_of_cell(
@@ -173,10 +174,10 @@ namespace talus
 
 
 
-  /// The mean over the points of a cell that take it of the gradients at its
-  /// nodes: the rate of volume change of the cell, as a linear form.
-  /// It is the part of B that couples each point with nodes that its own box
-  /// does not touch.
+  /// Compute the mean of the weight gradients at the nodes of cell @p c, 1/m,
+  /// over the points with B-bar: the rate of volume change of the cell as a
+  /// linear form. Through this part of B, a point is coupled with nodes outside
+  /// its own box.
   template <int dim>
   void
   InternalForces<dim>::set_mean_gradient(const unsigned int             c,
@@ -202,11 +203,11 @@ namespace talus
 
 
 
-  /// Row k of B: displacement gradient k of a point, after the mean, as a linear
-  /// form of the displacements of the patch.
-  /// Row (i, j) has dS_a/dx_j at component i of node a. With B-bar the rows of
-  /// the normal components get (mean - own)/dim of the divergence besides, as
-  /// D' in doc/method.md, section 3.
+  /// Compute B: row k gives component k of the displacement gradient of a
+  /// point, after the mean, as a linear form of the displacements of the patch.
+  /// Row (i, j) has dS_a/dx_j at component i of node a. With B-bar, the rows of
+  /// the normal components also have (mean - own)/dim of the divergence, as D'
+  /// in doc/method.md, section 3.
   template <int dim>
   void
   InternalForces<dim>::fill_strain(
@@ -232,10 +233,9 @@ namespace talus
 
 
 
-  /// B^T V A B of one point.
-  /// In two products, V A B and then its product with B^T: dim^4 n + dim^2 n^2
-  /// multiplications in place of dim^4 n^2. The inner loops run over rows that
-  /// lie in one piece.
+  /// Add B^T V A B of one point. Two products, V A B and then B^T times the
+  /// result, need dim^4 n + dim^2 n^2 multiplications instead of dim^4 n^2. The
+  /// inner loops run over contiguous rows.
   template <int dim>
   void
   InternalForces<dim>::add_point(const double              volume,
@@ -257,7 +257,7 @@ namespace talus
       for (unsigned int a = 0; a < n; ++a)
         {
           const double B = scratch.strain[k * n + a];
-          // Without the mean only each dim-th entry of a row is not zero.
+          // Without the mean only each dim-th entry of a row is nonzero.
           if (B == 0.)
             continue;
           const double *from = &scratch.stressed[k * n];
@@ -269,11 +269,11 @@ namespace talus
 
 
 
-  /// One element matrix per cell, over all nodes that any of its points
-  /// touches: with B-bar all of these are coupled anyway, and one per point
-  /// would be some times as many insertions into the sparse matrix. It is
-  /// symmetric where the tangents of the laws are. The constraints drop rows
-  /// and columns of held unknowns and leave a number on their diagonal.
+  /// One element matrix per cell, over all nodes touched by any of its points.
+  /// With B-bar all nodes of a cell are coupled anyway, and one matrix per
+  /// point would need several times as many insertions. The matrix is symmetric
+  /// if the tangents of the laws are symmetric. The constraints drop rows and
+  /// columns of held unknowns and leave a number on the diagonal.
   template <int dim>
   void
   InternalForces<dim>::add_tangent(const ShapeFunctionCache<dim>  &weights,

@@ -18,34 +18,35 @@ namespace talus
     add_parameter(
       "Type",
       type_,
-      "Of the linear systems of the static stages: 'direct' (Trilinos' "
-      "Amesos), 'CG' or 'GMRES' with algebraic multigrid (Trilinos' ML); CG "
-      "is for symmetric matrices, those of small strain. 'auto': direct up "
-      "to 100 000 unknowns in 2-D and 10 000 in 3-D, else CG with small and "
-      "GMRES with large strain.",
+      "Solver of the linear systems of the static stages: 'direct' "
+      "(Trilinos' Amesos), 'CG' or 'GMRES' with algebraic multigrid "
+      "(Trilinos' ML). CG requires symmetric matrices, as at small strain. "
+      "'auto': direct up to 100 000 unknowns in 2-D and 10 000 in 3-D, "
+      "otherwise CG at small and GMRES at large strain.",
       this->prm,
       Patterns::Selection("auto|direct|CG|GMRES"));
     add_parameter("Tolerance",
                   tolerance_,
-                  "Residual over right-hand side at which CG and GMRES end "
+                  "Largest residual of CG and GMRES over the right-hand side "
                   "[-].",
                   this->prm,
                   Patterns::Double(1e-15, 1.));
     add_parameter("Largest number of iterations",
                   largest_iterations_,
-                  "Of CG and GMRES.",
+                  "Largest number of iterations of CG and GMRES [-].",
                   this->prm,
                   Patterns::Integer(1));
   }
 
 
 
-  /// A direct solver does not mind nearly incompressible soil or nodes with
-  /// hardly any stiffness, and is the faster one while its fill is small: that
-  /// grows much faster with the number of unknowns in 3-D than in 2-D, hence
-  /// two limits. Beyond, multigrid: its iterations hardly grow with the mesh
-  /// (doc/performance.md, "Multigrid"). The tangent of large strain need not be
-  /// symmetric, as CG demands.
+  /// A direct solver handles nearly incompressible soil and nodes with very
+  /// little stiffness, and is faster than multigrid while the fill-in of the
+  /// factors is small. Fill-in grows much faster with the number of unknowns in
+  /// 3-D than in 2-D, hence two limits. Beyond the limits, the iterations of
+  /// multigrid hardly grow with the mesh (doc/performance.md, "Multigrid"). CG
+  /// requires a symmetric matrix, and the tangent at large strain may be
+  /// unsymmetric.
   std::string
   LinearSolver::choice(const unsigned long n_unknowns,
                        const unsigned int  dim,
@@ -62,8 +63,8 @@ namespace talus
 
   namespace
   {
-    /// Smoothed aggregation for @p dim unknowns per node with all rigid
-    /// motions @cite vanek1996. The modes must live until ML has copied them.
+    /// Smoothed aggregation for @p dim unknowns per node with all rigid motions
+    /// @cite vanek1996. @p modes must live until ML has copied the values.
     Teuchos::ParameterList
     multigrid_parameters(const unsigned int   dim,
                          std::vector<double> &modes,
@@ -71,9 +72,9 @@ namespace talus
     {
       Teuchos::ParameterList list;
       // All levels need the near null space of the elastic operator, the rigid
-      // motions: with translations only (ML's default for several equations per
-      // node) rotations would be left to the smoother, and iterations grow with
-      // the mesh.
+      // motions. With translations only (ML's default for several equations per
+      // node), rotations would be left to the smoother, and iterations would
+      // grow with the mesh.
       ML_Epetra::SetDefaults("SA", list);
       list.set("ML output", 0);
       list.set("PDE equations", static_cast<int>(dim));
@@ -82,12 +83,12 @@ namespace talus
       list.set("null space: vectors", modes.data());
       list.set("aggregation: type", "Uncoupled");
       list.set("aggregation: threshold", 0.);
-      // A polynomial of the matrix: unlike Gauss-Seidel it does not depend on
-      // how rows lie on the ranks, and it is symmetric, as CG demands of its
-      // preconditioner.
+      // Chebyshev is a polynomial of the matrix. Unlike Gauss-Seidel, it does
+      // not depend on the distribution of rows to ranks, and it is symmetric,
+      // as CG requires of a preconditioner.
       list.set("smoother: type", "Chebyshev");
       list.set("smoother: sweeps", 3);
-      // At most 500 rows are left there, cheap to factorise.
+      // The coarsest level has at most 500 rows and is cheap to factorise.
       list.set("coarse: type", "Amesos-KLU");
       list.set("coarse: max size", 500);
       return list;
@@ -96,8 +97,9 @@ namespace talus
 
 
 
-  /// A system that is not solved is an answer, no error: the soil may be about
-  /// to fail, and the load step is then cut. So what deal.II throws ends here.
+  /// An unsolved system is a result, not an error: the soil may be about to
+  /// fail, and the load step is then cut. Hence exceptions of deal.II are
+  /// caught here.
   LinearSolution
   LinearSolver::solve(const TrilinosWrappers::SparseMatrix &matrix,
                       TrilinosWrappers::MPI::Vector        &x,
@@ -122,7 +124,7 @@ namespace talus
           }
       }
 
-    // ML wants the modes one after the other in one array.
+    // ML expects all modes in one array, one after the other.
     std::vector<double> all_modes;
     for (const auto &mode : modes)
       all_modes.insert(all_modes.end(), mode.begin(), mode.end());
@@ -134,8 +136,8 @@ namespace talus
         if (type == "CG")
           TrilinosWrappers::SolverCG(control).solve(matrix, x, rhs, multigrid);
         else
-          // Restart after 100 vectors, more than systems take that are well
-          // conditioned (doc/performance.md, "Multigrid").
+          // Restart after 100 vectors, more than well-conditioned systems
+          // need (doc/performance.md, "Multigrid").
           TrilinosWrappers::SolverGMRES(
             control, TrilinosWrappers::SolverGMRES::AdditionalData(false, 100))
             .solve(matrix, x, rhs, multigrid);

@@ -28,8 +28,8 @@ namespace talus
 
 
 
-  /// A sentence with the largest residual force and its place: where the soil
-  /// fails, this is where to look. Collective.
+  /// Build a sentence with @p reason, the largest residual force and its place:
+  /// where the soil fails. Collective.
   template <int dim>
   typename Newton<dim>::Outcome
   Newton<dim>::failure(const std::string &reason) const
@@ -48,8 +48,8 @@ namespace talus
 
 
 
-  /// Only displacements and contact change here. Contact is restored where the
-  /// step fails, so that a shorter one starts from the same state.
+  /// Only displacements and contact change here. A failed step restores the
+  /// contact, so that a shorter step starts from the same state.
   template <int dim>
   typename Newton<dim>::Outcome
   Newton<dim>::solve(StaticProblem<dim> &problem,
@@ -67,13 +67,13 @@ namespace talus
 
 
 
-  /// Newton's method with the states of the seabed's nodes (stick, slip, open)
-  /// held fixed, then a look at the nodes, until none changes: within a loop
-  /// the problem is smooth, so that convergence is quadratic, and the matrix of
-  /// small strain stays symmetric, which it would not with friction as a
-  /// function of the normal force. The next loop starts from the displacements
-  /// of the last one. The number of rounds is limited since a set of states may
-  /// come back.
+  /// Apply Newton's method with fixed contact states (stick, slip, open) of the
+  /// nodes on the seabed, then update the states, until no state changes. With
+  /// fixed states the problem is smooth, so convergence is quadratic; and the
+  /// matrix at small strain stays symmetric, while friction as a function of
+  /// the normal force would make it unsymmetric. Each loop starts from the
+  /// displacements of the previous loop. The number of loops is limited, as a
+  /// set of states may recur.
   template <int dim>
   typename Newton<dim>::Outcome
   Newton<dim>::solve_with_contact(StaticProblem<dim> &problem,
@@ -88,9 +88,9 @@ namespace talus
           {
             if (outcome.is_stopped)
               return outcome;
-            // Soil that is held by slipping nodes only has a singular matrix.
-            // Friction that would push it on turns around as soon as it moves:
-            // those nodes can bear it.
+            // Soil held only by slipping nodes has a singular matrix. Friction
+            // that would push the soil on reverses as soon as the soil moves:
+            // the nodes can then stick.
             if (moves_freely_ && equations_.stick_again(last_correction_) > 0)
               continue;
             mechanism_ = last_correction_;
@@ -106,13 +106,13 @@ namespace talus
 
 
 
-  /// Ends with a residual below the tolerance, after the largest number of
-  /// iterations, or where the residual is no number. The last two are failures
-  /// of this load step, not of the run. norm is that of all ranks, so all of
-  /// them leave together. The residual is over the force of the loads, see
-  /// StaticEquations::reference_force(), and not over that of the first
-  /// iteration: a load step that begins nearly in balance could not reduce its
-  /// residual by eight orders.
+  /// Iterate until the residual is below the tolerance, the largest number of
+  /// iterations is reached, or the residual is not a number. The last two fail
+  /// the load step, not the run. All ranks leave the loop together, as the norm
+  /// is over all ranks. The residual is relative to
+  /// StaticEquations::reference_force() and not to the first residual: a load
+  /// step that starts nearly in balance could not reduce its residual by eight
+  /// orders of magnitude.
   template <int dim>
   typename Newton<dim>::Outcome
   Newton<dim>::newton_loop(StaticProblem<dim> &problem, const Observer &observe)
@@ -122,7 +122,7 @@ namespace talus
     const Outcome stopped{false, "The search was stopped", true};
     for (unsigned int i = 0;; ++i)
       {
-        // Soil without any force on it is in balance: 0/0 would not be.
+        // Soil without any force is in balance; 0/0 would fail the test.
         const double    norm = equations_.unknowns().norm(residual_);
         NewtonIteration iteration{
           i, norm == 0. ? 0. : norm / equations_.reference_force(), 0, 0., 0.};
@@ -139,9 +139,9 @@ namespace talus
                                             i,
                                             " iterations: the residual is ",
                                             iteration.residual,
-                                            " of the forces, where ",
+                                            " of the forces, but at most ",
                                             parameters_.tolerance,
-                                            " was asked for"));
+                                            " is allowed"));
           }
         const std::string error = newton_update(problem, iteration);
         if (!observe(iteration))
@@ -154,12 +154,12 @@ namespace talus
 
 
 
-  /// The full Newton step, with a matrix made anew in each iteration: the
-  /// tangent comes with the stress anyway, and a modified Newton method would
-  /// lose the quadratic convergence. Three things may go wrong: the linear
-  /// solver gives up; the correction is larger than ten times the mesh, so that
-  /// the matrix was singular but for round-off and soil is a mechanism; or no
-  /// point along the correction is sound. Collective.
+  /// Take a full Newton step with a new matrix: the tangent comes with the
+  /// stress anyway, and a modified Newton method would lose the quadratic
+  /// convergence. There are three failures: the linear solver gives up; the
+  /// correction exceeds ten times the extent of the mesh, so the matrix is
+  /// singular up to round-off and soil moves as a mechanism; or no state along
+  /// the correction is valid. Collective.
   template <int dim>
   std::string
   Newton<dim>::newton_update(StaticProblem<dim> &problem,
@@ -172,10 +172,10 @@ namespace talus
     if (!correction.failure.empty())
       return correction.failure;
     if (std::isfinite(correction.largest))
-      // Of a nearly singular matrix the correction is nearly the vector that it
-      // maps to zero: the mechanism of failure, up to its size.
+      // The correction from a nearly singular matrix is close to its null
+      // vector: the mechanism of failure, up to a factor.
       last_correction_ = correction.field;
-    // So written that it holds for what is not a number, too.
+    // Written to be true also if the correction is not a number.
     moves_freely_ = !(correction.largest < 10. * extent_);
     if (moves_freely_)
       return "the matrix is singular or nearly so: part of the soil can move "
@@ -189,18 +189,21 @@ namespace talus
 
 
 
-  /// Go along @p direction until the work of the residual on it is small, and
-  /// set displacements and residual. Returns how far, in units of the
-  /// direction; 0 if no point along it is sound.
-  /// For elastic soil the work of the residual on the direction is minus the
-  /// derivative of the energy along it, and zero at its minimum. Plastic soil
-  /// has no energy, but the work still says whether the step went too far. It
-  /// is accepted when it fell by a fifth, or when the norm did: so loose that
-  /// full steps are taken near the solution, where convergence is quadratic.
-  /// Else the step goes to the root of the line through both values of the
-  /// work, but to no less than a tenth and no more than a half. After six
-  /// trials any sound step is taken, and the limit on iterations decides. Each
-  /// trial costs one evaluation of all stresses. Collective.
+  /// Move along @p direction until the work of the residual on the direction is
+  /// small, and set displacements and residual. Returns the length of the step
+  /// as a fraction of the direction; 0 if no state along the direction is
+  /// valid.
+  ///
+  /// For elastic soil, the work of the residual on the direction is minus the
+  /// derivative of the energy along it, and zero at the minimum. Plastic soil
+  /// has no energy, but the work still tells whether the step is too long. A
+  /// step is accepted if the work fell by a fifth or the norm of the residual
+  /// fell. The test is so loose that full steps are taken near the solution,
+  /// where convergence is quadratic. Otherwise the length is reduced to the
+  /// root of the line through both values of the work, by a factor between 0.1
+  /// and 0.5. After six trials any valid step is taken, and the limit on
+  /// iterations decides. Each trial costs one evaluation of all stresses.
+  /// Collective.
   template <int dim>
   double
   Newton<dim>::line_search(StaticProblem<dim>        &problem,
@@ -217,8 +220,7 @@ namespace talus
           u[i] = u_[i] + length * direction[i];
         if (!equations_.find_residual(problem, u, residual_))
           {
-            // A point would be turned inside out, so there is no work to
-            // interpolate.
+            // A point would be inverted, so there is no work to interpolate.
             length *= 0.5;
             continue;
           }
@@ -237,8 +239,8 @@ namespace talus
 
 
 
-  /// The size of a mechanism means nothing, and of a nearly singular matrix
-  /// depends on round-off: so it is divided by the largest component over all
+  /// The size of a mechanism has no meaning, and with a nearly singular matrix
+  /// depends on round-off. Hence the division by the largest component on all
   /// ranks.
   template <int dim>
   std::vector<double>

@@ -5,12 +5,11 @@ namespace talus
 {
   using namespace dealii;
 
-  /// The weights at the start of a load step are used in each of its
-  /// evaluations and matrices, while they do not change: so they are computed
-  /// once, by definition (box by box, cell by cell), and hanging nodes are
-  /// resolved here. The explicit step, where they are used twice, computes them
-  /// anew instead. Memory is points of a cell times nodes of the cell, 24 bytes
-  /// each in 2-D and 32 in 3-D.
+  /// The weights are constant within a load step and used in all its
+  /// evaluations and matrices. Hence they are computed once, by definition (box
+  /// by box, cell by cell), and hanging nodes are resolved here. The explicit
+  /// step uses its weights twice and recomputes them instead. Memory: points of
+  /// a cell times nodes of the cell, 24 bytes each in 2-D and 32 bytes in 3-D.
   template <int dim>
   void
   ShapeFunctionCache<dim>::compute(const Points<dim>   &points,
@@ -19,8 +18,7 @@ namespace talus
                                    const Unknowns<dim> &unknowns)
   {
     cells_.clear();
-    // Ends of the lists, cell by cell: cell c has what lies between entries c
-    // and c + 1.
+    // Ends of the lists: cell c owns the entries between numbers c and c + 1.
     first_node_.assign(1, 0);
     first_weight_.assign(1, 0);
     nodes_.clear();
@@ -36,9 +34,9 @@ namespace talus
 
 
 
-  /// The nodes of a cell are numbered as its points meet them, and how many
-  /// there are is known only when the last point is done; so what the points
-  /// give is listed first and laid out by store().
+  /// Nodes are numbered in the order in which the points of the cell touch
+  /// nodes, and their number is known only after the last point. Hence shares
+  /// are collected first and then arranged by store().
   template <int dim>
   void
   ShapeFunctionCache<dim>::add_cell(const Points<dim>   &points,
@@ -55,7 +53,7 @@ namespace talus
                          const unsigned int     node,
                          const double           factor,
                          const NodeWeight<dim> &weight) {
-      // Lighter nodes have no unknowns. Their displacement counts as zero.
+      // Lighter nodes have no unknowns; their displacement counts as zero.
       if (!unknowns.is_active(node))
         return;
       unsigned int &place = place_of_node_[node];
@@ -73,8 +71,8 @@ namespace talus
       {
         weights_of_point(points, grid, shape, c, p, weights);
         for (const NodeWeight<dim> &weight : weights)
-          // The displacement of a hanging node is the mean of its masters', so
-          // they get its weight in the same shares.
+          // The displacement of a hanging node is the mean of its masters, so
+          // the masters share its weight.
           if (const HangingNode *hanging = hanging_[weight.node])
             for (const auto &[node, factor] : hanging->masters)
               add(p, node, factor, weight);
@@ -87,8 +85,8 @@ namespace talus
 
 
 
-  /// The weights of the points of a cell, row by row, from what was found; and
-  /// the bookkeeping for the next cell.
+  /// Store the weights of the points of a cell as rows, from the collected
+  /// @p shares, and prepare the lists for the next cell.
   template <int dim>
   void
   ShapeFunctionCache<dim>::store(const Batch              &cell,
@@ -101,8 +99,8 @@ namespace talus
                     Weight{0., Tensor<1, dim>()});
     for (const Share &share : shares)
       {
-        // Added, not set: a point names a node once per cell that its box
-        // overlaps, and as master of several hanging nodes.
+        // Sum up: a point has several shares for a node that is touched in
+        // several cells or is master of several hanging nodes.
         Weight &weight =
           weights_[first + share.point * std::size_t(n_nodes) + share.place];
         weight.value += share.weight.value;

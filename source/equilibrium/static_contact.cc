@@ -12,9 +12,10 @@ namespace talus
 {
   using namespace dealii;
 
-  /// Contact outlives the load step: if all nodes began by sticking, each step
-  /// would have to find the slipping ones anew, one Newton loop after the
-  /// other. It belongs to the places of the nodes, whatever their numbers.
+  /// Contact states are kept between load steps: if all nodes started by
+  /// sticking, each step would have to find the slipping nodes again, with one
+  /// Newton loop after another. States belong to the places of the nodes, as
+  /// node numbers change.
   template <int dim>
   void
   StaticContact<dim>::begin(const StaticProblem<dim> &problem,
@@ -41,7 +42,7 @@ namespace talus
             contact.face = face;
             contact.walls =
               problem.boundaries.components_constrained_by_walls(faces);
-            // The area of the dynamics: both must find the same friction.
+            // Same area as in the dynamics: both must find the same friction.
             contact.area = problem.boundaries.seabed().contact_area(
               problem.state.nodes, problem.state.grid, face, contact.node);
             contacts_.push_back(contact);
@@ -51,8 +52,8 @@ namespace talus
 
 
 
-  /// Return a row of numbers for each node on the seabed: key of its place (two),
-  /// face, state, friction and reaction, N.
+  /// Table with a row for each node on the seabed: key of its place (two
+  /// numbers), face, state, friction and reaction, N.
   template <int dim>
   std::vector<double>
   StaticContact<dim>::rows() const
@@ -77,7 +78,7 @@ namespace talus
 
 
 
-  /// Let the nodes that have a row be as it says.
+  /// Restore state and forces of the nodes listed in @p rows.
   template <int dim>
   void
   StaticContact<dim>::take(const std::vector<double> &rows,
@@ -130,8 +131,8 @@ namespace talus
 
 
 
-  /// Bit d is component d. Slipping nodes are held along the normal only, open
-  /// ones by walls only.
+  /// Bit d stands for component d. Slipping nodes are held along the normal
+  /// only, open nodes only by walls.
   template <int dim>
   std::vector<unsigned char>
   StaticContact<dim>::constrained(const StaticProblem<dim> &problem,
@@ -151,7 +152,7 @@ namespace talus
 
 
 
-  /// Friction of a slipping node is a given force, not a function of the
+  /// The friction of a slipping node is a given force, not a function of the
   /// displacement: the matrix stays symmetric, and update_active_set() corrects
   /// the force between the loops.
   template <int dim>
@@ -166,8 +167,9 @@ namespace talus
 
 
 
-  /// Slipping nodes bear friction besides the normal reaction, sticking ones
-  /// have all of it in the reaction, open ones bear nothing.
+  /// Slipping nodes have friction in addition to the normal reaction. At
+  /// sticking nodes the reaction contains all of the force, and open nodes have
+  /// no force.
   template <int dim>
   void
   StaticContact<dim>::add_contact_force(const double         factor,
@@ -184,18 +186,17 @@ namespace talus
 
 
 
-  /// What the node bore along the seabed may be more than it bears now.
-  /// Strength reduction makes the seabed weaker, and the area in contact
-  /// changes with the soil. The part along the seabed is cut to mu N or tau_max
-  /// A, with the normal force N of the last step; what walls hold is not
-  /// friction and stays.
+  /// Cut the force along the seabed to mu N or tau_max A, with the normal force
+  /// N of the last step. The limit may have fallen: strength reduction weakens
+  /// the seabed, and the area in contact changes with the soil. Components held
+  /// by walls are not friction and stay.
   template <int dim>
   void
   StaticContact<dim>::limit_friction(Contact           &contact,
                                      const Seabed<dim> &seabed) const
   {
-    // The seabed pushes against the outer normal: pressed soil has a positive
-    // force.
+    // The seabed pushes against the outer normal; the force is positive on
+    // pressed soil.
     const unsigned int axis         = contact.face / 2;
     const double       outwards     = (contact.face % 2 == 0 ? -1. : 1.);
     const double       normal_force = -outwards * contact.reaction[axis];
@@ -215,18 +216,17 @@ namespace talus
 
 
 
-  /// @p weight, N, is what forces are small against.
-  /// The state of one node after a solution with it, by these rules:
-  ///   open    -> sticks  if it went into the seabed;
+  /// Update the state of one node after a solution, by the rules
+  ///   open    -> sticks  if soil has moved into the seabed;
   ///   any     -> open    if the seabed would have to pull;
-  ///   sticks  -> slips   if it bears more than the largest friction, which
-  ///                      then acts in the direction of what it bore;
-  ///   slips   -> sticks  if it moved along the friction and not against it.
-  /// A slipping node whose normal force has changed gets friction of the new
-  /// size, which counts as a change, too. The direction of slip stays that of
-  /// its beginning; in 2-D there is no other. Forces are compared with a slack
-  /// of a millionth of @p weight, so that round-off does not turn states over
-  /// and over.
+  ///   sticks  -> slips   if the force along the seabed exceeds the largest
+  ///                      friction, which then acts in the same direction;
+  ///   slips   -> sticks  if the node moved along the friction.
+  /// The friction of a slipping node follows the normal force, and its change
+  /// counts as a change of state. The direction of slip is kept from the start
+  /// of slip; in 2-D there is only one. Forces are compared with a slack of
+  /// 1e-6 times @p weight, N, so that round-off does not change states for
+  /// ever.
   template <int dim>
   bool
   StaticContact<dim>::update_active_set(Contact              &contact,
@@ -266,7 +266,7 @@ namespace talus
         contact.friction = limit / tangential.norm() * tangential;
         return true;
       }
-    // It must slip against the friction.
+    // A slipping node must move against the friction.
     if (u * tangential > 0.)
       {
         contact.state = State::sticks;
@@ -280,9 +280,8 @@ namespace talus
 
 
 
-  /// @p reaction is the residual with its sign changed, so it is right at held
-  /// components only; what free components have is the rest that Newton's
-  /// method left.
+  /// @p reaction is the negative residual, so it is valid at held components
+  /// only; free components hold the residual left by Newton's method.
   template <int dim>
   unsigned int
   StaticContact<dim>::update_active_set(const StaticProblem<dim>  &problem,
@@ -301,11 +300,11 @@ namespace talus
           }
         contact.reaction = Tensor<1, dim>();
         for (unsigned int d = 0; d < dim; ++d)
-          // The normal component of an open node is about zero, as it is free.
+          // At open nodes the normal component is free, and its force nearly
+          // zero.
           if (contact.state == State::sticks || d == contact.face / 2)
             contact.reaction[d] = force[d];
-        // The force at the node and the weight of its soil: one of them may be
-        // zero.
+        // Force at the node plus weight of its soil, as either may be zero.
         const double weight =
           force.norm() + unknowns.mass(contact.node) *
                            problem.loads.acceleration_of_body[0].norm();
@@ -317,8 +316,7 @@ namespace talus
                                weight))
           continue;
         ++n_changes;
-        // The next loop holds the normal displacement where it is: on the
-        // seabed.
+        // The next loop holds the normal displacement at zero: on the seabed.
         if (was_open)
           u[dim * contact.node + contact.face / 2] = 0.;
       }
@@ -329,8 +327,8 @@ namespace talus
 
 
 
-  /// The direction is the last correction, and only its sign counts: its size
-  /// is that of a nearly singular matrix.
+  /// Only the sign of the direction counts: its size is the size of a
+  /// correction from a nearly singular matrix.
   template <int dim>
   unsigned int
   StaticContact<dim>::stick_again(const Unknowns<dim>       &unknowns,

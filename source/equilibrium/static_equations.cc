@@ -33,13 +33,13 @@ namespace talus
 
 
 
-  /// All that does not change within a load step: unknowns, weights, faces of
-  /// the stabilization, pattern of the matrix, rigid modes, and the forces at u
-  /// = 0. The order matters: the nodal sums tell which nodes have enough mass
-  /// for unknowns; weights, faces and contact know their nodes by these; the
-  /// pattern needs all three. A pattern per load step costs little against the
-  /// matrices of its iterations, and with large strain points touch other nodes
-  /// in each. Collective.
+  /// Set up everything that is constant within a load step: unknowns, weights,
+  /// faces of the stabilization, pattern of the matrix, rigid modes, and the
+  /// forces at u = 0. The order matters: the nodal sums select the nodes with
+  /// unknowns; weights, faces and contact refer to the unknowns; the pattern
+  /// needs all three. A pattern for each load step is cheap compared with the
+  /// matrices of its iterations, and at large strain points touch different
+  /// nodes in each step. Collective.
   template <int dim>
   void
   StaticEquations<dim>::begin(StaticProblem<dim> &problem,
@@ -72,7 +72,7 @@ namespace talus
 
 
 
-  /// Internal forces, those of obstacles and what is out of balance, at u = 0.
+  /// Compute internal forces, forces of obstacles and imbalance at u = 0.
   template <int dim>
   void
   StaticEquations<dim>::find_forces(StaticProblem<dim> &problem)
@@ -87,7 +87,7 @@ namespace talus
         contact_.facets().add_forces(1., no_displacements, of_facets_);
         unknowns_.add_to_owners(of_facets_);
       }
-    // Without displacements no point can be turned inside out.
+    // At zero displacement no point can be inverted.
     internal_forces_.evaluate(problem, weights_, no_displacements, internal_);
     unknowns_.add_to_owners(internal_);
     double external = 0, internal = 0;
@@ -98,9 +98,9 @@ namespace talus
           {
             const unsigned int i = dim * node + d;
             unbalanced_[i]       = force[d];
-            // Held components count here, too: most of the weight of soil on a
-            // seabed is borne there, and free nodes alone may have next to
-            // nothing to compare with.
+            // Include held components: the seabed bears most of the weight of
+            // the soil, and the forces at free nodes alone may be close to
+            // zero.
             internal += internal_[i] * internal_[i];
             external += std::pow(unbalanced_[i] + internal_[i], 2);
             if (has_well_balanced_load())
@@ -111,8 +111,8 @@ namespace talus
     internal                    = Utilities::MPI::sum(internal, communicator);
     external                    = Utilities::MPI::sum(external, communicator);
     loads_                      = std::sqrt(external);
-    // The larger of loads and stress: soil without weight may have a stress,
-    // and soil that is not yet stressed has loads.
+    // Take the larger of loads and stress: soil without weight may have a
+    // stress, and soil not yet stressed has loads.
     reference_ = std::sqrt(std::max(internal, external));
   }
 
@@ -134,17 +134,17 @@ namespace talus
 
 
 
-  /// All unknowns that the points of a cell touch are coupled. Held ones keep
-  /// their places: nodes of the seabed begin to stick or slip within a load
-  /// step, and the pattern serves all its matrices. Rows of other ranks' nodes
-  /// are sent to them by compress(). Collective.
+  /// Couple all unknowns that the points of a cell touch. Held unknowns keep
+  /// their places: nodes on the seabed change their states within a load step,
+  /// and the pattern serves all matrices of the step. compress() sends the rows
+  /// of ghost nodes to their owners. Collective.
   template <int dim>
   void
   StaticEquations<dim>::make_pattern()
   {
-    // Trilinos' own pattern: deal.II's function that makes a matrix from a
-    // DynamicSparsityPattern is no inline one, and clang has another name for it
-    // than GCC, which compiled deal.II.
+    // Use Trilinos' own pattern: deal.II's function that makes a matrix from a
+    // DynamicSparsityPattern is not inline, and clang names it differently from
+    // GCC, which compiled deal.II.
     TrilinosWrappers::SparsityPattern    pattern(unknowns_.owned(),
                                               unknowns_.owned(),
                                               unknowns_.relevant(),
@@ -169,10 +169,10 @@ namespace talus
 
 
 
-  /// Translations and rotations about the axes, seen from the lower corner.
-  /// In the order of this rank's unknowns, as ML wants them. The origin is the
-  /// corner of the mesh, on all ranks the same: rotations about different
-  /// points would be different modes.
+  /// Compute translations and rotations about the axes, in the order of the
+  /// unknowns of this rank, as ML expects. The centre of rotation is the lower
+  /// corner of the mesh, the same on all ranks: different centres would give
+  /// different modes.
   template <int dim>
   void
   StaticEquations<dim>::make_rigid_modes(const Grid<dim> &grid)
@@ -185,7 +185,7 @@ namespace talus
           {
             for (unsigned int e = 0; e < dim; ++e)
               modes_[e].push_back(d == e ? 1. : 0.);
-            // In the plane of axes a and b.
+            // Rotation in the plane of axes a and b.
             unsigned int mode = dim;
             for (unsigned int a = 0; a < dim; ++a)
               for (unsigned int b = a + 1; b < dim; ++b)
@@ -196,8 +196,8 @@ namespace talus
 
 
 
-  /// Slipping nodes are free, and their friction is known: it is a load as any
-  /// other, and so is what obstacles bear.
+  /// Slipping nodes are free, and their friction is known, hence a load;
+  /// likewise the forces of obstacles.
   template <int dim>
   std::vector<double>
   StaticEquations<dim>::out_of_balance() const
@@ -211,7 +211,7 @@ namespace talus
 
 
 
-  /// What held components bear is left out by the norm.
+  /// The norm leaves out held components.
   template <int dim>
   double
   StaticEquations<dim>::imbalance() const
@@ -222,9 +222,8 @@ namespace talus
 
 
 
-  /// Largest component, N, at a free unknown over all ranks, and the place of
-  /// its node in words. Of several ranks with the same value the first one
-  /// tells the place. Collective.
+  /// The place is reported by the first of the ranks with the largest
+  /// component.
   template <int dim>
   std::string
   StaticEquations<dim>::where_largest(const std::vector<double> &force,
@@ -234,7 +233,7 @@ namespace talus
     Point<dim> place;
     unknowns_.for_each_free_dof(
       [&](const unsigned int node, const unsigned int d) {
-        // Not a number counts as large.
+        // Treat a value that is not a number as the largest.
         if (!(std::abs(force[dim * node + d]) <= own) && !std::isnan(own))
           {
             own   = std::abs(force[dim * node + d]);
@@ -246,8 +245,8 @@ namespace talus
     const unsigned int n_ranks  = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int rank = Utilities::MPI::this_mpi_process(communicator);
     const unsigned int owner =
-      // No rank compares equal to what is not a number; then rank 0 answers, so
-      // that the broadcast has a root in any case.
+      // If the largest value is not a number, it equals no value on any rank;
+      // then rank 0 answers, so that the broadcast has a root.
       Utilities::MPI::min(own == largest ? rank : n_ranks, communicator);
     return Utilities::MPI::broadcast(communicator,
                                      text('(', place, ") m"),
@@ -268,9 +267,9 @@ namespace talus
 
 
   /// The target of f(u) + K_g u is f(0) + s (f_ext - f(0)) - (1 - s) c, with
-  /// share s of the load step and the force c that seabed and obstacles bore
-  /// before: put into the residual of doc/method.md, section 12. With s = 1 it
-  /// is f_ext, whatever was borne before.
+  /// the fraction s of the load step and the previous force c of seabed and
+  /// obstacles: inserted into the residual of doc/method.md, section 12. With
+  /// s = 1 the target is f_ext for any c.
   template <int dim>
   void
   StaticEquations<dim>::take_share(const double share)
@@ -294,7 +293,7 @@ namespace talus
 
 
 
-  /// Held nodes bear what is left of the residual.
+  /// Held nodes bear the negative residual.
   template <int dim>
   unsigned int
   StaticEquations<dim>::update_contact(StaticProblem<dim>        &problem,
@@ -313,12 +312,10 @@ namespace talus
 
 
 
-  /// Set the residual at the displacements @p u. Returns false if a point of any
-  /// rank would be turned inside out.
-  /// Collective: all ranks take the same way, since a rank that went on alone
-  /// would wait for messages for ever.
+  /// Compute
   ///   r = target + friction - f(u) - K_g u + forces of obstacles(u)
-  /// at all nodes; at held ones -r is the reaction.
+  /// at all nodes; at held nodes -r is the reaction. All ranks decide together:
+  /// a rank that continued alone would wait for messages for ever.
   template <int dim>
   bool
   StaticEquations<dim>::find_residual(StaticProblem<dim>        &problem,
@@ -343,7 +340,8 @@ namespace talus
 
 
 
-  /// The tangent of the step at the present displacements. Collective.
+  /// Assemble the tangent at the displacements of the last residual.
+  /// Collective.
   template <int dim>
   void
   StaticEquations<dim>::assemble_matrix()
@@ -353,7 +351,7 @@ namespace talus
     ghost_.add_to_matrix(unknowns_, matrix_);
     contact_.facets().add_to_matrix(unknowns_, matrix_);
     matrix_.compress(VectorOperation::add);
-    // Where soil can move freely the solution is to be large, not infinite.
+    // Where soil can move freely the solution must be large, not infinite.
     for (const auto i : unknowns_.owned())
       matrix_.add(i, i, 1e-13 * matrix_.diag_element(i));
     matrix_.compress(VectorOperation::add);
@@ -361,14 +359,15 @@ namespace talus
 
 
 
-  /// The rigid modes, as the solver may use them. Those of the step know nothing
-  /// of what is held, which changes while the contact is sought.
+  /// Return the rigid modes with zeros at the held unknowns, which change with
+  /// the contact.
   template <int dim>
   RigidModes
   StaticEquations<dim>::free_rigid_modes() const
   {
-    // At held components the modes are zero as the displacements are: multigrid
-    // would else try to represent on its coarse levels what the walls forbid.
+    // Displacements vanish at held components. Without zeros in the modes,
+    // multigrid would try to represent on its coarse levels motions that the
+    // walls prevent.
     RigidModes free_modes = modes_;
     for (auto &mode : free_modes)
       {
@@ -383,8 +382,8 @@ namespace talus
 
 
 
-  /// Held components have no correction. What is not a number stays the largest
-  /// one.
+  /// Held components have no correction. A value that is not a number remains
+  /// the largest.
   template <int dim>
   typename StaticEquations<dim>::Correction
   StaticEquations<dim>::solve_tangent(const LinearSolver        &linear_solver,
@@ -422,8 +421,6 @@ namespace talus
 
 
 
-  /// A nodal field with dim components, interpolated to the points by the
-  /// weights of the load step: dim numbers for each point of this rank.
   template <int dim>
   std::vector<double>
   StaticEquations<dim>::at_points(const Points<dim>         &points,
@@ -448,11 +445,11 @@ namespace talus
 
 
 
-  /// The laws go once more through the strain of the whole load step, from the
-  /// state at its beginning: trials of the iterations have left no trace in it,
-  /// so the result does not depend on the way by which u was found. With small
-  /// strain stress and internal variables change, points and boxes do not: the
-  /// nodes that are balanced are those on which the dynamics begins.
+  /// Apply the laws once more to the strain of the whole load step, from the
+  /// state at its start. Trials of the iterations leave no trace in the state,
+  /// so the result does not depend on the path to u. At small strain only
+  /// stress and internal variables change: the dynamics starts with the same
+  /// points, boxes and nodes.
   template <int dim>
   void
   StaticEquations<dim>::commit(StaticProblem<dim>        &problem,
@@ -460,7 +457,8 @@ namespace talus
   {
     contact_.facets().commit(problem, u, measure_);
     Points<dim> &points = problem.state.points;
-    // Whatever displacements were evaluated last.
+    // Set the gradients of u, as the last evaluation may be at different
+    // displacements.
     internal_forces_.set_gradients(problem, weights_, u);
     problem.materials.for_each_material_range(
       points,
@@ -477,7 +475,7 @@ namespace talus
     for (unsigned int p = 0; p < points.size(); ++p)
       for (unsigned int d = 0; d < dim; ++d)
         points.data(points.position, d)[p] += moved[dim * p + d];
-    // The gradient is that of the whole step, so dt = 1.
+    // The gradient covers the whole step, so dt = 1.
     update_stretch(points,
                    problem.state.workspace,
                    0,

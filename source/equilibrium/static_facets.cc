@@ -16,19 +16,21 @@ namespace talus
 
   namespace
   {
-    // Of the springs, over shear modulus times area over cell: each loop leaves
-    // about its inverse of the error, while the matrix becomes worse conditioned
-    // by it. A spring in proportion to the area leaves the facets that are
-    // slivers to their neighbours, with which they are nearly redundant.
+    // Stiffness of the springs, over shear modulus times area over cell size
+    // [-]. Each loop reduces the error by about this factor, but the matrix
+    // becomes worse conditioned. A stiffness proportional to the area leaves
+    // slivers to their neighbouring facets, with which slivers are nearly
+    // redundant.
     constexpr double spring = 100.;
 
-    // Facets may give way by this share of the displacements of the step, or by
-    // what is left after so many loops. Forces that alternate from facet to
-    // facet hardly move the soil: they are found slowly, and best not at all.
+    // Facets may give way by this fraction of the displacements of the step, or
+    // by the error left after the largest number of loops. Forces that
+    // alternate from facet to facet hardly move the soil: they converge slowly
+    // and need not converge.
     constexpr double       tolerance  = 1e-5;
     constexpr unsigned int most_loops = 5;
 
-    // Round-off of forces that were cut to the friction.
+    // Slack for the round-off of forces cut to the friction.
     constexpr double slack = 1. + 1e-12;
   } // namespace
 
@@ -59,7 +61,8 @@ namespace talus
       {
         if (point.given.normal > 0)
           point.gap = 0;
-        // Soil that has just come has no normal force yet, and so no friction.
+        // Soil new at an obstacle has no normal force yet, and hence no
+        // friction.
         point.sticks_first = (point.given.normal == 0);
         find_force(point, {});
       }
@@ -85,7 +88,8 @@ namespace talus
 
 
 
-  /// By name: a resumed run begins as a load step after another one does.
+  /// Stored by name: a resumed run starts like a load step that follows
+  /// another.
   template <int dim>
   typename StaticFacets<dim>::Memories
   StaticFacets<dim>::memories() const
@@ -103,7 +107,7 @@ namespace talus
 
 
 
-  /// All of them, those without soil, too, so that numbers stay as they are.
+  /// Add all facets, also without soil, so that the numbers of facets are kept.
   template <int dim>
   void
   StaticFacets<dim>::add_facets(const StaticProblem<dim> &problem,
@@ -143,7 +147,8 @@ namespace talus
 
 
 
-  /// As in the dynamics: these have no area, so they pass no friction.
+  /// Add nodes inside obstacles, as in the dynamics: without area and so
+  /// without friction.
   template <int dim>
   void
   StaticFacets<dim>::add_nodes_inside(const StaticProblem<dim> &problem,
@@ -185,7 +190,7 @@ namespace talus
 
 
 
-  /// Of the contact point; without @p u, none.
+  /// Displacement of the contact point, m; zero if @p u is empty.
   template <int dim>
   Tensor<1, dim>
   StaticFacets<dim>::displacement(const ContactPoint        &point,
@@ -203,7 +208,7 @@ namespace talus
 
 
 
-  // With the gap g, the displacement u and the spring k
+  // With the gap g, the displacement u and the spring k,
   //   N = max(0, N_given - k (g + u n)),
   //   T = T_given - k (u - (u n) n), cut to min(mu N, tau_max A).
   template <int dim>
@@ -238,8 +243,9 @@ namespace talus
 
 
 
-  /// Where it slips, the force along the slip is that of the normal force or the
-  /// cap, and the force across turns with the slip.
+  /// Negative derivative of the force by the displacement, N/m. While the point
+  /// slips, the friction is mu N or its cap in the direction of slip, and the
+  /// direction turns with the slip.
   template <int dim>
   Tensor<2, dim>
   StaticFacets<dim>::tangent(const ContactPoint &point) const
@@ -307,7 +313,7 @@ namespace talus
 
   namespace
   {
-    /// Nodes with a share and their unknowns, one node after the other.
+    /// List the nodes with a weight and their unknowns, node by node.
     template <int dim, typename ContactPoint>
     void
     list_unknowns(const ContactPoint                   &point,
@@ -329,7 +335,7 @@ namespace talus
 
 
 
-  /// Nodes of a cut cell are coupled even if no point is in it.
+  /// Nodes of a cut cell are coupled even without points in the cell.
   template <int dim>
   void
   StaticFacets<dim>::add_to_pattern(
@@ -377,10 +383,10 @@ namespace talus
 
 
 
-  // What the springs still bear, over their stiffness, is how far the soil went
-  // where it must not: a mean over the area, so that slivers, whose springs are
-  // soft, do not decide. Where next to no force is left to change, the
-  // displacements are round-off, and nothing to compare with.
+  // The remaining force of a spring over its stiffness is the distance that the
+  // soil moved against the contact. The mean is weighted by area, so that
+  // slivers, whose springs are soft, do not dominate. If the forces hardly
+  // change, displacements are round-off and no measure of the error.
   template <int dim>
   bool
   StaticFacets<dim>::update(const StaticProblem<dim>  &problem,
@@ -389,7 +395,7 @@ namespace talus
   {
     if (problem.contact.obstacles().empty())
       return true;
-    // Area, its integral of the square of the error, change of forces, forces.
+    // Area, area times error squared, change of forces, forces.
     std::vector<double> sums(4, 0.);
     for (ContactPoint &point : points_)
       {
@@ -417,8 +423,8 @@ namespace talus
 
 
 
-  /// As for nodes of the seabed: friction turns around as soon as the soil moves
-  /// along it. With the matrix of sticking the next iterate is not one of a
+  /// As at nodes on the seabed, friction reverses as soon as the soil moves
+  /// along it. The tangent of sticking keeps the next iterate from being a
   /// mechanism; the force stays cut to the friction.
   template <int dim>
   unsigned int
@@ -437,8 +443,8 @@ namespace talus
 
 
 
-  /// Points that stay where they are keep their gaps, too, so that what the soil
-  /// moved towards the obstacle must be remembered.
+  /// At small strain points do not move, so the motion of the soil towards the
+  /// obstacle must be remembered.
   template <int dim>
   void
   StaticFacets<dim>::commit(const StaticProblem<dim>  &problem,

@@ -13,7 +13,7 @@ namespace talus
   {
     add_parameter("First factor",
                   first_,
-                  "Number that strengths are divided by first [-].",
+                  "First number by which strengths are divided [-].",
                   this->prm,
                   Patterns::Double(1e-6));
     add_parameter("Tolerance",
@@ -24,31 +24,31 @@ namespace talus
                   Patterns::Double(1e-6, 1.));
     add_parameter("Largest factor",
                   largest_,
-                  "Factor [-] beyond which the search ends: the soil is safe "
+                  "Factor above which the search ends [-]: the soil is safe "
                   "enough.",
                   this->prm,
                   Patterns::Double(1e-6));
     add_parameter("Smallest factor",
                   smallest_,
-                  "Factor [-] below which the search ends: the soil fails "
-                  "whatever its strength.",
+                  "Factor below which the search ends [-]: the soil fails "
+                  "with any strength.",
                   this->prm,
                   Patterns::Double(1e-6));
     add_parameter("Smallest load step",
                   smallest_step_,
-                  "Share of the force that a factor puts out of balance, below "
-                  "which a step is not halved but a smaller reduction tried "
-                  "[-]. A factor within 'Tolerance' of one with which the soil "
-                  "stands, whose failure decides, has steps down to "
+                  "Smallest fraction of the imbalance of a factor in a halved "
+                  "step [-]; if it fails, a smaller reduction is tried. "
+                  "Failure of a factor within 'Tolerance' of a factor with "
+                  "which the soil stands is decisive: here steps go down to "
                   "'Equilibrium/Smallest load step'.",
                   this->prm,
                   smallest_load_steps());
     add_parameter("Allowed imbalance",
                   allowed_imbalance_,
-                  "Force out of balance over that of the loads or of the "
-                  "stress, as in the section Equilibrium, with which the soil "
-                  "counts as standing [-]; 0 for a fiftieth of 'Tolerance'. "
-                  "It must be small against 'Tolerance'.",
+                  "Largest unbalanced force of soil that stands, over the "
+                  "force of the loads or of the stress, as in section "
+                  "Equilibrium [-]; 0 for 0.02 times 'Tolerance'. Must be "
+                  "small against 'Tolerance'.",
                   this->prm,
                   Patterns::Double(0.));
     add_parameter("Seabed",
@@ -75,14 +75,15 @@ namespace talus
                        smallest_,
                        ", but 'Strength reduction/Largest factor' is ",
                        largest_,
-                       ", which must be the larger one. Exchange the two.")));
+                       ", which must be larger. Exchange the two values.")));
     AssertThrow(first_ <= largest_,
                 ExcUser(
                   text("'Strength reduction/First factor' is ",
                        first_,
-                       ", where at most 'Strength reduction/Largest factor' = ",
+                       ", but must be at most 'Strength reduction/Largest "
+                       "factor' = ",
                        largest_,
-                       " was expected. Correct one of the two.")));
+                       ". Correct one of the two values.")));
   }
 
 
@@ -90,7 +91,7 @@ namespace talus
   void
   StrengthReduction::begin(const double largest_strength)
   {
-    // growth_ is the share by which a factor without upper end grows. A larger
+    // growth_ is the relative growth of a factor without upper end. A larger
     // reduction may fail because it is too large for one trial.
     lower_ = upper_ = upper_from_ = 0.;
     growth_                       = fastest_growth;
@@ -99,7 +100,7 @@ namespace talus
 
 
 
-  /// Strengths may not be raised beyond what the law allows: softening soil
+  /// Strengths may not be raised beyond the limit of the law: softening soil
   /// would soften faster than it can unload (doc/method.md, section 12).
   double
   StrengthReduction::least_factor() const
@@ -109,7 +110,7 @@ namespace talus
 
 
 
-  /// Both ends must be known.
+  /// Both ends of the bracket must be known.
   bool
   StrengthReduction::is_narrow() const
   {
@@ -119,8 +120,8 @@ namespace talus
 
 
   /// A narrow bracket is not enough: its upper end may have failed because the
-  /// reduction from a lower end far below was too much for one trial. It counts
-  /// when the end from which it was tried, upper_from_, was within the
+  /// reduction from a much lower factor was too large for one trial. The upper
+  /// end counts if it was tried from a factor, upper_from_, within the
   /// tolerance. The slack of 1e-9 is for the round-off of bisection.
   bool
   StrengthReduction::is_done() const
@@ -135,19 +136,18 @@ namespace talus
 
 
 
-  /// In this order: the first factor; upwards by growth_ while nothing has
-  /// failed; downwards by a factor of 1.5 as long as nothing has stood; the
-  /// upper end once more, from the new lower end, if the bracket is narrow;
-  /// else the middle. A factor known to stand or to fail is not tried a second
-  /// time but for the upper end.
+  /// In this order: the first factor; upwards by growth_ while no factor has
+  /// failed; downwards by a factor of 1.5 while no factor has stood; if the
+  /// bracket is narrow, the upper end again, from the new lower end; otherwise
+  /// the middle. Only the upper end is tried a second time.
   double
   StrengthReduction::next() const
   {
     if (lower_ == 0. && upper_ == 0.)
       return std::max(first_, least_factor());
     if (upper_ == 0.)
-      // Soil that stands with less than the first factor goes to that at once.
-      // After an upper end was withdrawn it goes on in small steps.
+      // If the soil stands with less than the first factor, try the first
+      // factor next. After an upper end was withdrawn, continue in small steps.
       return std::min(std::max((1. + growth_) * lower_,
                                growth_ == fastest_growth ? first_ : 0.),
                       std::max(largest_, lower_));
@@ -158,9 +158,9 @@ namespace talus
 
 
 
-  /// Trials start from the largest factor that stood, so a failure says "not
-  /// from there". An upper end that stands on its second trial is withdrawn,
-  /// with all that was concluded from it.
+  /// Trials start from the largest factor that stood, so a failure means only
+  /// "fails from there". An upper end that stands at its second trial is
+  /// withdrawn.
   void
   StrengthReduction::record(const double factor, const bool stands)
   {
@@ -170,33 +170,33 @@ namespace talus
         upper_from_ = lower_;
         return;
       }
-    // What failed from farther below may stand: go on in small steps.
+    // The factor failed from farther below but stands now: continue in small
+    // steps.
     if (factor == upper_)
       {
         upper_  = 0.;
         growth_ = tolerance_;
       }
-    // The growth is doubled with each success, up to the share that it began
-    // with.
+    // Double the growth with each success, up to its initial value.
     lower_  = factor;
     growth_ = std::min(2. * growth_, fastest_growth);
   }
 
 
 
-  // With strengths divided by a factor at the upper end of the bracket the soil
-  // lacks about the tolerance of what bears it.
-  /// What may be left out of balance must be small against the tolerance, or
-  /// soil on the way to failure would be taken for soil in balance: with 1e-3
-  /// the slope of the paper seems to stand with 4.01 in place of 3.91. Trials
-  /// that only narrow the bracket give up early, those whose failure is the
-  /// result may cut their steps as far as the stage before.
+  /// At the upper end of the bracket the soil lacks only about the tolerance
+  /// times the strength that it needs. The allowed imbalance must be small
+  /// against the tolerance, as otherwise soil on the way to failure would count
+  /// as balanced: with 1e-3 the slope of the paper seems to stand with 4.01
+  /// instead of 3.91. Trials that only narrow the bracket give up early. Trials
+  /// whose failure is the result may cut their steps as far as section
+  /// Equilibrium allows.
   EquilibriumLimits
   StrengthReduction::limits(const double factor, EquilibriumLimits limits) const
   {
     limits.allowed_imbalance =
       allowed_imbalance_ > 0. ? allowed_imbalance_ : 0.02 * tolerance_;
-    // No state with less strength to start from: all load has to come on.
+    // No state with less strength to start from: the full load must be applied.
     if (lower_ == 0.)
       return limits;
     limits.n_load_steps = 1;
@@ -211,11 +211,11 @@ namespace talus
   std::string
   StrengthReduction::result() const
   {
-    // Three ends: no upper one, no lower one, both. The factor of safety is
-    // then the middle of the bracket.
+    // Three results: no upper end, no lower end, or both; then the factor of
+    // safety is the middle of the bracket.
     const std::string cannot_stand =
       is_less_than_one()
-        ? " It is less than 1: the soil cannot stand with the strength it has."
+        ? " It is less than 1: the soil cannot stand with its strength."
         : "";
     if (upper_ == 0.)
       return text(std::setprecision(6),

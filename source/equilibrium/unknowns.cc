@@ -9,13 +9,12 @@ namespace talus
 {
   using namespace dealii;
 
-  /// Numbers follow the order of the owned nodes, rank after rank, so that each
-  /// rank owns one range, as Trilinos wants it. The list of active nodes is
-  /// sorted by node number: it then depends on the mesh and the soil only, not
-  /// on the order in which nodes were activated. What others must know of a
-  /// node (first unknown, held components, mass, volume) is one record of
-  /// doubles, so that ghosts get it by one message per neighbour; a double
-  /// holds whole numbers up to 2^53.
+  /// Unknowns are numbered in the order of the owned nodes, rank after rank, so
+  /// that each rank owns a contiguous range, as Trilinos requires. Active nodes
+  /// are sorted by number: the order then depends only on mesh and soil, not on
+  /// the order of activation. Ghosts receive a record of doubles per node
+  /// (first unknown, held components, mass, volume) with one message per
+  /// neighbour; a double holds integers up to 2^53.
   template <int dim>
   void
   Unknowns<dim>::number(const NodalFields<dim> &nodes,
@@ -28,7 +27,7 @@ namespace talus
     exchange_of_fields_.prepare(grid, dim);
     active_nodes_ = nodes.active_nodes();
     std::sort(active_nodes_.begin(), active_nodes_.end());
-    // Lighter nodes have no row: they carry no motion in the dynamics either.
+    // Lighter nodes have no row: they do not move in the dynamics either.
     active_nodes_.erase(std::remove_if(active_nodes_.begin(),
                                        active_nodes_.end(),
                                        [&](const unsigned int node) {
@@ -62,7 +61,7 @@ namespace talus
     owned_ = IndexSet(n_all);
     owned_.add_range(begin, begin + n_own);
     relevant_ = owned_;
-    // What this rank may add to, but does not own.
+    // Add unknowns of ghosts: this rank may add to their rows.
     for (unsigned int node = grid.n_owned_nodes(); node < n_nodes_; ++node)
       if (is_active(node))
         relevant_.add_range(first(node), first(node) + dim);
@@ -71,9 +70,9 @@ namespace talus
 
 
 
-  /// deal.II's constraints with nothing but zero lines: with these, assembly
-  /// drops the rows and columns of held unknowns, which keep their places in
-  /// the matrix. Numbers need not change when a node begins to slip.
+  /// Set up deal.II's constraints with zero lines only: assembly then drops
+  /// rows and columns of held unknowns, which keep their places in the matrix.
+  /// Unknowns keep their numbers when a node begins to slip.
   template <int dim>
   void
   Unknowns<dim>::constrain(const std::vector<unsigned char> &held)
@@ -102,7 +101,7 @@ namespace talus
 
 
 
-  /// Over owned nodes, each once, so ghosts count nowhere twice.
+  /// Sum over owned nodes only, so that ghosts do not count twice.
   template <int dim>
   double
   Unknowns<dim>::product(const std::vector<double> &a,

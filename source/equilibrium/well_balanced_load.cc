@@ -14,9 +14,9 @@ namespace talus
 
   namespace
   {
-    // Errors of quadrature stay below a third of this: shares of the weight of a
-    // full cell, and of the pressure on its side. A larger force is that of a
-    // pressure which nothing bears.
+    // Bounds of E as fractions of the weight of a full cell, and of the
+    // pressure on its side. Errors of quadrature stay below a third of the
+    // bounds. A larger force comes from a pressure without support.
     constexpr double share_of_weight = 0.3, share_of_pressure = 0.15;
   } // namespace
 
@@ -31,8 +31,9 @@ namespace talus
 
 
 
+  /// Compute
   ///   E_i = sum_p V (p' grad S_ip + S_ip grad p) + sum_f share_if p A n,
-  /// with p' after the mean of B-bar and the normals n of facets into the soil.
+  /// with p' after the mean of B-bar and facet normals n into the soil.
   template <int dim>
   void
   WellBalancedLoad<dim>::compute(const StaticProblem<dim>      &problem,
@@ -67,9 +68,9 @@ namespace talus
 
 
 
-  /// Whether the mudline is no longer that of the start: on the average of their
-  /// mass the points are farther than a tenth of the smallest cell from where
-  /// they were without displacement. Collective.
+  /// Return whether the soil has left its initial mudline: the mean
+  /// displacement of the points, weighted by mass, exceeds a tenth of the
+  /// smallest cell. Collective.
   template <int dim>
   bool
   WellBalancedLoad<dim>::has_moved(const StaticProblem<dim> &problem) const
@@ -90,8 +91,8 @@ namespace talus
 
 
 
-  /// Component along -y of the weight of all soil over its volume, N/m^dim: one
-  /// number for all bodies, so that p is continuous between them. Collective.
+  /// Component along -y of the weight of all soil over its volume, N/m^dim. A
+  /// single value for all bodies keeps p continuous between bodies. Collective.
   template <int dim>
   double
   WellBalancedLoad<dim>::mean_unit_weight(
@@ -115,8 +116,8 @@ namespace talus
 
 
 
-  /// Pressure at the centres of the boxes, and its gradient: exact along y, and
-  /// along the other axes the mean over the width of the box.
+  /// Compute the pressure at the centres of the boxes, and its gradient: exact
+  /// along y, along all further axes as a mean over the width of the box.
   template <int dim>
   void
   WellBalancedLoad<dim>::find_pressure(const StaticProblem<dim> &problem)
@@ -133,7 +134,7 @@ namespace talus
             load_matrix<dim, double>(points, points.deformation_gradient, p));
         const auto   x      = load_place(points, points.position, p);
         const double height = problem.mudline(x);
-        // Also if the height is not a number.
+        // Also true if the height is not a number.
         if (!(height > x[1]))
           continue;
         pressure_[p] = unit_weight_ * (height - x[1]);
@@ -145,10 +146,10 @@ namespace talus
 
 
 
-  /// Rise of the mudline along axis @p d over the width of the box of point
-  /// @p p, within the mesh, per length; @p height, m, is that at its centre.
-  /// Beside the tip of a layer are verticals without soil: then the rise is
-  /// taken over less of the width, or on one side of the centre.
+  /// Mean slope of the mudline along axis @p d over the width of the box of
+  /// point @p p, within the mesh [-]. @p height is the height at the centre, m.
+  /// Near the tip of a layer some verticals have no soil: then a smaller width
+  /// is used, or one side of the centre only.
   template <int dim>
   double
   WellBalancedLoad<dim>::mean_slope(const StaticProblem<dim> &problem,
@@ -201,8 +202,8 @@ namespace talus
 
 
 
-  /// A face of the mesh that is not free bears p by its reaction, which friction
-  /// needs whole: so E has no component along the normal there.
+  /// At faces of the mesh that are not free, the reaction bears p, and friction
+  /// needs the full reaction. Hence E has no normal component at the face.
   template <int dim>
   void
   WellBalancedLoad<dim>::leave_walls_alone(const StaticProblem<dim> &problem,
@@ -217,9 +218,9 @@ namespace talus
 
 
 
-  /// Largest E that may be an error of quadrature, N, by node: the mean over the
-  /// points around it of what their cells allow, by volume of soil. First of the
-  /// dim components at each node. Collective.
+  /// Largest E that may be an error of quadrature, N, by node: the bound of the
+  /// cell averaged over the points around the node, weighted by volume. Stored
+  /// in the first of the dim components at each node. Collective.
   template <int dim>
   std::vector<double>
   WellBalancedLoad<dim>::largest_errors(const StaticProblem<dim>      &problem,
@@ -257,9 +258,9 @@ namespace talus
 
 
 
-  /// Where p is not borne, E is about p times the side of a cell, more than any
-  /// error of quadrature. Points beside the free face give less of it to their
-  /// other nodes, at which E is left out, too. Collective.
+  /// Without support of p, E is about p times the side of a cell, more than any
+  /// error of quadrature. Points next to the free face pass a smaller part to
+  /// their further nodes; E is not subtracted there either. Collective.
   template <int dim>
   void
   WellBalancedLoad<dim>::leave_free_faces_alone(

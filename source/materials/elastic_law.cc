@@ -7,7 +7,7 @@ namespace talus
   using dealii::ParameterAcceptor;
   using dealii::Patterns::Double;
 
-  // There K is 5e4 times mu, 1e3 times as much as with 0.49.
+  // K is 5e4 times mu at the limit, 1e3 times as much as with nu = 0.49.
   constexpr double largest_poisson_ratio = 0.49999;
 
   template <int dim>
@@ -32,7 +32,7 @@ namespace talus
 
 
   // The ranges of the parameters include their ends, where a modulus is zero or
-  // infinite: a stable material needs mu > 0 and K > 0.
+  // infinite; a stable material needs mu > 0 and K > 0.
   template <int dim>
   void
   ElasticLaw<dim>::check() const
@@ -61,11 +61,10 @@ namespace talus
 
 
 
-  // In 2-D, too, the constants of the solid: the strain is plane, and the
-  // stress out of the plane is that of the 3-D law.
-  // lambda and K grow without bound towards nu = 1/2, and the stable time step
-  // falls with the root of lambda + 2 mu: with nu = 0.49 it is 3.6 times
-  // smaller than with 0.3.
+  // 2-D uses the constants of the solid, too: the strain is plane, and the
+  // stress out of the plane follows from the 3-D law. lambda and K grow without
+  // bound towards nu = 1/2. The stable time step falls with the root of
+  // lambda + 2 mu: with nu = 0.49 it is 3.6 times smaller than with 0.3.
   template <int dim>
   Moduli
   ElasticLaw<dim>::moduli() const

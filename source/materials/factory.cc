@@ -15,10 +15,9 @@ namespace talus
 {
   namespace
   {
-    /// All laws, one line each; add_law() appends to them.
-    /// A list that is written out, and not one at which laws register
-    /// themselves: objects that nobody refers to may be left out by the linker,
-    /// and their order would be that of the linking.
+    /// All laws, one line each; add_law() appends more. The list is explicit,
+    /// as objects that register themselves may be dropped by the linker when
+    /// nothing refers to them, and their order would depend on the linking.
     template <int dim>
     std::vector<Law<dim>> &
     laws()
@@ -37,7 +36,7 @@ namespace talus
 
 
 
-  // deal.II separates the values that a parameter may have by |.
+  // deal.II separates the allowed values of a parameter by |.
   template <int dim>
   void
   add_law(const Law<dim> &law)
@@ -45,15 +44,15 @@ namespace talus
     const auto names = material_names<dim>();
     AssertThrow(std::find(names.begin(), names.end(), law.name) == names.end(),
                 ExcUser("A law '" + law.name +
-                        "' was added, but there is one of that name. Give "
-                        "add_law() another name."));
+                        "' was added, but a law of the same name exists. Give "
+                        "add_law() a different name."));
     AssertThrow(!law.name.empty() &&
                   law.name.find_first_of("|,#\n") == std::string::npos &&
                   law.name == dealii::Utilities::trim(law.name),
                 ExcUser("A law '" + law.name +
-                        "' was added, which no parameter file could ask for. "
-                        "Give add_law() a name without |, commas, # and "
-                        "spaces around it."));
+                        "' was added, but a parameter file cannot contain its "
+                        "name. Give add_law() a name without |, commas, # and "
+                        "surrounding spaces."));
     laws<dim>().push_back(law);
   }
 
@@ -71,7 +70,7 @@ namespace talus
 
 
 
-  // The message that needs it ends in "or", as sentences do.
+  // The last name follows "or", as at the end of a sentence.
   template <int dim>
   std::string
   names_of_laws_with_strength()
@@ -88,8 +87,8 @@ namespace talus
 
 
 
-  // The name comes from a parameter whose range is the list of the laws, but
-  // sections may also be made without the parser, as in tests.
+  // The name comes from a parameter whose allowed values are the laws, but
+  // tests also make materials without the parser.
   template <int dim>
   std::unique_ptr<MaterialModel<dim>>
   make_material(const std::string &name, const std::string &section)
@@ -104,9 +103,9 @@ namespace talus
     AssertThrow(false,
                 ExcUser(text("Section ",
                              section,
-                             " asks for the law `",
+                             " asks for the unknown law `",
                              name,
-                             "`, which there is not. Choose one of: ",
+                             "`. Choose one of: ",
                              known,
                              ".")));
     return nullptr;

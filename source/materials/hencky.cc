@@ -12,8 +12,8 @@ namespace talus
 
 
 
-  // All that is this law's own is in hencky_kernel.h; loops, tangent and load
-  // steps are the base's.
+  // The formulas are in hencky_kernel.h; loops, tangent and load steps are in
+  // the base class.
   template <int dim>
   HenckyEnergy
   Hencky<dim>::strain_energy() const

@@ -12,9 +12,9 @@ namespace talus
   using dealii::ParameterAcceptor;
   using dealii::Patterns::Double;
 
-  // Bingham is the exponent 1, and a law of its own only for the user, whose
-  // parameter is then a viscosity in Pa s: the unit of the consistency depends
-  // on the exponent.
+  // Bingham is the law with exponent 1. It is a separate law for the user only:
+  // the unit of the consistency depends on the exponent, and for Bingham the
+  // consistency is a viscosity in Pa s.
   template <int dim>
   HerschelBulkley<dim>::HerschelBulkley(const std::string &section,
                                         const FlowLaw      flow_law)
@@ -33,7 +33,7 @@ namespace talus
     if (flow_law_ == FlowLaw::bingham)
       add("Viscosity",
           consistency_,
-          "Viscosity [Pa s]: what the shear stress of flowing material gains "
+          "Viscosity [Pa s]: increase of the shear stress of flowing material "
           "per rate of plastic shear.");
     else
       {
@@ -49,26 +49,26 @@ namespace talus
       }
     add("Remoulded strength ratio",
         remoulded_ratio_,
-        "Undrained shear strength of the remoulded material over that of the "
-        "undisturbed [-], one over the sensitivity. 1: no remoulding.",
+        "Remoulded over undisturbed undrained shear strength [-], the inverse "
+        "of the sensitivity. 1: no remoulding.",
         Double(0., 1.));
     add("Plastic shear strain to remould",
         strain_to_remould_,
-        "Accumulated plastic shear strain xi_95 [-] that takes away 95 % of "
-        "the strength that remoulding takes away: the strength falls as "
+        "Accumulated plastic shear strain xi_95 [-] at which 95 % of the "
+        "strength loss by remoulding is reached: the loss remaining falls as "
         "exp(-3 xi/xi_95).");
   }
 
 
 
-  // Where the strength falls with the plastic shear faster than the elastic
+  // If the strength falls with the plastic shear faster than the elastic
   // stress, ds_u/dxi < -G, a trial stress has several returns, or a stress
   // jumps: the equation
   //   tau_trial - G dgamma = s_u(xi + dgamma) + K (dgamma/dt)^n
-  // has one root only where right less left increases. The strength falls
-  // fastest at xi = 0, by 3 (1 - r) s_u0/xi_95, which must be less than G.
-  // Viscosity would help, but only as long as steps are short, and load steps
-  // of the static stages have none.
+  // has a single root only if the right side minus the left side increases. The
+  // strength falls fastest at xi = 0, at the rate 3 (1 - r) s_u0/xi_95, which
+  // must be less than G. Viscosity would help only in short steps, and load
+  // steps of the static stages have no viscosity.
   template <int dim>
   void
   HerschelBulkley<dim>::check() const
@@ -95,19 +95,18 @@ namespace talus
                    ", but the material must not soften faster than it can "
                    "unload elastically: give more than ",
                    least,
-                   " (three times the strength that remoulding takes away over "
-                   "the shear modulus), or set `Remoulded strength ratio` to 1 "
-                   "for material that is not remoulded.")));
+                   " (three times the strength loss by remoulding over the "
+                   "shear modulus), or set `Remoulded strength ratio` to 1 for "
+                   "material without remoulding.")));
   }
 
 
 
-  // The decay 3/xi_95 makes e^-3, that is 5 %, of what remoulding takes remain
-  // at xi_95. Without remoulding it is 0, which spares the iteration its
-  // exponentials (stress_taken() in viscoplastic_return_kernel.h). That header
-  // also says how the implicit return is solved: with an explicit one the time
-  // step would have to resolve the relaxation time of viscous soil, for n = 1
-  // that is K/G.
+  // With the decay 3/xi_95, e^-3 or 5 % of the removable strength is left at
+  // xi_95. Without remoulding the decay is 0, which saves the exponentials of
+  // the iteration (stress_taken() in viscoplastic_return_kernel.h, which also
+  // explains the implicit return). An explicit return would limit the time step
+  // to the relaxation time of viscous soil, K/G for n = 1.
   template <int dim>
   HerschelBulkleyFlow
   HerschelBulkley<dim>::flow_rule(const double dt) const
@@ -122,7 +121,7 @@ namespace talus
 
 
 
-  // Without viscosity: what the point bears at rest.
+  // Strength at rest, without viscosity.
   template <int dim>
   double
   HerschelBulkley<dim>::shear_strength(const Points<dim> &points,
@@ -137,14 +136,14 @@ namespace talus
 
 
 
-  // The condition of check() for the strength times the factor.
-  // A little less, since at equality the return has no slope.
+  // Condition of check() for the strength times the factor, with a margin of 1
+  // %: at equality the return has no slope.
   template <int dim>
   double
   HerschelBulkley<dim>::largest_strength_factor(
     const StrengthRange &range) const
   {
-    // The strongest soil, unless moduli are in proportion to the strength.
+    // Use the strongest soil, unless moduli are proportional to the strength.
     const double largest =
       this->has_strength_column() && !this->has_moduli_of_points()
         ? range.largest

@@ -5,9 +5,9 @@
 
 namespace talus
 {
-  // The loops over points, several at a time, only notice that some determinant
-  // is not positive; which point it is, is looked for here, when the run is
-  // lost anyway, so that the loops carry no branch.
+  // The loops over points, several at a time, only detect that some determinant
+  // is not positive, so that they need no branch. The point is searched here,
+  // when the run is lost anyway.
   template <int dim>
   void
   throw_inverted_point(const Points<dim> &points,
@@ -18,7 +18,7 @@ namespace talus
       {
         const double J = determinant(
           load_matrix<dim, double>(points, points.deformation_gradient, p));
-        // Written so that a number that is none is found, too.
+        // Written to find values that are not a number, too.
         if (J > 0)
           continue;
         AssertThrow(
@@ -30,16 +30,15 @@ namespace talus
                         ") m was turned inside out: the determinant of its "
                         "deformation gradient is ",
                         J,
-                        " where a positive number was expected. Lower 'Time "
-                        "step/CFL number', or look for what throws the points "
-                        "there about.")));
+                        ", but must be positive. Lower 'Time step/CFL number', "
+                        "or find the cause of large velocities there.")));
       }
   }
 
 
 
-  // As above. The iteration leaves NaN where it did not end, and NaN stays in
-  // the plastic variable, by which the point is found.
+  // The iteration returns NaN if it did not converge, and NaN stays in the
+  // plastic variable, by which the point is found here.
   template <int dim>
   void
   throw_unsolved_point(const Points<dim> &points,
@@ -54,9 +53,9 @@ namespace talus
                          points.data(points.id)[p],
                          " at (",
                          load_place(points, points.position, p),
-                         ") m could not be solved for, which should not be. "
-                         "Look for what throws the points there about, or "
-                         "change the material's consistency.")));
+                         ") m could not be computed. Find the cause of large "
+                         "velocities there, or change the consistency of the "
+                         "material.")));
   }
 
 

@@ -4,7 +4,7 @@
 
 namespace talus
 {
-  // Without a plastic variable.
+  // Elastic: there is no plastic variable.
   template <int dim>
   LinearElastic<dim>::LinearElastic(const std::string &section)
     : RateLaw<dim, NoFlow>(section)
@@ -12,7 +12,7 @@ namespace talus
 
 
 
-  // Hooke's law in rate form is that of all rate laws: nothing flows.
+  // Rate laws share Hooke's law in rate form; here nothing flows.
   template <int dim>
   NoFlow
   LinearElastic<dim>::flow_rule(const double /*dt*/) const

@@ -10,8 +10,8 @@ namespace talus
 {
   namespace Patterns = dealii::Patterns;
 
-  // Two densities: the pore water moves with the soil and has inertia, but its
-  // weight is borne by the water around.
+  // Two densities: pore water moves with the soil and has inertia, but its
+  // weight is borne by the surrounding water.
   template <int dim>
   MaterialModel<dim>::MaterialModel(const std::string &section)
     : ParameterAcceptor(section)
@@ -19,30 +19,29 @@ namespace talus
   {
     this->add_parameter("Density",
                         density_,
-                        "Density of the undeformed material that gives inertia "
+                        "Density of the undeformed material, for inertia "
                         "[kg/m^3].",
                         ParameterAcceptor::prm,
                         Patterns::Double(0.));
     this->add_parameter("Submerged density",
                         submerged_density_,
-                        "Density of the undeformed material less that of the "
-                        "water, which gives weight [kg/m^3]. Empty: as "
-                        "`Density`.",
+                        "Density of the undeformed material minus the density "
+                        "of water, for weight [kg/m^3]. Empty: as `Density`.",
                         ParameterAcceptor::prm,
                         Patterns::List(Patterns::Double(0.), 0, 1));
     this->add_parameter("Cell mean",
                         bbar_,
-                        "Take the dilatation and the mean stress as their "
-                        "averages over a cell, so that nearly incompressible "
-                        "material does not lock: on, off, or auto, which is on "
-                        "for Poisson's ratio above 0.4 and for plastic laws.",
+                        "Average dilatation and mean stress over a cell, so "
+                        "that nearly incompressible material does not lock: "
+                        "on, off, or auto, that is on for Poisson's ratio "
+                        "above 0.4 and for plastic laws.",
                         ParameterAcceptor::prm,
                         Patterns::Selection("auto|on|off"));
   }
 
 
 
-  // Mass divides forces: soil without any has no acceleration.
+  // Forces are divided by mass: soil without mass would have no acceleration.
   template <int dim>
   void
   MaterialModel<dim>::check() const
@@ -60,13 +59,13 @@ namespace talus
                              submerged_density(),
                              " kg/m^3 and `Density` ",
                              density_,
-                             " kg/m^3, but water takes from the weight. Give "
+                             " kg/m^3, but weight is smaller under water. Give "
                              "at most the density.")));
   }
 
 
 
-  // Columns begin with zero, which as a factor would be soil without strength.
+  // New columns contain zero, a factor for soil without strength.
   template <int dim>
   void
   MaterialModel<dim>::initialize(Points<dim>       &points,
@@ -81,8 +80,7 @@ namespace talus
 
 
 
-  // Infinite, so that whoever takes the least of several need not ask which
-  // laws have one.
+  // Infinite, so that a minimum over several laws needs no test for strength.
   template <int dim>
   double
   MaterialModel<dim>::shear_strength(const Points<dim> &, unsigned int) const
@@ -92,8 +90,8 @@ namespace talus
 
 
 
-  // Plastic laws count as nearly incompressible whatever Poisson's ratio is,
-  // since plastic flow keeps the volume (RateLaw).
+  // Plastic laws count as nearly incompressible for any Poisson's ratio, since
+  // plastic flow keeps the volume (RateLaw).
   template <int dim>
   bool
   MaterialModel<dim>::uses_bbar() const
@@ -103,7 +101,7 @@ namespace talus
 
 
 
-  // Given as a list, as deal.II's numbers cannot be empty.
+  // Parsed as a list, as deal.II's numbers cannot be empty.
   template <int dim>
   double
   MaterialModel<dim>::submerged_density() const
@@ -113,8 +111,8 @@ namespace talus
 
 
 
-  // c = sqrt(M/rho) with the current density, m/V. The time step has the same
-  // for many points at a time; this is for single ones.
+  // c = sqrt(M/rho) with the current density, m/V. For a single point; the time
+  // step has its own version for many points at a time.
   template <int dim>
   double
   MaterialModel<dim>::wave_speed(const Points<dim> &points,

@@ -12,11 +12,10 @@ namespace talus
 {
   using namespace dealii;
 
-  // Which parameters a section has depends on its law, so names and laws must
-  // be known before the parameters are declared: they come from a first,
-  // tolerant pass over the file (doc/architecture.md). They are declared once
-  // more here so that the strict pass knows them and its documentation lists
-  // the laws.
+  // The parameters of a section depend on its law, so names and laws must be
+  // known before parameters are declared: a first, tolerant pass over the file
+  // finds both (doc/architecture.md). Names and laws are declared here again
+  // for the strict pass and for the documentation of the parameters.
   template <int dim>
   Materials<dim>::Materials(const std::vector<MaterialName> &names)
     : ParameterAcceptor("/Materials")
@@ -24,8 +23,8 @@ namespace talus
   {
     add_parameter("Names",
                   listed_names_,
-                  "Names of the materials, separated by commas; each has a "
-                  "section of that name.");
+                  "Names of the materials, separated by commas; each name has "
+                  "a section.");
     const Patterns::Selection laws(
       boost::algorithm::join(material_names<dim>(), "|"));
     for (MaterialName &material : names_)
@@ -41,8 +40,8 @@ namespace talus
 
 
 
-  // Several bodies may be of one material, which then has one object; bodies
-  // keep their own points.
+  // Bodies of the same material share one object; each body keeps its own
+  // points.
   template <int dim>
   void
   Materials<dim>::assign(const std::vector<std::string> &names_of_bodies,
@@ -63,7 +62,7 @@ namespace talus
         AssertThrow(m < names_.size(),
                     ExcUser(text("The body '",
                                  names_of_bodies[b],
-                                 "' is to be made of '",
+                                 "' has the material '",
                                  materials_of_bodies[b],
                                  "', but Materials/Names lists only: ",
                                  known,
@@ -76,7 +75,7 @@ namespace talus
 
 
 
-  // A material that no body is made of has nothing to say about the run.
+  // Materials not used by any body are skipped.
   template <int dim>
   std::vector<std::string>
   Materials<dim>::notes(const double cell_size) const
@@ -95,8 +94,8 @@ namespace talus
 
 
 
-  // Laws share the columns of the same name and kind (Points::add_column()),
-  // and all points have all columns: a column costs eight bytes per point, but
+  // Laws share columns of the same name and kind (Points::add_column()), and
+  // all points have all columns: a column costs eight bytes per point, but
   // points of all bodies stay in one sorted list.
   template <int dim>
   void
@@ -144,7 +143,7 @@ namespace talus
 
 
 
-  // Of the materials in use only: others do not limit the search.
+  // Only materials in use limit the search.
   template <int dim>
   double
   Materials<dim>::largest_strength_factor(const Points<dim> &points,
@@ -160,8 +159,8 @@ namespace talus
 
 
 
-  // One virtual call for a range of points of one material, not one for each
-  // point; within the range the law's own loop has its formulas inlined.
+  // One virtual call per range of points of a material, not per point: the loop
+  // of the law has its formulas inlined.
   template <int dim>
   void
   Materials<dim>::update_stress(Points<dim>              &points,

@@ -12,8 +12,8 @@ namespace talus
 
 
 
-  // The formula is in neo_hookean_kernel.h. This law is the smallest example of
-  // one with a strain energy (doc/architecture.md).
+  // The formula is in neo_hookean_kernel.h. NeoHookean is the smallest example
+  // of a law with a strain energy (doc/architecture.md).
   template <int dim>
   NeoHookeanEnergy
   NeoHookean<dim>::strain_energy() const

@@ -4,12 +4,11 @@
 
 namespace talus
 {
-  // The widths of shear bands are those of the cells, as softening has no
-  // length of its own here: with h the strain to soften is reached over the
-  // displacement xi h, at the work G_f = h times that per volume
-  // (doc/method.md, section 4). The user is told both, for h and h/2, because
-  // results on two meshes would else be compared that are those of two
-  // materials.
+  // Softening has no length scale, so shear bands are as wide as cells of size
+  // h: the strain of softening is reached by the displacement xi h, and the
+  // work is G_f = h times the work per volume (doc/method.md, section 4). The
+  // remark gives both numbers for h and h/2. Otherwise users might compare
+  // results on two meshes that belong to two different materials.
   std::string
   shear_band_note(const Softening   &softening,
                   const double       cell_size,
@@ -31,8 +30,8 @@ namespace talus
                 "so the results depend on the cell size: the displacement "
                 "across the band that takes away ",
                 softening.share_of_loss,
-                " of the strength there is to lose, and the work per area "
-                "above the strength that remains, are ",
+                " of the strength loss, and the work per area above the "
+                "remaining strength, are ",
                 numbers(cell_size),
                 ", but ",
                 numbers(cell_size / 2.),

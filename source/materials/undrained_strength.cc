@@ -6,7 +6,7 @@
 
 namespace talus
 {
-  // Laws ask in each step: the words are read once.
+  // Laws call number() in each step, hence the cache.
   const std::optional<double> &
   UndrainedStrength::number() const
   {

@@ -37,10 +37,9 @@ namespace talus
 
 
 
-  // A trial stress q is returned by q - 3 mu dep = sigma_y(ep + dep); it has a
-  // root for all q only if the yield stress falls less steeply than the elastic
-  // stress does, H > -3 mu. Beyond, the law would have to follow a stress that
-  // jumps.
+  // A trial stress q is returned by q - 3 mu dep = sigma_y(ep + dep). A root
+  // exists for all q only if the yield stress falls less steeply than the
+  // elastic stress, H > -3 mu. Otherwise the stress would have to jump.
   template <int dim>
   void
   VonMises<dim>::check() const
@@ -82,9 +81,9 @@ namespace talus
 
 
   // In simple shear q = sqrt(3) tau, so the yield stress is sqrt(3) s_u. The
-  // return is that of von_mises_kernel.h: in closed form, since the yield
-  // stress is linear in the plastic strain, or constant once it is residual; no
-  // iteration, and exact for steps of any size.
+  // return of von_mises_kernel.h is in closed form, since the yield stress is
+  // linear in the plastic strain or constant: no iteration, and exact for steps
+  // of any size.
   template <int dim>
   VonMisesFlow
   VonMises<dim>::flow_rule(const double /*dt*/) const
@@ -97,8 +96,8 @@ namespace talus
 
 
 
-  // The yield stress over sqrt(3).
-  // Hardening is a slope of the yield stress, hence its sqrt(3), too.
+  // Yield stress over sqrt(3). Hardening is a slope of the yield stress and
+  // divided by sqrt(3), too.
   template <int dim>
   double
   VonMises<dim>::shear_strength(const Points<dim> &points,
@@ -113,9 +112,9 @@ namespace talus
 
 
 
-  // The condition of check() for the hardening modulus times the factor.
-  // A little less, since at equality the return has no slope. Where the
-  // residual strength is the initial one nothing softens.
+  // Condition of check() for the hardening modulus times the factor, with a
+  // margin of 1 %: at equality the return has no slope. If residual and initial
+  // strength are equal, nothing softens.
   template <int dim>
   double
   VonMises<dim>::largest_strength_factor(const StrengthRange &range) const
@@ -123,14 +122,14 @@ namespace talus
     if (hardening_ >= 0. || (!this->has_strength_column() &&
                              residual_strength_ == this->strength()))
       return std::numeric_limits<double>::infinity();
-    // The softest soil, if the moduli are not all the same.
+    // Use the softest soil if moduli differ.
     const double stiffness = this->has_moduli_of_points() ? range.least : 1.;
     return -0.99 * 3. * this->moduli().mu * stiffness / hardening_;
   }
 
 
 
-  // With ep = gamma/sqrt(3) of simple shear the strength is s_u + H gamma/3.
+  // With ep = gamma/sqrt(3) in simple shear, the strength is s_u + H gamma/3.
   template <int dim>
   std::string
   VonMises<dim>::note(const double cell_size) const

@@ -160,7 +160,7 @@ class BadInput(Case):
     def test_body_of_the_name_of_the_list(self):
         self.refuse("set Names = block\n  subsection block",
                     "set Names = Names\n  subsection Names",
-                    "'Bodies/Names = Names'", "Choose another name")
+                    "'Bodies/Names = Names'", "Choose a different name")
 
     def test_line_that_is_no_parameter(self):
         self.refuse("set Bottom = roller", "Bottom: roller",

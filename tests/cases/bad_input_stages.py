@@ -132,7 +132,7 @@ class BadInputStages(Case):
         for words in ("'equilibrium' found no balance beyond 0.",
                       "looked for with more strength", "strength x ",
                       "The factor of safety is 0.37", "It is less than 1: the "
-                      "soil cannot stand with the strength it has."):
+                      "soil cannot stand with its strength."):
             self.assertIn(words, result.stdout)
 
     def test_no_dynamics_of_soil_that_cannot_stand(self):
@@ -150,7 +150,7 @@ class BadInputStages(Case):
             self.run_slope("Equilibrium/Strain=large",
                            "Strength reduction/Allowed imbalance=1e-12"),
             "'strength reduction' starts from soil that is out of balance",
-            "where 1e-12 is allowed", "'Equilibrium/Allowed imbalance'",
+            "but at most 1e-12 is allowed", "'Equilibrium/Allowed imbalance'",
             "'Strength reduction/Allowed imbalance'")
 
     def test_soil_that_softens_is_not_strengthened_too_much(self):

@@ -9,47 +9,49 @@
 
 namespace talus
 {
-  /// The box of two points as one.
+  /// Box of the point into which two points p and q are merged.
   ///
-  /// The box has the second moments of mass of the two boxes together,
+  /// The joint box has the second moments of mass of the two boxes together,
   ///   l_d^2 = w_p l_pd^2 + w_q l_qd^2 + 12 w_p w_q (x_q - x_p)_d^2,
-  /// with the shares w of the mass: of two boxes that make a box that is the
-  /// union, exactly. Its volume is that of both boxes; how much it had to be
-  /// scaled for that says how far their union is from a box. Lengths of a
-  /// convected domain are those of its edges.
+  /// with the mass fractions w. If the union of the two boxes is a box, the
+  /// result is the union. A common factor on all lengths then gives the sum of
+  /// both volumes; it measures how far the union is from a box. Lengths of
+  /// convected domains are measured along the edges.
   template <int dim>
   class JointBox
   {
   public:
+    /// Join the boxes of points @p p and @p q, which follow @p rule.
     JointBox(const Points<dim> &points,
              BoxRule            rule,
              unsigned int       p,
              unsigned int       q);
 
-    /// The axis along which the points lie side by side.
+    /// Axis along which the two points lie side by side.
     unsigned int
     axis() const
     {
       return axis_;
     }
 
-    /// Length along axis d, m.
+    /// Length of the joint box along axis @p d, m.
     double
     length(const unsigned int d) const
     {
       return length_[d];
     }
 
-    /// Volume of the box by second moments over that of both boxes, less 1,
-    /// absolute value [-]; 0 if their union is a box. More than that where they
-    /// overlap, leave a gap or are shifted against one another.
+    /// Relative error of the volume by second moments against the sum of both
+    /// volumes, absolute value [-]. Zero if the union of the boxes is a box;
+    /// larger if the boxes overlap, leave a gap or are shifted against each
+    /// other.
     double
     misfit() const
     {
       return misfit_;
     }
 
-    /// Share of point @p p in the mass [-]; that of the other one is the rest.
+    /// Mass of point p over the mass of both points [-].
     double
     mass_share() const
     {

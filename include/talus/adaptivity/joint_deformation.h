@@ -7,31 +7,33 @@
 
 namespace talus
 {
-  /// The deformation gradient of two points as one: the mean by mass, scaled so
-  /// that its determinant gives the volume of both.
+  /// Deformation gradient of the point into which two points are merged: the
+  /// mean weighted by mass, scaled so that the determinant gives the sum of
+  /// both volumes.
   template <int dim>
   class JointDeformation
   {
   public:
+    /// Join the deformations of points @p p and @p q.
     JointDeformation(const Points<dim> &points, unsigned int p, unsigned int q);
 
-    /// [-]; meaningless unless misfit() is small.
+    /// Joint deformation gradient [-]; meaningless unless misfit() is small.
     const Matrix<dim, double> &
     gradient() const
     {
       return gradient_;
     }
 
-    /// By how much of its volume the mean was scaled, absolute value [-]:
-    /// the more the deformations differ, in their rotations too. Infinite if
-    /// the mean is turned inside out.
+    /// Relative change of volume by which the mean was scaled, absolute value
+    /// [-]. Grows with the difference of the two deformations, rotations
+    /// included. Infinite if the determinant of the mean is not positive.
     double
     misfit() const
     {
       return misfit_;
     }
 
-    /// Share of point @p p in the volume now [-].
+    /// Current volume of point p over the current volume of both points [-].
     double
     volume_share() const
     {

@@ -10,31 +10,33 @@
 
 namespace talus
 {
-  /// What must not change when points are split or merged: sums of mass,
-  /// momentum, kinetic and elastic energy, and mass times position, over all
-  /// splits or merges.
+  /// Check that splitting or merging conserves mass, momentum, kinetic and
+  /// elastic energy, and mass times position: sums over all splits or merges of
+  /// a run.
   template <int dim>
   class Ledger
   {
   public:
-    /// Count point @p p with the factor @p sign: +1 before, -1 after.
+    /// Add the quantities of point @p p with the factor @p sign: +1 for a point
+    /// before the change, -1 for a point after the change.
     void
     enter(const Points<dim> &points, unsigned int p, double sign);
 
-    /// Largest error of the entries, each relative to the sum of its absolute
-    /// values [-].
+    /// Largest error of the sums, each relative to the sum of absolute values
+    /// [-].
     double
     relative_error() const;
 
-    /// Count kinetic energy that was taken from the points and is booked
-    /// elsewhere, J.
+    /// Exclude from the check the kinetic energy @p energy, J, that the points
+    /// lose and that the caller accounts for.
     void
     book_kinetic_energy(const double energy)
     {
       difference_[kinetic_energy] -= energy;
     }
 
-    /// Add the sums to the state of the run, as the @p name and what they are.
+    /// Add the sums to the state of the run, under names that begin with
+    /// @p name.
     void
     list_state(StateList &list, const std::string &name);
 

@@ -12,50 +12,56 @@
 
 namespace talus
 {
-  /// Shares the cells out among the ranks so that each has about as many
-  /// points. Work is counted in points, never in seconds: runs can be repeated.
+  /// Distributes the cells among the ranks so that all ranks have about the
+  /// same number of points. Work is measured in points and not in seconds, so
+  /// that runs can be repeated.
   template <int dim>
   class LoadBalance : public dealii::ParameterAcceptor
   {
   public:
     LoadBalance();
 
-    /// Largest number of points of a rank, divided by the mean [-]; 1 if there
-    /// are none. Collective.
+    /// Return the largest number of points of a rank, divided by the mean [-];
+    /// 1 if there are no points. Collective.
     static double
     imbalance(const Points<dim> &points, MPI_Comm communicator);
 
-    /// Whether the points of the ranks are to be counted after @p step steps.
+    /// Return whether the points of the ranks must be counted after @p step
+    /// steps.
     bool
     is_due(unsigned long step, MPI_Comm communicator) const;
 
-    /// Whether the imbalance is too large, and larger than the last repartition
-    /// could make it. Collective.
+    /// Return whether the imbalance exceeds both the allowed value and the
+    /// value reached by the last repartition. Collective.
     bool
     is_needed(const Points<dim> &points, MPI_Comm communicator) const;
 
-    /// Give cells, and the points in them, to other ranks, and prepare the grid
-    /// anew. Returns the new cell of each point. The points must be sorted, and
-    /// are not any more. Collective.
+    /// Move cells with their points between ranks and prepare the grid again.
+    /// The points must be sorted on entry and are unsorted on return.
+    /// Collective.
+    /// @return New cell of each point.
     std::vector<unsigned int>
     repartition(Grid<dim> &grid, Points<dim> &points);
 
-    /// Weights of this rank's cells at the last repartition: what restores it.
-    /// Empty if there was none, as on one rank.
+    /// Weights of the cells of this rank at the last repartition, from which a
+    /// resumed run repeats the partition. Empty before the first repartition
+    /// and on one rank.
     const std::vector<double> &
     weights() const
     {
       return weights_;
     }
 
-    /// To be told after a mesh was loaded and shared out by these.
+    /// Restore the weights after a mesh was loaded and partitioned by
+    /// @p weights.
     void
     set_weights(const std::vector<double> &weights)
     {
       weights_ = weights;
     }
 
-    /// Add what decides about the next repartition to the state of the run.
+    /// Add the imbalance reached, on which the next repartition depends, to the
+    /// state of the run.
     void
     list_state(StateList &list);
 
@@ -63,7 +69,8 @@ namespace talus
     double       allowed_imbalance_ = 1.2;
     unsigned int interval_          = 50;
 
-    /// Right after the last repartition: cells are not divided.
+    /// Imbalance just after the last repartition [-]. May exceed 1, as cells
+    /// are indivisible.
     double              reached_imbalance_ = 1.;
     std::vector<double> weights_;
   };

@@ -17,20 +17,20 @@
 
 namespace talus
 {
-  /// Makes one point of two that lie side by side in a cell: what splitting
-  /// made, and soil that is compressed or has come to rest no longer needs.
+  /// Merges pairs of points that lie side by side in a cell, where soil was
+  /// split and is later compressed or comes to rest.
   ///
-  /// Two points of one body and cell are merged if their boxes together are
-  /// nearly a box (JointBox::misfit()) that is no longer than `Merge length`
-  /// along the axis they lie along, and that could be stretched by a quarter
-  /// along every axis before it is split. Mass, volume, momentum, centre of
-  /// mass and the volume integral of the stress are kept, internal variables
-  /// are means by mass. The kinetic energy of the difference of the velocities
-  /// is lost. The children of a split that have stayed as they were give their
-  /// parent.
+  /// Two points of the same body and cell are merged if their boxes together
+  /// are nearly a box (JointBox::misfit()). The joint box must be no longer
+  /// than `Merge length` along the axis on which the points lie. A further
+  /// stretch by 1.25 along any axis must not cause a split. Merging keeps mass,
+  /// volume, momentum, centre of mass and the volume integral of the stress;
+  /// internal variables become means weighted by mass. The kinetic energy of
+  /// the relative velocity is lost. Children of a split that have not changed
+  /// become their parent again.
   ///
-  /// Which points are merged depends on where they are, and not on their
-  /// numbers or their order, so that all numbers of ranks merge the same.
+  /// The choice of pairs depends on the positions of the points and not on ids
+  /// or storage order: any number of ranks merges the same pairs.
   template <int dim>
   class Merger : public dealii::ParameterAcceptor
   {
@@ -43,21 +43,26 @@ namespace talus
       return enabled_;
     }
 
-    /// Throw ExcUser if what is merged would be split soon.
+    /// Throw ExcUser if merged points could soon be split again.
     void
     check(const Splitter<dim> &splitter) const;
 
-    /// Whether the step after @p step steps begins with merging.
+    /// Return whether the step that follows @p step steps begins with merging.
     bool
     is_due(const unsigned long step) const
     {
       return enabled_ && step > 0 && step % interval_ == 0;
     }
 
-    /// Merge what can be merged of the points, which are sorted, and stay so; no
-    /// cell becomes empty. @p added_mass is that of the bodies (State). Returns
-    /// the kinetic energy that was lost on this rank, J, with that of the added
-    /// mass.
+    /// Merge all pairs that fulfil the criterion. The points must be sorted and
+    /// remain sorted; no cell becomes empty.
+    /// @param points Points of this rank.
+    /// @param grid Background grid, prepared for the points.
+    /// @param rule Rule for the boxes of the points.
+    /// @param added_mass Added mass over mass, per body [-]; may be empty.
+    /// @param splitter Splitter, for the lengths at which points are split.
+    /// @return Kinetic energy lost on this rank, J, with the part of the added
+    ///   mass.
     double
     merge(Points<dim>               &points,
           const Grid<dim>           &grid,
@@ -71,18 +76,20 @@ namespace talus
       return n_merges_;
     }
 
-    /// Largest relative error of what merging must keep; see Ledger.
+    /// Largest relative error of the conserved quantities [-]; see Ledger.
     double
     ledger() const
     {
       return ledger_.relative_error();
     }
 
-    /// List what was merged so far, if anything may be. Collective.
+    /// Append the number of merges and the error of conservation to @p list, if
+    /// merging is enabled. Collective.
     void
     list_quantities(const State<dim> &state, Quantities &list) const;
 
-    /// Add it to the state of the run.
+    /// Add the number of merges and the conservation check to the state of the
+    /// run.
     void
     list_state(StateList &list);
 
@@ -110,7 +117,7 @@ namespace talus
     double       length_    = 0.45;
     double       tolerance_ = 0.15;
 
-    std::vector<unsigned int> members_; ///< of the segment at hand
+    std::vector<unsigned int> members_; ///< points of the current segment
     std::vector<unsigned int> removed_;
     Reordering                reordering_;
     Ledger<dim>               ledger_;

@@ -11,10 +11,10 @@
 
 namespace talus
 {
-  /// Lets the mesh follow the soil: cells of size h where there are points and
-  /// around them, larger ones far away.
+  /// Adapts the mesh to the soil: cells of size h at the points and around,
+  /// larger cells far away.
   ///
-  /// The mesh changes before a point can touch a node of a larger cell, so that
+  /// The mesh changes before any point can touch a node of a larger cell, so
   /// the points see a uniform mesh at all times.
   template <int dim>
   class MeshTracking : public dealii::ParameterAcceptor
@@ -28,33 +28,35 @@ namespace talus
       return enabled_;
     }
 
-    /// Whether a point of this rank may touch a larger cell.
+    /// Return whether a point of this rank may soon touch a larger cell.
     bool
     is_urgent(const Grid<dim>                 &grid,
               const std::vector<unsigned int> &occupied_cells) const;
 
-    /// Whether the mesh is to be looked at after @p step steps, so that cells
-    /// which the soil has left become larger.
+    /// Return whether the mesh must be adapted after @p step steps, to coarsen
+    /// cells that the soil has left.
     bool
     is_due(unsigned long step) const
     {
       return interval_ > 0 && step % interval_ == 0;
     }
 
-    /// Change the mesh of the bodies to be: cells of size h in and around these
-    /// boxes. Collective.
+    /// Adapt the mesh before points are created: cells of size h in and around
+    /// @p boxes, the bounding boxes of the bodies. Collective.
     void
     adapt(Grid<dim> &grid, const std::vector<Box<dim>> &boxes);
 
-    /// Change the mesh of the soil: cells of size h around the cells occupied on
-    /// any rank. Returns whether the mesh changed; Grid::prepare() must follow.
+    /// Adapt the mesh to the points: cells of size h around the cells occupied
+    /// on any rank. If the mesh changed, Grid::prepare() must follow.
     /// Collective.
+    /// @return Whether the mesh changed.
     bool
     adapt(Grid<dim> &grid, const std::vector<unsigned int> &occupied_cells);
 
   private:
     using Lattice = typename Grid<dim>::Lattice;
-    /// Keys of what is to consist of cells of size h.
+    /// Keys of the blocks of lattice cells that must consist of cells of size
+    /// h.
     using Blocks = std::unordered_set<unsigned long>;
 
     void

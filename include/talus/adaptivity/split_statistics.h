@@ -4,27 +4,27 @@
 
 namespace talus
 {
-  /// What the splitter has done so far.
+  /// Number and accuracy of the splits so far, on this rank.
   struct SplitStatistics
   {
     unsigned long n_splits           = 0;
     unsigned int  largest_generation = 0;
-    /// Largest relative error, over mass, momentum, kinetic and elastic energy
-    /// and centre of mass, of the sums over all splits of before - after.
+    /// Largest relative error [-] of mass, momentum, kinetic and elastic energy
+    /// and centre of mass, summed over all splits.
     double ledger = 0;
   };
 
 
 
-  /// Numbers of points that are stretched too far and are not split, by the
-  /// limit that forbids the split. A point counts once.
+  /// Numbers of points that are stretched too far but not split, by the limit
+  /// that forbids the split. Each point counts once.
   struct UnsplitPoints
   {
-    /// Points with `Maximum generation` splits behind them.
+    /// Points that have been split `Maximum generation` times.
     unsigned long at_generation_limit = 0;
     /// Points whose children would lie too far outside the mesh.
     unsigned long at_mesh_limit = 0;
-    /// Points stretched beyond `Threshold` along an axis, but not longer than
+    /// Points stretched beyond `Threshold` along an axis, but no longer than
     /// `Minimum length`. Their boxes fit into their cells.
     unsigned long at_length_limit = 0;
   };

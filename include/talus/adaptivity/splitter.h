@@ -18,63 +18,69 @@
 
 namespace talus
 {
-  /// Splits points that were stretched too far, so that the soil stays a
+  /// Splits points that are stretched too far, so that the soil stays a
   /// continuum on the background grid.
   ///
-  /// An axis violates when the stretch along it exceeds `Threshold` times its
-  /// value at the point's creation and the point is longer than `Minimum
-  /// length` cells, or when the point is longer than a cell whatever the
-  /// threshold says. The children inherit the state; what is extensive is
-  /// divided (see Inheritance). They tile the box of their parent, so that mass,
-  /// momentum and internal force of no node change. @cite esub
+  /// A point is split along an axis if the stretch exceeds `Threshold` times
+  /// the stretch at creation of the point and the point is longer than `Minimum
+  /// length` cells. A point longer than a cell is split in any case. Children
+  /// inherit the state of their parent; extensive quantities are divided (see
+  /// Inheritance). The children tile the box of their parent, so the mass,
+  /// momentum and internal force of all nodes are unchanged. @cite esub
   ///
-  /// A convected domain is cut along its own edges, and measured along them. Its
-  /// children tile it, too; nodal sums change a little, since there are more
-  /// corners then, between which shape functions are interpolated.
+  /// A convected domain is measured and cut along its own edges. Its children
+  /// tile it, too; nodal sums change slightly, because shape functions are
+  /// interpolated between the corners and the children have more corners.
   template <int dim>
   class Splitter : public dealii::ParameterAcceptor
   {
   public:
     Splitter();
 
-    /// Note which points of the batch violate the criterion. They may have left
-    /// the cell they are sorted into.
+    /// Mark the points of the batch that must be split, and the axes to split
+    /// along. Points may have moved out of the cell into which they are sorted.
+    /// @param points Points of this rank.
+    /// @param batch Points to consider.
+    /// @param grid Background grid.
+    /// @param rule Rule for the boxes of the points.
     void
     mark(const Points<dim> &points,
          const Batch       &batch,
          const Grid<dim>   &grid,
          BoxRule            rule);
 
-    /// Split the points that mark() noted, once. Children may lie outside their
-    /// parent's cell: they wait for Relocation::update(). The first one takes
-    /// the parent's place, and is added to those that may be out of their cell;
-    /// the others are appended. Returns whether any point was split. Throws
-    /// ExcPoint if this rank would have too many points.
+    /// Split each point marked by mark() once. The first child replaces the
+    /// parent and is added to @p points_out_of_cell; all further children are
+    /// appended to the points. Children may lie outside the cell of the parent
+    /// until Relocation::update(). Throws ExcPoint if this rank would have too
+    /// many points.
+    /// @return Whether any point was split.
     bool
     split_marked(Points<dim>               &points,
                  BoxRule                    rule,
                  std::vector<unsigned int> &points_out_of_cell);
 
-    /// The most points that there may be, over all ranks.
+    /// Largest number of points allowed, over all ranks.
     unsigned int
     maximum_number_of_points() const
     {
       return maximum_points_;
     }
 
-    /// Throw ExcPoint if there are more points than allowed, over all ranks.
+    /// Throw ExcPoint if @p n_points, the number of points on all ranks,
+    /// exceeds the maximum.
     void
     check_total(double n_points) const;
 
-    /// Length below which no point is split, in cells.
+    /// Length up to which no point is split, in cells.
     double
     least_split_length() const
     {
       return enabled_ ? std::min(minimum_length_, 1.) : 1.;
     }
 
-    /// Whether a point that is created with this @p length along an axis, in
-    /// cells, is split before it is stretched by @p factor.
+    /// Return whether a point with this @p length along an axis at creation, in
+    /// cells, is split before a further stretch by @p factor.
     bool
     would_split(const double length, const double factor) const
     {
@@ -88,21 +94,21 @@ namespace talus
       return statistics_;
     }
 
-    /// Count the points that a limit keeps from being split now, over all ranks.
-    /// The points must be sorted. All numbers are 0 where splitting is switched
-    /// off. Collective.
+    /// Count the points on all ranks that currently cannot be split because of
+    /// a limit. The points must be sorted. All numbers are 0 if splitting is
+    /// disabled. Collective.
     UnsplitPoints
     count_unsplit(const Points<dim> &points,
                   const Grid<dim>   &grid,
                   BoxRule            rule) const;
 
-    /// List what was split so far, how many boxes are clipped now for the
-    /// weights, and how many points are at a limit. Collective.
+    /// Append the number of splits so far, of boxes currently clipped for the
+    /// weights and of points at a limit to @p list. Collective.
     void
     list_quantities(const State<dim> &state, Quantities &list) const;
 
-    /// The first new child gets the id @p first, the next one that plus
-    /// @p stride, ...: so that ids differ over ranks.
+    /// Give the ids @p first, @p first + @p stride, ... to the children created
+    /// on this rank, so that ids are unique over all ranks.
     void
     number_from(const double first, const double stride)
     {
@@ -110,9 +116,10 @@ namespace talus
       id_stride_ = stride;
     }
 
-    /// Continue the numbers after list_state() was loaded on @p n_ranks ranks
-    /// from a run on @p n_ranks_then: on another number all ranks have the
-    /// largest of the next ids, and part here.
+    /// Set up the ids of children after list_state() has been loaded on
+    /// @p n_ranks ranks from a run on @p n_ranks_then. If both numbers differ,
+    /// all ranks have loaded the same, largest next id, and each adds its
+    /// @p rank.
     void
     number_on(const unsigned int rank,
               const unsigned int n_ranks,
@@ -123,34 +130,37 @@ namespace talus
       id_stride_ = n_ranks;
     }
 
-    /// Add what was split so far, and the next id, to the state of the run.
+    /// Add the statistics of splits, the conservation check and the next id to
+    /// the state of the run.
     void
     list_state(StateList &list);
 
   private:
-    /// Whether axis @p d of point(s) @p p is too long in cells of this size.
+    /// Compare point(s) @p p with the criterion along axis @p d, in cells of
+    /// size @p cell_size, m. Returns a mask: true if a split is required.
     template <typename Number>
     auto
     exceeds_threshold(const PointsView<dim, const double> &points,
                       unsigned int                         p,
                       unsigned int                         d,
                       double                               cell_size) const;
-    /// False if no point of [begin, end), in cells of this size or larger ones,
-    /// violates the criterion: nearly always, and known from a look at several
-    /// points at a time.
+    /// Return false if no point of [@p begin, @p end) must be split in cells of
+    /// size @p cell_size, m, or larger. Cheap, as several points are tested at
+    /// a time.
     bool
     may_exceed(const Points<dim> &points,
                unsigned int       begin,
                unsigned int       end,
                double             cell_size) const;
-    /// Bit d: the point is to be split along axis d. Zero: not at all.
+    /// Return the axes to split point @p p along: bit d stands for axis d, 0
+    /// for none.
     unsigned int
     axes_to_split(const Points<dim> &points,
                   unsigned int       p,
                   double             cell_size) const;
-    /// False if a child would lie farther outside the mesh than a point may
-    /// at a wall: half a cell. Such a split waits; the box is clipped and
-    /// counted meanwhile.
+    /// Return false if the split of a point along @p axes would put a child
+    /// farther outside the mesh than a point may lie at a wall: half a cell.
+    /// The split is then postponed; meanwhile the box is clipped and counted.
     bool
     children_may_stay(const Points<dim> &points,
                       unsigned int       p,
@@ -158,8 +168,9 @@ namespace talus
                       double             cell_size,
                       const Grid<dim>   &grid,
                       BoxRule            rule) const;
-    /// The same where the point's old cell is not uniform; sets the size of the
-    /// cell it is in now.
+    /// Axes to split point @p p along if cells of different sizes meet at
+    /// @p cell, the cell into which the point is sorted. Sets @p cell_size to
+    /// the size of the cell that now contains the point, m.
     unsigned int
     axes_near_other_sizes(const Points<dim> &points,
                           const Grid<dim>   &grid,
@@ -167,9 +178,10 @@ namespace talus
                           BoxRule            rule,
                           unsigned int       cell,
                           double            &cell_size) const;
-    /// Axes along which the criterion asks for a split of point @p p of cell
-    /// @p cell, whatever the limits; with `Directions = all` none or all axes.
-    /// Sets the size of the cell that the point is in now, m.
+    /// Axes along which the criterion requires a split of point @p p, sorted
+    /// into cell @p cell, without regard to limits; with `Directions = all` no
+    /// axis or all axes. Sets @p cell_size to the size of the cell that now
+    /// contains the point, m.
     unsigned int
     required_axes(const Points<dim> &points,
                   const Grid<dim>   &grid,
@@ -177,7 +189,8 @@ namespace talus
                   BoxRule            rule,
                   unsigned int       cell,
                   double            &cell_size) const;
-    /// Whether point @p p is stretched beyond the threshold along an axis.
+    /// Return whether point @p p is stretched beyond the threshold along an
+    /// axis.
     bool
     is_stretched(const Points<dim> &points, unsigned int p) const;
     void

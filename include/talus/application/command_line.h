@@ -9,7 +9,7 @@
 
 namespace talus
 {
-  /// What the command line asks for.
+  /// Options and arguments of the command line.
   struct CommandLine
   {
     std::string              parameter_file;
@@ -21,13 +21,13 @@ namespace talus
     bool                     overwrite = false;
   };
 
-  /// Parse the command line. Prints and returns nothing where only help or the
-  /// version is asked for. Throws if it makes no sense.
+  /// Parse the command line. Prints help, version and the like and then returns
+  /// nothing. Throws if the command line is invalid.
   std::optional<CommandLine>
   parse_command_line(int argc, const char *const *argv);
 
-  /// Print all parameters of all laws with their documentation and defaults, in
-  /// the form of a parameter file.
+  /// Print the reference of all parameters of all laws, with documentation and
+  /// defaults, in the form of a parameter file.
   void
   document(std::ostream &out);
 } // namespace talus

@@ -8,12 +8,12 @@
 
 namespace talus
 {
-  /// The man page talus(1), of all @p options.
+  /// Write the man page talus(1) with all @p options.
   void
   write_manual(std::ostream                                      &out,
                const boost::program_options::options_description &options);
 
-  /// What bash sources to complete the command line of talus.
+  /// Write the completion script of talus for bash.
   void
   write_completion(std::ostream                                      &out,
                    const boost::program_options::options_description &options);

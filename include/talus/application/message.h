@@ -7,9 +7,9 @@
 
 namespace talus
 {
-  /// What went wrong as one line for the user: what was found, where, what was
-  /// expected and what to do. Messages of deal.II's parameter parser and of
-  /// Boost.Program_options, which tell only half of it, are said anew.
+  /// Return the message of an exception as one line for the user: what was
+  /// found, where, what was expected and what to do. Incomplete messages of
+  /// deal.II's parameter parser and of Boost.Program_options are rewritten.
   std::string
   message(const std::exception &exception);
 } // namespace talus

@@ -11,33 +11,37 @@
 
 namespace talus
 {
-  /// A parameter file, which may include others by lines `include FILE`, and
-  /// what the command line sets on top of it. It is read once, so that it may be
-  /// a pipe.
+  /// Parameter file, which may include more files by lines `include FILE`, with
+  /// the overrides of the command line. The file is read once, so it may be a
+  /// pipe.
   class ParameterFile
   {
   public:
-    /// @p overrides: "Section/Subsection/Entry=value" each. Throws ExcUser if
-    /// the file, or one that it includes, cannot be read or has a line that
-    /// check_lines() refuses, if files include each other in a circle, or if an
-    /// override has another form.
+    /// Read the file. @p overrides have the form
+    /// "Section/Subsection/Entry=value". Throws ExcUser if a file cannot be
+    /// read or has a line that check_lines() refuses, if files include each
+    /// other in a circle, or if an override is malformed.
     ParameterFile(const std::string              &file_name,
                   const std::vector<std::string> &overrides);
 
-    /// First, tolerant pass: only what decides which parameters there are.
+    /// First, tolerant pass: read only the parameters that determine which
+    /// parameters exist.
     ParameterPreview
     preview() const;
 
-    /// Second, strict pass into all objects that accept parameters. Throws,
-    /// naming file and line, at the first entry that is unknown or out of range.
+    /// Second, strict pass: fill all objects that accept parameters. Throws,
+    /// naming file and line, at the first entry that is unknown or out of
+    /// range.
     void
     parse() const;
 
   private:
-    /// Check the lines of a file with this content, and those of the files that
-    /// it includes, which become protected inputs. @p chain: the file itself,
-    /// last, and the files whose lines `include` have led to it; @p n_left: how
-    /// many more may be included in all.
+    /// Check the lines of a file and of all included files, which become
+    /// protected inputs.
+    /// @param content Text of the file.
+    /// @param chain Names of the files whose lines `include` led to the file,
+    ///   ending with the file itself.
+    /// @param n_left Number of files that may still be included; decreased.
     void
     check(const std::string              &content,
           const std::vector<std::string> &chain,
@@ -48,7 +52,7 @@ namespace talus
     std::string              file_name_;
     std::string              content_;
     std::vector<std::string> overrides_;
-    std::vector<std::string> remarks_; ///< on what the files say twice
+    std::vector<std::string> remarks_; ///< on entries set twice in a file
   };
 } // namespace talus
 

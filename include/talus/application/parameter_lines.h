@@ -7,13 +7,12 @@
 
 namespace talus
 {
-  /// A line of a parameter file as deal.II's parser takes it: joined with the
-  /// lines before it that end with a backslash, without comment, without blanks
-  /// at its ends.
+  /// Logical line of a parameter file, as read by deal.II's parser: joined with
+  /// previous lines that end with a backslash, without comment and trimmed.
   struct ParameterLine
   {
     std::string  text;
-    unsigned int number; ///< in the file, from 1; of the last joined line
+    unsigned int number; ///< one-based, of the last line joined
   };
 
 
@@ -22,19 +21,19 @@ namespace talus
   std::vector<ParameterLine>
   parameter_lines(const std::string &content);
 
-  /// Throw ExcUser, which begins with @p place, if deal.II's parser would
-  /// misread the line: `{` in a value, which it takes for a list of variants and
-  /// then ignores the value; an entry without `=`; words behind `end`; control
-  /// characters.
+  /// Throw ExcUser with a message that begins with @p place if deal.II's parser
+  /// would misread the line: `{` in a value, which starts a list of variants
+  /// and makes the parser ignore the value; an entry without `=`; words behind
+  /// `end`; control characters.
   void
   check_line(const std::string &place, const std::string &line);
 
-  /// Throw ExcUser at the first of the lines of @p file that check_line() refuses,
-  /// or that opens or closes a section without its counterpart.
+  /// Throw ExcUser at the first line of @p file that check_line() refuses or
+  /// that opens or closes a section without its counterpart.
   void
   check_lines(const std::string &file, const std::vector<ParameterLine> &lines);
 
-  /// Return a remark for each entry that the lines of @p file set twice.
+  /// Return a remark for each entry set twice by the lines of @p file.
   std::vector<std::string>
   entries_set_twice(const std::string                &file,
                     const std::vector<ParameterLine> &lines);

@@ -4,7 +4,7 @@
 
 namespace talus
 {
-  /// All that the program does. Returns the exit status.
+  /// Run the program. Returns the exit status.
   int
   run_program(int argc, char **argv);
 } // namespace talus

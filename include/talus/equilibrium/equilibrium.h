@@ -12,31 +12,33 @@
 
 namespace talus
 {
-  /// What the search for equilibrium says of each iteration.
+  /// Progress of the search for equilibrium, reported at each iteration.
   struct EquilibriumProgress
   {
-    unsigned int    load_step; ///< from 1
-    double          load;      ///< share of the load after the step
+    unsigned int    load_step; ///< one-based index of the load step
+    double          load;      ///< fraction of the load after the step [-]
     NewtonIteration iteration;
   };
 
 
 
-  /// What a search may ask for other than the parameters of the equilibrium.
+  /// Limits of one search for equilibrium. The defaults are the parameters of
+  /// section Equilibrium (Equilibrium::limits()); strength reduction changes
+  /// them.
   struct EquilibriumLimits
   {
-    unsigned int n_load_steps;      ///< in which the load comes on
-    double       smallest_step;     ///< share of it below which no step is cut
-    double       allowed_imbalance; ///< with which the soil counts as balanced
-    /// Whether the load may be well-balanced (WellBalancedLoad).
+    unsigned int n_load_steps;      ///< number of equal load steps
+    double       smallest_step;     ///< smallest fraction of the load [-]
+    double       allowed_imbalance; ///< limit for soil in balance [-]
+    /// Whether to subtract the error of the weight (WellBalancedLoad).
     bool is_well_balanced = true;
   };
 
 
 
-  /// Values of the parameters 'Smallest load step': a smaller share of a load is
-  /// next to the residual that Newton's method leaves, and 0 would let a step
-  /// that fails be halved without end.
+  /// Allowed values of parameters 'Smallest load step'. A smaller fraction of a
+  /// load would be comparable with the residual left by Newton's method, and 0
+  /// would let a failing step be halved without end.
   inline dealii::Patterns::Double
   smallest_load_steps()
   {
@@ -45,15 +47,16 @@ namespace talus
 
 
 
-  /// Brings soil into balance with its weight and all other loads without going
-  /// through time: the load comes on in steps, each solved by Newton's method
-  /// and cut where that fails; further steps without load then let go of the
-  /// stabilization.
+  /// Static equilibrium of the soil with its weight and all other loads,
+  /// without integration in time. The load is applied in steps, each solved by
+  /// Newton's method and halved if Newton's method fails. Further steps without
+  /// load then remove the effect of the stabilization.
   template <int dim>
   class Equilibrium : public dealii::ParameterAcceptor
   {
   public:
-    /// Returns whether to go on, the same on all ranks.
+    /// Receives the progress; returns whether to continue, the same on all
+    /// ranks.
     using Observer = std::function<bool(const EquilibriumProgress &)>;
 
     Equilibrium();
@@ -64,17 +67,18 @@ namespace talus
       return measure_ == "small" ? StrainMeasure::small : StrainMeasure::large;
     }
 
-    /// Throw ExcUser if a law of the bodies cannot take the strain measure.
+    /// Throw ExcUser if the law of a body cannot be used with the strain
+    /// measure.
     void
     check(const Materials<dim>           &materials,
           const std::vector<std::string> &names_of_bodies) const;
 
-    /// Those of the parameters.
+    /// Limits of the search as given by the parameters, for the strain measure.
     EquilibriumLimits
     limits(StrainMeasure measure) const;
 
-    /// No load is on yet, whatever was before. Soil that stands still takes
-    /// small strain.
+    /// Start a new search from zero load, whatever came before. At small strain
+    /// the soil does not move.
     void
     begin(StrainMeasure measure)
     {
@@ -84,27 +88,29 @@ namespace talus
     void
     begin(StrainMeasure measure, const EquilibriumLimits &limits);
 
-    /// Take one load step. Afterwards, with large strain, points may be in other
-    /// cells. Returns false if no step, however small, succeeds or the balance
-    /// is not found in the largest number of steps: then failure() says why. So
-    /// it does if @p observe stops the search: then is_stopped(). Collective.
+    /// Take one load step. At large strain, points may afterwards be in
+    /// different cells. Returns false if the step fails at the smallest length
+    /// or if balance is not reached in the largest number of steps; failure()
+    /// then gives the reason. Also returns false if @p observe stops the
+    /// search; see is_stopped(). Collective.
     bool
     advance(StaticProblem<dim> &problem, const Observer &observe);
 
-    /// Return stresses to the yield surface, to be called after begin() if the
-    /// strength is less than it was: nothing moves, but what was in balance is
-    /// so no more. Collective.
+    /// Return stresses to the yield surface. To be called after begin() if the
+    /// strength has been reduced: nothing moves, but the soil may lose its
+    /// balance. Collective.
     void
     return_stress(StaticProblem<dim> &problem);
 
-    /// Whether all load is on and what is out of balance is within tolerance.
+    /// Return whether all load is applied and the imbalance is within
+    /// tolerance.
     bool
     is_found() const
     {
       return is_found_;
     }
 
-    /// Whether the observer stopped the search.
+    /// Return whether the observer stopped the search.
     bool
     is_stopped() const
     {
@@ -117,7 +123,7 @@ namespace talus
       return failure_;
     }
 
-    /// Share of the load that is on.
+    /// Fraction of the load applied so far [-].
     double
     load() const
     {
@@ -130,7 +136,7 @@ namespace talus
       return n_steps_;
     }
 
-    /// Compute the well-balanced load anew: points or mesh have changed.
+    /// Compute the well-balanced load again, as points or mesh have changed.
     void
     forget_well_balanced_load()
     {
@@ -144,14 +150,16 @@ namespace talus
       return newton_.equations().contact();
     }
 
-    /// To be changed between load steps, together with the points.
+    /// Contact with seabed and obstacles; change it only between load steps,
+    /// together with the points.
     StaticContact<dim> &
     contact()
     {
       return newton_.contact();
     }
 
-    /// Force out of balance, of the reference force; see Newton.
+    /// Norm of the unbalanced force over the reference force [-]; see
+    /// StaticEquations::imbalance().
     double
     imbalance() const
     {
@@ -187,12 +195,12 @@ namespace talus
     double              step_ = 1;
     EquilibriumLimits   limits_{};
     unsigned int        n_steps_    = 0;
-    unsigned int        n_settling_ = 0; ///< steps without load so far
+    unsigned int        n_settling_ = 0; ///< steps taken at full load
     double              imbalance_  = 0;
     bool                is_found_   = false;
     bool                is_stopped_ = false;
     std::string         failure_;
-    std::vector<double> imbalances_; ///< since all load is on
+    std::vector<double> imbalances_; ///< history at full load [-]
   };
 } // namespace talus
 

@@ -11,24 +11,28 @@
 
 namespace talus
 {
-  /// Holds nodes that hardly any soil touches to their neighbours. At such a
-  /// node the stiffness vanishes with the square of the weights, and a few
-  /// points may leave several nodes without any: the matrix would be singular
-  /// or nearly so.
+  /// Ghost penalty: ties nodes that are touched by very little soil to their
+  /// neighbours. The stiffness of a node vanishes with the square of the
+  /// weights, and a few points may leave several nodes without stiffness, so
+  /// the matrix would be singular or nearly singular.
   ///
-  /// On the faces between cells at such nodes the jump of the displacement's
-  /// normal derivative is penalised by the energy
-  ///   1/2 gamma G h integral over the face of |[du/dn]|^2:
-  /// nothing for displacements that are linear in space @cite burman2010,
-  /// @cite coombs2023. It acts on the displacement of a load step only; steps
-  /// without further load lead to the equilibrium without it.
+  /// On the faces between cells at such nodes the jump of the normal derivative
+  /// of the displacement is penalised by the energy
+  ///   1/2 gamma G h integral over the face of |[du/dn]|^2,
+  /// which is zero for displacements linear in space @cite burman2010,
+  /// @cite coombs2023. The penalty acts on the displacement of a load step
+  /// only; steps without further load lead to the equilibrium without penalty.
   template <int dim>
   class GhostStabilization
   {
   public:
-    /// Find the faces: those with a node whose share of the mesh is filled with
-    /// soil to less than the part @p little. The penalty is
-    /// @p gamma times @p shear_modulus, Pa.
+    /// Select the faces with at least one node that has little soil.
+    /// @param grid Background grid.
+    /// @param unknowns Unknowns of the load step.
+    /// @param gamma Factor of the penalty [-].
+    /// @param shear_modulus Shear modulus G of the penalty, Pa.
+    /// @param little Volume fraction of soil at a node below which the node has
+    ///   little soil [-].
     void
     find_faces(const Grid<dim>     &grid,
                const Unknowns<dim> &unknowns,
@@ -36,8 +40,9 @@ namespace talus
                double               shear_modulus,
                double               little = 0.1);
 
-    /// Add the forces of this rank's faces, N, that the displacements @p u, m,
-    /// meet.
+    /// Add the penalty forces of the faces of this rank, N, at the
+    /// displacements @p u, m, to @p forces, with the sign of internal forces.
+    /// Ghost nodes included.
     void
     add_forces(const std::vector<double> &u, std::vector<double> &forces) const;
 
@@ -56,8 +61,8 @@ namespace talus
     }
 
   private:
-    /// Nodes in rows normal to the face: below, on, above; face vertex by
-    /// face vertex.
+    /// Nodes of a face in rows normal to it (below, on and above), one row for
+    /// each vertex of the face.
     static constexpr unsigned int n_rows  = power(2, dim - 1);
     static constexpr unsigned int n_nodes = 3 * n_rows;
     struct Face
@@ -66,7 +71,8 @@ namespace talus
       double                            stiffness; ///< N/m
     };
 
-    /// Coupling of two nodes of a face, in units of its stiffness.
+    /// Coupling of the nodes @p a and @p b of a face, over the stiffness of the
+    /// face.
     static double
     coupling(unsigned int a, unsigned int b);
 

@@ -12,17 +12,16 @@
 
 namespace talus
 {
-  /// Nodal forces of the stress at the end of a load step, as functions of the
-  /// nodal displacements of the step, and their derivative.
+  /// Nodal forces of the stress at the end of a load step, and their
+  /// derivative, as functions of the nodal displacements of the step.
   ///
-  /// The B-bar is taken as in the dynamics: the volume change of a
-  /// point becomes the mean over the points of its cell whose law asks for it,
-  /// theta_c, which is linear in the
-  /// displacements; what does work on that is the stress whose own mean is
-  /// taken. Forces and matrix are the first and second derivative of the same
-  /// work, so that an elastic matrix is symmetric.
-  /// With volumes V of the start of the step and gradients there, the nominal
-  /// stress P does the work V P : H on the displacement gradient H.
+  /// The B-bar method is the same as in the explicit scheme. The volume change
+  /// of a point becomes theta_c, the mean over the points of the cell whose
+  /// laws use B-bar; theta_c is linear in the displacements. The stress that
+  /// does work on theta_c is averaged, too. Forces and matrix are the first and
+  /// second derivative of the same work, so the matrix of elastic soil is
+  /// symmetric. With volumes V and gradients of the start of the step, the
+  /// nominal stress P does the work V P : H on the displacement gradient H.
   template <int dim>
   class InternalForces
   {
@@ -31,24 +30,26 @@ namespace talus
       : measure_(measure)
     {}
 
-    /// Set the displacement gradients that the points hold, to those of the
-    /// displacements @p u, m, after the mean, in the workspace.
+    /// Compute the displacement gradients at the points from the nodal
+    /// displacements @p u, m, with the mean of B-bar, and store them in the
+    /// workspace.
     void
     set_gradients(StaticProblem<dim>            &problem,
                   const ShapeFunctionCache<dim> &weights,
                   const std::vector<double>     &u) const;
 
-    /// Evaluate stresses and their derivatives, and add to @p forces, N, those
-    /// of this rank's points. Returns false, with nothing added, if a point
-    /// of this rank would be turned inside out.
+    /// Evaluate stresses and tangents of the points on this rank at the
+    /// displacements @p u, m, and add the nodal forces, N, to @p forces.
+    /// Returns false, and adds nothing, if a point on this rank would be
+    /// inverted.
     bool
     evaluate(StaticProblem<dim>            &problem,
              const ShapeFunctionCache<dim> &weights,
              const std::vector<double>     &u,
              std::vector<double>           &forces);
 
-    /// Add to @p forces, N, those of the stress -p I, with the pressure p of each
-    /// point of this rank in @p pressure, Pa, and the mean of B-bar. Overwrites
+    /// Add to @p forces, N, the nodal forces of the stress -p I, with the mean
+    /// of B-bar. @p pressure holds p of each point on this rank, Pa. Overwrites
     /// the stresses of the last evaluate().
     void
     add_forces_of_pressure(const StaticProblem<dim>      &problem,
@@ -56,7 +57,7 @@ namespace talus
                            const std::vector<double>     &pressure,
                            std::vector<double>           &forces);
 
-    /// Add the derivative found by the last evaluate() to @p matrix.
+    /// Add the tangent of the last evaluate() to @p matrix.
     void
     add_tangent(const ShapeFunctionCache<dim>          &weights,
                 const Unknowns<dim>                    &unknowns,
@@ -68,7 +69,7 @@ namespace talus
     struct Scratch
     {
       std::vector<dealii::Tensor<1, dim>>          mean_gradient;
-      std::vector<double>                          strain;   // B, row by row
+      std::vector<double>                          strain;   // B, by rows
       std::vector<double>                          stressed; // V A B
       dealii::FullMatrix<double>                   matrix;
       std::vector<dealii::types::global_dof_index> unknowns;
@@ -98,7 +99,7 @@ namespace talus
     StrainMeasure                   measure_;
     std::vector<StressTangent<dim>> linearizations_;
     std::vector<double>             volumes_; ///< at the start of the step
-    std::vector<double> volumes_of_mean_; ///< the same, 0 where none is taken
+    std::vector<double> volumes_of_mean_;     ///< volumes_, 0 without B-bar
   };
 } // namespace talus
 

@@ -12,17 +12,17 @@
 
 namespace talus
 {
-  /// Displacements that strain nothing, at the unknowns of this rank: what the
-  /// coarse levels of algebraic multigrid must be able to show.
+  /// Rigid motions, which cause no strain, at the unknowns of this rank. The
+  /// coarse levels of algebraic multigrid must be able to represent them.
   using RigidModes = std::vector<std::vector<double>>;
 
 
 
-  /// How a linear system was solved, if it was.
+  /// Outcome of the solution of a linear system.
   struct LinearSolution
   {
     unsigned int n_iterations = 0; ///< 0 for the direct solver
-    std::string  failure; ///< why there is none, as the end of a sentence
+    std::string  failure; ///< reason, as the end of a sentence; empty: solved
   };
 
 
@@ -33,7 +33,13 @@ namespace talus
   public:
     LinearSolver();
 
-    /// Solve matrix * x = rhs. @p symmetric: also positive definite. Collective.
+    /// Solve matrix * x = rhs. Collective.
+    /// @param matrix Matrix of the system, N/m.
+    /// @param x Solution, m; overwritten.
+    /// @param rhs Right-hand side, N.
+    /// @param modes Rigid motions for multigrid.
+    /// @param dim Number of unknowns per node.
+    /// @param symmetric Whether the matrix is symmetric and positive definite.
     LinearSolution
     solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
           dealii::TrilinosWrappers::MPI::Vector        &x,
@@ -42,7 +48,7 @@ namespace talus
           unsigned int                                  dim,
           bool                                          symmetric) const;
 
-    /// The name of what solve() takes for @p n_unknowns unknowns.
+    /// Name of the method that solve() uses for @p n_unknowns unknowns.
     std::string
     choice(unsigned long n_unknowns, unsigned int dim, bool symmetric) const;
 

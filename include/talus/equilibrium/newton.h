@@ -10,22 +10,22 @@
 
 namespace talus
 {
-  /// One iteration of Newton's method, as seen before its correction.
+  /// Report on one iteration of Newton's method.
   struct NewtonIteration
   {
-    unsigned int number;
-    double       residual; ///< over the reference force, at free unknowns
+    unsigned int number;   ///< zero-based index
+    double       residual; ///< before the correction, over reference force [-]
     unsigned int
-           n_linear_iterations; ///< to the correction; 0 where there is none
-    double seconds;             ///< of wall time for that
-    double length;              ///< share of the correction taken
+           n_linear_iterations; ///< for the correction; 0 for the direct solver
+    double seconds;             ///< wall time of the correction, s
+    double length;              ///< fraction of the correction taken [-]
   };
 
 
 
-  /// The displacements of one load step, for which stress and loads balance
-  /// (StaticEquations), by Newton's method with the consistent tangent
-  /// @cite simo1998.
+  /// Newton's method with the consistent tangent @cite simo1998, for the
+  /// displacements of one load step at which stress and loads balance
+  /// (StaticEquations).
   template <int dim>
   class Newton
   {
@@ -33,52 +33,55 @@ namespace talus
     struct Parameters
     {
       StrainMeasure measure            = StrainMeasure::small;
-      double        tolerance          = 1e-8; ///< of the residual
+      double        tolerance          = 1e-8; ///< of the residual [-]
       unsigned int  largest_iterations = 30;
-      double        ghost_penalty      = 0.01; ///< gamma
-      bool          is_well_balanced   = true; ///< with small strain
+      double        ghost_penalty      = 0.01; ///< gamma [-]
+      bool          is_well_balanced   = true; ///< at small strain only
     };
 
-    /// How solve() ended.
+    /// Outcome of solve().
     struct Outcome
     {
       bool        converged = false;
-      std::string failure;            ///< the sentence, if not
-      bool        is_stopped = false; ///< by the observer
+      std::string failure;            ///< a sentence; empty if converged
+      bool        is_stopped = false; ///< stopped by the observer
     };
 
-    /// Returns whether to go on, the same on all ranks.
+    /// Receives each iteration; returns whether to continue, the same on all
+    /// ranks.
     using Observer = std::function<bool(const NewtonIteration &)>;
 
     Newton(const LinearSolver &linear_solver)
       : linear_solver_(linear_solver)
     {}
 
-    /// Set up the unknowns of the soil as it is now. Collective.
+    /// Set up the unknowns for the current state of the soil. Collective.
     void
     begin(StaticProblem<dim> &problem, const Parameters &parameters);
 
-    /// Find the displacements. Where that fails, or @p observe stops it, the
-    /// soil is as before. Collective.
+    /// Solve for the displacements of a load step that removes the fraction
+    /// @p share of the imbalance. If the solution fails or @p observe stops it,
+    /// points and contact are unchanged. Collective.
     Outcome
     solve(StaticProblem<dim> &problem, double share, const Observer &observe);
 
-    /// Make what was found the state of the points; with large strain they move.
+    /// Apply the solution to the state of the points; at large strain the
+    /// points move.
     void
     commit(StaticProblem<dim> &problem)
     {
       equations_.commit(problem, u_);
     }
 
-    /// How the soil moves where it fails, at the points, dim numbers each,
-    /// divided by the largest of all: the displacement of the last load step
-    /// or, where Newton's method failed, its last correction, which shows what a
-    /// nearly singular matrix lets move. Points must be as in begin().
-    /// Collective.
+    /// Failure mechanism at the points, dim components each, divided by the
+    /// largest component of all points. The mechanism is the displacement of
+    /// the last load step. If Newton's method failed, the mechanism is the last
+    /// correction, which shows the free motion of a nearly singular matrix.
+    /// Points must be unchanged since begin(). Collective.
     std::vector<double>
     mechanism(const Points<dim> &points) const;
 
-    /// See StaticEquations.
+    /// See StaticEquations::forget_well_balanced_load().
     void
     forget_well_balanced_load()
     {
@@ -91,7 +94,7 @@ namespace talus
       return equations_;
     }
 
-    /// To be changed before begin() only: it belongs to the points.
+    /// Contact of the points; change it only before begin().
     StaticContact<dim> &
     contact()
     {
@@ -104,7 +107,7 @@ namespace talus
       return equations_.unknowns().n_global();
     }
 
-    /// What solves the linear systems.
+    /// Name of the method for the linear systems.
     std::string
     linear_solver() const
     {
@@ -114,13 +117,14 @@ namespace talus
     }
 
   private:
-    /// With the state of the seabed's nodes that belongs to it.
+    /// Solve for displacements and contact states together.
     Outcome
     solve_with_contact(StaticProblem<dim> &problem, const Observer &observe);
-    /// With the state that they have.
+    /// Solve for displacements with fixed contact states.
     Outcome
     newton_loop(StaticProblem<dim> &problem, const Observer &observe);
-    /// Returns why there is no next iterate, as the end of a sentence.
+    /// Take one Newton step. Returns the reason of a failure, as the end of a
+    /// sentence.
     std::string
     newton_update(StaticProblem<dim> &problem, NewtonIteration &iteration);
     double
@@ -132,14 +136,14 @@ namespace talus
     const LinearSolver  &linear_solver_;
     Parameters           parameters_;
     StaticEquations<dim> equations_;
-    double               extent_ = 0; ///< of the mesh, m
+    double               extent_ = 0; ///< diagonal of the mesh, m
 
     // Fields at the nodes
     std::vector<double> residual_;        ///< N
     std::vector<double> u_;               ///< m
     std::vector<double> last_correction_; ///< m
-    std::vector<double> mechanism_;       ///< m, of the last solve()
-    /// Whether the last correction was so large that the soil moves freely.
+    std::vector<double> mechanism_;       ///< m, from the last solve()
+    /// Whether the last correction was so large that soil moves freely.
     bool moves_freely_ = false;
   };
 } // namespace talus

@@ -9,28 +9,30 @@
 
 namespace talus
 {
-  /// The weights of all points, kept for a load step: for each cell the
-  /// nodes that any of its points touch, and for each point the weights at all
-  /// of these. Hanging nodes have passed theirs on to their masters, and nodes
-  /// without unknowns have none.
+  /// Shape functions (weights) of all points, stored for a load step. A patch
+  /// is the list of nodes touched by any point of a cell; each point of the
+  /// cell has a weight at every node of the patch. Weights of hanging nodes are
+  /// distributed to their master nodes; nodes without unknowns are left out.
   template <int dim>
   class ShapeFunctionCache
   {
   public:
+    /// Compute the weights of all points at the nodes with unknowns, for points
+    /// with boxes of the given shape.
     void
     compute(const Points<dim>   &points,
             const Grid<dim>     &grid,
             const BoxShape      &shape,
             const Unknowns<dim> &unknowns);
 
-    /// The points of each cell that holds any.
+    /// Points of each occupied cell, as one batch per cell.
     const std::vector<Batch> &
     cells() const
     {
       return cells_;
     }
 
-    /// The nodes of a cell's points.
+    /// Nodes touched by the points of a cell.
     struct Patch
     {
       const unsigned int *nodes;
@@ -44,14 +46,16 @@ namespace talus
               first_node_[c + 1] - first_node_[c]};
     }
 
-    /// Value and gradient, 1/m, at the nodes of the patch of the @p k-th point of
-    /// cell number @p c.
+    /// Value [-] and gradient, 1/m, of the weight of a point at a node of the
+    /// patch.
     struct Weight
     {
       double                 value;
       dealii::Tensor<1, dim> gradient;
     };
 
+    /// Weights of the @p k-th point of cell number @p c, one for each node of
+    /// the patch.
     const Weight *
     of_point(const unsigned int c, const unsigned int k) const
     {
@@ -60,10 +64,10 @@ namespace talus
     }
 
   private:
-    /// What a point gives to a node, which it may name several times.
+    /// Contribution of a point to a node; several may belong to the same pair.
     struct Share
     {
-      unsigned int point, place; ///< in the cell and in its patch
+      unsigned int point, place; ///< index in the cell, index in the patch
       Weight       weight;
     };
 
@@ -85,7 +89,7 @@ namespace talus
     std::vector<std::size_t>  first_weight_;
     std::vector<Weight>       weights_;
 
-    // While computing
+    // Scratch memory of compute()
     std::vector<const HangingNode *> hanging_;
     std::vector<unsigned int>        place_of_node_;
   };

@@ -11,57 +11,62 @@
 
 namespace talus
 {
-  /// Walls, seabed and obstacles in equilibrium. Walls hold what they hold. A
-  /// node on the seabed sticks to it, slips against the largest friction, or
-  /// has lifted off; which of these is found by trial, Newton's method by
-  /// Newton's method.
+  /// Contact with walls, seabed and obstacles in equilibrium. Walls hold their
+  /// components always. A node on the seabed sticks, slips against the largest
+  /// friction, or has lifted off. The states are found by trial, with a full
+  /// Newton solution for each trial.
   template <int dim>
   class StaticContact
   {
   public:
-    /// Find the nodes, and the facets of obstacles. Those that were known
-    /// before, or by restored tables, stay as they were, but for friction that
-    /// exceeds what the seabed bears now; the others stick.
-    /// @p modulus, Pa, is the largest shear modulus of the soil. Collective.
+    /// Find the nodes on the seabed and the facets of obstacles. Contacts known
+    /// from the previous step or from restored tables keep their state, with
+    /// friction cut to the current limit; new contacts stick. @p modulus is the
+    /// largest shear modulus of the soil, Pa. Collective.
     void
     begin(const StaticProblem<dim> &problem,
           const Unknowns<dim>      &unknowns,
           double                    modulus);
 
-    /// Components that are held, by active node.
+    /// Components held by walls and contact, for each active node: bit d for
+    /// axis d.
     std::vector<unsigned char>
     constrained(const StaticProblem<dim> &problem,
                 const Unknowns<dim>      &unknowns) const;
 
-    /// Add the friction of slipping nodes, N.
+    /// Add the friction of slipping nodes on the soil, N, to @p forces.
     void
     add_friction(std::vector<double> &forces) const;
 
-    /// Add @p factor times what the seabed bore after the last step: reaction
-    /// and friction on the soil, N.
+    /// Add @p factor times the force of the seabed on the soil after the last
+    /// step, reaction and friction, N, to @p forces.
     void
     add_contact_force(double factor, std::vector<double> &forces) const;
 
-    /// Look at what became of the nodes: @p reaction, N, is what the boundary
-    /// bears and @p u the displacement of the step, m, which is taken back where
-    /// soil went into the seabed. Returns how many nodes stick, slip or lift off
-    /// now that did not before, and one more if facets have not come to rest.
-    /// Collective.
+    /// Update the contact states from a solution. Soil that has moved into the
+    /// seabed is moved back. Collective.
+    /// @param problem Soil and boundaries.
+    /// @param unknowns Unknowns of the load step.
+    /// @param reaction Force of the boundary on the soil, N, at the nodes.
+    /// @param u Displacement of the step, m, at the nodes.
+    /// @return Number of nodes on all ranks whose state or friction changed,
+    ///   plus 1 if the forces of the facets have not converged.
     unsigned int
     update_active_set(const StaticProblem<dim>  &problem,
                       const Unknowns<dim>       &unknowns,
                       const std::vector<double> &reaction,
                       std::vector<double>       &u);
 
-    /// The soil can move freely along @p direction. Let those slipping nodes
-    /// stick whose friction would push it on: when it moves, friction turns
-    /// against the motion; facets, too. Returns how many there are. Collective.
+    /// Let slipping nodes and facets stick again if their friction would push
+    /// the soil along @p direction, in which the soil moves freely: as soon as
+    /// the soil moves, friction reverses. Returns the number of changes on all
+    /// ranks. Collective.
     unsigned int
     stick_again(const Unknowns<dim>       &unknowns,
                 const std::vector<double> &direction);
 
-    /// Add the tables of seabed and facets, which belong to the points, if
-    /// @p is_needed; else they are empty.
+    /// Add the tables of seabed and facets, which belong to the points, to the
+    /// state. Without @p is_needed the tables are empty.
     void
     list_state(StateList &list, const std::function<bool()> &is_needed);
 
@@ -89,13 +94,13 @@ namespace talus
     {
       unsigned int           node;
       unsigned long          key; ///< of the place of the node
-      unsigned int           k;   ///< its place among the active nodes
+      unsigned int           k;   ///< index among the active nodes
       unsigned int           face;
-      unsigned char          walls; ///< components that walls hold
+      unsigned char          walls; ///< components held by walls, as bits
       double                 area;  ///< m^(dim-1)
       State                  state = State::sticks;
       dealii::Tensor<1, dim> friction; ///< on the soil, N
-      dealii::Tensor<1, dim> reaction; ///< the same of what is held
+      dealii::Tensor<1, dim> reaction; ///< on the soil, held components, N
     };
 
     std::vector<double>
@@ -115,7 +120,7 @@ namespace talus
     static constexpr unsigned int n_columns = 4 + 2 * dim; ///< of rows()
 
     std::vector<Contact> contacts_;
-    std::vector<double>  restored_; ///< rows of a checkpoint
+    std::vector<double>  restored_; ///< rows from a checkpoint
     StaticFacets<dim>    facets_;
   };
 } // namespace talus

@@ -17,35 +17,40 @@
 
 namespace talus
 {
-  /// The discrete equations of one load step: residual and tangent at given
+  /// Discrete equations of one load step: residual and tangent at given
   /// displacements of the nodes. The residual is
   ///   r = f_ext - (1 - share) (f_ext + c - f_int(0)) + friction - f_int(u)
   ///       - ghost,
-  /// where f_ext + c - f_int(0) is what the points have out of balance now, c
-  /// the force of the seabed on them so far: the step takes the share of it.
-  /// With a well-balanced load f_ext is the load less its error E.
-  /// Fields have dim numbers for each node of Unknowns.
+  /// where c is the previous force of the seabed on the soil,
+  /// f_ext + c - f_int(0) the imbalance at the start of the step, and `share`
+  /// the fraction of the imbalance removed in the step. With a well-balanced
+  /// load, f_ext is the load minus its error E. Fields have dim components for
+  /// each node of Unknowns.
   template <int dim>
   class StaticEquations
   {
   public:
-    /// Set up the unknowns of the soil as it is now; with small strain the load
-    /// may be well-balanced (WellBalancedLoad). Collective.
+    /// Set up the equations for the current state of the soil. Collective.
+    /// @param problem Soil, loads and boundaries.
+    /// @param measure Strain measure.
+    /// @param ghost_penalty Factor gamma of the ghost penalty [-].
+    /// @param is_well_balanced Whether to use WellBalancedLoad; ignored at
+    ///   large strain.
     void
     begin(StaticProblem<dim> &problem,
           StrainMeasure       measure,
           double              ghost_penalty,
           bool                is_well_balanced = false);
 
-    /// Compute the well-balanced load anew at the next begin(): points or mesh
-    /// have changed.
+    /// Let the next begin() compute the well-balanced load again, as points or
+    /// mesh have changed.
     void
     forget_well_balanced_load()
     {
       well_balanced_.clear();
     }
 
-    /// Whether the loads of this load step are well-balanced.
+    /// Return whether the loads of this load step are well-balanced.
     bool
     has_well_balanced_load() const
     {
@@ -58,44 +63,47 @@ namespace talus
       return well_balanced_;
     }
 
-    /// Euclidean norm of what a well-balanced load subtracts from the loads, over
-    /// that of the loads [-]. Collective.
+    /// Euclidean norm of the error E subtracted from the loads, over the norm
+    /// of the loads [-]. Collective.
     double
     well_balanced_share() const;
 
-    /// The share of what is out of balance that the step takes.
+    /// Set the fraction @p share of the imbalance to be removed in the step
+    /// [-].
     void
     take_share(double share);
 
-    /// Hold what contact and walls hold now.
+    /// Hold the unknowns that walls and contact hold in their current state.
     void
     constrain(const StaticProblem<dim> &problem);
 
-    /// Set the residual, N, at the displacements @p u, m, whose tangent
-    /// solve_tangent() then takes. Returns false, with the residual as it was,
-    /// if a point of any rank would be turned inside out. Collective.
+    /// Compute the residual. Collective.
+    /// @param problem Soil, loads and boundaries.
+    /// @param u Displacements, m; solve_tangent() uses the tangent at @p u.
+    /// @param residual Residual, N; unchanged on failure.
+    /// @return False if a point on any rank would be inverted.
     bool
     find_residual(StaticProblem<dim>        &problem,
                   const std::vector<double> &u,
                   std::vector<double>       &residual);
 
-    /// What solve_tangent() found.
+    /// Result of solve_tangent().
     struct Correction
     {
-      std::vector<double> field;        ///< m
+      std::vector<double> field;        ///< displacements, m
       double              largest;      ///< component over all ranks, m
       unsigned int        n_iterations; ///< of the linear solver
-      std::string         failure;      ///< the end of a sentence, if it failed
+      std::string         failure;      ///< end of a sentence; empty: solved
     };
 
-    /// Solve K du = @p residual. Collective.
+    /// Solve K du = @p residual for the displacements du. Collective.
     Correction
     solve_tangent(const LinearSolver        &linear_solver,
                   const std::vector<double> &residual);
 
-    /// Look at the contact where the equations are solved, see
-    /// StaticContact::update_active_set(), which may take back displacements.
-    /// Returns how much of it changed. Collective.
+    /// Update the contact states after a solution with the displacements @p u,
+    /// m, and the @p residual, N; see StaticContact::update_active_set(). May
+    /// correct @p u. Returns the number of changes. Collective.
     unsigned int
     update_contact(StaticProblem<dim>        &problem,
                    const std::vector<double> &residual,
@@ -108,32 +116,37 @@ namespace talus
       return contact_.stick_again(unknowns_, direction);
     }
 
-    /// Make the displacements @p u part of the state of the points; with large
-    /// strain they move.
+    /// Apply the displacements @p u, m, to the state of the points; at large
+    /// strain the points move.
     void
     commit(StaticProblem<dim> &problem, const std::vector<double> &u);
 
-    /// Force out of balance at u = 0, as the dynamics would meet it but for what
-    /// a well-balanced load subtracts: Euclidean norm over the free unknowns, of the reference force. Collective.
+    /// Norm of the unbalanced force at u = 0 over the reference force [-]. The
+    /// unbalanced force is the nodal force of the explicit scheme, minus the
+    /// error of a well-balanced load; Euclidean norm over the free unknowns.
+    /// Collective.
     double
     imbalance() const;
 
-    /// The largest such force of a node, N, and where, in words. Collective.
+    /// Largest component of the unbalanced force at a node, N, and its place in
+    /// words. Collective.
     std::pair<double, std::string>
     largest_imbalance() const;
 
-    /// Set the @p largest component of @p force, N, at a free unknown over all
-    /// ranks. Returns the place of its node in words. Collective.
+    /// Set @p largest to the largest component of @p force, N, at the free
+    /// unknowns of all ranks. Returns the place of the node in words.
+    /// Collective.
     std::string
     where_largest(const std::vector<double> &force, double &largest) const;
 
-    /// A field interpolated to the points by the weights of the load step: dim
-    /// numbers for each point of this rank. Points must be as in begin().
+    /// Interpolate a nodal field to the points by the weights of the load step.
+    /// Points must be unchanged since begin(). Returns dim components for each
+    /// point on this rank.
     std::vector<double>
     at_points(const Points<dim>         &points,
               const std::vector<double> &field) const;
 
-    /// Of loads or stress, N.
+    /// Reference force: the larger norm of loads and internal forces, N.
     double
     reference_force() const
     {
@@ -152,7 +165,7 @@ namespace talus
       return contact_;
     }
 
-    /// To be changed before begin() only: it belongs to the points.
+    /// Contact of the points; change it only before begin().
     StaticContact<dim> &
     contact()
     {
@@ -197,9 +210,9 @@ namespace talus
     std::vector<double> unbalanced_;    ///< f_ext - E - f_int(0), N
     std::vector<double> internal_;      ///< f_int(0), N
     std::vector<double> of_facets_;     ///< force of obstacles at u = 0, N
-    std::vector<double> target_;        ///< what f_int + ghost are to be, N
+    std::vector<double> target_;        ///< value required of f_int + ghost, N
     double              reference_ = 0; ///< N
-    double              loads_     = 0; ///< Euclidean norm, N
+    double              loads_     = 0; ///< Euclidean norm of the loads, N
   };
 } // namespace talus
 

@@ -15,35 +15,36 @@
 
 namespace talus
 {
-  /// Obstacles in equilibrium: at the contact point of each facet the soil
-  /// sticks, slips against the largest friction, or has lifted off. By augmented
-  /// Lagrangians, @cite alart1991, a facet passes the force that is given plus
-  /// that of a stiff spring, cut to what it can bear; when Newton's method has
-  /// converged, the force found is the one given for the next loop, until the
-  /// spring has nothing to do.
+  /// Contact with obstacles in equilibrium: at the contact point of each facet
+  /// the soil sticks, slips against the largest friction, or has lifted off. By
+  /// augmented Lagrangians @cite alart1991, the force of a facet is a given
+  /// force plus the force of a stiff spring, cut to the limits of contact. When
+  /// Newton's method has converged, the computed force becomes the given force
+  /// of the next loop, until the springs carry nothing.
   template <int dim>
   class StaticFacets
   {
   public:
-    /// Find the contact points. They bear what the facets of @p problem bore,
-    /// but no more friction than they bear now. Points that were known before,
-    /// or that restore() was given, remember their gaps. @p modulus, Pa, of the
-    /// soil. Collective.
+    /// Find the contact points. The initial forces are the forces of the facets
+    /// in @p problem, cut to the current friction. Contact points known from
+    /// the previous step or from restore() keep their gaps. @p modulus is the
+    /// shear modulus of the soil, Pa. Collective.
     void
     begin(const StaticProblem<dim> &problem,
           const Unknowns<dim>      &unknowns,
           double                    modulus);
 
-    /// Add @p factor times their forces on the soil, N, with the displacements
-    /// @p u of the step, m, to those of this rank's nodes and ghosts.
+    /// Compute the contact forces on the soil at the displacements @p u of the
+    /// step, m, and add them times @p factor to @p forces, N; nodes of this
+    /// rank and ghosts.
     void
     add_forces(double                     factor,
                const std::vector<double> &u,
                std::vector<double>       &forces);
 
-    /// Add to @p forces, N, those of the pressure @p pressure(x), Pa, on the
-    /// facets in contact: p A n, with the area in contact and the shares of the
-    /// nodes by which facets pass their own forces.
+    /// Add to @p forces, N, the force of the pressure @p pressure(x), Pa, on
+    /// the facets in contact: p A n, with the area in contact, distributed to
+    /// the nodes with the weights of the contact forces.
     void
     add_pressure(
       const std::function<double(const dealii::Point<dim> &)> &pressure,
@@ -53,45 +54,48 @@ namespace talus
     add_to_pattern(const Unknowns<dim>                       &unknowns,
                    dealii::TrilinosWrappers::SparsityPattern &pattern) const;
 
-    /// Add the derivative, with its sign changed, of the last add_forces().
+    /// Add the negative derivative of the last add_forces() to @p matrix.
     void
     add_to_matrix(const Unknowns<dim>                    &unknowns,
                   dealii::TrilinosWrappers::SparseMatrix &matrix);
 
-    /// Whether the matrix always is; that of friction by a coefficient is not.
+    /// Return whether the matrix is always symmetric: only without friction
+    /// coefficients.
     bool
     is_symmetric() const
     {
       return is_symmetric_;
     }
 
-    /// Give the points the forces that were found with @p u. Returns whether
-    /// these are nearly those that were given, so that nothing moves into an
-    /// obstacle, or along it where it sticks, or enough was tried. Collective.
+    /// Make the forces computed with the displacements @p u, m, the given
+    /// forces of the next loop. Returns whether the loops may end: the forces
+    /// hardly change, so the soil neither enters obstacles nor moves where it
+    /// sticks, or the number of loops is used up. Collective.
     bool
     update(const StaticProblem<dim>  &problem,
            const Unknowns<dim>       &unknowns,
            const std::vector<double> &u);
 
-    /// Let those slipping points stick, to begin with, whose friction would
-    /// push the soil along @p direction. Returns how many these are, on this
+    /// Let slipping contact points start by sticking if their friction would
+    /// push the soil along @p direction. Returns the number of changes on this
     /// rank.
     unsigned int
     stick_again(const std::vector<double> &direction);
 
-    /// Make what was found with @p u the forces of the facets of @p problem.
+    /// Store the solution with the displacements @p u, m, as the forces of the
+    /// facets in @p problem.
     void
     commit(const StaticProblem<dim>  &problem,
            const std::vector<double> &u,
            StrainMeasure              measure);
 
-    /// Return what the contact points of this rank remember, one row each: name
-    /// (see ContactPoint), normal displacement since points were last moved, m,
-    /// normal force, N. Forces of facets are those of FacetImpulses, too.
+    /// State of the contact points on this rank, one row each: name (see
+    /// ContactPoint), normal displacement since the points were last moved, m,
+    /// normal force, N. The forces of facets are also stored in FacetImpulses.
     std::vector<double>
     rows() const;
 
-    /// Keep the @p rows of all ranks for the next begin().
+    /// Store the @p rows of all ranks for the next begin().
     void
     restore(const std::vector<double> &rows)
     {
@@ -111,27 +115,27 @@ namespace talus
 
     struct ContactPoint
     {
-      /// Name of the facet; for a node inside, key of the node (two numbers),
-      /// obstacle, -1.
+      /// Name of the facet. For a node inside an obstacle: key of the node (two
+      /// numbers), obstacle, -1.
       FacetName                         name;
       std::array<unsigned int, n_nodes> node;
       std::array<double, n_nodes>       share;
       dealii::Point<dim>                place; ///< centroid, m
       dealii::Tensor<1, dim>            normal;
       double                            area = 0; ///< in contact, m^(dim-1)
-      double stiffness        = 0; ///< of the spring, N/m; 0: there is no soil
+      double stiffness        = 0; ///< of the spring, N/m; 0: no soil
       double gap              = 0; ///< at the start of the step, m
-      double opened           = 0; ///< since points were last moved, m
-      double coefficient      = 0; ///< of friction
-      double largest_friction = 0; ///< whatever the normal force, N
+      double opened           = 0; ///< see Memory, m
+      double coefficient      = 0; ///< of friction [-]
+      double largest_friction = 0; ///< upper bound for all normal forces, N
       Force  given, found;
       bool   is_closed = false, slips = false;
-      dealii::Tensor<1, dim> direction; ///< of friction where it slips
-      double                 cut = 0;   ///< what is left of the spring's, there
-      bool sticks_first = false;        ///< in the next matrix, though it slips
+      dealii::Tensor<1, dim> direction;   ///< of friction while slipping
+      double                 cut = 0;     ///< friction over spring force [-]
+      bool sticks_first          = false; ///< next tangent as if it stuck
     };
 
-    /// State of a contact point that passes from load step to load step.
+    /// State of a contact point that is carried from load step to load step.
     struct Memory
     {
       double opened; ///< normal displacement since points were last moved, m
@@ -157,12 +161,12 @@ namespace talus
     dealii::Tensor<2, dim>
                  tangent(const ContactPoint &point) const;
     bool         is_symmetric_ = true;
-    unsigned int n_loops_      = 0; ///< of this step
+    unsigned int n_loops_      = 0; ///< in this load step
     unsigned int n_facets_     = 0;
-    /// Those of the facets of this rank, then those of nodes inside that touch
-    /// no facet.
+    /// Contact points of the facets of this rank, followed by the contact
+    /// points of nodes inside obstacles that touch no facet.
     std::vector<ContactPoint> points_;
-    std::vector<double>       restored_; ///< rows of a checkpoint
+    std::vector<double>       restored_; ///< rows from a checkpoint
   };
 } // namespace talus
 

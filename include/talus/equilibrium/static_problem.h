@@ -13,8 +13,9 @@
 
 namespace talus
 {
-  /// What is to be brought to equilibrium, and what acts on it at the time of
-  /// the state. Points are sorted, and the nodes near them active.
+  /// Soil to be brought to equilibrium, with all loads and boundaries at the
+  /// time of the state. Points are sorted, and the nodes near points are
+  /// active.
   template <int dim>
   struct StaticProblem
   {
@@ -25,16 +26,15 @@ namespace talus
     const Loads<dim>     &loads;
     FacetContact<dim>    &contact; ///< with obstacles
     SeabedCoverage<dim>  &seabed_coverage;
-    /// Height of the mudline in the vertical through a place, m, not a number
-    /// where there is no soil; empty if it is not known.
+    /// Height of the mudline above or below a place, m; not a number where the
+    /// vertical meets no soil. Empty if the mudline is unknown.
     std::function<double(const dealii::Point<dim> &)> mudline = {};
   };
 
 
 
-  /// Set mass, volume and force at the nodes to those of the explicit scheme:
-  /// the force is what is not in balance before walls and seabed bear their
-  /// share. Collective.
+  /// Compute mass, volume and force at the nodes as in the explicit scheme. The
+  /// force is the imbalance before reactions of walls and seabed. Collective.
   template <int dim>
   inline void
   sum_forces(StaticProblem<dim> &problem)

@@ -10,12 +10,13 @@
 
 namespace talus
 {
-  /// The factor of safety by shear strength reduction: the largest number that
-  /// all strengths can be divided by with the soil still in balance
-  /// @cite griffiths1999; less than 1 where it takes more strength to stand. It
-  /// is bracketed by factors that grow or fall by a half, then by bisection.
-  /// That the soil fails counts only if it stood with nearly that factor: a
-  /// larger reduction may fail because it is too large for one trial.
+  /// Factor of safety by shear strength reduction @cite griffiths1999: the
+  /// largest number by which all strengths can be divided with the soil still
+  /// in balance. The factor is less than 1 if the soil needs more strength to
+  /// stand. Trial factors that grow or fall by a half give a bracket, which is
+  /// then bisected. Failure of the soil counts only after the soil stood with
+  /// nearly the same factor, as a larger reduction may be too large for one
+  /// trial.
   class StrengthReduction : public dealii::ParameterAcceptor
   {
   public:
@@ -25,57 +26,59 @@ namespace talus
     void
     check() const;
 
-    /// Nothing is known yet. No strength may be multiplied by more than
-    /// @p largest_strength.
+    /// Start a new search. No strength may be multiplied by more than
+    /// @p largest_strength [-].
     void
     begin(double largest_strength);
 
-    /// Whether the bracket is narrow enough, and its upper end tried from within
-    /// the tolerance; or whether it ends at the limits.
+    /// Return whether the bracket is narrow enough, with an upper end tried
+    /// from within the tolerance, or has reached the limits of the factor.
     bool
     is_done() const;
 
-    /// The factor to try next.
+    /// Factor to try next [-].
     double
     next() const;
 
-    /// Whether the soil stands with its strength divided by @p factor.
+    /// Record whether the soil stands with its strength divided by @p factor.
     void
     record(double factor, bool stands);
 
-    /// The result as a sentence or two.
+    /// Describe the result in one or two sentences.
     std::string
     result() const;
 
-    /// The largest factor with which the soil stood, 0 if there is none.
+    /// Largest factor with which the soil stood; 0 if unknown.
     double
     lower() const
     {
       return lower_;
     }
 
-    /// The smallest one beyond that with which it did not, 0 if there is none.
+    /// Smallest factor above lower() with which the soil failed; 0 if unknown.
     double
     upper() const
     {
       return upper_;
     }
 
-    /// Whether the soil is known to fail with the strength that it has.
+    /// Return whether the soil is known to fail with its actual strength.
     bool
     is_less_than_one() const
     {
       return upper_ > 0. && upper_ <= 1.;
     }
 
-    /// For the trial of @p factor, made of those of the section Equilibrium.
-    /// Soil that is known to stand with a smaller factor is loaded in one step,
-    /// which is cut down to the smallest one of this section; within the
-    /// tolerance, where failure decides, down to that of the equilibrium.
+    /// Limits of the search for equilibrium with @p factor, derived from
+    /// @p limits of section Equilibrium. If the soil stands with a smaller
+    /// factor, the load is applied in one step, which is halved at most to the
+    /// smallest load step of this section. If the factor is within the
+    /// tolerance, where failure decides, the smallest load step of section
+    /// Equilibrium applies.
     EquilibriumLimits
     limits(double factor, EquilibriumLimits limits) const;
 
-    /// Whether the strength of the seabed is divided, too.
+    /// Return whether the strength of the seabed is divided, too.
     bool
     includes_seabed() const
     {
@@ -98,8 +101,8 @@ namespace talus
     bool   includes_seabed_   = true;
 
     double lower_ = 0, upper_ = 0;
-    double upper_from_       = 0; ///< lower end when the upper one failed
-    double growth_           = 0; ///< of the next factor without upper end
+    double upper_from_       = 0; ///< lower_ when upper_ failed
+    double growth_           = 0; ///< next growth of lower_ without upper_ [-]
     double largest_strength_ = 0;
   };
 } // namespace talus

@@ -13,27 +13,26 @@
 
 namespace talus
 {
-  /// The displacements to be found: dim for each node that soil touches. All
-  /// other nodes are none, so that the matrix has no empty rows; nor are hanging
-  /// nodes, whose share goes to their masters.
+  /// Unknown displacements: dim for each node that soil touches. Further nodes
+  /// have no unknowns, so the matrix has no empty rows. Hanging nodes have none
+  /// either: their weights go to the master nodes.
   ///
-  /// Unknowns are numbered over all ranks, those of a rank one after the other
-  /// in the order of its nodes. Fields at the nodes are arrays with dim doubles
-  /// for each node of the grid, ghosts included.
+  /// Unknowns are numbered over all ranks, contiguous on each rank and in the
+  /// order of its nodes. Nodal fields are arrays with dim doubles for each node
+  /// of the grid, ghosts included.
   template <int dim>
   class Unknowns
   {
   public:
-    /// The nodes with more than @p mass_cutoff, as the owners see them.
-    /// Collective.
+    /// Number the unknowns of all nodes with a mass above @p mass_cutoff, kg,
+    /// by the mass known to the owner. Collective.
     void
     number(const NodalFields<dim> &nodes,
            const Grid<dim>        &grid,
            double                  mass_cutoff);
 
-    /// Nothing is known of the held components of the owned nodes but that they
-    /// do not move: bit d of held[k] holds component d of active_nodes()[k].
-    /// Collective.
+    /// Hold components of the owned nodes, with zero displacement: bit d of
+    /// held[k] holds component d of active_nodes()[k]. Collective.
     void
     constrain(const std::vector<unsigned char> &held);
 
@@ -44,14 +43,14 @@ namespace talus
       return active_nodes_;
     }
 
-    /// Whether the node, owned or ghost, has unknowns.
+    /// Return whether the node, owned or ghost, has unknowns.
     bool
     is_active(const unsigned int node) const
     {
       return records_[width * std::size_t(node)] >= 0.;
     }
 
-    /// The first of its unknowns.
+    /// Index of the first unknown of an active node.
     dealii::types::global_dof_index
     first(const unsigned int node) const
     {
@@ -59,7 +58,7 @@ namespace talus
         records_[width * std::size_t(node)]);
     }
 
-    /// Whether component @p d of an owned or ghost node is held.
+    /// Return whether component @p d of an owned or ghost node is held.
     bool
     is_constrained(const unsigned int node, const unsigned int d) const
     {
@@ -69,14 +68,15 @@ namespace talus
              1u;
     }
 
-    /// Mass of an owned or ghost node, kg, and volume of the soil near it in its
-    /// reference density, m^dim.
+    /// Mass of an owned or ghost node, kg.
     double
     mass(const unsigned int node) const
     {
       return records_[width * std::size_t(node) + 2];
     }
 
+    /// Volume of the soil near an owned or ghost node at its reference density,
+    /// m^dim.
     double
     volume(const unsigned int node) const
     {
@@ -113,14 +113,15 @@ namespace talus
       return communicator_;
     }
 
-    /// A field that is zero.
+    /// Nodal field of zeros.
     std::vector<double>
     field() const
     {
       return std::vector<double>(dim * std::size_t(n_nodes_), 0.);
     }
 
-    /// Add what a field holds at ghosts to its owners. Collective.
+    /// Add the values of a field at ghosts to the values of their owners.
+    /// Collective.
     void
     add_to_owners(std::vector<double> &field)
     {
@@ -134,7 +135,7 @@ namespace talus
       exchange_of_fields_.copy_to_ghosts(field.data());
     }
 
-    /// Call action(node, component) for all unknowns of this rank that are not
+    /// Call action(node, component) for each unknown of this rank that is not
     /// held.
     template <typename Action>
     void
@@ -150,12 +151,13 @@ namespace talus
     double
     norm(const std::vector<double> &field) const;
 
-    /// Sum of the products of two fields over all free unknowns. Collective.
+    /// Scalar product of two fields over all free unknowns. Collective.
     double
     product(const std::vector<double> &a, const std::vector<double> &b) const;
 
   private:
-    // First unknown (-1: none), mask of held components, mass, volume.
+    // Columns of records_: first unknown (-1: none), held components as bits,
+    // mass, volume.
     static constexpr unsigned int width = 4;
 
     MPI_Comm                          communicator_ = MPI_COMM_WORLD;

@@ -10,49 +10,49 @@
 
 namespace talus
 {
-  /// Error of the weight in cells that the soil fills in part only, by a
-  /// reference stress that is in exact balance (doc/method.md, section 12).
+  /// Error of the weight in partly filled cells, computed from a reference
+  /// stress in exact balance (doc/method.md, section 12).
   ///
   /// The reference stress is -p I with p = gamma' d, where d is the depth below
   /// the mudline and gamma' the mean submerged unit weight of all soil. The
-  /// forces of this stress at the points, of its gradient and of its pressure on
-  /// obstacles sum up to zero at each node but for errors of quadrature. What
-  /// they leave, E, is subtracted from the loads: then soil without shear stress
-  /// is in balance in cut cells, too. E is not subtracted where p is borne by
-  /// nothing, as at the free face of a cliff.
+  /// nodal forces of this stress, of its gradient and of its pressure on
+  /// obstacles sum up to zero but for errors of quadrature, E. E is subtracted
+  /// from the loads, so that soil without shear stress is in balance in cut
+  /// cells, too. At nodes where p has no support, as at the free face of a
+  /// cliff, E is not subtracted.
   template <int dim>
   class WellBalancedLoad
   {
   public:
-    /// Compute E for points, weights and facets as they are. There is none
-    /// without a mudline or a weight along -y, nor where the soil is no longer
-    /// below the mudline of the start. Collective.
+    /// Compute E for the current points, weights and facets. E is empty without
+    /// a mudline, without a weight along -y, or if the soil has moved away from
+    /// its initial mudline. Collective.
     void
     compute(const StaticProblem<dim>      &problem,
             const ShapeFunctionCache<dim> &weights,
             const StaticFacets<dim>       &facets,
             Unknowns<dim>                 &unknowns);
 
-    /// Forget E: points or mesh have changed.
+    /// Discard E, as points or mesh have changed.
     void
     clear();
 
-    /// Whether compute() was called since the last clear().
+    /// Return whether compute() was called since the last clear().
     bool
     is_computed() const
     {
       return is_computed_;
     }
 
-    /// E by node, dim components each, N; empty if there is none. Only the
-    /// values at nodes that this rank owns count.
+    /// Error E at the nodes, dim components each, N; empty if there is none.
+    /// Valid only at nodes owned by this rank.
     const std::vector<double> &
     forces() const
     {
       return forces_;
     }
 
-    /// Number of nodes of all ranks at which E is left out.
+    /// Number of nodes on all ranks at which E is not subtracted.
     unsigned long
     n_nodes_without() const
     {
@@ -91,7 +91,7 @@ namespace talus
     std::vector<double>                 forces_;
     std::vector<double>                 volume_;   ///< by point, m^dim
     std::vector<double>                 pressure_; ///< by point, Pa
-    std::vector<dealii::Tensor<1, dim>> gradient_; ///< of it, Pa/m
+    std::vector<dealii::Tensor<1, dim>> gradient_; ///< of pressure, Pa/m
   };
 } // namespace talus
 

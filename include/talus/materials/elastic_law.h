@@ -7,15 +7,16 @@
 
 namespace talus
 {
-  /// A law with an isotropic elastic part: Young's modulus and Poisson's ratio.
+  /// Base of laws with an isotropic elastic part, given by Young's modulus and
+  /// Poisson's ratio.
   template <int dim>
   class ElasticLaw : public MaterialModel<dim>
   {
   public:
     ElasticLaw(const std::string &section);
 
-    /// Throws ExcUser unless the elastic energy is positive: E > 0 and
-    /// -1 < nu < 1/2.
+    /// Throw ExcUser unless E > 0 and -1 < nu <= 0.49999, so that elastic
+    /// moduli are positive and finite.
     void
     check() const override;
 
@@ -25,7 +26,8 @@ namespace talus
       return moduli().mu;
     }
 
-    /// Linear cells then respond to shear with pressure, so that they lock.
+    /// Return whether Poisson's ratio exceeds 0.4: linear cells would then
+    /// respond to shear with pressure and lock.
     bool
     is_nearly_incompressible() const override
     {

@@ -7,8 +7,8 @@
 
 namespace talus
 {
-  /// Elastic predictor of the rate laws, Pa. Deviators are seen at mid-step,
-  /// where the strain increment lives.
+  /// Elastic predictor of the rate laws, Pa. Deviators refer to the axes at
+  /// mid-step, as does the strain increment.
   template <int dim, typename Number>
   struct ElasticTrial
   {
@@ -18,14 +18,14 @@ namespace talus
 
 
 
-  /// Hooke's law for the Jaumann rate of the Cauchy stress, integrated
+  /// Integrate Hooke's law for the Jaumann rate of the Cauchy stress
   /// objectively @cite hughes1980. The strain increment belongs to the
-  /// configuration at mid-step: the old deviator is turned there by half of the
-  /// step's rotation, and turned by the other half when stored. Adding the
-  /// increment to the wholly turned stress instead, as often done, is of first
-  /// order only where strain and stress are not coaxial; see @cite simo1998,
-  /// section 8.3.
-  /// The mean stress follows K ln det(I + H), so that -p = K ln J on any path.
+  /// configuration at mid-step: the old deviator is rotated to mid-step by half
+  /// of the rotation of the step, and by the second half when stored. The
+  /// common alternative, adding the increment to the fully rotated stress, is
+  /// only of first order if strain and stress are not coaxial; see
+  /// @cite simo1998, section 8.3. The mean stress follows K ln det(I + H), so
+  /// that -p = K ln J on any path.
   template <int dim, typename Number, typename Modulus>
   TALUS_ALWAYS_INLINE ElasticTrial<dim, Number>
                       elastic_trial(const Stress<dim, Number>          &sigma,
@@ -46,9 +46,10 @@ namespace talus
 
 
 
-  /// Volume times deviator, mean of the start and the end of the step, J: what
-  /// a deviatoric strain of the step, plastic or not, is multiplied with to
-  /// give work. @p deviator is that at the end, seen at mid-step.
+  /// Volume times deviator, mean of start and end of the step, J: the
+  /// contraction with a deviatoric strain of the step, plastic or total, gives
+  /// the work. @p deviator is the deviator at the end of the step, in the axes
+  /// at mid-step, Pa.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Stress<dim, Number>
                       deviatoric_force(const Motion<dim, Number>       &motion,
@@ -66,10 +67,10 @@ namespace talus
 
 
 
-  /// Work of the stress over the step, J, by the trapezoidal rule: the sum that
-  /// the nodal forces do. With constant volume its deviatoric part, less that
-  /// of the plastic strain, is the exact change of V s:s/(4 mu), so that no
-  /// elastic energy is made or lost in a cycle.
+  /// Work of the stress over the step, J, by the trapezoidal rule; equal to the
+  /// work of the nodal forces. At constant volume, its deviatoric part minus
+  /// the work of the plastic strain is the exact change of V s:s/(4 mu), so a
+  /// cycle neither creates nor loses elastic energy.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Number
   work_of_step(const Motion<dim, Number>          &motion,
@@ -86,7 +87,7 @@ namespace talus
 
 
 
-  /// Store the stress at the end of the step from its deviator at mid-step.
+  /// Store the stress at the end of the step from the deviator at mid-step.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE void
   store_turned_stress(const PointsView<dim>              &points,

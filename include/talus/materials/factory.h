@@ -10,8 +10,8 @@
 
 namespace talus
 {
-  /// What must be known of a law before a material of it is made: a parameter
-  /// file is read before, and its messages and documentation name the laws.
+  /// Description of a law that is available before any material exists:
+  /// messages and documentation of the parameter file list the laws.
   template <int dim>
   struct Law
   {
@@ -23,9 +23,9 @@ namespace talus
 
 
 
-  /// The law whose class is @p Model, constructed from its section and the
-  /// @p arguments. Not by std::make_unique(), which would want to know how the
-  /// law is destroyed, and so all of its functions.
+  /// Describe the law of class @p Model, constructed from its section and
+  /// @p arguments. Avoids std::make_unique(), which would need the destructor
+  /// and thus all functions of the law.
   template <int dim, template <int> class Model, auto... arguments>
   Law<dim>
   law(const std::string &name)
@@ -38,14 +38,13 @@ namespace talus
 
 
 
-  /// Add a law to those that material_names() lists, before run_program().
-  /// Throws ExcUser if there is one of that name, or if a parameter could not
-  /// have it as value.
+  /// Add a law to material_names(); call before run_program(). Throws ExcUser
+  /// if the name is taken or cannot be the value of a parameter.
   template <int dim>
   void
   add_law(const Law<dim> &law);
 
-  /// The same in both dimensions; see doc/examples/own-law.
+  /// Add a law in both dimensions; see doc/examples/own-law.
   template <template <int> class Model, auto... arguments>
   void
   add_law(const std::string &name)

@@ -11,12 +11,13 @@
 
 namespace talus
 {
-  /// ln V, the logarithmic strain.
+  /// Logarithmic strain ln V in the plane.
   ///
-  /// In the plane b = m I + dev b has the eigenvalues m +- r, r = |dev b|, so
-  /// ln V = (ln b)/2 = (ln J)/2 I + artanh(r/m)/(2 r) dev b. With
-  /// y = 2r/(m-r) = 2r (m+r)/J^2 the factor is ln(1+y)/y (m+r)/(2 J^2): well
-  /// behaved for equal eigenvalues and for any stretch.
+  /// b = m I + dev b has the eigenvalues m +- r, r = |dev b|, so
+  ///   ln V = (ln b)/2 = (ln J)/2 I + artanh(r/m)/(2 r) dev b.
+  /// With y = 2r/(m-r) = 2r (m+r)/J^2 the factor is
+  ///   ln(1+y)/y (m+r)/(2 J^2),
+  /// well behaved for equal eigenvalues and for any stretch.
   template <typename Number>
   TALUS_ALWAYS_INLINE Stress<2, Number>
   logarithmic_strain(const DeformationState<2, Number> &state)
@@ -35,8 +36,8 @@ namespace talus
 
 
 
-  /// One Jacobi rotation: turn the axes @p p and @p q so that A_pq vanishes.
-  /// The rows of @p A and the columns of @p n turn along.
+  /// Apply one Jacobi rotation of the axes @p p and @p q to @p A, so that A_pq
+  /// vanishes. The columns of @p n rotate accordingly.
   template <typename Number>
   TALUS_ALWAYS_INLINE void
   rotate_axes(Matrix<3, Number> &A,
@@ -44,8 +45,8 @@ namespace talus
               const unsigned int p,
               const unsigned int q)
   {
-    // The root of t^2 + t (A_qq - A_pp)/A_pq = 1 smaller than one; zero where
-    // nothing is to be done.
+    // Root of t^2 + t (A_qq - A_pp)/A_pq = 1 of smaller magnitude; zero if
+    // A_pq is zero.
     const Number half = 0.5 * (A[q][q] - A[p][p]);
     const Number root = sqrt(half * half + A[p][q] * A[p][q]) +
                         std::numeric_limits<double>::min();
@@ -69,10 +70,10 @@ namespace talus
 
 
 
-  /// The principal directions n of @p A, its columns; A becomes diagonal. By
-  /// Jacobi's method: accurate for equal eigenvalues, too, and without
-  /// branches. Off-diagonal entries vanish to third order per sweep; five
-  /// reach round-off.
+  /// Compute the principal directions of @p A, the columns of the result; A
+  /// becomes diagonal. Jacobi's method is accurate also for equal eigenvalues
+  /// and has no branches. Each sweep reduces off-diagonal entries to third
+  /// order; five sweeps reach round-off.
   template <typename Number>
   TALUS_ALWAYS_INLINE Matrix<3, Number>
                       principal_directions(Matrix<3, Number> &A)
@@ -89,7 +90,7 @@ namespace talus
 
 
 
-  /// In space by the principal directions of b - I.
+  /// Logarithmic strain in space, by the principal directions of b - I.
   template <typename Number>
   TALUS_ALWAYS_INLINE Stress<3, Number>
   logarithmic_strain(const DeformationState<3, Number> &state)
@@ -113,10 +114,11 @@ namespace talus
 
 
 
-  /// With derivatives. Those of the principal directions are infinite where
-  /// stretches are equal, that of ln b is not: in principal axes component
-  /// (k, l) of db becomes (ln b_k - ln b_l)/(b_k - b_l) times itself, or
-  /// 1/b_k times itself in the limit @cite ogden1984, section 3.4.
+  /// Logarithmic strain in space with derivatives. At equal stretches the
+  /// derivatives of the principal directions are infinite, but the derivative
+  /// of ln b is not. In principal axes, component (k, l) of db is multiplied by
+  /// (ln b_k - ln b_l)/(b_k - b_l), or by 1/b_k in the limit @cite ogden1984,
+  /// section 3.4.
   TALUS_ALWAYS_INLINE Stress<3, Dual<9>>
   logarithmic_strain(const DeformationState<3, Dual<9>> &state)
   {

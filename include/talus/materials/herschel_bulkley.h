@@ -8,8 +8,8 @@ namespace talus
 {
   struct HerschelBulkleyFlow;
 
-  /// Herschel-Bulkley: strength s_u + K gdot^n. Bingham: n = 1, and K is the
-  /// viscosity.
+  /// Variants of the law with strength s_u + K gdot^n. Bingham: n = 1, and K is
+  /// the viscosity.
   enum class FlowLaw
   {
     herschel_bulkley,
@@ -18,18 +18,16 @@ namespace talus
 
 
 
-  /// "Herschel-Bulkley" and "Bingham": clay sheared without drainage that is
-  /// the stronger the faster it is sheared, and loses strength as it is
-  /// remoulded. Elastic as LinearElastic up to the shear stress
-  /// tau = sqrt(s:s/2) = s_u; beyond, plastic at constant volume with
-  /// tau = s_u(xi) + K gdot^n, where gdot = sqrt(2 Dp:Dp) is the plastic shear
-  /// rate and xi its integral in time; in simple shear both are those of the
+  /// "Herschel-Bulkley" and "Bingham": undrained clay whose strength grows with
+  /// the shear rate and falls by remoulding. Elastic as LinearElastic up to the
+  /// shear stress tau = sqrt(s:s/2) = s_u; beyond, plastic at constant volume
+  /// with tau = s_u(xi) + K gdot^n. Here gdot = sqrt(2 Dp:Dp) is the plastic
+  /// shear rate and xi its integral in time; in simple shear both refer to the
   /// engineering shear. Remoulding:
-  /// s_u(xi) = f s_u0 [r + (1 - r) exp(-3 xi/xi_95)] @cite einav2005, with the
-  /// strength factor f of the point, or 1.
-  /// Backward Euler, see plastic_shear(); in a step of no time viscous material
-  /// does not flow. With K = 0 and r = 1 it is von Mises'
-  /// law without hardening.
+  ///   s_u(xi) = f s_u0 [r + (1 - r) exp(-3 xi/xi_95)] @cite einav2005,
+  /// with the strength factor f of the point, or 1. Backward Euler, see
+  /// plastic_shear(); in a step of length zero viscous material does not flow.
+  /// With K = 0 and r = 1 the law is von Mises' law without hardening.
   template <int dim>
   class HerschelBulkley : public RateLaw<dim, HerschelBulkleyFlow>
   {

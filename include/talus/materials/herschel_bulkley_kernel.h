@@ -11,16 +11,17 @@
 
 namespace talus
 {
-  /// Strength at rest, which remoulding lowers.
+  /// Strength at rest as a function of remoulding.
   struct Strength
   {
     double undisturbed;       ///< Pa
-    double remoulded_ratio;   ///< share of it that remoulding leaves
-    double strain_to_remould; ///< xi_95
+    double remoulded_ratio;   ///< remoulded over undisturbed strength [-]
+    double strain_to_remould; ///< xi_95 [-]
     double remoulded = remoulded_ratio * undisturbed;        ///< Pa
     double loss      = (1. - remoulded_ratio) * undisturbed; ///< Pa
 
-    /// At a plastic shear strain, Pa.
+    /// Strength at a plastic shear strain [-], times the factor @p share [-],
+    /// Pa.
     double
     at(const double plastic_shear, const double share) const
     {
@@ -32,15 +33,15 @@ namespace talus
 
 
 
-  /// The radial return of Herschel and Bulkley's law. The plastic variable is the
-  /// plastic shear strain.
+  /// Radial return of the law of Herschel and Bulkley. The plastic variable is
+  /// the plastic shear strain.
   struct HerschelBulkleyFlow
   {
     Strength        strength;
     ShearResistance resistance;
 
-    /// In a load step: there is time for all to flow, so that viscosity takes no
-    /// share. Remoulding follows from one load step to the next.
+    /// Return the flow in a load step: infinitely slow, so without viscous
+    /// stress. Remoulding acts with the plastic shear of previous load steps.
     template <std::size_t n, typename Number, typename Factor>
     Flow<Number>
     operator()(const std::array<Number, n> &deviator,
@@ -64,7 +65,7 @@ namespace talus
 
 
 
-  /// A step of point(s) up to what the return needs.
+  /// Trial state of point(s) before the return.
   template <int dim, typename Number, typename Modulus>
   struct ViscoplasticTrial
   {
@@ -75,12 +76,12 @@ namespace talus
     Number                       shear_stress; ///< of the trial, Pa
     Number                       old_strain;   ///< plastic shear, before
     Number                       strength;     ///< at the start of the step, Pa
-    Number                       loss; ///< part of it that remoulding takes, Pa
+    Number                       loss; ///< that remoulding can cause, Pa
   };
 
 
 
-  /// Of the points that have this factor.
+  /// Type of the trial for points with a strength factor of type @p Factor.
   template <int dim, typename Number, typename Factor>
   using ViscoplasticTrialWith =
     ViscoplasticTrial<dim,
@@ -90,6 +91,8 @@ namespace talus
 
 
 
+  /// Compute the trial state of point(s) @p p in a step of @p dt seconds, and
+  /// advance the deformation gradient.
   template <int dim, typename Number, typename Factor>
   TALUS_ALWAYS_INLINE ViscoplasticTrialWith<dim, Number, Factor>
                       viscoplastic_trial(const PointsView<dim>    &points,
@@ -125,8 +128,8 @@ namespace talus
 
 
 
-  /// The end of the step, once its plastic shear is known; false if a point was
-  /// turned inside out or the plastic shear, then NaN, was not found.
+  /// Complete the step with the solved @p plastic_shear. Returns false if a
+  /// point is inverted or if plastic_shear is NaN, not solved.
   template <int dim, typename Number, typename Modulus>
   TALUS_ALWAYS_INLINE bool
   flow(const PointsView<dim>                         &points,
@@ -159,7 +162,7 @@ namespace talus
 
 
 
-  /// The shear modulus of all trials: one number, or one for each point.
+  /// Shear modulus of all trials, Pa: one number, or one for each point.
   template <unsigned int n_parts, int dim, typename Number, typename Modulus>
   TALUS_ALWAYS_INLINE auto
   modulus_of(const ViscoplasticTrial<dim, Number, Modulus> *trial)
@@ -177,9 +180,10 @@ namespace talus
 
 
 
-  /// In explicit steps what takes the time is the iteration for the plastic
-  /// shear, whose operations wait for each other: so it is made for all registers
-  /// side by side. False also if the plastic shear of a point was not found.
+  /// Overload for explicit steps. The iteration for the plastic shear takes
+  /// most of the time, and its operations depend on each other, so several
+  /// registers are iterated side by side. Returns false also if the plastic
+  /// shear of a point is not found.
   template <int dim, typename Number, unsigned int n_parts, typename Factor>
   TALUS_ALWAYS_INLINE bool
   update_rate_law_points(const PointsView<dim>     &points,

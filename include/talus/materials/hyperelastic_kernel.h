@@ -6,7 +6,7 @@
 
 namespace talus
 {
-  /// State of deformation, written so that small strains keep all digits.
+  /// State of deformation, stored so that small strains keep all digits.
   template <int dim, typename Number>
   struct DeformationState
   {
@@ -18,7 +18,7 @@ namespace talus
 
 
 
-  /// What a hyperelastic law says, per volume of the undeformed body.
+  /// Response of a hyperelastic law, per volume of the undeformed body.
   template <int dim, typename Number>
   struct StateResponse
   {
@@ -55,8 +55,9 @@ namespace talus
 
 
 
-  /// One step of point(s) @p p of a hyperelastic law, with @p energy as in
-  /// HyperelasticLaw. False if a point was turned inside out.
+  /// Advance point(s) @p p of a hyperelastic law by one step of @p dt seconds,
+  /// with @p energy as in HyperelasticLaw. Returns false if a point is
+  /// inverted.
   template <int dim, typename Number, typename StrainEnergy>
   TALUS_ALWAYS_INLINE bool
   update_point_by_state(const PointsView<dim>    &points,
@@ -82,10 +83,9 @@ namespace talus
 
 
 
-  /// In the plane or in space: the mean of the eigenvalues of @p b and the
-  /// largest distance that one of them can have from it,
-  /// sqrt((dim-1)/dim dev b : dev b) @cite wolkowicz1980; in 2-D the
-  /// eigenvalues are mean +- distance.
+  /// Range of the eigenvalues of @p b, in the plane or in space: mean and
+  /// largest possible distance from the mean, sqrt((dim-1)/dim dev b : dev b)
+  /// @cite wolkowicz1980. In 2-D the eigenvalues are mean +- distance.
   template <int dim, typename Number>
   struct EigenvalueRange
   {

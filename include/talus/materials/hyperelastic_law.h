@@ -6,20 +6,20 @@
 
 namespace talus
 {
-  /// A law whose stress is the derivative of an energy by the deformation
-  /// gradient. All that differs from law to law is its @p StrainEnergy, a
-  /// trivially copyable structure of the numbers in its formulas, which has for
-  /// any Number
+  /// Base of laws whose stress is the derivative of an energy by the
+  /// deformation gradient. A law is given by its @p StrainEnergy, a trivially
+  /// copyable structure of the constants in its formulas, with two functions
+  /// for any Number:
   ///   StateResponse<dim, Number>
-  ///   response(const DeformationState<dim, Number> &) const,
-  /// energy and Kirchhoff stress, and
+  ///   response(const DeformationState<dim, Number> &) const
+  /// returns energy and Kirchhoff stress, and
   ///   Number
-  ///   largest_modulus(const DeformationState<dim, Number> &) const,
-  /// J M with M the largest eigenvalue of the acoustic tensor over all
-  /// directions, or an upper bound, Pa. The explicit step calls them with
+  ///   largest_modulus(const DeformationState<dim, Number> &) const
+  /// returns J M, where M is the largest eigenvalue of the acoustic tensor over
+  /// all directions, or an upper bound, Pa. The explicit step calls both for
   /// several points at once, the static stages with Dual. The functions of
-  /// this class are in hyperelastic_law.templates.h, which the law's .cc
-  /// includes.
+  /// HyperelasticLaw are in hyperelastic_law.templates.h, to be included by the
+  /// .cc file of a law.
   template <int dim, typename StrainEnergy>
   class HyperelasticLaw : public ElasticLaw<dim>
   {

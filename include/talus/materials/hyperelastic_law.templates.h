@@ -9,9 +9,9 @@
 
 namespace talus
 {
-  /// MaterialModel::linearize() for hyperelastic laws: @p response maps a
-  /// DeformationState to a StateResponse. Returns false if a point is turned
-  /// inside out.
+  /// Implement MaterialModel::linearize() for hyperelastic laws: @p response
+  /// maps a DeformationState to a StateResponse. Returns false if a point is
+  /// inverted.
   template <int dim, typename Response>
   inline bool
   linearize_by_state(const Points<dim>        &points,

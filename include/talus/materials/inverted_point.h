@@ -7,7 +7,7 @@
 namespace talus
 {
   /// Throw ExcPoint for the first point of [@p begin, @p end) whose deformation
-  /// gradient has no positive determinant.
+  /// gradient does not have a positive determinant, if any.
   template <int dim>
   void
   throw_inverted_point(const Points<dim> &points,
@@ -17,7 +17,7 @@ namespace talus
 
 
   /// Throw ExcPoint for the first point of [@p begin, @p end) whose plastic
-  /// variable, in column @p plastic, was not found.
+  /// variable, in column @p plastic, was not found, if any.
   template <int dim>
   void
   throw_unsolved_point(const Points<dim> &points,

@@ -7,12 +7,12 @@
 
 namespace talus
 {
-  /// What one step does to the neighbourhood of a point.
+  /// Deformation in the neighbourhood of a point during one step.
   template <int dim, typename Number>
   struct Motion
   {
-    /// H = dt L': displacement of the step, derived by the position at its
-    /// start.
+    /// H = dt L': gradient of the displacement of the step with respect to the
+    /// position at its start.
     Matrix<dim, Number> increment;
     /// Deformation gradient at the end of the step.
     Matrix<dim, Number> F;
@@ -25,8 +25,8 @@ namespace talus
 
 
   /// Advance the deformation gradient of point(s) @p p over @p dt seconds,
-  /// F <- (I + dt L') F, and store it. Exact for the motion that the step
-  /// makes: a point moves on a straight line from its old to its new place.
+  /// F <- (I + dt L') F, and store it. Exact for the motion in the step: each
+  /// point moves on a straight line.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Motion<dim, Number>
                       advance_deformation(const PointsView<dim>    &points,
@@ -56,7 +56,7 @@ namespace talus
 
 
 
-  /// A : B of two symmetric 3x3 tensors.
+  /// Contraction A : B of two symmetric 3x3 tensors.
   template <std::size_t n, typename Number>
   TALUS_ALWAYS_INLINE Number
   contract(const std::array<Number, n> &A, const std::array<Number, n> &B)
@@ -91,9 +91,9 @@ namespace talus
 
 
 
-  /// Half of the rotation of a step. In 2-D a symmetric tensor turns by twice
-  /// the angle of the axes, so that the cosine and sine of the whole angle
-  /// serve for the half rotation.
+  /// Half of the rotation of a step. In 2-D a symmetric tensor rotates by twice
+  /// the angle of the axes, so the half rotation is stored as cosine and sine
+  /// of the full angle.
   template <int dim, typename Number>
   struct HalfRotation
   {
@@ -108,8 +108,9 @@ namespace talus
 
 
 
-  /// Half of Hughes and Winget's rotation Q = (I - W/2)^-1 (I + W/2) for the
-  /// skew part W of @p G; its angle phi has tan(phi/2) = w/2.
+  /// Half of the rotation of Hughes and Winget in 2-D,
+  /// Q = (I - W/2)^-1 (I + W/2) for the skew part W of @p G; its angle phi has
+  /// tan(phi/2) = w/2.
   template <typename Number>
   TALUS_ALWAYS_INLINE HalfRotation<2, Number>
                       half_rotation(const Matrix<2, Number> &G)
@@ -120,8 +121,9 @@ namespace talus
 
 
 
-  /// In 3-D, with w the axial vector of W, c = cos(phi/2) and Rodrigues'
-  /// formula, r = I + c W/2 + c^2 W^2 / (4 (1 + c)) and Q = r r.
+  /// Half of the rotation of Hughes and Winget in 3-D. With the axial vector w
+  /// of W, c = cos(phi/2) and Rodrigues' formula,
+  ///   r = I + c W/2 + c^2 W^2 / (4 (1 + c)), Q = r r.
   template <typename Number>
   TALUS_ALWAYS_INLINE HalfRotation<3, Number>
                       half_rotation(const Matrix<3, Number> &G)
@@ -144,7 +146,7 @@ namespace talus
 
 
 
-  /// The symmetric tensor @p A turned by @p half.
+  /// Rotate the symmetric tensor @p A by @p half.
   template <typename Number>
   TALUS_ALWAYS_INLINE Stress<2, Number>
   turn(const HalfRotation<2, Number> &half, const Stress<2, Number> &A)
@@ -175,7 +177,7 @@ namespace talus
 
 
 
-  /// Strain of one step as the rate laws take it.
+  /// Strain of one step for the rate laws.
   template <int dim, typename Number>
   struct StrainIncrement
   {
@@ -189,8 +191,8 @@ namespace talus
 
 
 
-  /// What mid-step sees of the displacement of a step: its gradient G by the
-  /// position there, and half of the rotation by skew G.
+  /// Displacement of a step seen from mid-step: gradient G with respect to the
+  /// position at mid-step, and half of the rotation by skew G.
   template <int dim, typename Number>
   struct MidStep
   {
@@ -200,9 +202,10 @@ namespace talus
 
 
 
-  /// G = H (I + H/2)^-1. In 2-D that is (H + (det H)/2 I)/D, D = det (I + H/2),
-  /// and the half rotation of half_rotation(), t = w/(4 D), w the difference of
-  /// the shears, takes the same division.
+  /// Compute G = H (I + H/2)^-1 and half of the rotation. In 2-D
+  ///   G = (H + (det H)/2 I)/D, D = det(I + H/2);
+  /// with the difference w of the shears, the half rotation of half_rotation(),
+  /// t = w/(4 D), shares the division.
   template <typename Number>
   TALUS_ALWAYS_INLINE MidStep<2, Number>
                       mid_step(const Matrix<2, Number> &H)
@@ -241,10 +244,10 @@ namespace talus
 
 
 
-  /// Split the motion of a step into strain and rotation. G is the displacement
-  /// of the step derived by the position at mid-step: free of strain if the
-  /// motion is a rotation, however large @cite hughes1980. The trace of G
-  /// approximates ln det(I + H) to third order only and is not used: pressure
+  /// Split the motion of a step into strain and rotation. G, the gradient of
+  /// the displacement with respect to the position at mid-step, is free of
+  /// strain for rotations of any size @cite hughes1980. The trace of G
+  /// approximates ln det(I + H) only to third order and is not used: pressure
   /// and volume would drift apart.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE StrainIncrement<dim, Number>

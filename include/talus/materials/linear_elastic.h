@@ -7,7 +7,7 @@
 namespace talus
 {
   /// "linear elastic": Hooke's law between the Jaumann rate of the Cauchy
-  /// stress and the rate of deformation. For small strains; in simple shear its
+  /// stress and the rate of deformation. For small strains: in simple shear the
   /// stress is G sin(gamma), and only the volumetric part has an energy. See
   /// elastic_trial() for the integration.
   template <int dim>

@@ -6,13 +6,14 @@
 #include <talus/materials/kinematics_kernel.h>
 #include <talus/materials/material_model.h>
 
-// One step of a quasi-static load with the same formulas as one of the
-// dynamics, and their derivative: what a law says to the search for equilibrium.
+// One step of a quasi-static load with the formulas of a dynamic step, and the
+// derivatives of the formulas: the interface of laws to the search for
+// equilibrium.
 
 namespace talus
 {
-  /// Displacement gradient H of the step with its derivatives by itself, at the
-  /// point @p p.
+  /// Displacement gradient H of the step at point @p p, with its derivatives by
+  /// itself.
   template <int dim>
   inline Matrix<dim, Dual<dim * dim>>
   load_independent_gradient(const WorkspaceView<dim> &workspace,
@@ -42,7 +43,7 @@ namespace talus
 
 
 
-  /// Strain of a step whose displacement is infinitesimal.
+  /// Strain of a step with infinitesimal displacement.
   template <int dim, typename Number>
   inline StrainIncrement<dim, Number>
   small_strain_increment(const Matrix<dim, Number> &H)
@@ -74,9 +75,9 @@ namespace talus
 
 
 
-  /// Write a stress and its derivative to @p linearization as those of the first
-  /// Piola-Kirchhoff stress seen from the start of the step: @p kirchhoff is
-  /// det(I + H) times the Cauchy stress.
+  /// Store the first Piola-Kirchhoff stress, seen from the start of the step,
+  /// and its derivative in @p linearization. @p kirchhoff is det(I + H) times
+  /// the Cauchy stress, Pa.
   template <int dim>
   inline void
   store_nominal(const Stress<dim, Dual<dim * dim>> &kirchhoff,

@@ -16,43 +16,43 @@
 
 namespace talus
 {
-  /// What is taken as the strain of a quasi-static load step.
+  /// Strain measure of a quasi-static load step.
   enum class StrainMeasure
   {
-    small, ///< symmetric part of the displacement gradient; soil stays in place
-    large  ///< that of the dynamics; soil, volumes and boxes follow
+    small, ///< symmetric displacement gradient; soil stays in place
+    large  ///< strain of the dynamics; soil, volumes and boxes move
   };
 
 
 
-  /// The stress at the end of a quasi-static load step and its derivative.
+  /// Stress at the end of a quasi-static load step, and its derivative.
   template <int dim>
   struct StressTangent
   {
     /// First Piola-Kirchhoff stress seen from the start of the step, row by
-    /// row, Pa; with small strain the Cauchy stress.
+    /// row, Pa; at small strain the Cauchy stress.
     std::array<double, dim * dim> stress;
-    /// Its derivative by the displacement gradient H of the step, Pa.
+    /// Derivative of the stress by the displacement gradient H of the step, Pa.
     std::array<std::array<double, dim * dim>, dim * dim> tangent;
   };
 
 
 
-  /// A constitutive law with the parameters of one material. Laws work on
-  /// batches of points, [begin, end) in the sorted order; they see points and
-  /// never a weight or a node.
+  /// Constitutive law with the parameters of one material. Laws work on batches
+  /// of points, [begin, end) in the sorted order, and know nothing of weights
+  /// and nodes.
   template <int dim>
   class MaterialModel : public dealii::ParameterAcceptor
   {
   public:
-    /// @p section is the material's section in the parameter file, for example
-    /// "/Materials/clay".
+    /// Declare the common parameters of a material in @p section of the
+    /// parameter file, for example "/Materials/clay".
     MaterialModel(const std::string &section);
 
     virtual ~MaterialModel() = default;
 
     /// Throw ExcUser, naming the section, if parameters contradict each other.
-    /// Called once, after parsing. Laws that override it call this one.
+    /// Called once, after parsing. Overrides must call the base version.
     virtual void
     check() const;
 
@@ -61,16 +61,15 @@ namespace talus
     add_columns(Points<dim> & /*points*/)
     {}
 
-    /// Set reference state dependent columns of newly made points: the
-    /// strength factor, to 1, if there is one. Laws that override it call this
-    /// one.
+    /// Set the columns of new points that describe the reference state: the
+    /// strength factor, if used, to 1. Overrides must call the base version.
     virtual void
     initialize(Points<dim> &points, unsigned int begin, unsigned int end) const;
 
-    /// The same as has_strength(), for those who have no object.
+    /// Static version of has_strength().
     static constexpr bool is_plastic = false;
 
-    /// True if the law has a strength, that is a yield stress.
+    /// Return whether the law has a strength, that is a yield stress.
     virtual bool
     has_strength() const
     {
@@ -78,20 +77,21 @@ namespace talus
     }
 
     /// Largest shear stress sqrt(s:s/2) that point @p p bears without viscosity
-    /// in its present state, its strength factor included, Pa; infinite for
-    /// laws without strength.
+    /// in its current state, strength factor included, Pa; infinite without
+    /// strength.
     virtual double
     shear_strength(const Points<dim> &points, unsigned int p) const;
 
-    /// The strength of undisturbed soil as the user gave it, if the law has one.
+    /// Strength of undisturbed soil as given by the user; null without
+    /// strength.
     virtual const UndrainedStrength *
     undrained_strength() const
     {
       return nullptr;
     }
 
-    /// True if the strength is another one at each point: then the law has the
-    /// column `undrained shear strength`, which whoever makes points must set.
+    /// Return whether the strength differs from point to point. The law then
+    /// has the column `undrained shear strength`, to be set for new points.
     bool
     has_strength_column() const
     {
@@ -99,15 +99,15 @@ namespace talus
       return strength != nullptr && !strength->is_number();
     }
 
-    /// Throw ExcUser if the law cannot have undrained shear strengths in this
+    /// Throw ExcUser if the law does not allow undrained shear strengths in the
     /// range.
     virtual void
     check_strength(const StrengthRange & /*range*/) const
     {}
 
-    /// What the strength may be multiplied by at most [-]: with more of it soil
-    /// that softens would do so faster than it can unload elastically. Infinite
-    /// for laws that do not soften. @p range of the strengths counts if
+    /// Largest allowed strength factor [-]: stronger softening soil would
+    /// soften faster than it can unload elastically. Infinite without
+    /// softening. @p range, the range of strengths, is used only if
     /// has_strength_column().
     virtual double
     largest_strength_factor(const StrengthRange & /*range*/ = {1., 1.}) const
@@ -115,11 +115,11 @@ namespace talus
       return std::numeric_limits<double>::infinity();
     }
 
-    /// From now on multiply the whole strength (not viscosity) of each point by
-    /// its value in @p column [-], from 0 to largest_strength_factor(); laws
-    /// without strength ignore it. It may change at any time: a stress that
-    /// is then outside the yield surface is returned in the next step, and what
-    /// elastic energy this releases is plastic work.
+    /// Multiply the whole strength (not viscosity) of each point from now on by
+    /// the value in @p column [-], between 0 and largest_strength_factor();
+    /// ignored by laws without strength. The factor may change at any time: a
+    /// stress then outside the yield surface is returned in the next step, and
+    /// the elastic energy released becomes plastic work.
     void
     use_strength_factor(const unsigned int column)
     {
@@ -127,11 +127,10 @@ namespace talus
     }
 
     /// Advance deformation gradient, stress, elastic energy, plastic work and
-    /// internal variables over one step of @p dt seconds with the velocity
-    /// gradient in the workspace. Throws ExcPoint if a point is turned
-    /// inside out. With @p dt = 0 and any finite velocity gradient, a
-    /// hyperelastic law sets stress and energy to those of the deformation
-    /// gradient.
+    /// internal variables of the points [begin, end) over one step of @p dt
+    /// seconds with the velocity gradient in the workspace. Throws ExcPoint if
+    /// a point is inverted. With @p dt = 0 and any finite velocity gradient, a
+    /// hyperelastic law sets stress and energy from the deformation gradient.
     virtual void
     update_stress(Points<dim>              &points,
                   const StepWorkspace<dim> &workspace,
@@ -139,14 +138,13 @@ namespace talus
                   unsigned int              end,
                   double                    dt) const = 0;
 
-    // For the search for equilibrium. The workspace holds the displacement
-    // gradient of a load step in the place of the velocity gradient. Laws whose stress
-    // depends on the rate take the slowest one.
+    // For the search for equilibrium, the workspace holds the displacement
+    // gradient of a load step in place of the velocity gradient. Laws with a
+    // rate-dependent stress take the limit of zero rate.
 
-    /// Stress of the points at the end of the load step and its derivative,
-    /// written to
-    /// linearization[p - begin]; the points stay as they are. Returns false
-    /// if a point would be turned inside out.
+    /// Compute the stress of the points [begin, end) at the end of the load
+    /// step and its derivative, stored in linearization[p - begin]; points do
+    /// not change. Returns false if a point would be inverted.
     virtual bool
     linearize(const Points<dim>        &points,
               const StepWorkspace<dim> &workspace,
@@ -155,8 +153,9 @@ namespace talus
               StrainMeasure             measure,
               StressTangent<dim>       *linearization) const = 0;
 
-    /// Make the end of the load step the state of the points: as
-    /// update_stress(); with small strain the deformation gradient stays.
+    /// Advance the points [begin, end) to the end of the load step, as
+    /// update_stress(); at small strain the deformation gradient does not
+    /// change.
     virtual void
     commit_load_step(Points<dim>              &points,
                      const StepWorkspace<dim> &workspace,
@@ -168,7 +167,7 @@ namespace talus
     virtual double
     shear_modulus() const = 0;
 
-    /// The largest of that at the points [begin, end), Pa.
+    /// Largest shear modulus at the points [begin, end), Pa.
     virtual double
     largest_shear_modulus(const Points<dim> & /*points*/,
                           unsigned int /*begin*/,
@@ -177,8 +176,9 @@ namespace talus
       return shear_modulus();
     }
 
-    /// Modulus M = rho c^2 of the fastest wave at each point of the batch, c its
-    /// speed and rho the present density, Pa; written to modulus[p - begin].
+    /// Compute the modulus M = rho c^2 of the fastest wave at the points
+    /// [begin, end), Pa, with wave speed c and current density rho; stored in
+    /// modulus[p - begin].
     virtual void
     wave_modulus(const Points<dim> &points,
                  unsigned int       begin,
@@ -189,37 +189,36 @@ namespace talus
     double
     wave_speed(const Points<dim> &points, unsigned int p) const;
 
-    /// True if the stress is a function of the deformation gradient, so that an
-    /// initial stress cannot be prescribed.
+    /// Return whether the stress is a function of the deformation gradient, so
+    /// that no initial stress can be prescribed.
     virtual bool
     is_hyperelastic() const = 0;
 
-    /// True if cells would lock, so that B-bar should be on unless the user
-    /// decides.
+    /// Return whether cells would lock, so that B-bar is on by default.
     virtual bool
     is_nearly_incompressible() const = 0;
 
-    /// What the user should know of the material on cells of @p cell_size
-    /// metres before the run starts: whole sentences, or nothing.
+    /// Remarks to the user on the material in cells of @p cell_size, m, before
+    /// the run starts: whole sentences, or empty.
     virtual std::string
     note(double /*cell_size*/) const
     {
       return "";
     }
 
-    /// True if B-bar, the mean over cells against locking, is on: the parameter
-    /// `Cell mean`, or is_nearly_incompressible().
+    /// Return whether B-bar, the cell mean against locking, is on, by the
+    /// parameter `Cell mean` or is_nearly_incompressible().
     bool
     uses_bbar() const;
 
-    /// Density that gives inertia, kg/m^3.
+    /// Density for inertia, kg/m^3.
     double
     density() const
     {
       return density_;
     }
 
-    /// Density that gives weight, kg/m^3; equal to density() unless set.
+    /// Density for weight, kg/m^3; equal to density() by default.
     double
     submerged_density() const;
 
@@ -237,7 +236,7 @@ namespace talus
       return strength_factor_;
     }
 
-    /// Strength factor of point @p p; 1 if there is none.
+    /// Strength factor of point @p p [-]; 1 if not used.
     double
     strength_factor(const Points<dim> &points, const unsigned int p) const
     {
@@ -249,25 +248,26 @@ namespace talus
   private:
     std::string section_;
     double      density_ = 1000.;
-    // One number, or none where the user gave nothing.
+    // One number, or empty if not given.
     std::vector<double> submerged_density_;
     std::string         bbar_     = "auto";
     unsigned int strength_factor_ = dealii::numbers::invalid_unsigned_int;
   };
 
-  /// The laws by the name used in the parameter file, in the order listed.
+  /// Names of all laws as used in the parameter file, in the order of
+  /// registration.
   template <int dim>
   std::vector<std::string>
   material_names();
 
-  /// Of those, the laws that have a strength, as the end of a sentence asks for
-  /// them: "'von Mises' or 'Bingham'".
+  /// Names of the laws with strength, formatted for the end of a sentence:
+  /// "'von Mises' or 'Bingham'".
   template <int dim>
   std::string
   names_of_laws_with_strength();
 
   /// Make the law @p name with its parameters declared in @p section. Throws
-  /// ExcUser, listing the known laws, if there is none of that name.
+  /// ExcUser, listing the known laws, if the name is unknown.
   template <int dim>
   std::unique_ptr<MaterialModel<dim>>
   make_material(const std::string &name, const std::string &section);

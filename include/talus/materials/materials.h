@@ -22,12 +22,12 @@ namespace talus
   class Materials : public dealii::ParameterAcceptor
   {
   public:
-    /// One material for each entry, with its parameters in /Materials/name.
+    /// Make one material for each entry, with its parameters in
+    /// /Materials/name.
     explicit Materials(const std::vector<MaterialName> &names);
 
-    /// Check all parameters and note which material each body is made of.
-    /// Throws ExcUser if there is none of that name; @p names_of_bodies are
-    /// named in the message.
+    /// Check all parameters and assign a material to each body. Throws ExcUser,
+    /// naming the body, if its material does not exist.
     void
     assign(const std::vector<std::string> &names_of_bodies,
            const std::vector<std::string> &materials_of_bodies);
@@ -38,20 +38,20 @@ namespace talus
       return *models_[material_of_body_[body]];
     }
 
-    /// The notes of all materials that bodies are made of, see
-    /// MaterialModel::note(). @p cell_size in m.
+    /// Remarks on all materials used by bodies, see MaterialModel::note().
+    /// @p cell_size in m.
     std::vector<std::string>
     notes(double cell_size) const;
 
     /// Declare the internal variables of all laws and, if
-    /// @p with_strength_factor, the column that multiplies the strength of each
-    /// point. It costs memory and time in each step, so only those who change
-    /// it ask for it.
+    /// @p with_strength_factor, the column of factors of the strength. The
+    /// factor costs memory and time in each step, so request it only if it
+    /// changes.
     void
     add_columns(Points<dim> &points, bool with_strength_factor = false);
 
-    /// The column `strength factor` [-], 1 at the start, for those laws that
-    /// have a strength; invalid_unsigned_int if there is none. See
+    /// Column `strength factor` [-], initially 1, used by laws with strength;
+    /// invalid_unsigned_int if not declared. See
     /// MaterialModel::use_strength_factor().
     unsigned int
     strength_factor() const
@@ -59,36 +59,40 @@ namespace talus
       return strength_factor_;
     }
 
-    /// Column `undrained shear strength`, Pa, of soil that has another one at
-    /// each point; invalid_unsigned_int if no material does. Whoever makes
-    /// points sets it.
+    /// Column `undrained shear strength`, Pa, for strength that differs from
+    /// point to point; invalid_unsigned_int if no material uses it. To be set
+    /// for new points.
     unsigned int
     undrained_strength() const
     {
       return undrained_strength_;
     }
 
-    /// Least and largest value of that column in the soil of @p body; {1, 1} if
-    /// its material has none. Collective.
+    /// Range of undrained_strength() in the soil of @p body, Pa; {1, 1} if the
+    /// material does not use the column. Collective.
     StrengthRange
     strength_range(const Points<dim> &points,
                    unsigned int       body,
                    MPI_Comm           communicator) const;
 
-    /// Least MaterialModel::largest_strength_factor() of those that bodies are
-    /// made of. Collective.
+    /// Smallest MaterialModel::largest_strength_factor() of the materials used
+    /// by bodies [-]. Collective.
     double
     largest_strength_factor(const Points<dim> &points,
                             MPI_Comm           communicator) const;
 
-    /// Advance deformation and stress of the points, whose workspace it is.
+    /// Advance deformation and stress of a batch of points over @p dt seconds.
+    /// @param points Points of this rank.
+    /// @param workspace Velocity gradients of the batch.
+    /// @param batch Points to advance.
+    /// @param dt Time step, s.
     void
     update_stress(Points<dim>              &points,
                   const StepWorkspace<dim> &workspace,
                   const Batch              &batch,
                   double                    dt) const;
 
-    /// Call action(model, begin, end) for each run of points of the same
+    /// Call action(model, begin, end) for each range of points of the same
     /// material.
     template <typename Action>
     void

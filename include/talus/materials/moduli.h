@@ -5,7 +5,7 @@
 namespace talus
 {
   /// Elastic constants of an isotropic material, Pa; of several points at once
-  /// where they differ from place to place.
+  /// if they differ from point to point.
   template <typename Number>
   struct ModuliOf
   {
@@ -13,7 +13,7 @@ namespace talus
     Number mu;     ///< shear modulus
     Number bulk;   ///< bulk modulus
 
-    /// Of a longitudinal wave.
+    /// Modulus of longitudinal waves.
     Number
     longitudinal() const
     {

@@ -22,8 +22,7 @@ namespace talus
         result.kirchhoff[c] = moduli.mu * state.b_minus_1[c];
       result.kirchhoff = add_mean(result.kirchhoff, pressure);
 
-      // tr b - 3 = 2 tr A + A:A, which leaves nothing to cancel but
-      // tr A - ln J.
+      // By tr b - 3 = 2 tr A + A:A, only tr A - ln J involves a cancellation.
       Number square{};
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = 0; j < dim; ++j)
@@ -34,11 +33,11 @@ namespace talus
       return result;
     }
 
-    /// J times the largest eigenvalue of the acoustic tensor. In direction n it
-    /// is [(lambda (1 - ln J) + mu) n n + mu (n.b.n) I]/J, so the longitudinal
-    /// wave along the largest stretch is the fastest; far in tension the first
-    /// factor turns negative and the shear wave is. Exact in 2-D, from above in
-    /// 3-D (EigenvalueRange).
+    /// J times the largest eigenvalue of the acoustic tensor, Pa. In direction
+    /// n the tensor is [(lambda (1 - ln J) + mu) n n + mu (n.b.n) I]/J, so the
+    /// longitudinal wave along the largest stretch is the fastest; in strong
+    /// tension the first factor turns negative, and the shear wave is the
+    /// fastest. Exact in 2-D, an upper bound in 3-D (EigenvalueRange).
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE Number
     largest_modulus(const DeformationState<dim, Number> &state) const

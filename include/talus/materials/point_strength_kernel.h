@@ -9,15 +9,14 @@
 
 namespace talus
 {
-  /// What takes the place of the strength factor where soil has another strength
-  /// at each point: there flow rules and moduli are those of material with a
-  /// strength of 1 Pa.
+  /// Strength factor for soil whose strength differs from point to point. Flow
+  /// rules and moduli then belong to material with a strength of 1 Pa.
   template <typename Number>
   struct PointStrength
   {
     Number factor;    ///< strength factor [-]
-    Number strength;  ///< of the point over that of the flow rule [-]
-    Number stiffness; ///< the same of the moduli [-]
+    Number strength;  ///< of the point over the strength of the flow rule [-]
+    Number stiffness; ///< moduli of the point over the moduli of the law [-]
   };
 
   template <typename T>
@@ -30,8 +29,8 @@ namespace talus
 
 
 
-  /// What the flow rule's strength is multiplied with, given what
-  /// with_strength_factor() gives.
+  /// Multiplier of the strength in the flow rule [-]; @p factor is given by
+  /// with_strength_factor() or with_point_strength().
   template <typename Factor>
   TALUS_ALWAYS_INLINE auto
   share_of_strength(const Factor &factor)
@@ -44,8 +43,8 @@ namespace talus
 
 
 
-  /// What the user gave in Pa, but is a part of the strength, is multiplied
-  /// with.
+  /// Multiplier [-] of further strengths given by one number in Pa, such as the
+  /// residual strength.
   template <typename Factor>
   TALUS_ALWAYS_INLINE auto
   share_of_given_strength(const Factor &factor)
@@ -58,7 +57,7 @@ namespace talus
 
 
 
-  /// The modulus of a point.
+  /// Modulus of a point, Pa.
   template <typename Factor>
   TALUS_ALWAYS_INLINE auto
   modulus_of_point(const double modulus, [[maybe_unused]] const Factor &factor)

@@ -11,34 +11,35 @@ namespace talus
   struct NoFlow;
   struct StrengthColumns;
 
-  /// A law in rate form: Hooke's law between the Jaumann rate of the Cauchy
-  /// stress and the rate of deformation, see elastic_trial(), and then plastic
-  /// flow at constant volume along the deviator, see return_radially(). All
-  /// that differs from law to law is its @p FlowRule, a trivially copyable
-  /// structure of the numbers in its formula:
+  /// Base of laws in rate form: Hooke's law between the Jaumann rate of the
+  /// Cauchy stress and the rate of deformation, see elastic_trial(), followed
+  /// by plastic flow at constant volume along the deviator, see
+  /// return_radially(). A law is given by its @p FlowRule, a trivially copyable
+  /// structure of the constants in its formula, with
   ///   Flow<Number>
   ///   operator()(const std::array<Number, n> &deviator,
   ///              const Variable              &plastic,
   ///              const Factor                &strength_factor) const,
-  /// with the trial deviator, Pa, the plastic variable before the step and the
-  /// strength factor. The explicit step calls it with Number and Variable
-  /// several points at once and Factor the same or NoStrengthFactor, the static
-  /// stages with Dual or double and the others double. NoFlow if the law is
-  /// elastic. A rule that iterates may overload update_rate_law_points(). The
-  /// functions of this class are in rate_law.templates.h, which the law's .cc
-  /// includes.
+  /// for the trial deviator, Pa, the plastic variable before the step and the
+  /// strength factor. In the explicit step Number and Variable hold several
+  /// points at once, Factor too unless it is NoStrengthFactor; in static stages
+  /// Number is Dual or double, Variable and Factor are double. NoFlow is for
+  /// elastic laws. An iterative rule may overload update_rate_law_points(). The
+  /// functions of RateLaw are in rate_law.templates.h, to be included by the
+  /// .cc file of a law.
   template <int dim, typename FlowRule>
   class RateLaw : public ElasticLaw<dim>
   {
   public:
     static constexpr bool is_plastic = !std::is_same_v<FlowRule, NoFlow>;
 
-    /// @p plastic_variable is the name of the column of the internal variable
-    /// [-]; elastic laws have none.
+    /// Construct the law. @p plastic_variable is the name of the column of the
+    /// internal variable [-]; empty for elastic laws.
     RateLaw(const std::string &section,
             const std::string &plastic_variable = "");
 
-    /// Throws ExcUser if a number of the strength is negative, too.
+    /// Throw ExcUser also if the strength is negative or, with a stiffness
+    /// ratio, zero.
     void
     check() const override;
 
@@ -90,7 +91,8 @@ namespace talus
       return false;
     }
 
-    /// Plastic flow keeps the volume whatever Poisson's ratio is.
+    /// Return true for plastic laws: flow keeps the volume for any Poisson's
+    /// ratio.
     bool
     is_nearly_incompressible() const override
     {
@@ -104,19 +106,19 @@ namespace talus
     }
 
   protected:
-    /// The entries that say how strong undisturbed soil is, @p sentence that of
-    /// the strength.
+    /// Declare the parameters of the strength of undisturbed soil; @p sentence
+    /// documents the strength.
     void
     declare_strength(const std::string &sentence);
 
-    /// The strength of undisturbed soil, Pa; 1 Pa if it stands in a column.
+    /// Strength of undisturbed soil, Pa; 1 Pa if given by a column.
     double
     strength() const
     {
       return strength_.of_flow_rule();
     }
 
-    /// That of point @p p, Pa.
+    /// Strength of undisturbed soil at point @p p, Pa.
     double
     strength(const Points<dim> &points, const unsigned int p) const
     {
@@ -124,15 +126,15 @@ namespace talus
                                          : strength();
     }
 
-    /// True if moduli are in proportion to the strength of each point; those of
-    /// moduli() then belong to a strength of 1 Pa.
+    /// Return whether moduli are proportional to the strength of each point;
+    /// moduli() then belongs to a strength of 1 Pa.
     bool
     has_moduli_of_points() const
     {
       return this->has_strength_column() && !stiffness_ratio_.empty();
     }
 
-    /// From the ratio E/s_u if that is given.
+    /// Young's modulus, Pa, from the ratio E/s_u if given.
     double
     young_modulus() const override
     {
@@ -140,7 +142,7 @@ namespace talus
                                       : stiffness_ratio_.front() * strength();
     }
 
-    /// The plastic variable of point @p p; 0 if there is none.
+    /// Plastic variable of point @p p [-]; 0 for elastic laws.
     double
     plastic_variable(const Points<dim> &points, const unsigned int p) const
     {
@@ -148,8 +150,8 @@ namespace talus
     }
 
   private:
-    /// That of a step of @p dt seconds; of a load step, which is infinitely
-    /// slow, dt is infinite.
+    /// Flow rule for a step of @p dt seconds; infinite for load steps, which
+    /// are infinitely slow.
     virtual FlowRule
     flow_rule(double dt) const = 0;
 
@@ -164,7 +166,7 @@ namespace talus
     unsigned int      plastic_variable_ = dealii::numbers::invalid_unsigned_int;
     unsigned int      strength_column_  = dealii::numbers::invalid_unsigned_int;
     UndrainedStrength strength_{"2500"};
-    // One number, or none where the user gave nothing.
+    // One number, or empty if not given.
     std::vector<double> stiffness_ratio_;
   };
 } // namespace talus

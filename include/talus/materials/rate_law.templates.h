@@ -14,9 +14,9 @@
 
 namespace talus
 {
-  /// MaterialModel::linearize() for laws in rate form: @p moduli_at maps a
-  /// point to its moduli, @p flow a point and its trial deviator to a Flow.
-  /// Returns false if a point is turned inside out.
+  /// Implement MaterialModel::linearize() for laws in rate form: @p moduli_at
+  /// maps a point to its moduli, @p flow a point and its trial deviator to a
+  /// Flow. Returns false if a point is inverted.
   template <int dim, typename ModuliAt, typename FlowRule>
   inline bool
   linearize_rate_law(const Points<dim>        &points,
@@ -58,8 +58,8 @@ namespace talus
 
 
 
-  /// MaterialModel::commit_load_step() for laws in rate form. @p plastic is the
-  /// column of the plastic variable, or invalid_unsigned_int.
+  /// Implement MaterialModel::commit_load_step() for laws in rate form.
+  /// @p plastic is the column of the plastic variable, or invalid_unsigned_int.
   template <int dim, typename ModuliAt, typename FlowRule>
   inline void
   commit_rate_law(Points<dim>              &points,
@@ -139,8 +139,9 @@ namespace talus
                              ": `Undrained shear strength` is ",
                              strength(),
                              " Pa. Give a positive number",
-                             needs_strength ? ", which the stiffness follows."
-                                            : ", or 0.")));
+                             needs_strength
+                               ? "; the stiffness is proportional to it."
+                               : ", or 0.")));
   }
 
 
@@ -158,14 +159,14 @@ namespace talus
         " A number, an expression in x, y (, z) and the depth below the "
         "mudline, as 2000 + 1500*depth, or 'table FILE': a CSV file with the "
         "columns 'depth [m]' and 'undrained shear strength [Pa]'. Place and "
-        "depth [m] are those at the start, without initial displacement; the "
+        "depth [m] are taken at the start, without initial displacement; the "
         "strength moves with the soil.");
     this->add_parameter(
       "Stiffness ratio",
       stiffness_ratio_,
       "Young's modulus over the undrained shear strength of undisturbed soil, "
-      "E/s_u [-], at each point; in the place of `Young's modulus`. Empty: "
-      "that.",
+      "E/s_u [-], at each point; replaces `Young's modulus`. Empty: `Young's "
+      "modulus` is used.",
       ParameterAcceptor::prm,
       Patterns::List(Patterns::Double(1e-12), 0, 1));
   }
@@ -229,7 +230,7 @@ namespace talus
 
 
 
-  /// Maps a point to its moduli.
+  /// Return a function that maps a point to its moduli.
   template <int dim, typename FlowRule>
   auto
   RateLaw<dim, FlowRule>::moduli_in_load_step(const Points<dim> &points) const
@@ -245,7 +246,8 @@ namespace talus
 
 
 
-  /// Maps a point and its trial deviator to what flows in a load step.
+  /// Return a function that maps a point and its trial deviator to the flow in
+  /// a load step.
   template <int dim, typename FlowRule>
   auto
   RateLaw<dim, FlowRule>::flow_in_load_step(const Points<dim> &points) const

@@ -9,17 +9,17 @@
 
 namespace talus
 {
-  /// What plastic flow does to the trial deviator.
+  /// Effect of plastic flow on the trial state.
   template <typename Number>
   struct Flow
   {
-    Number removed;   ///< share of the deviator that goes
-    Number increment; ///< of the law's plastic variable
+    Number removed;   ///< fraction of the trial deviator removed [-]
+    Number increment; ///< of the plastic variable [-]
   };
 
 
 
-  /// The flow rule of elastic material.
+  /// Flow rule of elastic material.
   struct NoFlow
   {
     template <std::size_t n, typename Number>
@@ -34,7 +34,8 @@ namespace talus
 
 
 
-  /// The elastic end of a step: stores the stress and books its work.
+  /// Complete an elastic step: store the stress and record the work as elastic
+  /// energy.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE void
   keep_elastic(const PointsView<dim>              &points,
@@ -57,10 +58,9 @@ namespace talus
 
 
 
-  /// Radial return, once the plastic strain of the step is known: the part
-  /// @p removed of the trial deviator goes, which is 2 mu times the plastic
-  /// strain. Stores the stress and books the work of the step as plastic and
-  /// elastic.
+  /// Complete a plastic step by radial return: remove the fraction @p removed
+  /// of the trial deviator, which is 2 mu times the plastic strain. Stores the
+  /// stress and records the work of the step as plastic and elastic.
   template <int dim, typename Number, typename Modulus>
   TALUS_ALWAYS_INLINE void
   return_radially(const PointsView<dim>              &points,
@@ -92,17 +92,23 @@ namespace talus
 
 
 
-  /// How many registers of points a flow rule is to be computed for side by side:
-  /// one, unless it iterates.
+  /// Number of registers of points processed side by side by a flow rule: 1
+  /// unless the rule iterates.
   template <typename FlowRule>
   constexpr unsigned int n_registers_at_once = 1;
 
 
 
-  /// One step of the points that follow @p p, in @p n registers, of a law in rate
-  /// form: @p flow_rule as in RateLaw, @p plastic the column of its plastic
-  /// variable, @p factor as in with_strength_factor(). False if a point was
-  /// turned inside out.
+  /// Advance the points from @p p on, in @p n registers, by one step of a law
+  /// in rate form. Returns false if a point is inverted.
+  /// @param points Columns of the points.
+  /// @param workspace Velocity gradients.
+  /// @param p First point.
+  /// @param plastic Column of the plastic variable.
+  /// @param dt Time step, s.
+  /// @param moduli Elastic constants, Pa.
+  /// @param flow_rule Flow rule, as in RateLaw.
+  /// @param factor Function as in with_strength_factor().
   template <int dim,
             typename Number,
             unsigned int n,

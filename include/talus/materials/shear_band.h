@@ -6,20 +6,20 @@
 
 namespace talus
 {
-  /// How a material without a length of its own softens in simple shear.
+  /// Softening in simple shear of a material without a length scale.
   struct Softening
   {
     std::string section;       ///< of the material in the parameter file
-    double      strain;        ///< plastic shear strain to lose `share`
-    double      work;          ///< above the strength that remains, J/m^3
+    double      strain;        ///< plastic shear strain to lose `share_of_loss`
+    double      work;          ///< above the remaining strength, J/m^3
     std::string share_of_loss; ///< "all", or for example "95 %"
   };
 
-  /// A shear band of softening material settles in about one row of cells, so
-  /// that displacement and work to soften it are proportional to @p cell_size
-  /// (m). Sentences with both numbers on these cells and on cells of half the
-  /// size; @p advice is what the user can do, the end of a sentence that starts
-  /// with "When you change the cell size, ".
+  /// Return a remark on the cell size. A shear band of softening material
+  /// localises in about one row of cells, so displacement and work of softening
+  /// are proportional to the cell size. The remark gives both numbers for
+  /// @p cell_size, m, and for half of @p cell_size. @p advice ends the sentence
+  /// "When you change the cell size, ...".
   std::string
   shear_band_note(const Softening   &softening,
                   double             cell_size,

@@ -8,7 +8,7 @@
 
 namespace talus
 {
-  /// The strength factor of points that have none: 1, at no cost.
+  /// Strength factor 1 of points without the column, at no cost.
   struct NoStrengthFactor
   {};
 
@@ -21,18 +21,18 @@ namespace talus
 
 
 
-  /// factor(p, number) for points that have none.
+  /// Function factor(p, number) for points without the column.
   constexpr auto no_strength_factor = [](unsigned int, auto) {
     return NoStrengthFactor{};
   };
 
 
 
-  /// Call action(factor) once, where factor(p, number) is what the strength of
-  /// point(s) @p p is multiplied with [-]: the value in @p column, or
-  /// NoStrengthFactor if that is invalid_unsigned_int. So the loop over points
-  /// in @p action is compiled for both, and pays for the column only where
-  /// there is one.
+  /// Call action(factor) once with a function factor(p, number), which returns
+  /// the strength factor of point(s) @p p [-]: the value in @p column, or
+  /// NoStrengthFactor if @p column is invalid_unsigned_int. The loop over
+  /// points in @p action is compiled for both types, so points without the
+  /// column pay nothing.
   template <int dim, typename Action>
   inline void
   with_strength_factor(const Points<dim> &points,
@@ -49,20 +49,20 @@ namespace talus
 
 
 
-  /// Columns that say what is different from point to point, and how.
+  /// Columns of strength and stiffness by point.
   struct StrengthColumns
   {
     unsigned int factor; ///< strength factor, or invalid_unsigned_int
-    /// Undrained shear strength, Pa, or invalid_unsigned_int; if not, there is
-    /// a strength factor, too.
+    /// Undrained shear strength, Pa, or invalid_unsigned_int; requires the
+    /// column of the strength factor.
     unsigned int strength;
-    bool         stiffness_follows; ///< moduli are in proportion to it
+    bool         stiffness_follows; ///< moduli are proportional to the strength
   };
 
 
 
-  /// The same with a PointStrength where the soil has another strength at each
-  /// point.
+  /// Call action(factor) as with_strength_factor(), with a PointStrength if the
+  /// strength differs from point to point.
   template <int dim, typename Action>
   inline void
   with_point_strength(const Points<dim>     &points,

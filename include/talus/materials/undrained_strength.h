@@ -7,8 +7,8 @@
 
 namespace talus
 {
-  /// The undrained shear strength of undisturbed soil as the user gives it: a
-  /// number, which goes for all points, or what says it for each of them.
+  /// Undrained shear strength of undisturbed soil as given by the user: a
+  /// number for all points, an expression, or a table.
   class UndrainedStrength
   {
   public:
@@ -16,7 +16,7 @@ namespace talus
       : words_(words)
     {}
 
-    /// The entry of the parameter file.
+    /// Entry of the parameter file.
     std::string &
     words()
     {
@@ -28,11 +28,11 @@ namespace talus
       return words_;
     }
 
-    /// The number, Pa, if it is one.
+    /// Value of the entry, Pa, if it is a number.
     const std::optional<double> &
     number() const;
 
-    /// The file, if it is a table; else empty.
+    /// File name if the entry is a table; otherwise empty.
     std::string
     table() const;
 
@@ -42,7 +42,8 @@ namespace talus
       return number().has_value();
     }
 
-    /// The number; 1 Pa if the strength stands in a column of the points.
+    /// Strength for the flow rule, Pa: the number, or 1 if a column has the
+    /// strength.
     double
     of_flow_rule() const
     {
@@ -51,14 +52,14 @@ namespace talus
 
   private:
     std::string words_;
-    // What they mean, found when it is first asked for.
+    // Meaning of words_, cached by number().
     mutable std::string           understood_;
     mutable std::optional<double> number_;
   };
 
 
 
-  /// The least and the largest undrained shear strength of some soil, Pa.
+  /// Smallest and largest undrained shear strength of some soil, Pa.
   struct StrengthRange
   {
     double least, largest;

@@ -9,8 +9,8 @@
 
 namespace talus
 {
-  /// x^exponent for x > 0. Exponents whose power takes a few multiplications
-  /// or a root are told apart, which is quicker and is exact.
+  /// Compute x^exponent for x > 0. Exponents that need only a root or a few
+  /// multiplications are treated separately, which is faster and exact.
   template <typename Number>
   TALUS_ALWAYS_INLINE Number
   power_of(const Number &x, const double exponent)
@@ -28,29 +28,29 @@ namespace talus
 
 
 
-  /// What resists plastic shear in one step of @p dt seconds.
+  /// Resistance to plastic shear in one step.
   template <typename Modulus>
   struct ShearResistanceOf
   {
     Modulus modulus;     ///< elastic shear modulus G, Pa
     double  consistency; ///< K >= 0, Pa s^n
-    double  exponent;    ///< n > 0
-    double  decay;       ///< of the strength that remoulding takes away, per
-                         ///< plastic shear strain; 0: no remoulding
-    double dt;           ///< s
+    double  exponent;    ///< n > 0 [-]
+    double  decay;       ///< of the strength lost by remoulding, per plastic
+                         ///< shear strain; 0: no remoulding
+    double dt;           ///< time step, s
   };
 
   using ShearResistance = ShearResistanceOf<double>;
 
 
 
-  /// Root of an increasing convex function by Newton's method from @p x, which
-  /// is not below it: the iterates fall towards the root and each step's error
-  /// is of the order of the last one squared. A lane stops, and keeps its
-  /// value, after a step of less than 1e-8, or where round-off ends the fall;
-  /// so its result does not depend on its neighbours. @p function returns value
-  /// and slope; lanes not in @p active are left alone. NaN in a lane that is
-  /// not done after 100 steps (of a million extreme cases none took over 32).
+  /// Find the root of an increasing convex function by Newton's method from
+  /// @p x, at or above the root: the iterates fall towards the root with
+  /// quadratic convergence. A lane stops and keeps its value after a step of
+  /// less than 1e-8, or when round-off ends the fall, so its result does not
+  /// depend on neighbouring lanes. @p function returns value and slope; only
+  /// lanes in @p active change. A lane still active after 100 steps becomes NaN
+  /// (among a million extreme cases no lane needed more than 32).
   template <typename Number, typename Mask, typename Function>
   TALUS_ALWAYS_INLINE Number
   newton_from_above(Number x, Mask active, const Function &function)
@@ -69,8 +69,8 @@ namespace talus
 
 
 
-  /// Shear stress that a plastic shear of @p x takes, less what viscosity takes
-  /// of it, Pa, and its slope: @p linear x - loss (1 - exp(-decay x)).
+  /// Shear stress taken up by a plastic shear @p x without viscosity, Pa, and
+  /// its slope: @p linear x - loss (1 - exp(-decay x)).
   template <typename Number, typename Linear>
   TALUS_ALWAYS_INLINE std::pair<Number, Number>
                       stress_taken(const Number x,
@@ -86,7 +86,7 @@ namespace talus
 
 
 
-  /// The shear, not below it, with which stress_taken() is @p excess: the
+  /// Upper bound of the shear at which stress_taken() equals @p excess, as the
   /// function is above its tangent at zero and above its asymptote.
   template <typename Number, typename Linear>
   TALUS_ALWAYS_INLINE Number
@@ -101,7 +101,8 @@ namespace talus
 
 
 
-  /// n > 1, or @p linear resistance only; see plastic_shear().
+  /// Solve plastic_shear() for the shear if n > 1 or if the viscous resistance
+  /// is part of @p linear.
   template <typename Number, typename Mask, typename Modulus>
   TALUS_ALWAYS_INLINE Number
   solve_for_shear(const Number                      excess,
@@ -130,7 +131,7 @@ namespace talus
 
 
 
-  /// n < 1: the overstress y is the unknown; see plastic_shear().
+  /// Solve plastic_shear() for the overstress y if n < 1.
   template <typename Number, typename Mask, typename Modulus>
   TALUS_ALWAYS_INLINE Number
   solve_for_overstress(const Number                      excess,
@@ -154,20 +155,21 @@ namespace talus
 
 
 
-  /// Plastic shear strain x of the step, by the backward Euler method: at its
-  /// end the shear stress is the strength,
+  /// Plastic shear strain x of the step [-] by the backward Euler method: at
+  /// the end of the step the shear stress equals the strength,
   ///   trial stress - G x = strength - loss (1 - exp(-decay x))
-  ///                        + K (x/dt)^n,
-  /// with @p excess = trial stress - strength at the start of the step, Pa, and
-  /// @p loss the part of that strength that remoulding takes away, Pa;
-  /// G > decay loss. Zero where nothing is in excess, or where viscous
-  /// material has no time to flow.
+  ///                        + K (x/dt)^n.
+  /// Zero if nothing is in excess, or if viscous material has no time to flow.
   ///
-  /// The left side less the right side is made convex and increasing in the
-  /// unknown by its choice: the shear for n >= 1, the overstress K (x/dt)^n for
-  /// n < 1. The start of the iteration is the least of what each resistance
-  /// alone would allow, so above the root, and without remoulding less than
-  /// twice as large.
+  /// The unknown is chosen so that the equation is convex and increasing: the
+  /// shear for n >= 1, the overstress K (x/dt)^n for n < 1. The iteration
+  /// starts from the smallest of the values allowed by each resistance alone.
+  /// The start is above the root and, without remoulding, less than twice the
+  /// root.
+  /// @param excess Trial stress minus strength at the start of the step, Pa.
+  /// @param loss Strength that further remoulding can remove, Pa; G > decay
+  ///   loss.
+  /// @param r Resistance to shear.
   template <typename Number, typename Modulus = double>
   TALUS_ALWAYS_INLINE Number
   plastic_shear(const Number                      excess,
@@ -185,7 +187,7 @@ namespace talus
     if (is_linear && r.decay == 0.)
       return max(excess, Number(0.)) * Number(1. / linear);
 
-    // In the other lanes any positive number will do.
+    // Lanes without excess may have any positive number.
     const Number solvable = select(yields, excess, Number(r.modulus));
     const Number x        = r.exponent < 1. && is_viscous
                               ? solve_for_overstress(solvable, loss, yields, r)

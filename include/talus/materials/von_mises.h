@@ -10,10 +10,12 @@ namespace talus
 
   /// "von Mises": clay sheared without drainage. Elastic as LinearElastic up to
   /// the equivalent stress q = sqrt(3/2 s:s) = sigma_y, then plastic at
-  /// constant volume; in simple shear the yield stress is the undrained shear
-  /// strength, sigma_y = sqrt(3) s_u. Linear in the equivalent plastic strain:
-  /// sigma_y = f max(sqrt(3) s_u + H ep, sqrt(3) s_residual), returned exactly
-  /// @cite simo1998, section 3.3; f is the strength factor of the point, or 1.
+  /// constant volume; in simple shear the yield stress corresponds to the
+  /// undrained shear strength, sigma_y = sqrt(3) s_u. Linear in the equivalent
+  /// plastic strain ep,
+  ///   sigma_y = f max(sqrt(3) s_u + H ep, sqrt(3) s_residual),
+  /// returned exactly @cite simo1998, section 3.3; f is the strength factor of
+  /// the point, or 1.
   template <int dim>
   class VonMises : public RateLaw<dim, VonMisesFlow>
   {

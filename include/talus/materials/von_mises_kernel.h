@@ -8,15 +8,15 @@
 
 namespace talus
 {
-  /// The radial return of von Mises' law. The plastic variable is the
-  /// equivalent plastic strain; the yield stress is linear in it, but not less
-  /// than the residual one.
+  /// Radial return of von Mises' law. The plastic variable is the equivalent
+  /// plastic strain; the yield stress is linear in it down to the residual
+  /// yield stress.
   struct VonMisesFlow
   {
     double mu;        ///< shear modulus, Pa
     double initial;   ///< yield stress, Pa; with PointStrength of 1 Pa strength
-    double hardening; ///< its slope, Pa
-    double residual;  ///< yield stress, Pa
+    double hardening; ///< slope of the yield stress, Pa
+    double residual;  ///< residual yield stress, Pa
 
     template <std::size_t n,
               typename Number,
@@ -34,11 +34,11 @@ namespace talus
       return {3. * modulus_of_point(mu, strength_factor) * d_ep / q, d_ep};
     }
 
-    /// Equivalent plastic strain that brings the trial stress @p q back to the
-    /// yield stress; zero where it is elastic. The yield stress is the larger
-    /// of a line and a constant, so what is left of q is the smaller of two
-    /// falling lines, and its root is the smaller of the two roots. All of it
-    /// is multiplied by @p factor.
+    /// Equivalent plastic strain that returns the trial stress @p q, Pa, to the
+    /// yield stress; zero for elastic trials. The yield stress is the larger of
+    /// a line and a constant, so the remainder of q is the smaller of two
+    /// falling lines, with the smaller of their two roots. All strengths are
+    /// multiplied by @p factor.
     template <typename Number, typename Factor>
     TALUS_ALWAYS_INLINE Number
     plastic_increment(const Number  q,

@@ -89,8 +89,8 @@ namespace
   TEST(Message, WhatThereIsNot)
   {
     const std::string end =
-      "; `talus --document` lists all that there are, and those of bodies and "
-      "materials are in sections named in Bodies/Names and Materials/Names.";
+      "; `talus --document` lists all parameters. Sections of bodies and "
+      "materials are named in Bodies/Names and Materials/Names.";
     EXPECT_EQ(
       told_of("set Titel = slide\n"),
       "slope.prm, line 1: there is no parameter 'Titel' in this section" + end);
