@@ -46,9 +46,9 @@ namespace talus
 
 
 
-  // Points in ghost cells belong to neighbouring ranks, and points of this rank
-  // may cover facets in ghost cells. So each rank samples facets in owned and
-  // ghost cells with its own points, and sends the result to the owners.
+  // Points of this rank may cover facets in ghost cells. So each rank samples
+  // the facets in owned and ghost cells with its own points, and sends the
+  // samples covered in ghost cells to the owners.
   template <int dim>
   void
   FacetCoverage<dim>::find(const State<dim>     &state,
@@ -98,9 +98,9 @@ namespace talus
 
 
 
-  /// Return the sample points of a facet, m: the plane of the facet at the
-  /// centres of the columns of the cell along @p axis, as far as the points lie
-  /// in the cell and outside of all obstacles. Without any point: the centroid.
+  /// Return the sample points of a facet, m: places of its plane at the centres
+  /// of columns of the cell along @p axis, inside the cell and outside of all
+  /// obstacles. The centroid if no place is left.
   template <int dim>
   typename FacetCoverage<dim>::Samples
   FacetCoverage<dim>::samples_of(const Grid<dim>         &grid,

@@ -58,8 +58,8 @@ namespace talus
 
 
 
-    /// Return the cells in up to @p n_rings rings around @p cell, including
-    /// @p cell, in ascending order.
+    /// Return the cells up to @p n_rings around @p cell, including @p cell,
+    /// ascending.
     template <int dim>
     std::vector<unsigned int>
     cells_around(const Grid<dim>   &grid,
@@ -114,8 +114,8 @@ namespace talus
 
 
     /// Return the surface of an obstacle in a cell, and whether the surface is
-    /// grazing: the cell lies inside the obstacle, and the surface coincides
-    /// with a face between the cell and an open cell.
+    /// grazing: on a face between the cell, inside the obstacle, and an open
+    /// cell.
     template <int dim>
     std::pair<std::vector<Facet<dim>>, bool>
     find_surface(const Cell<dim> &cell, const Obstacle<dim> &obstacle)
@@ -529,9 +529,9 @@ namespace talus
 
 
 
-  /// Mark the nodes of cell @p c which lie inside an obstacle and touch no
-  /// facet. The criterion is the distance, on which all ranks agree: the owner
-  /// of a node need not know the cut cell near the node.
+  /// List the nodes of cell @p c which lie inside an obstacle and touch no
+  /// facet. All ranks agree on the distance, while the owner of a node need not
+  /// know the cut cell near the node.
   template <int dim>
   void
   Facets<dim>::find_nodes_inside(const Grid<dim>      &grid,

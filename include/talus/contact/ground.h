@@ -15,8 +15,8 @@ namespace talus
   /// An obstacle belongs to the ground if it extends below the bottom of the
   /// mesh, or crosses the whole mesh along each horizontal axis: a seabed, a
   /// mound, a wall. Other obstacles, a pipeline for example, are bodies in or
-  /// on the soil. A Ground is valid for the current positions of the obstacles:
-  /// construct a new Ground for each use.
+  /// on the soil. Valid for the current positions of the obstacles: construct a
+  /// Ground for each use.
   template <int dim>
   class Ground
   {
@@ -40,8 +40,8 @@ namespace talus
       return std::find(members_.begin(), members_.end(), k) != members_.end();
     }
 
-    /// Whether soil can be at @p x: outside of all obstacles, including
-    /// obstacles which do not belong to the ground.
+    /// Whether @p x is outside of all obstacles, also of obstacles which do not
+    /// belong to the ground.
     bool
     is_open(const dealii::Point<dim> &x) const
     {

@@ -52,9 +52,9 @@ namespace talus
     /// Gap at a node which no box reaches.
     static constexpr double none = std::numeric_limits<double>::max();
 
-    /// Maximum distance, in cells, between a point and a surface, if the box of
-    /// the point reaches a node near the surface; twice as much where cells of
-    /// two sizes meet.
+    /// Maximum distance, in cells, between a surface and a point whose box
+    /// reaches a node near the surface; twice as much where cells of two sizes
+    /// meet.
     static constexpr double reach = 3. * 1.7320508075688772;
 
     /// Set the surfaces and delete all gaps. Call after each change of the mesh

@@ -35,10 +35,9 @@ namespace talus
     void
     note(const State<dim> &state, const Batch &batch);
 
-    /// Move the points of the last note() back as far as their motion led
-    /// further into obstacles. Call after the points and the obstacles have
-    /// moved. Moved points are added to StepWorkspace::points_out_of_cell():
-    /// their cells may have changed.
+    /// Cancel the motion of the points of the last note() further into
+    /// obstacles. Call after points and obstacles have moved. Adds corrected
+    /// points to StepWorkspace::points_out_of_cell().
     void
     confine(State<dim> &state);
 
