@@ -55,14 +55,15 @@ namespace talus
     }
 
     /// Integral of the outward normal over the surface of the soil in cell
-    /// @p cell, m^(dim-1); after find().
+    /// @p cell, m^(dim-1); call after find().
     dealii::Tensor<1, dim>
     vector_area_of_cell(unsigned int cell) const
     {
       return vector_areas_[cell];
     }
 
-    /// Covered share of the lower face of the mesh at @p node [-]; after find().
+    /// Covered share of the lower face of the mesh at @p node [-]; call after
+    /// find().
     double
     covered_share(const unsigned int node) const
     {

@@ -31,8 +31,8 @@ namespace talus
       return exists_;
     }
 
-    /// Integral of the shape function of an owned node outside of all obstacles,
-    /// m^dim.
+    /// Integral of the shape function of an owned node outside of all
+    /// obstacles, m^dim.
     double
     open_volume(const unsigned int node) const
     {
@@ -71,8 +71,8 @@ namespace talus
       return exists_ && distance_[node] < 0;
     }
 
-    /// Signed distance of a node from the obstacles, m; NaN where no cell of the
-    /// node touches a facet.
+    /// Signed distance of a node from the obstacles, m; NaN far from surfaces,
+    /// where no cell around the node has a contact node.
     double
     distance(const unsigned int node) const
     {
