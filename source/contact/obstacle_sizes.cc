@@ -102,9 +102,9 @@ namespace talus
                                in_words(extents[0]),
                                ", less than two cells of ",
                                in_words(h),
-                               ": soil on both sides moves with the same nodes, "
-                               "and the force on the obstacle is inaccurate. "
-                               "Use cells of ",
+                               ": soil on both sides moves with the same "
+                               "nodes, and the force on the obstacle is "
+                               "inaccurate. Use cells of ",
                                needed,
                                " or less there, ",
                                how_to_refine,

@@ -24,8 +24,8 @@ namespace talus
   template <int dim>
   struct FacetImpulse
   {
-    double                 normal = 0; ///< along the normal, N s, >= 0
-    dealii::Tensor<1, dim> tangential; ///< along the facet, N s
+    double                 normal = 0;         ///< along the normal, N s, >= 0
+    dealii::Tensor<1, dim> tangential;         ///< along the facet, N s
     double                 effective_mass = 0; ///< of the soil, kg; 0: no soil
     double mean_normal = 0; ///< running mean of `normal`, limits friction, N s
 

@@ -186,8 +186,8 @@ namespace talus
     }
 
     /// Return a number for each cell: 2 for owned cells with a facet, 3 for
-    /// owned cells with hidden surfaces only, 1 for other owned cells with
-    /// is_near(), 0 for all others.
+    /// owned cells with a surface but no facet (see for_each_in_cell()), 1 for
+    /// other owned cells with is_near(), 0 for all others.
     const std::vector<unsigned char> &
     nearness_of_cells() const
     {

@@ -128,8 +128,8 @@ namespace talus
     std::vector<double>        of_point_;  ///< gaps of a point, by slot, m
     std::vector<unsigned int>  present_;   ///< nodes of the step
     std::vector<Segment>       later_;     ///< segments with nearness 1
-    double               closed_ = 0; ///< gaps up to this count as closed, m
-    NodalExchange<dim>   exchange_;
+    double             closed_ = 0; ///< gaps up to this count as closed, m
+    NodalExchange<dim> exchange_;
   };
 } // namespace talus
 
