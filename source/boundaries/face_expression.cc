@@ -10,8 +10,8 @@ namespace talus
 
   namespace
   {
-    /// The expressions with zero, which is never asked for, in the place of
-    /// 'free'.
+    /// Return the expressions with 'free' replaced by 0, which is never
+    /// evaluated.
     std::string
     without_free(const std::string &expressions)
     {
@@ -26,8 +26,8 @@ namespace talus
 
 
 
-  // One parser for all components, though some may be free: the number of
-  // expressions is then checked, and named in the message, in one place.
+  // A single parser for all components, also free ones, checks the number of
+  // expressions.
   template <int dim>
   FaceExpression<dim>::FaceExpression(const std::string &name,
                                       const std::string &expressions,

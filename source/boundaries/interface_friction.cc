@@ -11,10 +11,10 @@ namespace talus
 
   namespace
   {
-    // A block that rings (2600 steps a second, h/c 2.5 steps) needs more than 8
-    // steps of memory; 16 to 64 do the same. Without the memory by slip, soil
-    // that slides a quarter as fast as its waves would have left the place before
-    // friction has felt it.
+    // A ringing block (2600 steps a second, h/c 2.5 steps) needs more than 8
+    // steps of memory; 16 to 64 steps give the same result. Without the memory
+    // by slip, soil that slides at a quarter of its wave speed leaves a place
+    // before friction responds to the normal force.
     constexpr double n_steps_of_memory = 32, slip_of_memory = 0.05;
   } // namespace
 
@@ -32,11 +32,11 @@ namespace talus
       "Film consistency",
       film_consistency_,
       "Consistency K of a film of mud between surface and soil "
-      "[Pa s^n]: it adds K (u/b)^n to the shear stress of soil that "
-      "slides at the velocity u, with the exponent n and the "
-      "thickness b of the film. So mud flows over a base that it "
-      "sticks to, where the cells are too coarse for the sheared "
-      "layer at the base. 0: no film.",
+      "[Pa s^n]: the film adds K (u/b)^n to the shear stress at the "
+      "sliding velocity u, with the exponent n and the thickness b "
+      "of the film. Models the sheared layer of mud that sticks to "
+      "the base, where the cells are too coarse to resolve the "
+      "layer. 0: no film.",
       this->prm,
       Patterns::Double(0.));
     add_parameter("Film exponent",
@@ -104,9 +104,9 @@ namespace talus
 
 
 
-  // An explicit film would turn the motion around where it is stiff. The
-  // equation for the velocity left increases with it, so Newton's method between
-  // bounds finds the root; for exponents below 1 its slope is infinite at 0.
+  // An explicit stiff film would reverse the motion. The residual increases
+  // with the slip velocity, so Newton's method between bounds finds the root;
+  // for exponents below 1 the slope is infinite at 0.
   double
   InterfaceFriction::impulse(const double trial,
                              const double mass,
@@ -138,7 +138,7 @@ namespace talus
         if (std::abs(u - before) <= 1e-14 * before)
           break;
       }
-    // Between rest and trial, however near the root is.
+    // Lies between rest and trial, whatever the error of the root.
     return trial - mass * u;
   }
 

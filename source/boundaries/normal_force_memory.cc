@@ -11,8 +11,8 @@ namespace talus
 {
   using namespace dealii;
 
-  // Each rank takes what it needs from the means of all: nodes with soil on a
-  // seabed are few, and the mesh changes seldom.
+  // Each rank gets the means of all ranks and keeps the means of its own nodes:
+  // nodes with soil on a seabed are few, and the mesh changes seldom.
   template <int dim>
   void
   NormalForceMemory<dim>::prepare(const Grid<dim>    &grid,
@@ -74,8 +74,8 @@ namespace talus
 
 
 
-  /// Return the means that the next step will use, a row of numbers each: key
-  /// of the place of the node (halves_of_key()), face, force.
+  /// Return the means for the next step, a row each: key of the place of the
+  /// node (halves_of_key()), face, force.
   template <int dim>
   std::vector<double>
   NormalForceMemory<dim>::rows() const

@@ -23,17 +23,17 @@ namespace talus
     add_parameter(
       "Maximum shear stress",
       maximum_shear_stress_text_,
-      "Largest shear stress tau_max that the seabed passes to the "
+      "Maximum shear stress tau_max that the seabed passes to the "
       "soil [Pa]: a number, or an expression in x, y (, z) and "
-      "depth, how far the place lies below the mudline of the start "
-      "[m]; 0 where there was no soil above it.");
+      "depth, the depth of the place below the mudline at the start "
+      "[m], 0 without soil above.");
     add_parameter("Gap",
                   has_gap_,
-                  "Let soil come to the seabed before it feels it: contact "
-                  "begins where the boxes of the points come nearer than a "
-                  "twentieth of a cell, and a falling body is caught at the "
-                  "face. Else (as in the paper) a node on the face feels it as "
-                  "soon as it carries soil, up to a cell early.");
+                  "Whether contact begins at the face: when the boxes of the "
+                  "points come nearer than a twentieth of a cell, so that a "
+                  "falling body stops at the face. Otherwise (as in the paper) "
+                  "contact begins as soon as a node on the face carries soil, "
+                  "up to a cell early.");
   }
 
 
@@ -80,14 +80,14 @@ namespace talus
 
 
 
-  // The trial velocity is that of the momentum update, without the seabed. A
-  // plastic impact along the normal: the impulse m v_n stops the node, N = m
-  // v_n/dt is the force of the impact. Friction is at most what stops the node,
-  // so friction never drives it back, at rest it bears the load, and no
-  // stiffness of a penalty limits the step. Nothing pulls: a node that moves
-  // away is free along the normal, and so soil can lift off.
+  // The trial velocity is the velocity after the momentum update, without the
+  // seabed. The impact along the normal is plastic: the impulse m v_n stops the
+  // node, N = m v_n/dt is the force. Friction can at most stop the node, never
+  // drive the node back; at rest friction bears the load, and no penalty
+  // stiffness limits the step. Nothing pulls: a node moving away is free along
+  // the normal, so soil can lift off.
   //
-  // A node that shakes would have no friction in every step in which it moves
+  // A shaking node would have no friction in every step in which the node moves
   // away, and a body at rest would creep: so friction follows the mean normal
   // force, also in these steps.
   template <int dim>
@@ -103,7 +103,7 @@ namespace talus
     const double         outwards = (face % 2 == 0 ? -1. : 1.);
     const Tensor<1, dim> trial    = nodes.velocity(node);
     const double         mass     = nodes.mass(node);
-    // Along the normal, beyond what closes the gap.
+    // Normal velocity beyond the velocity that closes the gap.
     const double v_n = outwards * trial[axis] - gap / dt;
     if (gap > 0 && v_n <= 0)
       return {};
@@ -133,7 +133,7 @@ namespace talus
     Tensor<1, dim> normal_impulse;
     normal_impulse[axis] = -outwards * normal;
     Tensor<1, dim> tangential_impulse;
-    // Without motion along the face there is no direction to act against.
+    // Without motion along the face friction has no direction.
     if (speed > 0)
       tangential_impulse = (-friction / speed) * v_t;
     nodes.set_velocity(node,

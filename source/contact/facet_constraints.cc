@@ -29,7 +29,7 @@ namespace talus
 
 
 
-  /// The support function of a box along the normal.
+  // Distance of a box: distance of the centre less the support of the box.
   template <int dim>
   std::vector<typename NodalGaps<dim>::Surface>
   FacetConstraints<dim>::surfaces() const
@@ -48,8 +48,9 @@ namespace talus
 
 
 
-  /// As few slots as the density of the obstacles asks for, however many there
-  /// are; on all ranks the same. One that moves may come near to all others.
+  /// Return the slot of each obstacle, same on all ranks. Obstacles far apart
+  /// share a slot: the number of slots follows the density of the obstacles. A
+  /// moving obstacle may come near all others and has its own slot.
   template <int dim>
   std::vector<unsigned int>
   FacetConstraints<dim>::slots(const Grid<dim> &grid) const
@@ -123,9 +124,10 @@ namespace talus
 
 
 
-  // Shares by filling as well as by shape functions: a node that hardly has soil
-  // must not decide how the soil at the facet moves. Shares by mass would shift
-  // the wall into the soil.
+  /// Compute the shares of the nodes; return whether the facet has soil. A
+  /// share is proportional to shape function times volume fraction: a node with
+  /// hardly any soil must not decide how the soil at the facet moves. Shares by
+  /// mass would shift the wall into the soil.
   template <int dim>
   bool
   FacetConstraints<dim>::find_shares(const ContactFacet<dim> &facet,
@@ -158,8 +160,8 @@ namespace talus
                               obstacles_[facet.obstacle].name(),
                               "' at (",
                               facet.centroid,
-                              ") m, where cells of different size meet, but "
-                              "contact needs cells of one size there. Let "
+                              ") m, where cells of different size meet; "
+                              "contact needs cells of one size. Let "
                               "'Grid/Refinement boxes' cover the surface as "
                               "far as soil may come, or leave more cells in "
                               "'Mesh tracking' around the soil.")));
@@ -167,7 +169,8 @@ namespace talus
 
 
 
-  /// What the facet has to move, and how far it is from the soil.
+  /// Compute the effective masses of a facet and the gap, the smallest gap of
+  /// the nodes with soil.
   template <int dim>
   void
   FacetConstraints<dim>::find_masses(const ContactFacet<dim> &facet,
@@ -183,7 +186,7 @@ namespace talus
         if (share == 0)
           continue;
         const double inverse = share * share * nodes_.inverse_mass(node);
-        double       free    = 1.; // share of the normal that no wall holds
+        double       free    = 1.; // share of the normal not held by walls
         for (unsigned int d = 0; d < dim; ++d)
           if (nodes_.is_held(node, d))
             free -= facet.normal[d] * facet.normal[d];
@@ -200,8 +203,8 @@ namespace talus
 
 
 
-  // Impulses are averaged, not pressures: their sum is kept while soil slides from
-  // facet to facet, and with it the mean force.
+  // Impulses are averaged, not pressures: the sum of the impulses, and so the
+  // mean force, is kept while soil slides from facet to facet.
   template <int dim>
   double
   FacetConstraints<dim>::averaging_weight(

@@ -13,7 +13,7 @@ namespace talus
 
   namespace
   {
-    /// Axis that is nearest to the normal of a facet.
+    /// Coordinate axis nearest to the normal of a facet.
     template <int dim>
     unsigned int
     axis_across(const ContactFacet<dim> &facet)
@@ -27,7 +27,7 @@ namespace talus
 
 
 
-    /// Axis @p k of those other than @p axis.
+    /// Number @p k of the dim-1 axes across @p axis.
     constexpr unsigned int
     across(const unsigned int axis, const unsigned int k)
     {
@@ -46,9 +46,9 @@ namespace talus
 
 
 
-  // Points of ghost cells are on other ranks, and points here may cover facets
-  // of ghost cells: each rank looks at all facets it knows, and tells the owners
-  // which sample points its own points cover.
+  // Points of this rank may cover facets in ghost cells. So each rank samples
+  // the facets in owned and ghost cells with its own points, and sends the
+  // samples covered in ghost cells to the owners.
   template <int dim>
   void
   FacetCoverage<dim>::find(const State<dim>     &state,
@@ -83,7 +83,7 @@ namespace talus
 
 
 
-  /// Whether another facet lies in the cell of the facet, too.
+  /// Whether the cell of the facet contains the surface of a second obstacle.
   template <int dim>
   bool
   FacetCoverage<dim>::shares_cell(const ContactFacet<dim> &facet) const
@@ -98,9 +98,9 @@ namespace talus
 
 
 
-  /// Points of the plane of the facet in the middle of columns of the cell along
-  /// the axis nearest to the normal, where they lie in the cell and outside of
-  /// all obstacles; the centroid of a facet so small that there is none.
+  /// Return the sample points of a facet, m: places of its plane at the centres
+  /// of columns of the cell along @p axis, inside the cell and outside of all
+  /// obstacles. The centroid if no place is left.
   template <int dim>
   typename FacetCoverage<dim>::Samples
   FacetCoverage<dim>::samples_of(const Grid<dim>         &grid,
@@ -126,7 +126,7 @@ namespace talus
         if (y[axis] < cell.lower[axis] - tolerance ||
             y[axis] > cell.lower[axis] + cell.size + tolerance)
           continue;
-        // The surface of the facet itself may lie beside its plane.
+        // The surface of the facet itself may deviate from the plane.
         bool is_open = true;
         if (is_shared)
           for (const unsigned int k : obstacles_.near(y, 0.))
@@ -145,7 +145,9 @@ namespace talus
 
 
 
-  /// The cell of the facet first: its points nearly always cover all.
+  /// Return the samples reached by boxes in the cell of the facet and the cells
+  /// around. The cell of the facet comes first: its points nearly always cover
+  /// all.
   template <int dim>
   typename FacetCoverage<dim>::Reached
   FacetCoverage<dim>::reached_samples(const State<dim>        &state,
@@ -163,7 +165,7 @@ namespace talus
         const unsigned int c = (i == 0 ? facet.cell : cells[i - 1]);
         if (c >= grid.n_owned_cells() || (i > 0 && c == facet.cell))
           continue;
-        // Across a periodic face the neighbour lies at the other end.
+        // Across a periodic face the neighbour lies at the opposite end.
         Tensor<1, dim> shift;
         for (unsigned int d = 0; d < dim; ++d)
           if (grid.periodicity().along(d))
@@ -180,10 +182,11 @@ namespace talus
 
 
 
-  /// Add the sample points that the boxes of the points in cell @p c reach. A
-  /// box counts if its lower side is near the surface and its upper side above.
-  /// Along one axis a box reaches beyond its ends by a quarter of a cell: a hole
-  /// between two boxes counts as covered, and the end of a layer is where it is.
+  /// Add the samples reached by boxes of the points in cell @p c, moved by
+  /// @p shift, m. A box counts if the lower side is near the surface and the
+  /// upper side above. A box reaches a quarter of a cell beyond its ends, from
+  /// one side only: a hole between two boxes counts as covered, but the end of
+  /// a layer is not moved.
   template <int dim>
   void
   FacetCoverage<dim>::add_points_of(const State<dim>        &state,
@@ -227,7 +230,11 @@ namespace talus
 
 
 
-  /// Add sample point @p i for a box whose centre lies at @p from of it, m.
+  /// Add sample @p i to @p reached if a box reaches the sample.
+  /// @param from centre of the box less sample, m
+  /// @param half half lengths of the box, m
+  /// @param axis across the facet
+  /// @param beyond reach beyond the ends of the box, m
   template <int dim>
   void
   FacetCoverage<dim>::add_sample(const unsigned int    i,
@@ -254,7 +261,7 @@ namespace talus
 
   namespace
   {
-    /// Number of a facet among those of its cell.
+    /// Number of facet @p f among the facets in the same cell.
     template <int dim>
     unsigned int
     number_in_cell(const std::vector<ContactFacet<dim>> &facets,
@@ -269,8 +276,8 @@ namespace talus
 
 
 
-  /// A message is a list of numbers for each facet: key of its cell, number among
-  /// the facets there, masks.
+  /// Fill the messages to the owners of ghost cells. Per facet: key of the
+  /// cell, number_in_cell(), masks.
   template <int dim>
   void
   FacetCoverage<dim>::pack_ghosts(const State<dim>     &state,

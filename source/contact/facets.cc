@@ -25,7 +25,7 @@ namespace talus
 
 
 
-    /// Of the ball around a cell, a little larger.
+    /// Radius of the ball around a cell, m, with a margin for round-off.
     template <int dim>
     double
     outer_radius(const Cell<dim> &cell)
@@ -35,8 +35,8 @@ namespace talus
 
 
 
-    /// Call action(x) for places in distances of @p step, along each axis
-    /// @p n of them, from @p first on.
+    /// Call action(x) for a lattice of @p n places along each axis, @p step m
+    /// apart, with the lowest corner @p first, m.
     template <int dim, typename Action>
     void
     for_each_place(const Point<dim>                    &first,
@@ -58,7 +58,8 @@ namespace talus
 
 
 
-    /// The cells up to @p n_rings around one, itself included, each once.
+    /// Return the cells up to @p n_rings around @p cell, including @p cell,
+    /// ascending.
     template <int dim>
     std::vector<unsigned int>
     cells_around(const Grid<dim>   &grid,
@@ -86,9 +87,9 @@ namespace talus
 
   namespace
   {
-    /// Normals that differ make the vector area less than the area. A surface
-    /// whose normals turn by 5 degrees within the cell is 1/40 of it from the
-    /// plane at most.
+    /// Bound on the distance of a surface from its plane, m. Different normals
+    /// make the vector area smaller than the area. A surface whose normals turn
+    /// by 5 degrees in the cell is at most 1/40 of the cell from the plane.
     template <int dim>
     double
     deviation_from_plane(const CutSurface<dim> &surface, const double cell_size)
@@ -102,7 +103,7 @@ namespace talus
 
   namespace
   {
-    /// Area below which a surface does not count in a cell, m^(dim-1).
+    /// Area below which a surface in a cell is ignored, m^(dim-1).
     template <int dim>
     double
     min_area(const Cell<dim> &cell)
@@ -112,8 +113,9 @@ namespace talus
 
 
 
-    /// Return the surface of an obstacle in a cell, and whether it lies on a face
-    /// that the cell, which is inside, has in common with an open one.
+    /// Return the surface of an obstacle in a cell, and whether the surface is
+    /// grazing: on a face between the cell, inside the obstacle, and an open
+    /// cell.
     template <int dim>
     std::pair<std::vector<Facet<dim>>, bool>
     find_surface(const Cell<dim> &cell, const Obstacle<dim> &obstacle)
@@ -145,7 +147,7 @@ namespace talus
 
 
 
-    /// Return those obstacles of @p near that may cover parts of the surface of
+    /// Return the obstacles of @p near which may cover parts of the surface of
     /// obstacle @p k in the ball of @p radius, m, around @p centre.
     template <int dim>
     std::vector<Cover<dim>>
@@ -172,10 +174,10 @@ namespace talus
 
   namespace
   {
-    /// Number for a facet with a vector area among those of its obstacle in its
-    /// cell, of which @p taken has numbers: by the axis that is nearest to the
-    /// normal, so that a facet keeps its number when an obstacle moves and others
-    /// come and go.
+    /// Return a number for a facet and add the number to @p taken, the numbers
+    /// of the obstacle in the cell. The number follows from the axis nearest to
+    /// the normal: a facet keeps its number while facets come and go as the
+    /// obstacle moves.
     template <int dim>
     unsigned int
     number_of_direction(const Tensor<1, dim>      &vector_area,
@@ -195,11 +197,10 @@ namespace talus
 
 
 
-  /// Find the facets of all obstacles in cell @p c: of each surface the part
-  /// outside of the other obstacles, one facet for each of its directions. A
-  /// surface of which a part is covered, or that only grazes a face of the cell,
-  /// is hidden as well: points must not slip through it, although it takes no
-  /// part in the contact.
+  /// Find the facets of all obstacles in cell @p c: the part of each surface
+  /// outside of the other obstacles, one facet per direction. Whole surfaces
+  /// which are partly covered or graze a face of the cell are hidden: no part
+  /// of the contact, but points must not slip through.
   template <int dim>
   void
   Facets<dim>::find_facets(const Grid<dim>                        &grid,
@@ -256,9 +257,9 @@ namespace talus
 
 
 
-  /// Only obstacles near the cell matter: if a surface cuts it, all its places
-  /// are within a diameter of that surface, and no nearer to any obstacle beyond
-  /// the ball of three radii.
+  /// Cut cell @p c. Only obstacles within three radii of the centre matter: if
+  /// a surface cuts the cell, all places in the cell are within a diameter of
+  /// the surface, and farther from obstacles outside of this ball.
   template <int dim>
   typename Facets<dim>::Section
   Facets<dim>::find_section(const Grid<dim>      &grid,
@@ -294,9 +295,10 @@ namespace talus
 
 
 
-  /// A cell has the same section as long as it is there, unless an obstacle
-  /// moves. To find that is dear, and of a mesh that follows the soil most cells
-  /// stay when it changes. Those that are gone are forgotten.
+  /// Update sections_ after a change of the mesh. Cutting is expensive, and
+  /// most cells stay when a mesh that follows the soil changes: unless an
+  /// obstacle moves, their sections are kept. Sections of removed cells are
+  /// deleted.
   template <int dim>
   void
   Facets<dim>::keep_sections(const Grid<dim>      &grid,
@@ -322,7 +324,7 @@ namespace talus
   void
   Facets<dim>::cut(const Grid<dim> &grid, const unsigned int c)
   {
-    // Points may dip half a cell below a surface, and reach one more.
+    // Points may dip half a cell below a surface, and reach one cell more.
     const Cell<dim> &cell    = grid.cells()[c];
     const Section   &section = sections_.at(grid.key_of_cell(c));
     section_at_[c]           = &section;
@@ -377,9 +379,9 @@ namespace talus
 
 
 
-  // Cells that a moving obstacle has left have a facet of it; those that it
-  // comes to lie in the box around it. So nothing else needs to be looked at,
-  // and the cost follows the obstacle, not the mesh.
+  // Cells left by a moving obstacle still have a facet of the obstacle; cells
+  // entered lie in the bounding box. No more cells need cutting, so the cost
+  // follows the obstacle, not the mesh.
   template <int dim>
   void
   Facets<dim>::update(const Grid<dim> &grid, const Obstacles<dim> &obstacles)
@@ -390,7 +392,7 @@ namespace talus
         for (const ContactFacet<dim> &facet : *facets)
           if (obstacles[facet.obstacle].moves())
             cells.insert(c);
-    // The smallest cells, so that none is passed over.
+    // Steps of the smallest cell size, so that no cell is missed.
     const double h = grid.finest_size();
     for (unsigned int k = 0; k < obstacles.size(); ++k)
       {
@@ -423,7 +425,7 @@ namespace talus
 
 
 
-  /// At the nodes and cells of the lists, which is all there is.
+  /// Clear the lists, and the sums at all nodes and cells in the lists.
   template <int dim>
   void
   Facets<dim>::clear_sums()
@@ -450,8 +452,8 @@ namespace talus
 
 
 
-  /// From the cut cells to lists and sums by node. Ghost cells count, too, so
-  /// that sums at the nodes that this rank owns need no message.
+  /// Build lists and sums by node from the cut cells. Ghost cells are included,
+  /// so that sums at owned nodes need no message.
   template <int dim>
   void
   Facets<dim>::collect(const Grid<dim> &grid, const Obstacles<dim> &obstacles)
@@ -497,7 +499,7 @@ namespace talus
       add_open_volume(grid, c);
     for (const unsigned int c : cells_inside_)
       find_nodes_inside(grid, obstacles, c);
-    // A node has a pair from each facet that it touches.
+    // A node has got a pair from each facet around.
     std::sort(nodes_and_obstacles_.begin(), nodes_and_obstacles_.end());
     nodes_and_obstacles_.erase(std::unique(nodes_and_obstacles_.begin(),
                                            nodes_and_obstacles_.end()),
@@ -506,7 +508,7 @@ namespace talus
 
 
 
-  /// What cell @p c has of it.
+  /// Add the open volume of cell @p c to its nodes.
   template <int dim>
   void
   Facets<dim>::add_open_volume(const Grid<dim> &grid, const unsigned int c)
@@ -527,9 +529,9 @@ namespace talus
 
 
 
-  /// Those of cell @p c that lie inside of an obstacle and touch no facet: by
-  /// distances, which all ranks agree on, since the owner of such a node need not
-  /// know the cut cell that it is beside.
+  /// List the nodes of cell @p c which lie inside an obstacle and touch no
+  /// facet. All ranks agree on the distance, while the owner of a node need not
+  /// know the cut cell near the node.
   template <int dim>
   void
   Facets<dim>::find_nodes_inside(const Grid<dim>      &grid,

@@ -24,8 +24,8 @@ namespace talus
 
 
 
-  // A pipe that lies on the bottom of the mesh does not go below it, whatever
-  // the round-off.
+  // The tolerance keeps a pipe on the bottom of the mesh out of the ground,
+  // despite round-off.
   template <int dim>
   bool
   Ground<dim>::belongs_to_ground(const Obstacle<dim> &obstacle,
@@ -56,9 +56,10 @@ namespace talus
 
 
 
-  /// Between a place outside and one inside, above or below @p x. By regula
-  /// falsi: of a plane the first step is exact. Halving the value at an end
-  /// that stays (Illinois) keeps it from creeping.
+  /// Return y of the surface at @p x, m, between @p y_open outside and
+  /// @p y_inside inside of @p members, m. Regula falsi: the first step is exact
+  /// for a plane. Halving the value at an end that stays (Illinois) prevents
+  /// slow convergence.
   template <int dim>
   double
   Ground<dim>::surface_at(const Members    &members,
@@ -102,7 +103,7 @@ namespace talus
 
 
   /// Steps as long as the distance cannot pass over a surface, but become small
-  /// beside a wall: then they are a ten-thousandth of the mesh.
+  /// beside a wall: the minimum is 1e-4 of the height of the mesh.
   template <int dim>
   double
   Ground<dim>::elevation(const Members &members, const Point<dim> &x) const
@@ -124,7 +125,7 @@ namespace talus
                                 : surface_at(members, x, y, next));
         if (is_up && next >= domain_.upper[1])
           return domain_.upper[1];
-        // Also a place that is no number.
+        // Written so that NaN ends the search, too.
         if (!is_up && !(next > bottom))
           return bottom;
         y = next;

@@ -39,10 +39,10 @@ namespace talus
   {
     const std::size_t  n       = n_slots_;
     const unsigned int n_owned = state.grid.n_owned_nodes();
-    // Slots of which no surface is beside an owned node count as closed there:
-    // nobody asks for them, and they must not keep points busy. Of ghosts all are
-    // open, since only the owner knows all surfaces beside a node, and all their
-    // records travel.
+    // At an owned node a slot without a surface near the node counts as closed:
+    // the unused gap must not prolong the search. At a ghost node all slots are
+    // open: only the owner knows all surfaces near a node, and whole records
+    // are exchanged.
     present_.clear();
     for (const NodeAndSurface &pair : pairs)
       if (pair.node >= n_owned || state.nodes.mass(pair.node) > 0)
@@ -57,8 +57,8 @@ namespace talus
         }
     std::fill(gaps_.begin() + n * n_owned, gaps_.end(), none);
     closed_ = dead_band * state.grid.finest_size();
-    // The nearest cells first: they close most nodes, and the points behind them
-    // need not be looked at.
+    // The nearest cells first: they close most nodes, and the points behind
+    // need not be examined.
     later_.clear();
     for (const Segment &segment : state.points.segments())
       if (nearness[segment.cell] == 2)
@@ -77,13 +77,14 @@ namespace talus
 
   namespace
   {
-    /// Entries of the patch of a cell, as bits.
+    /// Set of entries of the patch of a cell, as bits.
     using PatchEntries = std::uint64_t;
 
 
 
-    /// Those of a uniform cell that a box reaches: nodes that are nearer than a
-    /// cell and the half length, along each axis. @p half in cells.
+    /// Return the entries of a uniform cell reached by a box with centre @p x,
+    /// m, and half lengths @p half, in cells: along each axis the node is
+    /// nearer than a cell plus the half length.
     template <int dim>
     PatchEntries
     entries_in_reach(const Cell<dim>      &cell,
@@ -105,7 +106,7 @@ namespace talus
 
 
 
-    /// Which nodes of the patch of a cell have an entry other than 0.
+    /// Return the entries whose nodes have a nonzero value in @p is_set.
     template <int dim>
     PatchEntries
     entries_with(const std::vector<unsigned char> &is_set,
@@ -120,7 +121,7 @@ namespace talus
 
 
 
-  /// Half lengths of the box of a point, in cells.
+  /// Half lengths of the box of point @p p, in cells, clipped as for weights.
   template <int dim>
   Tensor<1, dim>
   NodalGaps<dim>::half_lengths(const State<dim>  &state,
@@ -148,8 +149,8 @@ namespace talus
 
 
 
-  /// Of the surfaces in a slot the nearest one, which is the one that a node in
-  /// reach may be beside.
+  /// Compute of_point_ for a box: in each slot the distance of the nearest
+  /// surface, since only the nearest surface can be near a node in reach.
   template <int dim>
   void
   NodalGaps<dim>::find_of_point(const Point<dim> &x, const Tensor<1, dim> &half)
@@ -181,8 +182,8 @@ namespace talus
 
 
 
-  // In a uniform cell the nodes that a box reaches follow from where it is. In
-  // others, and of convected domains, the weights tell.
+  // In a uniform cell the nodes reached by a box follow from its position. In
+  // other cells, and for convected domains, the weights are needed.
   template <int dim>
   void
   NodalGaps<dim>::add_segment(const State<dim> &state, const Segment &segment)
@@ -209,8 +210,8 @@ namespace talus
 
 
 
-  /// Nodes that are closed already are not looked at any more, nor are points
-  /// when all are: soil that rests closes its nodes with its first points.
+  /// Lower the gaps at the nodes of the patch which are still open. Stop when
+  /// all are closed: soil at rest closes its nodes with its first points.
   template <int dim>
   void
   NodalGaps<dim>::add_to_patch(const State<dim> &state, const Segment &segment)

@@ -21,21 +21,22 @@ namespace talus
     add_parameter(
       "Maximum shear stress",
       maximum_shear_stress_text_,
-      "Largest shear stress that the surface passes to the soil "
-      "[Pa]: a number, or an expression in x, y (, z), the place at "
-      "the start, and, if the obstacle rests, in depth, how far the "
-      "place lies below the mudline of the start [m]; 0 where there "
-      "was no soil above it. Empty: any.");
+      "Maximum shear stress that the surface passes to the soil [Pa]: "
+      "a number, or an expression in x, y (, z), the place at the "
+      "start, and, for an obstacle at rest, in depth, the depth of "
+      "the place below the mudline at the start [m], 0 without soil "
+      "above. Empty: no limit.");
     add_parameter("Velocity",
                   velocity_text_,
-                  "Expressions in x, y, (z,) t for the components of the "
-                  "velocity of the obstacle, separated by semicolons [m/s]; "
-                  "only t may matter, as it does not turn. Empty: at rest.");
+                  "Components of the velocity of the obstacle, expressions in "
+                  "t separated by semicolons [m/s]. The obstacle does not "
+                  "rotate: x, y (, z) are those of the reference point at the "
+                  "start. Empty: at rest.");
     add_parameter("Reference point",
                   reference_point_text_,
-                  "The point that moments of the forces are about, as x,y or "
-                  "x,y,z [m]; it moves with the obstacle. Empty: the middle "
-                  "of the obstacle, or the origin if it has no end.",
+                  "Point about which moments are taken, as x,y or x,y,z [m]; "
+                  "the point moves with the obstacle. Empty: the centre of "
+                  "the obstacle, 0 along axes without two ends.",
                   this->prm,
                   Patterns::List(Patterns::Double(), 0, dim));
   }
@@ -44,7 +45,7 @@ namespace talus
 
   namespace
   {
-    /// Where the shape has two ends along an axis, half way between them.
+    /// Centre of a box, m; 0 along an axis without two ends.
     template <int dim>
     Point<dim>
     middle(const Box<dim> &box)
@@ -60,15 +61,15 @@ namespace talus
 
 
 
-  // Expressions after all parameters are known: constants may stand anywhere
-  // in the file.
+  // Expressions are parsed here, after all parameters are known: constants may
+  // be defined anywhere in the file.
   template <int dim>
   void
   Obstacle<dim>::prepare(const Constants          &constants,
                          const SurfaceSource<dim> *surfaces)
   {
     shape_parameters_.use_surfaces(surfaces);
-    // Prisms and cylinders without ends go on beyond the mesh.
+    // Prisms and cylinders without ends continue beyond the mesh.
     Box<dim> everywhere;
     for (unsigned int d = 0; d < dim; ++d)
       {
@@ -93,11 +94,10 @@ namespace talus
                 ExcUser(text(path("Maximum shear stress"),
                              " = ",
                              maximum_shear_stress_text_,
-                             " depends on the depth at the start, but the "
-                             "obstacle moves (",
+                             " depends on `depth`, the depth at the start, but "
+                             "the obstacle moves (",
                              path("Velocity"),
-                             "), and would take that stress along. Give a "
-                             "stress without `depth`.")));
+                             "). Give a stress without `depth`.")));
     reference_point_ = middle(shape_->bounding_box());
     if (!reference_point_text_.empty())
       {
@@ -109,9 +109,9 @@ namespace talus
                                  reference_point_text_,
                                  " has ",
                                  numbers.size(),
-                                 " numbers, where ",
+                                 " numbers; expected ",
                                  dim,
-                                 " were expected, separated by commas.")));
+                                 " numbers, separated by commas.")));
         for (unsigned int d = 0; d < dim; ++d)
           reference_point_[d] = Utilities::string_to_double(numbers[d]);
       }
@@ -132,8 +132,8 @@ namespace talus
 
 
 
-  // In the frame of the obstacle, so that a rough stretch of a pipe goes with
-  // it.
+  // Evaluated in the frame of the obstacle: a rough section of a pipe moves
+  // with the pipe.
   template <int dim>
   double
   Obstacle<dim>::maximum_shear_stress(const Point<dim> &x) const
@@ -160,14 +160,14 @@ namespace talus
                              v.norm(),
                              " m/s at t = ",
                              t,
-                             " s, faster than anything that soil meets. "
-                             "Correct the expression.")));
+                             " s; expected at most 1e6 m/s. Correct the "
+                             "expression.")));
     return v;
   }
 
 
 
-  // The middle of the step, as velocities of the soil belong to it, too.
+  // Velocities of the soil also belong to the middle of the step.
   template <int dim>
   void
   Obstacle<dim>::advance(const double t, const double dt)

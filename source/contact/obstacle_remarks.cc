@@ -37,8 +37,8 @@ namespace talus
 
 
 
-    /// Whether a part of obstacle @p k can be met in @p domain, looked for at
-    /// places in and near it: a wall may be thinner than their distance.
+    /// Whether a part of obstacle @p k can be met in @p domain, from samples in
+    /// and near the obstacle: a wall may be thinner than the sample distance.
     template <int dim>
     bool
     is_met(const Obstacles<dim> &obstacles,
@@ -84,8 +84,9 @@ namespace talus
           !is_met(obstacles, k, domain))
         notes.push_back("No part of the obstacle '" + obstacles[k].name() +
                         "' lies in the mesh outside of the other obstacles: "
-                        "soil never meets it, and the forces on it are 0. "
-                        "Move it, or remove it from 'Obstacles/Names'.");
+                        "soil never meets this obstacle, and all forces on the "
+                        "obstacle are 0. Move the obstacle, or remove the name "
+                        "from 'Obstacles/Names'.");
     return notes;
   }
 
@@ -103,12 +104,12 @@ namespace talus
         notes.push_back(
           text("The obstacle '",
                obstacles[k].name(),
-               "' has no 'Maximum shear stress', but the soil on it has an "
-               "undrained shear strength: its surface passes ",
+               "' has no 'Maximum shear stress', but the soil has an undrained "
+               "shear strength: the surface passes up to ",
                mu,
-               " times the normal stress, which may be far more than the soil "
-               "bears, so that the soil shears above it in place of sliding on "
-               "it. If it is to slide, give the shear strength of the "
+               " times the normal stress, which may be far above the strength, "
+               "so that the soil shears above the surface instead of sliding. "
+               "To let the soil slide, give the shear strength of the "
                "interface by 'Obstacles/",
                obstacles[k].name(),
                "/Maximum shear stress'."));

@@ -11,8 +11,8 @@ namespace talus
 
   namespace
   {
-    // Cells across an obstacle that resolve it: with four the force on a pipe is
-    // right within a few per cent.
+    // Number of cells across an obstacle that resolves the obstacle: with four,
+    // the force on a pipe is right within a few per cent.
     constexpr double n_cells_needed = 4.;
 
     /// Extent of an obstacle along axis @p axis, m.
@@ -42,7 +42,7 @@ namespace talus
 
 
 
-    /// @p length, m, with three digits.
+    /// Text for @p length, m, with three digits and unit.
     std::string
     in_words(const double length)
     {
@@ -51,7 +51,6 @@ namespace talus
 
 
 
-    /// An extent with its axis.
     std::string
     in_words(const Extent &extent)
     {
@@ -76,7 +75,7 @@ namespace talus
         const Box<dim> box     = obstacles[k].bounding_box();
         const double   h       = grid.finest_size_in(box);
         const auto     extents = sorted_extents(box);
-        // The size of a cell that fits exactly has round-off.
+        // Tolerance for round-off in the size of a cell that fits exactly.
         const auto is_shorter = [](const double a, const double b) {
           return a < (1. - 1e-9) * b;
         };
@@ -88,14 +87,14 @@ namespace talus
                                  in_words(extents[0]),
                                  " and ",
                                  in_words(extents[1]),
-                                 ", which is less than a cell of ",
+                                 ", less than a cell of ",
                                  in_words(h),
                                  " along two axes: the soil would meet a body "
-                                 "as large as a cell. Ask for cells of ",
+                                 "as large as a cell. Use cells of ",
                                  needed,
                                  " or less there, ",
                                  how_to_refine,
-                                 ", or leave the obstacle out.")));
+                                 ", or remove the obstacle.")));
         if (is_shorter(extents[0].length, 2. * h))
           notes.push_back(text("The obstacle '",
                                obstacles[k].name(),
@@ -103,12 +102,13 @@ namespace talus
                                in_words(extents[0]),
                                ", less than two cells of ",
                                in_words(h),
-                               ": soil on both sides of it moves with the same "
-                               "nodes, and the force on it is rough. Cells of ",
+                               ": soil on both sides moves with the same "
+                               "nodes, and the force on the obstacle is "
+                               "inaccurate. Use cells of ",
                                needed,
                                " or less there, ",
                                how_to_refine,
-                               ", resolve it."));
+                               "."));
       }
     return notes;
   }

@@ -15,8 +15,8 @@ namespace talus
     add_parameter("Names",
                   listed_names_,
                   "Names of the rigid bodies that soil cannot enter (seabed, "
-                  "pipeline, wall), separated by commas; each has a section "
-                  "of that name. Empty: none.");
+                  "pipeline, wall), separated by commas; each body has a "
+                  "section with its name. Empty: none.");
     for (const std::string &name : names)
       obstacles_.push_back(std::make_unique<Obstacle<dim>>(name));
   }

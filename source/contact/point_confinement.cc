@@ -10,9 +10,9 @@ namespace talus
 
   namespace
   {
-    /// Half lengths of the box of point @p p, m, at most half of a cell: a point
-    /// that a limit keeps from being split may be longer than what the nodes see
-    /// of it.
+    /// Half lengths of the box of point @p p, m, at most half of a cell: if a
+    /// limit prevents a point from being split, the box may be longer than the
+    /// clipped box used for weights.
     template <int dim>
     Tensor<1, dim>
     half_lengths_in_cell(const State<dim>  &state,
@@ -38,10 +38,10 @@ namespace talus
 
 
 
-  /// By the planes of the facets, since the distance from a terrain is dear and
-  /// most points of a cut cell are not at its surface. Points move with the
-  /// velocity of the grid, which is not much more than their own; a point that is
-  /// missed is found in the next step.
+  /// Points are selected by the planes of the facets: the distance from a
+  /// terrain is expensive, and most points of a cut cell are not at the
+  /// surface. The factor 2 is a margin, since points move with the velocity of
+  /// the grid, not with their own; a missed point is found in the next step.
   template <int dim>
   void
   PointConfinement<dim>::note(const State<dim> &state, const Batch &batch)
@@ -74,8 +74,8 @@ namespace talus
 
 
 
-  /// Note the points of a cell that an obstacle contains as a whole: there is no
-  /// plane of a facet to tell how deep a point lies.
+  /// Note all points of a cell which lies wholly inside an obstacle: no facet
+  /// is there to select points by its plane.
   template <int dim>
   void
   PointConfinement<dim>::note_contained(const State<dim> &state,
@@ -93,9 +93,9 @@ namespace talus
 
 
 
-  // The correction by one surface may lead into another surface: soil that runs
-  // down a bed against a structure would be held by the structure and sink into
-  // the bed. So points that were moved are looked at again.
+  // The correction by one surface may lead into a second surface: soil that
+  // runs down a bed against a structure would be held by the structure and sink
+  // into the bed. So moved points are examined again, in up to three passes.
   template <int dim>
   void
   PointConfinement<dim>::confine(State<dim> &state)
@@ -132,8 +132,10 @@ namespace talus
 
 
 
-  /// Obstacles are where they are at the end of the step. One that moves takes
-  /// the points at its surface along.
+  /// Correct the new position @p x, m, of a candidate; return whether it
+  /// changed. The step of @p dt, s, begins at @p time, s; obstacles are at
+  /// their positions at the end. A moving obstacle takes points at its surface
+  /// along.
   template <int dim>
   bool
   PointConfinement<dim>::confine(const Candidate &candidate,

@@ -26,7 +26,7 @@ namespace talus
 
   namespace
   {
-    /// Layers of cells between a cell and a face of the mesh: 0 at the face.
+    /// Number of layers of cells between a cell and a face of the mesh.
     template <int dim>
     unsigned int
     layers_to_face(const Cell<dim>   &cell,
@@ -43,9 +43,9 @@ namespace talus
 
 
 
-  // Boxes of the second layer may reach the first one. The row of the patch on
-  // the face is its second or first one at a lower face, its third or last one
-  // at an upper face.
+  // Cells in two layers are listed: boxes in the second layer may reach the
+  // first. The row of the patch on the face is 1 - layers at a lower face, 2 +
+  // layers at an upper face.
   template <int dim>
   void
   SeabedCoverage<dim>::prepare(const Grid<dim> &grid)
@@ -101,7 +101,7 @@ namespace talus
                 volume_fraction_of_full_cells)
             is_full_[node] |= 1u << face;
       }
-    // Cells and segments are both in the order of the cells.
+    // cells_ and segments are both sorted by cell.
     auto at = cells_.begin();
     for (const Segment &segment : state.points.segments())
       {
@@ -118,7 +118,7 @@ namespace talus
 
 
 
-  /// Hanging nodes carry nothing: pass their areas to their masters.
+  /// Distribute the areas of hanging nodes to their masters.
   template <int dim>
   void
   SeabedCoverage<dim>::give_to_masters(const Grid<dim> &grid)
@@ -135,8 +135,8 @@ namespace talus
 
 
 
-  /// Whether all nodes that the points of a cell could cover are at full cells,
-  /// where the area is not asked for. Of ghosts this is not known.
+  /// Whether all nodes in reach of the points of a cell are at full cells,
+  /// where the covered area is not needed. Ghost nodes count as not full.
   template <int dim>
   bool
   SeabedCoverage<dim>::is_covered_anyway(const Grid<dim>  &grid,
@@ -157,7 +157,7 @@ namespace talus
 
   namespace
   {
-    /// Weight of a box whose lower side is @p gap cells above the face [-].
+    /// Weight [-] of a box with the lower side @p gap cells above the face.
     double
     weight_of_gap(const double gap)
     {
@@ -171,7 +171,8 @@ namespace talus
   namespace
   {
     /// Area of the section of the box of point @p p across @p axis, m^(dim-1);
-    /// of a convected domain the mean over its height.
+    /// for a convected domain the mean over its height. @p half: half lengths,
+    /// m.
     template <int dim>
     double
     section_of_box(const State<dim>     &state,
@@ -260,8 +261,8 @@ namespace talus
 
 
   /// Add the area of a box where cells of several sizes meet, or of a convected
-  /// domain: the weights of the nodes on the face, divided by their sum, are the
-  /// means along the face.
+  /// domain. The weights of the nodes on the face, divided by their sum, are
+  /// the mean shape functions of the box along the face.
   template <int dim>
   void
   SeabedCoverage<dim>::add_by_weights(const State<dim>  &state,

@@ -22,7 +22,7 @@ namespace talus
 
   namespace
   {
-    /// Face @p face of the box @p domain as a surface.
+    /// Surface on face @p face of the box @p domain.
     template <int dim>
     typename NodalGaps<dim>::Surface
     surface_of(const unsigned int face, const Box<dim> &domain)
@@ -42,8 +42,8 @@ namespace talus
 
 
 
-  // Cells whose patch is complete know which nodes their points may reach; where
-  // sizes meet, all are looked at.
+  // In a uniform cell the patch tells which nodes the points may reach; points
+  // in all other cells are examined.
   template <int dim>
   void
   SeabedGaps<dim>::prepare(const Grid<dim> &grid)
@@ -58,7 +58,7 @@ namespace talus
           surface_of_face_[face] = surfaces.size();
           surfaces.push_back(surface_of(face, grid.domain()));
         }
-    // Few: a slot for each, and no search.
+    // Surfaces are few: each has a slot, and all are near.
     std::vector<unsigned int> numbers(surfaces.size());
     std::iota(numbers.begin(), numbers.end(), 0u);
     gaps_.prepare(grid,

@@ -12,20 +12,21 @@ namespace talus
 
   namespace
   {
-    /// Volume fraction from which on soil covers the bed, whatever its boxes say,
-    /// and where that begins to count.
+    /// Volume fractions [-]: from `full` on soil covers the bed, whatever the
+    /// boxes cover; linear between `nearly_full` and `full`.
     constexpr double full = 0.7, nearly_full = 0.4;
 
-    /// Boxes whose lower sides are so far above the bed, in cells, lie on it, or
-    /// do not: in between partly.
+    /// Height, in cells, of the lower side of a box above the bed: up to
+    /// lies_on_bed the box counts, from lies_above_bed on not, linear in
+    /// between.
     constexpr double lies_on_bed    = 0.05,
                      lies_above_bed = largest_gap_of_covering_box;
 
-    /// Sum of sections from which on the bed counts as covered, as a share of the
-    /// area that boxes cover at least.
+    /// Sum of sections, as a share of the minimum covered area, from which on
+    /// the bed counts as covered.
     constexpr double covered = 0.95;
 
-    /// Whether a place is in a cell, or on one of its lower faces.
+    /// Whether a place is in a cell or on a lower face of the cell.
     template <int dim>
     bool
     contains(const Cell<dim> &cell, const Point<dim> &x)
@@ -36,7 +37,7 @@ namespace talus
       return true;
     }
 
-    /// The axis along which boxes stand on a bed with this normal.
+    /// Axis nearest to @p normal: boxes stand on the bed along this axis.
     template <int dim>
     unsigned int
     steepest_axis(const Tensor<1, dim> &normal)
@@ -73,8 +74,8 @@ namespace talus
 
 
 
-  // Points of the cells at the bed and of those beside them: a box on the bed is
-  // at most a cell long.
+  // Only points in cells at the bed or beside the bed are needed: a box on the
+  // bed is at most a cell long.
   template <int dim>
   void
   BedCoverage<dim>::find(const State<dim>        &state,
@@ -121,7 +122,7 @@ namespace talus
 
 
 
-  /// Forget the last step.
+  /// Reset the sums of the previous step to zero.
   template <int dim>
   void
   BedCoverage<dim>::clear(const Grid<dim> &grid)
@@ -138,8 +139,8 @@ namespace talus
 
 
 
-  /// Whether the shares of all nodes are known without the boxes. Ghosts count
-  /// as not full.
+  /// Whether all nodes of a cell are full, so that boxes are not needed. Ghosts
+  /// count as not full.
   template <int dim>
   bool
   BedCoverage<dim>::is_full(const Grid<dim>      &grid,
@@ -154,8 +155,8 @@ namespace talus
 
 
 
-  /// Plane of the obstacles by the distances of the cell's nodes. Returns whether
-  /// there is one.
+  /// Compute the plane of the bed near @p x, m, from the distances of the nodes
+  /// of @p cell from the obstacles. Returns false without a normal.
   template <int dim>
   bool
   BedCoverage<dim>::find_plane(const Cell<dim>         &cell,
@@ -180,8 +181,8 @@ namespace talus
 
 
 
-  // The section of a box is sampled at two places along each axis of the bed, so
-  // that boxes of any length up to a cell cover a flat bed evenly.
+  // The section of a box is sampled at two places per axis of the bed, so that
+  // boxes of any length up to a cell cover a flat bed evenly.
   template <int dim>
   void
   BedCoverage<dim>::add_box(const State<dim>  &state,
@@ -197,7 +198,7 @@ namespace talus
     double area = 1. / std::abs(n[axis]);
     for (unsigned int d = 0; d < dim; ++d)
       if (d != axis)
-        area *= half[d]; // of one of two samples along the axis
+        area *= half[d]; // area of a sample; two samples along the axis
     const Point<dim> x = load_place(state.points, state.points.position, p);
     for (unsigned int i = 0; i < power(2, dim - 1); ++i)
       {
@@ -255,8 +256,10 @@ namespace talus
 
 
 
-  /// Share of an area that boxes of the section @p sum cover, at a node with
-  /// volume fraction @p f of soil [-]. @p area: covered at least, m^(dim-1).
+  /// Return the covered share of the bed at a node [-].
+  /// @param sum sections of the boxes, m^(dim-1)
+  /// @param area minimum covered area, m^(dim-1)
+  /// @param f volume fraction of soil [-]
   template <int dim>
   double
   BedCoverage<dim>::share(const double sum, const double area, const double f)

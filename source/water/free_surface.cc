@@ -11,16 +11,16 @@ namespace talus
 
   namespace
   {
-    /// Vector area of a column of cells, as a share of the face of a cell, from
-    /// which on it is a surface. Less is noise of boxes that do not tile the soil,
-    /// or a few points on their own.
+    /// Minimum vector area of a surface, summed over a column of cells, as a
+    /// share of the face of a cell [-]. Smaller values are noise of boxes which
+    /// do not tile the soil, or a few isolated points.
     constexpr double min_area_of_surface = 0.25;
 
-    /// Vector area of a single cell, as a share of its face, below which the cell
-    /// is passed over; from twice as much on it counts.
+    /// Vector area of a cell, as a share of its face [-], below which the cell
+    /// has no facet; facets have full area from twice this value on.
     constexpr double min_area_in_cell = 1e-4;
 
-    /// Vector area where there is no cell.
+    /// Vector area beyond the mesh.
     constexpr std::array<double, 3> zeros = {};
 
     double
@@ -29,10 +29,12 @@ namespace talus
       return x * x;
     }
 
-    /// Weight of a vector area in the sum over a row of cells, from its product
-    /// with the own one and the product of the squares of their lengths [-]: the
-    /// fourth power of the cosine, zero from a right angle on. Free of branches,
-    /// since the signs inside the soil are those of noise.
+    /// Weight of a vector area in the sum over a column of cells [-]: the
+    /// fourth power of the cosine of the angle to the vector area of the cell,
+    /// zero from a right angle on. Without branches, since signs inside the
+    /// soil are noise.
+    /// @param product scalar product of both vector areas
+    /// @param squares product of their squared lengths
     double
     weight_by_angle(const double product, const double squares)
     {
@@ -58,15 +60,15 @@ namespace talus
       return result;
     }
 
-    // Two cells on either side, since the volume fraction falls from one to zero
-    // within two cells along the normal. The lowest vertex of a cell above is the
-    // own lowest one, moved; the highest vertex of a cell below likewise. Plain
-    // numbers stay in registers, tensors would go through memory.
-    /// Add the vector areas of the cells along @p axis to @p sum, the own one of
-    /// @p cell, each weighted by the fourth power of the cosine to the own one,
-    /// m^(dim-1). @p areas: two vector areas by node, those of the cells whose
-    /// lowest and highest vertex the node is. Cells beyond the mesh and of another
-    /// size count as zero.
+    // Two cells on either side, since the volume fraction falls from one to
+    // zero within two cells along the normal. Cells above are found by their
+    // lowest vertex, cells below by their highest vertex. Plain numbers stay in
+    // registers, tensors would go through memory.
+    /// Add vector areas of the cells along @p axis, each times
+    /// weight_by_angle(). Cells beyond the mesh or of another size count as
+    /// zero.
+    /// @param areas two vector areas by node, see FreeSurface::width_of_areas
+    /// @param sum vector area of @p cell on entry, sum on return, m^(dim-1)
     template <int dim>
     inline void
     add_column(const double *const      areas,
@@ -167,7 +169,8 @@ namespace talus
 
 
 
-  /// Momenta are those that the points bring along. Collective.
+  /// Fill the records of all nodes. The momentum is the sum over the points,
+  /// before forces act. Collective.
   template <int dim>
   void
   FreeSurface<dim>::fill_records(const State<dim> &state)
@@ -200,7 +203,7 @@ namespace talus
 
 
 
-  /// Soil is where the masters have it, and moves as theirs.
+  /// Interpolate the records of hanging nodes from their masters.
   template <int dim>
   void
   FreeSurface<dim>::fill_hanging_records(const Grid<dim> &grid)
@@ -218,10 +221,10 @@ namespace talus
 
 
 
-  // Of nodes with soil, those this rank owns and ghosts, the cells around; so the
-  // cost follows the soil, and the order that of the active nodes, which is the
-  // same in a resumed run. As long as the nodes are those of the previous step,
-  // so are the cells.
+  // Lists the cells around owned and ghost nodes with soil: the cost follows
+  // the soil. The order is the order of the active nodes, which is the same in
+  // a resumed run. If the nodes with soil have not changed since the previous
+  // step, the list is kept.
   template <int dim>
   void
   FreeSurface<dim>::list_cells(const State<dim> &state)
@@ -270,8 +273,9 @@ namespace talus
 
 
 
-  // The second cell from a cell at the end of a rank is not known there, but its
-  // vertex that is nearer is: its owner knows all cells around.
+  // Areas are stored at nodes, since the second cell across the border of a
+  // rank is unknown here. The nearer vertex of the second cell is a ghost node,
+  // whose owner knows all cells around.
   template <int dim>
   void
   FreeSurface<dim>::find_vector_areas(const Grid<dim> &grid)
@@ -299,7 +303,7 @@ namespace talus
 
 
 
-  /// Share of the surfaces of obstacles around a cell that soil covers [-].
+  /// Share of the surfaces of obstacles around a cell covered by soil [-].
   template <int dim>
   double
   FreeSurface<dim>::covered_share_of_facets(const NodesOfCell &nodes) const
@@ -315,10 +319,11 @@ namespace talus
 
 
 
-  // - integral of (grad s + c grad b), with the volume fractions s of soil and b
-  // of obstacles and the covered share c of their surfaces: where soil covers the
-  // bed, only the surface towards the water is left. What lies below the mesh
-  // counts in the same way, with the face of the mesh in the place of grad b.
+  /// Return minus the integral of (grad s + c grad b) over a cell, m^(dim-1),
+  /// with the volume fractions s of soil and b of obstacles and the covered
+  /// share c of the surfaces of obstacles: where soil covers the bed, only the
+  /// surface towards the water is left. The region below the mesh counts as
+  /// bed, with the face of the mesh in place of grad b.
   template <int dim>
   Tensor<1, dim>
   FreeSurface<dim>::integrate_gradient(const Grid<dim> &grid,
@@ -347,14 +352,15 @@ namespace talus
 
 
 
-  // The sum of the vector areas along an axis through the whole fall of the volume
-  // fraction has the direction of the surface, where the gradient in each single
-  // cell does not: its components are differences over another stencil. The column
-  // along the axis that is nearest to the normal crosses the surface within the
-  // fewest cells. Weights by the angle between two cells leave out the other side
-  // of a thin sheet, and what lies around an edge.
-  /// Set normal and vector area of a facet from @p own_area, the vector area of the
-  /// surface in its cell, m^(dim-1). Returns whether there is a surface.
+  // The sum of the vector areas along an axis, through the whole fall of the
+  // volume fraction, has the direction of the surface. The gradient in a single
+  // cell does not: its components are differences over different stencils. The
+  // column along the axis nearest to the normal crosses the surface within the
+  // fewest cells. Weights by the angle between two cells leave out the far side
+  // of a thin sheet and the surface around an edge.
+  /// Set normal and vector area of a facet from @p own_area, the vector area of
+  /// the surface in the cell, m^(dim-1). Returns whether the cell has a
+  /// surface.
   template <int dim>
   bool
   FreeSurface<dim>::set_surface(const Cell<dim>      &cell,
@@ -393,9 +399,9 @@ namespace talus
 
 
 
-  // The shares of nodes are by mass as well as by shape functions, as those of a
-  // point are: else a node that hardly has soil would get a force that it
-  // cannot bear.
+  // The force is shared in proportion to the mass of the nodes: a node with
+  // hardly any soil must not get a large force. The velocity of the facet is
+  // the mean, weighted by mass.
   template <int dim>
   void
   FreeSurface<dim>::set_soil(SurfaceFacet<dim> &facet) const

@@ -11,16 +11,16 @@ namespace talus
 
   namespace
   {
-    /// Room left at the corner of a cell that an obstacle nearly fills, as a
-    /// share of the volume around the node. With less room, what boxes overlap of
-    /// the obstacle would count as much as all soil at the node.
+    /// Minimum open volume at a node which touches a facet, as a share of the
+    /// volume around the node [-]. With less open volume, the overlap of boxes
+    /// with the obstacle would count as much as all soil at the node.
     constexpr double min_open_fraction = 1e-3;
 
 
 
-    /// Share of a thin layer's bed under its boxes. A box as wide as high whose
-    /// diagonal follows the bed covers half of the bed, and all of it if the bed
-    /// is parallel to an axis.
+    /// Share of the bed covered by the boxes of a thin layer [-]. A box as wide
+    /// as high covers half of a bed along its diagonal, and all of a bed
+    /// parallel to an axis. @p normal: unit normal of the bed.
     template <int dim>
     double
     share_without_gaps(const Tensor<1, dim> &normal)
@@ -37,7 +37,7 @@ namespace talus
 
 
 
-  // Only the cells that this rank owns: a message completes the volumes.
+  // Sums over owned cells only: a message completes the volumes.
   template <int dim>
   void
   SolidAtNodes<dim>::prepare(const Grid<dim> &grid)
@@ -94,7 +94,8 @@ namespace talus
 
 
 
-  /// Of all nodes of cells that touch a facet, ghosts included.
+  /// Compute the distances of all nodes of cells with a contact node, ghosts
+  /// included.
   template <int dim>
   void
   SolidAtNodes<dim>::find_distances(const Grid<dim>         &grid,

@@ -15,11 +15,11 @@ namespace talus
 
 
 
-  /// What a condition is made from.
+  /// Arguments of the constructor of a condition.
   template <int dim>
   struct FaceDescription
   {
-    unsigned int       face;     ///< its number, as deal.II counts them
+    unsigned int       face;     ///< number, in deal.II's order
     const std::string &velocity; ///< expressions
     const std::string &traction; ///< expressions
     const Constants   &constants;
@@ -28,9 +28,9 @@ namespace talus
 
 
 
-  /// What a face of the mesh does to the soil. Whoever derives from it says so
-  /// by one or several of: constraints on the velocity of a node, which do not
-  /// depend on what the soil does; a force; one-sided contact.
+  /// Condition on a face of the mesh. A derived class provides one or several
+  /// of: constraints on the velocity of a node, independent of the state of the
+  /// soil; a traction; one-sided contact.
   template <int dim>
   class BoundaryCondition
   {
@@ -41,36 +41,37 @@ namespace talus
 
     virtual ~BoundaryCondition() = default;
 
-    /// Number of the face, as deal.II counts them.
+    /// Number of the face, in deal.II's order.
     unsigned int
     face() const
     {
       return face_;
     }
 
-    /// Whether a node on @p faces (see Grid::faces_of_node()) lies on it.
+    /// Whether a node on @p faces (see Grid::faces_of_node()) lies on the face.
     bool
     acts_on(const unsigned char faces) const
     {
       return faces & (1u << face_);
     }
 
-    /// Whether it asks for the place of a node.
+    /// Whether the condition needs the places of nodes.
     virtual bool
     depends_on_place() const
     {
       return false;
     }
 
-    /// Whether it holds or drives component @p d of the velocity.
+    /// Whether the condition prescribes component @p d of the velocity.
     virtual bool
     constrains(const unsigned int /*d*/) const
     {
       return false;
     }
 
-    /// Set its constraints at a node at @p x, time @p t, in place of those of
-    /// conditions that acted before it; they bear the number @p owner.
+    /// Set the constraints of the condition at a node at @p x, m, time @p t, s;
+    /// constraints of earlier conditions along the same direction may be
+    /// replaced. @p owner: number of the condition, stored in the constraints.
     virtual void
     constrain(const dealii::Point<dim> & /*x*/,
               const double /*t*/,
@@ -78,30 +79,32 @@ namespace talus
               VelocityConstraints<dim> & /*constraints*/)
     {}
 
-    /// Whether it passes a force that does not depend on what the soil does.
+    /// Whether the condition has a traction.
     virtual bool
     has_traction() const
     {
       return false;
     }
 
-    /// That force per area in contact, Pa, at @p x, time @p t.
+    /// Force per area in contact, Pa, at @p x, m, time @p t, s; independent of
+    /// the state of the soil.
     virtual dealii::Tensor<1, dim>
     traction(const dealii::Point<dim> & /*x*/, const double /*t*/)
     {
       return {};
     }
 
-    /// Whether soil may lift off and slide along it.
+    /// Whether the soil may lift off and slide: apply_contact() is called.
     virtual bool
     is_one_sided() const
     {
       return false;
     }
 
-    /// Change the velocity of @p node after a step of @p dt, s, at whose start
-    /// the soil was farther from the face by @p gap, m, than contact needs.
-    /// Returns the normal and the tangential impulse on the soil, N s.
+    /// Change the velocity of @p node after the momentum update of a step of
+    /// @p dt, s. @p gap: clearance between soil and face at the start of the
+    /// step, m, 0 in contact. Returns the normal and the tangential impulse on
+    /// the soil, N s.
     virtual std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
     apply_contact(NodalFields<dim> & /*nodes*/,
                   const Grid<dim> & /*grid*/,

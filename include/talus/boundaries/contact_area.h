@@ -23,15 +23,15 @@ namespace talus
 
 
 
-  /// Volume fraction above which a surface counts as fully covered [-]: the boxes
-  /// there are not examined.
+  /// Volume fraction from which on a surface counts as fully covered [-],
+  /// without examination of boxes.
   constexpr double volume_fraction_of_full_cells = 0.95;
 
-  /// Share of a surface in contact [-]. It is @p covered, the share that lies
-  /// under the boxes of points, in a layer thinner than a cell, and one where
-  /// the volume fraction @p f of soil at the surface says that the cells are
-  /// full. A small share is left where soil acts on nodes beside the boxes: a
-  /// maximum shear stress on no area would cancel its Coulomb friction.
+  /// Share of a surface in contact [-]: @p covered, the share under the boxes
+  /// of points, in a layer thinner than a cell; one where the volume fraction
+  /// @p f of soil at the surface shows full cells. A small minimum is kept
+  /// where soil acts on nodes beside the boxes: a maximum shear stress on no
+  /// area would cancel the Coulomb friction.
   inline double
   share_in_contact(const double covered, const double f)
   {

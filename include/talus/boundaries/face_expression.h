@@ -9,15 +9,17 @@
 
 namespace talus
 {
-  /// What the user prescribes on a face of the mesh as a function of place and
-  /// time, component by component; some components may be left free.
+  /// Vector prescribed by the user on a face of the mesh, as a function of
+  /// place and time; some components may be free.
   template <int dim>
   class FaceExpression
   {
   public:
-    /// @p name of the parameter, for messages, and what it says: expressions
-    /// separated by semicolons, or, if that @p may_be_free, the word 'free' for
-    /// a component. Throws ExcUser if it cannot be understood.
+    /// Throws ExcUser if the expressions are invalid.
+    /// @param name name of the parameter, for messages
+    /// @param expressions separated by semicolons, one per component
+    /// @param constants named numbers for the expressions
+    /// @param may_be_free whether a component may be the word 'free'
     FaceExpression(const std::string &name,
                    const std::string &expressions,
                    const Constants   &constants,
@@ -30,7 +32,8 @@ namespace talus
       return is_prescribed_[component];
     }
 
-    /// Throws ExcPoint if it is not finite.
+    /// Return component @p component at @p x, m, time @p t, s. Throws ExcPoint
+    /// if the value is not finite.
     double
     value(const dealii::Point<dim> &x,
           const double              t,

@@ -9,16 +9,16 @@
 
 namespace talus
 {
-  /// Shear that a rigid surface passes to soil which slides along it: Coulomb
-  /// friction, capped per area in contact as soft soil cannot pass more than its
-  /// own remoulded strength (@cite dong2017), plus, where a film of viscous mud
-  /// is asked for, the stress of that film. Nodes of a seabed on a mesh face and
-  /// facets of obstacles obey the same law.
+  /// Friction law of a rigid surface: Coulomb friction, with a maximum shear
+  /// stress on the area in contact, since soft soil cannot pass more than its
+  /// remoulded strength (@cite dong2017); plus, if defined, the stress of a
+  /// film of viscous mud. Nodes of a seabed on a mesh face and facets of
+  /// obstacles obey the same law.
   ///
-  /// Coulomb friction is limited by a running mean of the normal force. On a
-  /// rigid surface an elastic body that rings has no steady sliding otherwise:
-  /// normal force and friction feed the waves, and the body chatters, slips by
-  /// turns and is thrown up (@cite cochard2000).
+  /// Coulomb friction follows a running mean of the normal force. Otherwise a
+  /// ringing elastic body has no steady sliding on a rigid surface: normal
+  /// force and friction feed the waves, and the body chatters, slips by turns
+  /// and is thrown up (@cite cochard2000).
   class InterfaceFriction : public dealii::ParameterAcceptor
   {
   public:
@@ -29,31 +29,32 @@ namespace talus
     void
     check() const;
 
-    /// Coulomb coefficient as a strength reduction leaves it [-].
+    /// Coulomb coefficient [-], including scale_strength().
     double
     coefficient() const
     {
       return coefficient_factor_ * coefficient_;
     }
 
-    /// Multiply maximum shear stresses by @p factor from now on [-].
+    /// Set the multiplier @p factor [-] of maximum shear stresses.
     void
     scale_shear_stress(const double factor)
     {
       shear_stress_factor_ = factor;
     }
 
-    /// Multiply maximum shear stresses and the coefficient by @p factor from now
-    /// on [-]. The film is no strength and stays.
+    /// Set the multiplier @p factor [-] of maximum shear stresses and of the
+    /// coefficient. The film is no strength and stays unchanged.
     void
     scale_strength(const double factor)
     {
       shear_stress_factor_ = coefficient_factor_ = factor;
     }
 
-    /// Largest friction force of soil at rest, N, for a normal force, N, a
-    /// maximum shear stress, Pa, which may be infinite, and an area in contact,
-    /// m^(dim-1).
+    /// Return the maximum friction force on soil at rest, N.
+    /// @param normal_force in N
+    /// @param maximum_shear_stress in Pa, may be infinite
+    /// @param area area in contact, m^(dim-1)
     double
     largest_force(const double normal_force,
                   const double maximum_shear_stress,
@@ -63,20 +64,25 @@ namespace talus
                       limit_of_stress(maximum_shear_stress, area));
     }
 
-    /// Friction force of soil at rest whatever its normal force, N; infinite for
-    /// an infinite maximum shear stress.
+    /// Return the maximum friction force for any normal force, N: multiplier
+    /// times maximum shear stress, Pa, times area in contact, m^(dim-1);
+    /// infinite for an infinite stress.
     double
     limit_of_stress(double maximum_shear_stress, double area) const;
 
-    /// Force of the film, N, at a slip velocity, m/s.
+    /// Force of the film, N, at a slip velocity, m/s, on an area in contact,
+    /// m^(dim-1).
     double
     film_force(double slip_velocity, double area) const;
 
-    /// Length of the tangential impulse of a step of @p dt s, N s. @p trial is
-    /// the impulse that would stop the soil, N s, @p mass the mass that the
-    /// surface sees, kg, @p largest_force the friction of soil at rest, N. The
-    /// film is taken implicitly: with the slip velocity u that is left,
+    /// Return the length of the tangential impulse in a step, N s. The film is
+    /// implicit: the slip velocity u after the step satisfies
     /// mass u + dt film_force(u) = trial - dt largest_force.
+    /// @param trial impulse that would stop the soil, N s
+    /// @param mass effective mass of the soil at the surface, kg
+    /// @param largest_force maximum friction force at rest, N
+    /// @param area area in contact, m^(dim-1)
+    /// @param dt time step, s
     double
     impulse(double trial,
             double mass,
@@ -84,9 +90,9 @@ namespace talus
             double area,
             double dt) const;
 
-    /// Weight of the current normal force in the running mean, at a slip of
-    /// @p slip m in the step, on cells of @p cell_size m. The mean forgets
-    /// within 32 steps, and within 0.05 cells of slip.
+    /// Weight of the current normal force in the running mean [-], for a slip
+    /// of @p slip, m, in the step and cells of @p cell_size, m. The memory of
+    /// the mean is 32 steps, and 0.05 cells of slip.
     static double
     averaging_weight(double slip, double cell_size);
 

@@ -11,26 +11,25 @@
 
 namespace talus
 {
-  /// Running means of the normal forces at the nodes of the faces that are a
-  /// seabed, which limit friction there (InterfaceFriction). A mean belongs to
-  /// the place of its node: it survives changes of the mesh and its partition,
-  /// and checkpoints.
+  /// Running means of the normal forces at the nodes of seabed faces, for the
+  /// limit of friction (InterfaceFriction). A mean belongs to the place of the
+  /// node: it survives changes of the mesh and its partition, and checkpoints.
   template <int dim>
   class NormalForceMemory
   {
   public:
-    /// List the nodes of @p faces (bit f for face f of the mesh), after each
-    /// change of the mesh or its partition. Collective.
+    /// List the nodes of @p faces (bit f for face f of the mesh). Call after
+    /// each change of the mesh or its partition. Collective.
     void
     prepare(const Grid<dim> &grid, unsigned char faces);
 
-    /// Begin a step. Nodes without a force in a step are forgotten in the next.
+    /// Begin a step. A mean without update() in a step is dropped.
     void
     begin_step();
 
-    /// Add the normal force of this step, N, to the mean at @p node on @p face,
-    /// with @p weight [-], and return the mean, N. The first force after a step
-    /// without one is the mean.
+    /// Update the mean at @p node on @p face by the normal force of the step,
+    /// @p force, N, with @p weight [-], and return the mean, N. After a step
+    /// without update(), or in the first step, the mean is @p force.
     double
     update(unsigned int face, unsigned int node, double force, double weight);
 
@@ -43,7 +42,7 @@ namespace talus
       unsigned long key;       ///< of the place of the node
       unsigned int  face;      ///< of the mesh
       double        force = 0; ///< N
-      unsigned long step  = 0; ///< of the last force; 0: none yet
+      unsigned long step  = 0; ///< of the last update(); 0: none
     };
 
     std::vector<double>

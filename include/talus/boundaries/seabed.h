@@ -24,17 +24,18 @@ namespace talus
   public:
     Seabed();
 
-    /// Read the maximum shear stress and check the parameters, after parsing.
-    /// Throws ExcUser.
+    /// Parse the maximum shear stress and check the parameters. Call after
+    /// parsing. Throws ExcUser.
     void
     prepare(const Constants &constants);
 
-    /// Whether locate() must be called, and whether set_depth() before it.
+    /// Whether locate() must be called.
     bool
     depends_on_place() const
     {
       return !cap_->number();
     }
+    /// Whether set_depth() must be called before locate().
     bool
     depends_on_depth() const
     {
@@ -47,15 +48,15 @@ namespace talus
       cap_->set_depth(depth);
     }
 
-    /// Find the maximum shear stress at the nodes of the seabed, those that
-    /// @p is_on_seabed says yes to; @p places of all owned ones, m.
+    /// Evaluate the maximum shear stress at the nodes with @p is_on_seabed.
+    /// @p places: places of all owned nodes, m.
     void
     locate(const std::vector<dealii::Point<dim>>        &places,
            const std::function<bool(unsigned int node)> &is_on_seabed);
 
-    /// Area of @p face that the boxes of points near it cover at @p node,
-    /// m^(dim-1), as SeabedCoverage finds it; at most a little more than the
-    /// node's share of the face. Until set_covered_area() boxes cover all.
+    /// Area of @p face at @p node covered by boxes of points, m^(dim-1), from
+    /// SeabedCoverage; may slightly exceed the node's share of the face. Until
+    /// set_covered_area() everything counts as covered.
     using CoveredArea =
       std::function<double(unsigned int face, unsigned int node)>;
 
@@ -72,7 +73,7 @@ namespace talus
                  unsigned int            face,
                  unsigned int            node) const;
 
-    /// Begin a step, before apply().
+    /// Begin a step. Call before apply().
     void
     begin_step()
     {
@@ -80,21 +81,22 @@ namespace talus
       area_in_contact_ = 0;
     }
 
-    /// Area in which soil pressed on a seabed at the bottom of the mesh in the
-    /// last step, on the nodes of this rank, m^(dim-1); 0 before the first step of
-    /// a run or a resumed run.
+    /// Area on which soil pressed on a seabed at the bottom of the mesh in the
+    /// last step, sum over the nodes of this rank, m^(dim-1); 0 before the
+    /// first step of a run or a resumed run.
     double
     area_in_contact() const
     {
       return area_in_contact_;
     }
 
-    /// Change the velocity of @p node on @p face after a step of @p dt, s: where
-    /// the node would move into the seabed, its normal velocity v_n becomes zero,
-    /// which takes the force N = m v_n/dt. Friction, limited by the running mean
-    /// of N, acts against the tangential velocity, also in steps in which the
-    /// node moves away. Soil farther than @p gap, m, from the face than it moves
-    /// in the step is free. Returns normal and tangential impulse, N s.
+    /// Change the velocity of @p node on @p face after the momentum update of a
+    /// step of @p dt, s. If the node moves into the seabed, its normal velocity
+    /// v_n becomes zero by the force N = m v_n/dt. Friction, limited by the
+    /// running mean of N, acts against the tangential velocity, also in steps
+    /// in which the node moves away. @p gap: clearance between soil and face,
+    /// m; soil that does not close the gap in the step is free. Returns the
+    /// normal and the tangential impulse on the soil, N s.
     std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
     apply(NodalFields<dim> &nodes,
           const Grid<dim>  &grid,
@@ -103,17 +105,17 @@ namespace talus
           double            dt,
           double            gap = 0.);
 
-    /// Whether contact waits until the boxes of the points have come to the
-    /// face. Else a node feels the seabed as soon as it carries soil, which may
-    /// be a cell above.
+    /// Whether contact begins when the boxes of points reach the face.
+    /// Otherwise contact begins as soon as a node on the face carries soil, up
+    /// to a cell above the face.
     bool
     has_gap() const
     {
       return has_gap_;
     }
 
-    /// Largest friction force on soil at rest that is pressed onto @p area,
-    /// m^(dim-1), at @p node with @p normal_force, N.
+    /// Maximum friction force, N, on soil at rest at @p node, for a normal
+    /// force, N, and an area in contact, m^(dim-1).
     double
     largest_friction(const unsigned int node,
                      const double       normal_force,
@@ -130,8 +132,8 @@ namespace talus
       return friction_;
     }
 
-    /// Find the nodes of @p faces (bit f for face f), after each change of the
-    /// mesh or its partition. Collective.
+    /// List the nodes of @p faces (bit f for face f). Call after each change of
+    /// the mesh or its partition. Collective.
     void
     prepare_nodes(const Grid<dim> &grid, const unsigned char faces)
     {
@@ -145,7 +147,7 @@ namespace talus
     }
 
   private:
-    /// At a node, Pa.
+    /// Maximum shear stress at a node, Pa.
     double
     maximum_shear_stress(const unsigned int node) const
     {
@@ -164,12 +166,12 @@ namespace talus
     };
     double                               area_in_contact_ = 0; ///< m^(dim-1)
     std::unique_ptr<ShearStressCap<dim>> cap_;                 ///< Pa
-    std::vector<double>                  cap_of_node_; ///< Pa, if they differ
+    std::vector<double>                  cap_of_node_; ///< Pa, if not constant
   };
 
 
 
-  /// A face of the mesh that is a seabed. All such faces are the same Seabed.
+  /// Face of the mesh as a seabed. All seabed faces share a Seabed.
   template <int dim>
   class SeabedCondition : public BoundaryCondition<dim>
   {

@@ -8,24 +8,23 @@
 
 namespace talus
 {
-  /// A node's velocity along one direction is given.
+  /// Prescribed velocity of a node along a direction.
   template <int dim>
   struct VelocityConstraint
   {
     dealii::Tensor<1, dim> normal;   ///< the direction, a unit vector
-    double                 velocity; ///< along it, m/s
-    unsigned int           owner;    ///< number of the condition that gives it
+    double                 velocity; ///< along `normal`, m/s
+    unsigned int           owner;    ///< number of the condition
   };
 
 
 
-  /// All constraints on the velocity of one node, along directions that are
-  /// orthogonal to each other.
+  /// All constraints on the velocity of a node, along orthogonal directions.
   template <int dim>
   class VelocityConstraints
   {
   public:
-    /// Whether the velocity along @p normal is given.
+    /// Whether the velocity along @p normal is prescribed.
     bool
     has(const dealii::Tensor<1, dim> &normal) const
     {
@@ -35,7 +34,7 @@ namespace talus
       return false;
     }
 
-    /// Add a constraint, or put it in the place of that along the same direction.
+    /// Add a constraint, or replace the constraint along the same direction.
     void
     set(const VelocityConstraint<dim> &constraint)
     {
@@ -47,15 +46,15 @@ namespace talus
       size_    = std::max(size_, k + 1);
     }
 
-    /// Give the node the velocity that they ask for; returns the impulse that
-    /// this takes, N s.
+    /// Set the velocity of @p node to the prescribed velocities; return the
+    /// impulse needed, N s.
     dealii::Tensor<1, dim>
     impose(NodalFields<dim> &nodes, const unsigned int node) const
     {
       dealii::Tensor<1, dim> v = nodes.velocity(node);
       for (const VelocityConstraint<dim> &constraint : *this)
         {
-          // First away with it: so it becomes what is given to the last digit.
+          // Subtract first: the result is exact to the last digit.
           v -= (v * constraint.normal) * constraint.normal;
           v += constraint.velocity * constraint.normal;
         }

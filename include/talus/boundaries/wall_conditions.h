@@ -7,7 +7,7 @@
 
 namespace talus
 {
-  /// No motion along the normal, in either direction.
+  /// Wall without friction: no motion along the normal, in either direction.
   template <int dim>
   class RollerCondition : public BoundaryCondition<dim>
   {
@@ -29,7 +29,7 @@ namespace talus
 
 
 
-  /// No motion.
+  /// Fixed face: no motion.
   template <int dim>
   class FixedCondition : public BoundaryCondition<dim>
   {
@@ -51,8 +51,9 @@ namespace talus
 
 
 
-  /// Velocity by expression, for some components or all. A component that other
-  /// faces prescribe, too, is its own only if it is its normal.
+  /// Velocity by expression, for some or all components. A component already
+  /// prescribed by an earlier condition is replaced only if the component is
+  /// normal to the face.
   template <int dim>
   class VelocityCondition : public BoundaryCondition<dim>
   {
@@ -83,7 +84,7 @@ namespace talus
 
 
 
-  /// Force per area by expression.
+  /// Traction (force per area in contact) by expression.
   template <int dim>
   class TractionCondition : public BoundaryCondition<dim>
   {

@@ -9,9 +9,9 @@
 
 namespace talus
 {
-  /// Half lengths of the box of point @p p, m, as the soil fills it: without the
-  /// clipping that the weights need. Of a convected domain: half lengths of the
-  /// box around it.
+  /// Return the half lengths of the box of point @p p, m, without the clipping
+  /// used for weights. For a convected domain: the half lengths of its
+  /// axis-parallel bounding box.
   template <int dim>
   dealii::Tensor<1, dim>
   half_lengths_of_box(const Points<dim> &points,
@@ -40,8 +40,9 @@ namespace talus
 
 
 
-  /// Distance of the centre of a box with these half lengths, m, from a plane
-  /// that it touches and whose normal is @p normal, m.
+  /// Return the distance, m, between the centre of a box and a plane with unit
+  /// normal @p normal which touches the box. @p half: half lengths of the box,
+  /// m.
   template <int dim>
   double
   support_of_box(const dealii::Tensor<1, dim> &half,
@@ -55,9 +56,9 @@ namespace talus
 
 
 
-  /// Boxes whose lower sides are no farther than this from a surface cover it,
-  /// in cells. Boxes parallel to the axes leave gaps over a surface that is
-  /// inclined to the axes.
+  /// Maximum distance, in cells, between a surface and the lower side of a box
+  /// by which the box still covers the surface. Boxes parallel to the axes
+  /// leave gaps over a surface inclined to the axes.
   constexpr double largest_gap_of_covering_box = 0.25;
 } // namespace talus
 

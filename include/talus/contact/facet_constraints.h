@@ -12,26 +12,27 @@
 
 namespace talus
 {
-  /// A facet with the soil as it is: shares of its nodes in its velocity, and so
-  /// on.
+  /// Soil at a facet in the current step. A facet without soil at its nodes
+  /// keeps the default values.
   template <int dim>
   struct FacetConstraint
   {
+    /// Weights of the nodes in the velocity at the facet [-]; sum 1.
     std::array<double, ContactFacet<dim>::n_nodes> share{};
-    bool   is_loaded   = false; ///< whether there is soil at its nodes
-    double normal_mass = 0;     ///< kg; 0 where walls hold all nodes
-    double mass        = 0;     ///< kg
-    double gap         = 0;     ///< m
-    double area        = 0;     ///< in contact, m^(dim-1)
-    /// Weight of the normal impulse of this step in the running mean that limits
-    /// friction [-].
+    bool   is_loaded   = false; ///< whether the nodes of the facet have soil
+    double normal_mass = 0; ///< along the normal, kg; 0: walls hold all nodes
+    double mass        = 0; ///< effective mass without walls, kg
+    double gap         = 0; ///< between soil and surface, m, >= 0
+    double area        = 0; ///< in contact, m^(dim-1)
+    /// Weight of the current normal impulse in the running mean [-].
     double averaging_weight = 1;
   };
 
 
 
-  /// Those of all facets of this rank: the mean velocity of the soil at the
-  /// contact point must not lead into the obstacle.
+  /// Constraints of all facets in owned cells: the mean velocity of the soil at
+  /// a facet must not lead into the obstacle. Computes effective mass, gap,
+  /// area in contact and limit of friction; FacetContact computes the impulses.
   template <int dim>
   class FacetConstraints
   {
@@ -44,12 +45,13 @@ namespace talus
       , nodes_(nodes)
     {}
 
-    /// After each change of the mesh or its partition. There are none until
-    /// find(). Collective.
+    /// Delete all constraints. Call after each change of the mesh or its
+    /// partition, after Facets::prepare(). Collective.
     void
     prepare(const Grid<dim> &grid);
 
-    /// Find how near soil comes to the surfaces; before find(). Collective.
+    /// Compute the gaps between soil and surfaces. Call before find().
+    /// Collective.
     void
     find_gaps(const State<dim> &state)
     {
@@ -58,12 +60,15 @@ namespace talus
                  facets_.nearness_of_cells());
     }
 
-    /// Find those of Facets::owned() for soil as the nodes have it, whose
-    /// friction remembers earlier steps if it @p has_memory.
+    /// Compute the constraints of Facets::owned() from ContactNodes and the
+    /// gaps. If @p has_memory, a running mean of the normal impulse limits
+    /// friction, otherwise the current impulse. Throws ExcPoint if soil is at a
+    /// facet where cells of different size meet. Collective.
     void
     find(const State<dim> &state, bool has_memory);
 
-    /// Of Facets::owned(), as find() left them.
+    /// Return the constraints of the last find(), one per facet of
+    /// Facets::owned().
     const std::vector<FacetConstraint<dim>> &
     all() const
     {
@@ -76,34 +81,39 @@ namespace talus
       return constraints_[facet];
     }
 
-    /// Numbers of the facets with soil at their nodes.
+    /// Indices in Facets::owned() of the facets with soil at their nodes.
     const std::vector<unsigned int> &
     loaded() const
     {
       return loaded_;
     }
 
-    /// Velocity of the soil at the contact point, m/s.
+    /// Mean velocity of the soil at a facet, m/s.
     dealii::Tensor<1, dim>
     velocity(unsigned int facet) const
     {
       return velocity(facets_.owned()[facet], constraints_[facet]);
     }
 
-    /// Friction impulse that a facet passes at most to soil at rest in a step of
-    /// @p dt s, N s, for an impulse along the normal, N s.
+    /// Return the maximum friction impulse on soil at rest, N s.
+    /// @param facet index in Facets::owned()
+    /// @param normal_impulse impulse along the normal, N s
+    /// @param dt time step, s
     double
     friction_limit(unsigned int facet, double normal_impulse, double dt) const;
 
-    /// Length of the tangential impulse of a facet in a step of @p dt s, N s, for
-    /// an impulse along the normal, N s, if @p trial would stop the soil, N s.
+    /// Return the length of the tangential impulse, N s, at most @p trial.
+    /// @param facet index in Facets::owned()
+    /// @param trial tangential impulse that would stop the soil, N s
+    /// @param normal_impulse impulse along the normal, N s
+    /// @param dt time step, s
     double
     friction_impulse(unsigned int facet,
                      double       trial,
                      double       normal_impulse,
                      double       dt) const;
 
-    /// Room between such a node's soil and the obstacle, m.
+    /// Clearance between the soil at the node @p inside and the obstacle, m.
     double
     gap_inside(const Grid<dim>                        &grid,
                const typename Facets<dim>::NodeInside &inside) const
@@ -139,7 +149,7 @@ namespace talus
     const Obstacles<dim>             &obstacles_;
     const Facets<dim>                &facets_;
     const ContactNodes<dim>          &nodes_;
-    NodalGaps<dim>                    gaps_; ///< the obstacles' surfaces
+    NodalGaps<dim>                    gaps_; ///< surfaces: the obstacles
     FacetCoverage<dim>                coverage_{obstacles_, facets_};
     std::vector<FacetConstraint<dim>> constraints_;
     std::vector<unsigned int>         loaded_;

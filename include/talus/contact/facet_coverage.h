@@ -13,13 +13,13 @@
 
 namespace talus
 {
-  /// Share of each facet that soil covers: the share of its sample points that
-  /// lie under the box of a point, or between two boxes close to one another.
-  /// Unlike the volume fraction of soil in the cell
-  /// it does not shrink with the thickness of a layer thinner than a cell. A
-  /// sample point is covered or not, whichever box covers it, so the shares are
-  /// the same on any number of ranks, and boxes parallel to the axes need not
-  /// tile a layer that is inclined to the axes.
+  /// Share of each facet covered by soil: the share of the sample points of the
+  /// facet which lie under the box of a material point, or between two boxes
+  /// close together. Unlike the volume fraction, the covered share does not
+  /// shrink with the thickness of a layer thinner than a cell. The shares do
+  /// not depend on which box covers a sample point: they are the same on any
+  /// number of ranks, and boxes parallel to the axes need not tile a layer
+  /// inclined to the axes.
   template <int dim>
   class FacetCoverage
   {
@@ -32,15 +32,17 @@ namespace talus
       , facets_(facets)
     {}
 
-    /// To be called after each change of the mesh or its partition. Collective.
+    /// Set up the messages. Call after each change of the mesh or its
+    /// partition. Collective.
     void
     prepare(const Grid<dim> &grid)
     {
       messages_.connect(grid.communicator());
     }
 
-    /// Compute the covered share of each facet of Facets::owned(). Only facets in
-    /// partly filled cells are sampled; all others get the share one. Collective.
+    /// Compute the covered share of each facet of Facets::owned(). Only facets
+    /// with a volume fraction below 0.95 are sampled; other facets get the
+    /// share 1. Collective.
     void
     find(const State<dim> &state, const VolumeFraction &volume_fraction);
 
@@ -57,11 +59,12 @@ namespace talus
 
     using Samples = boost::container::static_vector<dealii::Point<dim>,
                                                     power(n_columns, dim - 1)>;
-    /// Bit i is sample point i.
+    /// Set of sample points: bit i is sample point i.
     using Mask = unsigned int;
 
-    /// Sample points that boxes reach from below (2 d) and from above (2 d + 1)
-    /// along axis d of the dim-1 axes across the facet.
+    /// Sample points reached by boxes from below (2 d) and from above (2 d + 1)
+    /// along axis d of the dim-1 axes along the facet. A sample point is
+    /// covered if boxes reach it from both sides along at least one axis.
     struct Reached
     {
       std::array<Mask, 2 * (dim - 1)> from{};
@@ -110,8 +113,8 @@ namespace talus
     const Obstacles<dim>                  &obstacles_;
     const Facets<dim>                     &facets_;
     std::vector<Reached>                   reached_;   ///< by owned facet
-    std::vector<unsigned int>              n_samples_; ///< 0: not looked at
-    std::vector<double>                    shares_;    ///< of owned facets
+    std::vector<unsigned int>              n_samples_; ///< 0: not sampled
+    std::vector<double>                    shares_;    ///< by owned facet
     NeighborExchange                       messages_;
     std::vector<NeighborExchange::Message> outgoing_; ///< by neighbour
   };

@@ -10,9 +10,8 @@
 
 namespace talus
 {
-  /// Identity of a facet in tables, on any number of ranks: key of its cell
-  /// (two numbers), obstacle, number of the facet among those of the obstacle in
-  /// the cell.
+  /// Identity of a facet in tables, on any number of ranks: key of the cell
+  /// (two numbers), number of the obstacle, ContactFacet::number.
   using FacetName = std::array<double, 4>;
 
   template <int dim>
@@ -21,14 +20,14 @@ namespace talus
 
 
 
-  /// What a facet passes to the soil in a step.
+  /// Impulse of a facet on the soil in a step.
   template <int dim>
   struct FacetImpulse
   {
-    double                 normal = 0; ///< along the facet's normal, N s
-    dealii::Tensor<1, dim> tangential; ///< along the facet, N s
-    double                 effective_mass = 0; ///< that the facet sees, kg
-    double mean_normal = 0; ///< of the last steps, which limits friction, N s
+    double                 normal = 0;         ///< along the normal, N s, >= 0
+    dealii::Tensor<1, dim> tangential;         ///< along the facet, N s
+    double                 effective_mass = 0; ///< of the soil, kg; 0: no soil
+    double mean_normal = 0; ///< running mean of `normal`, limits friction, N s
 
     bool
     acts() const
@@ -39,9 +38,9 @@ namespace talus
 
 
 
-  /// Those of all facets of this rank, which outlive the facets: when the mesh,
-  /// its partition or the place of an obstacle changes, and in checkpoints, they
-  /// stay with the cell, the obstacle and the number of the facet there.
+  /// Impulses of all facets in owned cells. As long as a facet with the same
+  /// FacetName exists, an impulse survives changes of the mesh and its
+  /// partition, motion of obstacles, and checkpoints.
   template <int dim>
   class FacetImpulses
   {
@@ -50,7 +49,7 @@ namespace talus
       : facets_(facets)
     {}
 
-    /// Of Facets::owned().
+    /// Return the impulses, one per facet of Facets::owned().
     const std::vector<FacetImpulse<dim>> &
     all() const
     {
@@ -69,21 +68,23 @@ namespace talus
       return impulses_[facet];
     }
 
-    /// Take @p impulses of Facets::owned().
+    /// Replace all impulses. @p impulses: one per facet of Facets::owned().
     void
     set(const std::vector<FacetImpulse<dim>> &impulses);
 
-    /// Return one row for each loaded facet, or the restored rows if they have not
-    /// been taken yet: key of the cell (two), obstacle, number of the facet in
-    /// its cell, and those of FacetImpulse.
+    /// Return a row for each loaded facet: name_of(), normal impulse, effective
+    /// mass, mean normal impulse, tangential impulse. Between restore() and
+    /// take_restored(): return the restored rows.
     std::vector<double>
     rows() const;
 
-    /// Those that have a row in @p rows; no impulse for the other facets.
+    /// Replace all impulses by @p rows, see rows(). Facets without a row get no
+    /// impulse; rows without a facet on this rank are ignored.
     void
     take(const std::vector<double> &rows);
 
-    /// Keep @p rows until there are facets for them, see take_restored().
+    /// Store @p rows of a checkpoint until take_restored(), when facets exist.
+    /// Empty @p rows delete stored ones.
     void
     restore(const std::vector<double> &rows)
     {
@@ -96,6 +97,7 @@ namespace talus
       return !restored_.empty();
     }
 
+    /// Give the restored rows, if any, to the facets.
     void
     take_restored();
 

@@ -15,63 +15,63 @@
 namespace talus
 {
   /// Part of the surface of an obstacle in one cell of the mesh, outside of all
-  /// other obstacles. It is one contact point, at its centroid. An obstacle has
-  /// several facets in a cell where its surface has several directions, see
-  /// surfaces_by_direction().
+  /// other obstacles. A facet is one contact point, at the centroid of the
+  /// part. An obstacle has several facets in a cell if the surface has several
+  /// directions there, see surfaces_by_direction().
   template <int dim>
   struct ContactFacet
   {
     static constexpr unsigned int n_nodes = power(2, dim);
 
     unsigned int                      cell;
-    unsigned long                     key; ///< of the cell, on all ranks
+    unsigned long                     key; ///< of the cell, same on all ranks
     unsigned int                      obstacle;
-    unsigned int                      number; ///< of this obstacle in the cell
+    unsigned int                      number; ///< by direction of the normal
     std::array<unsigned int, n_nodes> node;   ///< of the cell
-    std::array<double, n_nodes>       shape_value; ///< of these at the centroid
+    std::array<double, n_nodes>       shape_value; ///< at the centroid, by node
     dealii::Point<dim>                centroid;    ///< m
-    dealii::Tensor<1, dim>            normal; ///< out of the obstacle, mean
+    dealii::Tensor<1, dim>            normal; ///< mean, out of the obstacle
     double                            area;   ///< m^(dim-1)
-    /// How far the surface may be from the plane through the centroid, m.
+    /// Maximum distance of the surface from the plane through the centroid, m.
     double deviation;
     double maximum_shear_stress; ///< Pa
   };
 
 
 
-  /// The surfaces of all obstacles as the mesh sees them: their facets, and how
-  /// much room they leave at the nodes. It depends on mesh, partition and
-  /// places of the obstacles only.
+  /// Surfaces of all obstacles, cut by the cells of the mesh: facets, nodes
+  /// that touch facets, and open volume at the nodes. The result depends on
+  /// mesh, partition and positions of the obstacles, not on the soil.
   template <int dim>
   class Facets
   {
   public:
-    /// Cut all cells; after each change of the mesh or its partition.
+    /// Cut all cells. Call after each change of the mesh or its partition.
     void
     prepare(const Grid<dim> &grid, const Obstacles<dim> &obstacles);
 
-    /// Cut those cells anew that a moving obstacle is in, or was.
+    /// Cut the cells again which a moving obstacle has left, cuts or enters.
+    /// Call after obstacles have moved.
     void
     update(const Grid<dim> &grid, const Obstacles<dim> &obstacles);
 
-    /// Those in the cells that this rank owns, in the order of the cells, and in
-    /// a cell in that of the obstacles.
+    /// Return the facets in the owned cells, sorted by cell, then by obstacle.
     const std::vector<ContactFacet<dim>> &
     owned() const
     {
       return owned_;
     }
 
-    /// Facets in the ghost cells, in the same order.
+    /// Return the facets in the ghost cells, sorted by cell, then by obstacle.
     const std::vector<ContactFacet<dim>> &
     ghosts() const
     {
       return ghosts_;
     }
 
-    /// Call action(facet) for all surfaces in cell @p c of this rank: for the
-    /// facets of owned(), for whole surfaces of which another obstacle covers a
-    /// part, and for surfaces on the faces of a cell inside.
+    /// Call action(facet) for all surfaces in cell @p c: for the facets, for
+    /// whole surfaces partly covered by another obstacle, and for surfaces on a
+    /// face of a cell inside an obstacle.
     template <typename Action>
     void
     for_each_in_cell(const unsigned int c, const Action &action) const
@@ -82,85 +82,88 @@ namespace talus
             action(facet);
     }
 
-    /// Obstacles that contain the whole of cell @p c of this rank, and so have no
-    /// facet there, in ascending order.
+    /// Obstacles, ascending, which contain the whole of cell @p c and so have
+    /// no facet there. Call only if obstacles exist.
     const std::vector<unsigned int> &
     containing(const unsigned int c) const
     {
       return section_at_[c]->containing;
     }
 
-    /// Cells that share a corner with cell @p c, which has a facet and may be a
-    /// ghost; cell @p c itself is one of them.
+    /// Cells which share a corner with cell @p c, including @p c. Cell @p c,
+    /// owned or ghost, must have a facet.
     const std::vector<unsigned int> &
     touching_cells(const unsigned int c) const
     {
       return cut_cell_at_[c]->touching;
     }
 
-    /// Nodes that touch a facet: those this rank owns, and all it knows.
+    /// Return the owned nodes of cells with a facet.
     const std::vector<unsigned int> &
     owned_nodes() const
     {
       return owned_nodes_;
     }
 
+    /// Return all nodes of cells with a facet, also ghosts.
     const std::vector<unsigned int> &
     nodes() const
     {
       return nodes_;
     }
 
-    /// Those of them on the faces of the mesh, where walls may be.
+    /// Return owned_nodes() on faces of the mesh, where walls may be.
     const std::vector<unsigned int> &
     owned_nodes_on_faces() const
     {
       return owned_nodes_on_faces_;
     }
 
+    /// Return nodes() on faces of the mesh.
     const std::vector<unsigned int> &
     nodes_on_faces() const
     {
       return nodes_on_faces_;
     }
 
-    /// Whether soil at a node feels an obstacle.
+    /// Whether an obstacle acts on soil at @p node.
     bool
     is_contact_node(const unsigned int node) const
     {
       return is_contact_node_[node];
     }
 
-    /// That of all nodes, 1 or 0.
+    /// Return is_contact_node() of all nodes, 1 or 0.
     const std::vector<unsigned char> &
     contact_nodes() const
     {
       return is_contact_node_;
     }
 
-    /// Nodes for which it is 1, with the obstacles that they feel; ghosts, too.
+    /// Return all pairs of a contact node and an obstacle acting on the node,
+    /// ghosts included. For nodes_inside() only the nearest obstacle is listed.
     const std::vector<NodeAndSurface> &
     nodes_and_obstacles() const
     {
       return nodes_and_obstacles_;
     }
 
-    /// Facets of all obstacles in the cells around a node this rank owns.
+    /// Number of facets, of all obstacles, in the cells around an owned node.
     unsigned int
     n_facets(const unsigned int node) const
     {
       return n_facets_[node];
     }
 
-    /// Integral of the shape function of such a node over what the obstacles
-    /// leave open, m^dim.
+    /// Integral of the shape function of an owned node outside of all
+    /// obstacles, m^dim; 0 if the node touches no facet.
     double
     open_volume(const unsigned int node) const
     {
       return open_volume_[node];
     }
 
-    /// Node inside an obstacle, beside its surface, that touches no facet.
+    /// Node inside an obstacle, near the surface, which touches no facet.
     struct NodeInside
     {
       unsigned int       node;
@@ -168,23 +171,23 @@ namespace talus
       unsigned int       obstacle;
     };
 
-    /// Those that this rank owns.
+    /// Return the owned nodes inside obstacles which touch no facet.
     const std::vector<NodeInside> &
     nodes_inside() const
     {
       return nodes_inside_;
     }
 
-    /// Whether points in this cell may touch a node of the two lists.
+    /// Whether points in @p cell may reach a node of a cell with a facet.
     bool
     is_near(const unsigned int cell) const
     {
       return is_near_[cell];
     }
 
-    /// Of all cells: 0 for those that are not near, 2 for those with a facet, 3
-    /// for those with surfaces that take no part in the contact, 1 for the
-    /// others.
+    /// Return a number for each cell: 2 for owned cells with a facet, 3 for
+    /// owned cells with a surface but no facet (see for_each_in_cell()), 1 for
+    /// other owned cells with is_near(), 0 for all others.
     const std::vector<unsigned char> &
     nearness_of_cells() const
     {
@@ -192,26 +195,26 @@ namespace talus
     }
 
   private:
-    /// What the surfaces make of a cell, whatever the numbers of its nodes.
+    /// Result of cutting a cell, independent of the numbers of cell and nodes.
     struct Section
     {
       /// Distance of the centre of the cell from the nearest obstacle, m; the
       /// largest number if none is near the cell.
       double                         distance;
-      std::vector<ContactFacet<dim>> facets;     ///< where soil may be
-      std::vector<ContactFacet<dim>> hidden;     ///< partly or wholly covered
+      std::vector<ContactFacet<dim>> facets;     ///< in contact with soil
+      std::vector<ContactFacet<dim>> hidden;     ///< only confine points
       std::vector<unsigned int>      containing; ///< obstacles
       std::array<double, ContactFacet<dim>::n_nodes> open_volume{};
     };
 
-    /// The same in the mesh.
+    /// Cell with surfaces, with the current numbers of cells and nodes.
     struct CutCell
     {
       std::vector<ContactFacet<dim>>                 facets;
       std::vector<ContactFacet<dim>>                 hidden;
       std::array<double, ContactFacet<dim>::n_nodes> open_volume;
-      std::vector<unsigned int> touching; ///< those that share a node with it
-      std::vector<unsigned int> near; ///< owned ones that touch one of these
+      std::vector<unsigned int> touching; ///< cells within one cell
+      std::vector<unsigned int> near;     ///< cells within two cells
     };
 
     Section
@@ -241,10 +244,10 @@ namespace talus
                       unsigned int          c);
 
     std::unordered_map<unsigned long, Section> sections_;  ///< by key of cell
-    std::map<unsigned int, CutCell>            cut_cells_; ///< ghosts, too
-    std::vector<const CutCell *> cut_cell_at_;  ///< by cell, for who asks often
+    std::map<unsigned int, CutCell>            cut_cells_; ///< with ghosts
+    std::vector<const CutCell *> cut_cell_at_;  ///< by cell, for fast access
     std::vector<const Section *> section_at_;   ///< by cell
-    std::set<unsigned int>       cells_inside_; ///< beside surfaces
+    std::set<unsigned int>       cells_inside_; ///< centre inside, near surface
     std::vector<unsigned int>    listed_near_;
     std::vector<ContactFacet<dim>> owned_, ghosts_;
     std::vector<unsigned int>      owned_nodes_, nodes_;

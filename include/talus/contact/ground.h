@@ -9,55 +9,55 @@
 
 namespace talus
 {
-  /// What soil lies on: the bottom face of the mesh and, where obstacles lie
-  /// over it, their surfaces. y points up.
+  /// Surface under the soil: the bottom face of the mesh and, above the bottom
+  /// face, the surfaces of obstacles. y points up.
   ///
-  /// An obstacle belongs to the ground if it goes on below the bottom of the
-  /// mesh, or along each horizontal axis from one end of the mesh to the other:
-  /// a seabed, a mound, a wall. Others, as a pipeline, are bodies in the soil
-  /// or on it. For the obstacles where they are now; to be made anew where it
-  /// is needed.
+  /// An obstacle belongs to the ground if it extends below the bottom of the
+  /// mesh, or crosses the whole mesh along each horizontal axis: a seabed, a
+  /// mound, a wall. Other obstacles, a pipeline for example, are bodies in or
+  /// on the soil. Valid for the current positions of the obstacles: construct a
+  /// Ground for each use.
   template <int dim>
   class Ground
   {
   public:
-    /// In a mesh that fills @p domain; @p obstacles must outlive it, null
-    /// stands for none.
+    /// @param domain region of the mesh
+    /// @param obstacles may be null; must outlive the Ground
     explicit Ground(const Box<dim>       &domain,
                     const Obstacles<dim> *obstacles = nullptr);
 
-    /// Whether there are no obstacles.
+    /// Whether the bottom face is the whole ground: no obstacles exist.
     bool
     is_bottom_face() const
     {
       return obstacles_ == nullptr;
     }
 
-    /// Whether obstacle @p k belongs to it.
+    /// Whether obstacle @p k belongs to the ground.
     bool
     contains(const unsigned int k) const
     {
       return std::find(members_.begin(), members_.end(), k) != members_.end();
     }
 
-    /// Whether soil can be at @p x: outside of all obstacles, those that do not
-    /// belong to the ground, too.
+    /// Whether @p x is outside of all obstacles, also of obstacles which do not
+    /// belong to the ground.
     bool
     is_open(const dealii::Point<dim> &x) const
     {
-      // A place on the surface is inside, whatever its last digits.
+      // A place on the surface is inside, despite round-off.
       const double round_off = 1e-12 * domain_.lower.distance(domain_.upper);
       return is_bottom_face() || obstacles_->signed_distance(x) > round_off;
     }
 
-    /// y of the ground below @p x, m; of its surface above @p x if that lies
-    /// inside of it.
+    /// Return y of the ground below @p x, m; if @p x is inside the ground, y of
+    /// the surface above @p x.
     double
     elevation(const dealii::Point<dim> &x) const;
 
-    /// Unit vector upwards across the layers of soil at @p x: the normal of the
-    /// ground below, but of walls, which are steeper than 45 degrees, that of
-    /// what there would be below without them.
+    /// Return the upward unit normal of the layers of soil at @p x: the normal
+    /// of the ground below @p x. Obstacles with a surface steeper than 45
+    /// degrees there are walls and are ignored.
     dealii::Tensor<1, dim>
     layer_normal(const dealii::Point<dim> &x) const;
 
@@ -78,7 +78,7 @@ namespace talus
 
     Box<dim>              domain_;
     const Obstacles<dim> *obstacles_;
-    Members               members_; ///< numbers of those that belong to it
+    Members               members_; ///< numbers of the obstacles of the ground
   };
 } // namespace talus
 

@@ -11,7 +11,7 @@
 
 namespace talus
 {
-  /// A node that may come to a surface, by their numbers.
+  /// Numbers of a node and of a surface near the node.
   struct NodeAndSurface
   {
     unsigned int node, surface;
@@ -31,62 +31,64 @@ namespace talus
 
 
 
-  /// How near soil comes to surfaces, as the nodes know it: at each node and for
-  /// each surface beside it, the least distance of those boxes of points that
-  /// reach the node.
+  /// Gaps between soil and surfaces: for each node and each surface near the
+  /// node, the minimum distance between the surface and the boxes of the points
+  /// which reach the node.
   template <int dim>
   class NodalGaps
   {
   public:
-    /// Distance from the surface, m, of the box with these half lengths, m, about
-    /// a place; negative if it dips into it.
+    /// Distance, m, between a surface and the box with the given centre, m, and
+    /// half lengths, m; negative if the box dips into the surface.
     using Surface = std::function<double(const dealii::Point<dim> &,
                                          const dealii::Tensor<1, dim> &)>;
 
-    /// Numbers of the surfaces, ascending, that may be nearer to a place than a
-    /// distance, m, and perhaps of some others.
+    /// Numbers, ascending, of all surfaces nearer to the given place than the
+    /// given distance, m; surfaces farther away may be included.
     using Near =
       std::function<std::vector<unsigned int>(const dealii::Point<dim> &,
                                               double)>;
 
-    /// Of a node that no box reaches.
+    /// Gap at a node which no box reaches.
     static constexpr double none = std::numeric_limits<double>::max();
 
-    /// Distance that points may have from a surface beside a node that their
-    /// boxes reach, in cells; twice that where cells of two sizes meet.
+    /// Maximum distance, in cells, between a surface and a point whose box
+    /// reaches a node near the surface; twice as much where cells of two sizes
+    /// meet.
     static constexpr double reach = 3. * 1.7320508075688772;
 
-    /// To be called after each change of the mesh or its partition. A node has
-    /// one gap per slot: surfaces with the same entry of @p slots are so far
-    /// apart (min_distance_in_slot()) that no node is beside two of them.
+    /// Set the surfaces and delete all gaps. Call after each change of the mesh
+    /// or its partition. @p slots: slot of each surface. A node stores one gap
+    /// per slot: no node may be near two surfaces of a slot, see
+    /// min_distance_in_slot().
     void
     prepare(const Grid<dim>          &grid,
             std::vector<Surface>      surfaces,
             std::vector<unsigned int> slots,
             Near                      near);
 
-    /// Distance, m, between surfaces of one slot, in cells of @p cell_size: of a
-    /// point near one of them the other one is farther away.
+    /// Minimum distance, m, between two surfaces in the same slot, for cells of
+    /// @p cell_size, m: a point within reach of a surface is farther from the
+    /// second one.
     static double
     min_distance_in_slot(const double cell_size)
     {
       return 3. * reach * cell_size;
     }
 
-    /// Find the gaps of those of @p pairs that are ghosts or have mass. @p
-    /// nearness of a cell is not 0 if its points may reach one of them; it is 2
-    /// for those at the surface, which are looked at before those with 1.
-    /// Collective.
+    /// Compute the gaps of all @p pairs with a ghost node or a node with mass.
+    /// @p nearness, by cell: 2 at a surface (examined first), 1 if points may
+    /// reach a node of @p pairs; points in other cells are skipped. The search
+    /// at a node stops once all gaps are within the dead band. Collective.
     void
     find(const State<dim>                  &state,
          const std::vector<NodeAndSurface> &pairs,
          const std::vector<unsigned char>  &nearness);
 
-    /// Room that is left at a node before surface @p k, m: zero as soon as boxes
-    /// come nearer than a twentieth of a cell of @p cell_size, m. At rest they
-    /// lie a little above the surface or below, and contact that ended whenever
-    /// one is 1e-4 of a cell above would be switched on and off from step to
-    /// step.
+    /// Return the clearance between the soil at @p node and surface @p k, m:
+    /// the gap less a dead band of a twentieth of @p cell_size, m; at least 0.
+    /// At rest boxes lie slightly above or below the surface; without the dead
+    /// band contact would be switched on and off from step to step.
     double
     room(const unsigned int node,
          const unsigned int k,
@@ -121,13 +123,13 @@ namespace talus
     Near                       near_;
     std::size_t                n_slots_ = 0;
     std::vector<double>        gaps_;      ///< by node and slot, m
-    std::vector<unsigned char> is_open_;   ///< by node, while they are found
-    std::vector<unsigned int>  near_cell_; ///< surfaces
-    std::vector<double>        of_point_;  ///< one for each slot, m
-    std::vector<unsigned int>  present_;   ///< nodes of a step
-    std::vector<Segment> later_;      ///< of the cells that are not the nearest
-    double               closed_ = 0; ///< gaps this small are none, m
-    NodalExchange<dim>   exchange_;
+    std::vector<unsigned char> is_open_;   ///< by node, used in find()
+    std::vector<unsigned int>  near_cell_; ///< surfaces near the current cell
+    std::vector<double>        of_point_;  ///< gaps of a point, by slot, m
+    std::vector<unsigned int>  present_;   ///< nodes of the step
+    std::vector<Segment>       later_;     ///< segments with nearness 1
+    double             closed_ = 0; ///< gaps up to this count as closed, m
+    NodalExchange<dim> exchange_;
   };
 } // namespace talus
 

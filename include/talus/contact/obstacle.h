@@ -16,17 +16,18 @@
 
 namespace talus
 {
-  /// A rigid body that soil cannot enter: a seabed, a pipeline, a wall. Its
-  /// surface passes shear to the soil by Coulomb friction, capped by a largest
-  /// shear stress. It may move, as a whole and without turning.
+  /// Rigid body that soil cannot enter: a seabed, a pipeline, a wall. The
+  /// surface passes shear to the soil by Coulomb friction, limited by a maximum
+  /// shear stress. An obstacle may move as a whole, without rotation; all
+  /// functions except shape() refer to the current position.
   template <int dim>
   class Obstacle : public dealii::ParameterAcceptor
   {
   public:
     explicit Obstacle(const std::string &name);
 
-    /// To be called after parsing; @p surfaces are those that shapes may name.
-    /// Throws ExcUser if parameters cannot be understood.
+    /// Make shape and expressions; call after parsing. @p surfaces: named
+    /// surfaces for shapes. Throws ExcUser if a parameter is invalid.
     void
     prepare(const Constants          &constants,
             const SurfaceSource<dim> *surfaces = nullptr);
@@ -37,29 +38,29 @@ namespace talus
       return name_;
     }
 
-    /// At the start of the run.
+    /// Return the shape, at the start of the run.
     const Shape<dim> &
     shape() const
     {
       return *shape_;
     }
 
-    /// Distance of @p x from the surface where it is now, m; negative inside.
+    /// Distance of @p x from the surface, m; negative inside.
     double
     signed_distance(const dealii::Point<dim> &x) const
     {
       return shape_->signed_distance(x - displacement_);
     }
 
-    /// Unit vector out of the obstacle, of the place of the surface that is
-    /// nearest to @p x.
+    /// Unit normal out of the obstacle at the place of the surface nearest to
+    /// @p x.
     dealii::Tensor<1, dim>
     normal(const dealii::Point<dim> &x) const
     {
       return shape_->normal(x - displacement_);
     }
 
-    /// Both at once.
+    /// Return signed_distance(), m, and normal() at @p x.
     std::pair<double, dealii::Tensor<1, dim>>
     distance_and_normal(const dealii::Point<dim> &x) const
     {
@@ -76,19 +77,19 @@ namespace talus
     Box<dim>
     bounding_box() const;
 
-    /// Whether friction has a limit besides the coefficient.
+    /// Whether the surface has a maximum shear stress.
     bool
     limits_shear_stress() const
     {
       return !maximum_shear_stress_text_.empty();
     }
 
-    /// Largest shear stress that the surface passes to the soil at @p x, Pa;
-    /// infinite if there is no limit.
+    /// Maximum shear stress that the surface passes to the soil at @p x, Pa;
+    /// infinite without limit.
     double
     maximum_shear_stress(const dealii::Point<dim> &x) const;
 
-    /// Whether set_depth() must be called before that.
+    /// Whether set_depth() must be called before maximum_shear_stress().
     bool
     depends_on_depth() const
     {
@@ -121,22 +122,23 @@ namespace talus
       return velocity_ != nullptr;
     }
 
-    /// Of this time, s; m/s.
+    /// Velocity at time @p t, s, in m/s; zero if the obstacle is at rest.
     dealii::Tensor<1, dim>
     velocity(double t) const;
 
-    /// Move on by a step of @p dt with the velocity at its middle.
+    /// Move the obstacle from time @p t, s, by a step @p dt, s, with the
+    /// velocity at the middle of the step.
     void
     advance(double t, double dt);
 
-    /// From where it was at the start, m.
+    /// Displacement since the start of the run, m.
     const dealii::Tensor<1, dim> &
     displacement() const
     {
       return displacement_;
     }
 
-    /// The point that moments are about; it moves with the obstacle.
+    /// Point about which moments are taken, m; moves with the obstacle.
     dealii::Point<dim>
     reference_point() const;
 
@@ -162,7 +164,7 @@ namespace talus
     std::unique_ptr<Shape<dim>> shape_;
     std::unique_ptr<ShearStressCap<dim>>
                                      maximum_shear_stress_; ///< Pa, if limited
-    std::unique_ptr<Expression<dim>> velocity_;        ///< m/s, if it moves
+    std::unique_ptr<Expression<dim>> velocity_;        ///< m/s; null: at rest
     dealii::Point<dim>               reference_point_; ///< at the start, m
     dealii::Tensor<1, dim>           displacement_;
   };

@@ -9,15 +9,15 @@
 
 namespace talus
 {
-  /// Return a remark for each obstacle at rest of which no part lies in
-  /// @p domain, that of the mesh, outside of all other obstacles.
+  /// Return a remark for each finite obstacle at rest with no part in the
+  /// region @p domain of the mesh outside of all other obstacles.
   template <int dim>
   std::vector<std::string>
   notes_on_hidden_obstacles(const Obstacles<dim> &obstacles,
                             const Box<dim>       &domain);
 
-  /// Return a remark for each obstacle without end, as a bed is, whose friction
-  /// has no largest shear stress. To be asked where soil has an undrained shear
+  /// Return a remark for each infinite obstacle (a bed) with friction but
+  /// without maximum shear stress. Call if soil has an undrained shear
   /// strength.
   template <int dim>
   std::vector<std::string>

@@ -11,11 +11,10 @@
 namespace talus
 {
   /// Compare the extents of @p obstacles along the axes with the smallest cells
-  /// that the mesh may have where they are. Throw ExcUser if an obstacle is
-  /// shorter than a cell along two axes, as a small ball or a thin pipe is: nodes
-  /// on all sides of it are the same, so that soil meets a body as large as a
-  /// cell. Return a sentence for the log for each obstacle that is shorter than
-  /// two cells along an axis.
+  /// that the mesh may have there. Throw ExcUser if an obstacle is shorter than
+  /// a cell along two axes (a small ball, a thin pipe): the same nodes lie on
+  /// all sides, so that soil meets a body as large as a cell. Return a sentence
+  /// for the log for each obstacle shorter than two cells along an axis.
   template <int dim>
   std::vector<std::string>
   check_obstacle_sizes(const Obstacles<dim> &obstacles, const Grid<dim> &grid);

@@ -13,16 +13,17 @@
 
 namespace talus
 {
-  /// The rigid bodies of a case, section Obstacles, which may have none.
+  /// All rigid bodies of a case, section Obstacles; may be empty.
   template <int dim>
   class Obstacles : public dealii::ParameterAcceptor
   {
   public:
-    /// @p names must be known before the parameters are declared: each
-    /// obstacle has a section of its name.
+    /// @p names must be known before the parameters are declared: each obstacle
+    /// has a section of its name.
     explicit Obstacles(const std::vector<std::string> &names);
 
-    /// To be called after parsing, see Obstacle::prepare(). Throws ExcUser.
+    /// Prepare all obstacles, see Obstacle::prepare(). Call after parsing.
+    /// Throws ExcUser.
     void
     prepare(const Constants          &constants,
             const SurfaceSource<dim> *surfaces = nullptr);
@@ -45,7 +46,7 @@ namespace talus
       return *obstacles_[k];
     }
 
-    /// Their shapes, where they are at the start.
+    /// Shapes of all obstacles, at the start of the run.
     std::vector<const Shape<dim> *>
     shapes() const;
 
@@ -58,58 +59,57 @@ namespace talus
     using Numbers = std::vector<unsigned int>;
 
     /// Return all obstacles whose bounding boxes are not farther from @p x than
-    /// @p distance, m, and perhaps some others: by an index, so that many
-    /// obstacles cost no more than few. Those that move are always among them.
+    /// @p distance, m, and all moving obstacles; more may be included. A
+    /// spatial index makes the cost independent of the number of obstacles.
     Numbers
     near(const dealii::Point<dim> &x, const double distance) const
     {
       return index_.near(x, distance);
     }
 
-    /// Return all obstacles whose bounding boxes are not farther from @p box than
-    /// @p distance, m, and perhaps some others.
+    /// Return all obstacles near @p box, as near() above does for a place.
     Numbers
     near(const Box<dim> &box, const double distance) const
     {
       return index_.near(box, distance);
     }
 
-    /// Distance of @p x from the nearest surface of @p some of the obstacles, m;
-    /// the largest number if these are none.
+    /// Distance of @p x from the nearest surface of the obstacles @p some, m;
+    /// negative inside; the largest number if @p some is empty.
     double
     signed_distance(const dealii::Point<dim> &x, const Numbers &some) const;
 
-    /// Return the number of the obstacle, among @p some, in which @p x lies
-    /// deepest, or which is nearest to @p x.
+    /// Return the number of the obstacle, among @p some, with the smallest
+    /// signed distance from @p x. @p some must not be empty.
     unsigned int
     nearest(const dealii::Point<dim> &x, const Numbers &some) const;
 
-    /// Whether the shear stress that one of them passes depends on the depth
-    /// below the mudline, so that set_depth() must be called.
+    /// Whether a maximum shear stress depends on the depth below the mudline,
+    /// so that set_depth() must be called.
     bool
     depend_on_depth() const;
 
     void
     set_depth(const typename ShearStressCap<dim>::Depth &depth);
 
-    /// Whether one of them moves.
+    /// Whether any obstacle moves.
     bool
     move() const;
 
-    /// Those that move go on by a step of @p dt from time @p t.
+    /// Advance moving obstacles from time @p t, s, by a step @p dt, s.
     void
     advance(double t, double dt);
 
-    /// Whether one of them has a maximum shear stress.
+    /// Whether any obstacle has a maximum shear stress.
     bool
     limit_shear_stress() const;
 
-    /// Let all surfaces pass @p factor times their maximum shear stress [-].
+    /// Multiply all maximum shear stresses of the parameters by @p factor [-].
     void
     scale_maximum_shear_stress(double factor);
 
-    /// Multiply all that resists sliding on the surfaces by @p factor from now
-    /// on [-].
+    /// Multiply all friction coefficients and maximum shear stresses of the
+    /// parameters by @p factor [-].
     void
     scale_strength(double factor);
 

@@ -9,18 +9,18 @@
 
 namespace talus
 {
-  /// Lets no box of a material point go into an obstacle.
+  /// Keeps the boxes of material points from moving into obstacles.
   ///
-  /// Contact is a constraint on the velocity of the nodes, one for each facet.
-  /// In a layer thinner than a cell that is the velocity of the nodes with most
-  /// soil, and points at the surface move with another one: while the layer
-  /// spreads, they sink by 0.2 to 0.3 cells per unit of strain. So of the motion
-  /// of a point whose box has come to the surface with its lower side the part
-  /// that leads further in is left out. Velocities, stress and all balances
-  /// stay as they are. To push points out that are inside already would give
-  /// neighbours a jerk. A point is held by the surfaces in its own cell: where a
-  /// surface lies just below a face of the mesh, a box sinks until its centre is
-  /// in the cell of the surface.
+  /// Contact constrains velocities of nodes, once per facet. In a layer thinner
+  /// than a cell a facet sees the velocity of the nodes with most soil, and
+  /// points at the surface move differently: while the layer spreads, the
+  /// points sink by 0.2 to 0.3 cells per unit of strain. If the lower side of a
+  /// box is below the surface, PointConfinement cancels the part of the motion
+  /// of the point that leads further into the obstacle. Velocities, stress and
+  /// all balances stay unchanged. Points already inside are not pushed out:
+  /// this would disturb neighbours. Only surfaces in the cell of a point hold
+  /// the point: if a surface lies just below a face of the mesh, a box sinks
+  /// until the centre is in the cell of the surface.
   template <int dim>
   class PointConfinement
   {
@@ -30,14 +30,14 @@ namespace talus
       , facets_(facets)
     {}
 
-    /// Remember where the points of @p batch are that may come to a surface
-    /// within a step, before they move.
+    /// Store the positions of the points of @p batch which may reach a surface
+    /// within the step. Call before the points move.
     void
     note(const State<dim> &state, const Batch &batch);
 
-    /// Take back what led the noted points further into obstacles, and tell the
-    /// workspace which these are: they may be in another cell than they were
-    /// seen in.
+    /// Cancel the motion of the points of the last note() further into
+    /// obstacles. Call after points and obstacles have moved. Adds corrected
+    /// points to StepWorkspace::points_out_of_cell().
     void
     confine(State<dim> &state);
 
@@ -48,8 +48,8 @@ namespace talus
       unsigned int             obstacle;
       const ContactFacet<dim> *facet; ///< nullptr if the obstacle contains the
                                       ///< whole cell
-      dealii::Point<dim>     place;   ///< before it moved, m
-      dealii::Tensor<1, dim> half;    ///< half lengths of its box, m
+      dealii::Point<dim>     place;   ///< before the motion, m
+      dealii::Tensor<1, dim> half;    ///< half lengths of the box, m
     };
 
     void
@@ -63,7 +63,7 @@ namespace talus
 
     const Obstacles<dim>  &obstacles_;
     const Facets<dim>     &facets_;
-    std::vector<Candidate> candidates_; ///< one for each facet
+    std::vector<Candidate> candidates_; ///< pairs of point and surface
   };
 } // namespace talus
 

@@ -10,23 +10,24 @@
 
 namespace talus
 {
-  /// Share of the bed under soil: of the lower face of the mesh and of the
-  /// surfaces of obstacles, node by node. In a layer thinner than a cell the share
-  /// follows from the boxes that lie on the bed, whose sections do not shrink with
-  /// the thickness of the layer.
+  /// Share of the bed (lower face of the mesh, surfaces of obstacles) covered
+  /// by soil, by node. In a layer thinner than a cell the share follows from
+  /// the sections of the boxes on the bed, which do not shrink with the
+  /// thickness of the layer.
   template <int dim>
   class BedCoverage
   {
   public:
-    /// Share of the room around an owned node that soil fills [-].
+    /// Volume fraction of soil in the open volume around an owned node [-].
     using VolumeFraction = std::function<double(unsigned int node)>;
 
-    /// Find the cells at the bed, after each change of the mesh or its partition.
-    /// Collective.
+    /// Find the cells at the lower face. Call after each change of the mesh or
+    /// its partition. Collective.
     void
     prepare(const Grid<dim> &grid);
 
-    /// Sum the sections of the boxes that lie on the bed. Collective.
+    /// Sum the sections of the boxes on the bed. Call before of_bottom() and
+    /// of_facets(). Collective.
     void
     find(const State<dim>        &state,
          const SolidAtNodes<dim> &solid,
@@ -62,7 +63,7 @@ namespace talus
       width
     };
 
-    /// Plane of the bed as a point sees it.
+    /// Plane of the bed near a point.
     struct Plane
     {
       double                 distance; ///< of the point, m
@@ -97,7 +98,7 @@ namespace talus
     std::vector<unsigned char> is_at_bottom_;   ///< by owned cell
     std::vector<double>        area_of_bottom_; ///< by owned node, m^(dim-1)
     std::vector<double>        sums_;           ///< by node
-    std::vector<unsigned int>  touched_;        ///< nodes of the last step
+    std::vector<unsigned int>  touched_;        ///< nodes with nonzero sums_
     NodalExchange<dim>         exchange_;
   };
 } // namespace talus

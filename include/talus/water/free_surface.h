@@ -12,8 +12,7 @@
 
 namespace talus
 {
-  /// Part of the surface of the soil that bounds on water, in one cell of the
-  /// mesh.
+  /// Part of the surface between soil and water in one cell of the mesh.
   template <int dim>
   struct SurfaceFacet
   {
@@ -23,27 +22,29 @@ namespace talus
     std::array<double, n_nodes>       share; ///< of the force, by node [-]
     dealii::Tensor<1, dim> vector_area; ///< integral of the outward normal,
                                         ///< m^(dim-1)
-    dealii::Tensor<1, dim> normal;      ///< outwards, of the surface around
+    dealii::Tensor<1, dim> normal;      ///< unit, outwards, from cells around
     dealii::Tensor<1, dim> velocity;    ///< of the soil, before the step, m/s
   };
 
 
 
-  /// Free surface of the soil: where the volume fraction of soil and bed together
-  /// falls from one to zero. The integral of its gradient over a cell is the
-  /// vector area of the surface in the cell, however thin the soil on the bed is,
-  /// and continuous in time as points cross cells. The normal is that of all cells
-  /// through which the volume fraction falls, see doc/method.md, section "Water".
+  /// Free surface of the soil: the region where the volume fraction of soil and
+  /// bed together falls from one to zero. Minus the integral of the gradient
+  /// over a cell is the vector area of the surface in the cell, for any
+  /// thickness of the soil on the bed, and continuous in time as points cross
+  /// cells. The normal comes from all cells across the fall of the volume
+  /// fraction, see doc/method.md, section "Water".
   template <int dim>
   class FreeSurface
   {
   public:
-    /// To be called after each change of the mesh or its partition. Collective.
+    /// Find the cells around each node and delete all facets. Call after each
+    /// change of the mesh or its partition. Collective.
     void
     prepare(const Grid<dim> &grid);
 
-    /// Find the facets in the cells that this rank owns, from the sums at the
-    /// nodes and the boxes of the points. Collective.
+    /// Compute the facets in owned cells from the sums at the nodes and the
+    /// boxes of the points. Collective.
     void
     find(const State<dim> &state, const FacetContact<dim> &contact);
 
@@ -54,14 +55,15 @@ namespace talus
     }
 
     /// Integral of the outward normal over the surface of the soil in cell
-    /// @p cell, m^(dim-1); after find().
+    /// @p cell, m^(dim-1); call after find().
     dealii::Tensor<1, dim>
     vector_area_of_cell(unsigned int cell) const
     {
       return vector_areas_[cell];
     }
 
-    /// Covered share of the lower face of the mesh at @p node [-]; after find().
+    /// Covered share of the lower face of the mesh at @p node [-]; call after
+    /// find().
     double
     covered_share(const unsigned int node) const
     {
@@ -71,9 +73,9 @@ namespace talus
   private:
     using NodesOfCell = std::array<unsigned int, power(2, dim)>;
 
-    // By node: volume fraction of soil in the room that obstacles leave [-],
-    // covered shares of facets and of the lower face of the mesh [-], mass [kg]
-    // and momentum [kg m/s].
+    // By node: volume fraction of soil in the open volume [-], covered shares
+    // of facets and of the lower face of the mesh [-], mass [kg] and momentum
+    // [kg m/s].
     enum Record
     {
       fraction,
@@ -84,8 +86,8 @@ namespace talus
       width = momentum + dim
     };
 
-    /// By node: vector areas of the cells whose lowest and highest vertex the
-    /// node is, m^(dim-1).
+    /// By node: vector areas, m^(dim-1), of the cell with the node as lowest
+    /// vertex and of the cell with the node as highest vertex.
     static constexpr unsigned int width_of_areas = 2 * dim;
 
     double *
@@ -123,13 +125,13 @@ namespace talus
 
     SolidAtNodes<dim>          solid_;
     BedCoverage<dim>           coverage_;
-    std::vector<unsigned int>  first_cell_, cells_; ///< ghosts, too, by node
+    std::vector<unsigned int>  first_cell_, cells_; ///< by node, with ghosts
     NodalExchange<dim>         exchange_, exchange_of_areas_;
     std::vector<double>        records_;
-    std::vector<unsigned int>  filled_nodes_; ///< whose records are not zero
+    std::vector<unsigned int>  filled_nodes_; ///< records may be nonzero
     std::vector<unsigned int>  soil_nodes_, previous_soil_nodes_; ///< f > 0
-    std::vector<unsigned int>  listed_cells_;  ///< that touch a filled node
-    std::vector<unsigned int>  surface_cells_; ///< that may have a facet
+    std::vector<unsigned int>  listed_cells_;  ///< around soil_nodes_
+    std::vector<unsigned int>  surface_cells_; ///< candidates for a facet
     std::vector<unsigned char> is_listed_;     ///< by cell
     std::vector<dealii::Tensor<1, dim>> vector_areas_;   ///< by cell
     std::vector<double>                 areas_of_nodes_; ///< by node

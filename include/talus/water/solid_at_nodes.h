@@ -8,38 +8,39 @@
 
 namespace talus
 {
-  /// Obstacles as the nodes see them: volume fraction and surface around each
-  /// node. Recomputed only if the mesh changes or an obstacle moves.
+  /// Volume fraction and surface area of obstacles around each node. Recomputed
+  /// only if the mesh changes or an obstacle moves.
   template <int dim>
   class SolidAtNodes
   {
   public:
-    /// Integrate the shape functions, after each change of the mesh or its
+    /// Integrate the shape functions. Call after each change of the mesh or its
     /// partition. Collective.
     void
     prepare(const Grid<dim> &grid);
 
-    /// Find the obstacles where they are now. Collective.
+    /// Update volume fractions, areas and distances to the current positions of
+    /// the obstacles. Collective.
     void
     update(const Grid<dim> &grid, const FacetContact<dim> &contact);
 
-    /// Whether there is an obstacle.
+    /// Whether the case has obstacles.
     bool
     exists() const
     {
       return exists_;
     }
 
-    /// Integral of the shape function of an owned node outside of all obstacles,
-    /// m^dim.
+    /// Integral of the shape function of an owned node outside of all
+    /// obstacles, m^dim.
     double
     open_volume(const unsigned int node) const
     {
       return (1. - volume_fraction(node)) * volume_[node];
     }
 
-    /// Share of obstacles in the volume around a node, at most slightly below one
-    /// where the node touches a facet [-]. Zero far from surfaces.
+    /// Volume fraction of obstacles around a node [-]; at most 0.999 at a node
+    /// which touches a facet. Zero far from surfaces, also inside an obstacle.
     double
     volume_fraction(const unsigned int node) const
     {
@@ -54,24 +55,24 @@ namespace talus
       return records_[width * node + area];
     }
 
-    /// Area of the facets around a node that boxes on them cover at least,
+    /// Minimum area of the facets around a node covered by boxes on the facets,
     /// weighted by the shape function of the node, m^(dim-1): boxes parallel to
-    /// the axes leave gaps over an inclined surface, in steps of their height.
+    /// the axes leave gaps over an inclined surface.
     double
     min_covered_area(const unsigned int node) const
     {
       return records_[width * node + min_covered];
     }
 
-    /// Whether a node lies inside an obstacle.
+    /// Whether a node lies inside an obstacle, near its surface.
     bool
     contains(const unsigned int node) const
     {
       return exists_ && distance_[node] < 0;
     }
 
-    /// Signed distance of a node from the obstacles, m; NaN where no cell of the
-    /// node touches a facet.
+    /// Signed distance of a node from the obstacles, m; NaN far from surfaces,
+    /// where no cell around the node has a contact node.
     double
     distance(const unsigned int node) const
     {
