@@ -8,8 +8,8 @@ namespace talus
 {
   /// Series of files "grid": the cells of the background grid with points, and
   /// mass, velocity and force of the previous step at the nodes. All three
-  /// fields are zero at the start and at nodes without soil; mass and force of
-  /// a hanging node are included in the master nodes.
+  /// fields are zero at the start and at nodes not used by the step; mass and
+  /// force of a hanging node are included in the master nodes.
   template <int dim>
   class GridOutput : public SeriesObserver<dim>
   {
