@@ -48,8 +48,8 @@ namespace talus
                                    : extent_[d] - 1;
     }
 
-    /// Coordinate of the lower face of the cells with index @p i along axis @p
-    /// d, m.
+    /// Coordinate of the lower face of the cells with index @p i along axis
+    /// @p d, m.
     double
     lower_face(const int i, const unsigned int d) const
     {

@@ -19,8 +19,8 @@ namespace talus
     explicit Progress(std::ostream &out         = std::cout,
                       bool          is_terminal = stdout_is_terminal());
 
-    /// Start the clock at simulated time @p time, s; the run ends at @p
-    /// end_time, s.
+    /// Start the clock at simulated time @p time, s; the run ends at
+    /// @p end_time, s.
     void
     begin(double time, double end_time, MPI_Comm communicator);
 
