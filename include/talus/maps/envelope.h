@@ -58,7 +58,7 @@ namespace talus
     struct Settings
     {
       /// Below this thickness of soil, m, velocity, flux, shear stress and
-      /// pressure do not count: the last drops, flying ahead, would give the
+      /// pressure do not count: thin soil flying ahead would give the
       /// largest values.
       double              smallest_thickness = 0;
       std::vector<double> arrival_thresholds; ///< of thickness, m

@@ -5,8 +5,8 @@
 namespace talus
 {
   /// Hybrid formula for the impact of a slide on a pipeline, the sum of a
-  /// fluid-mechanics and a soil-mechanics term: force per length and diameter p
-  /// = 1/2 C_D rho u^2 + N_p s_u. The user provides the coefficients.
+  /// fluid-mechanics and a soil-mechanics term: force per length and diameter
+  /// p = 1/2 C_D rho u^2 + N_p s_u. The user provides the coefficients.
   struct ImpactFormula
   {
     double drag_coefficient = 0; ///< C_D [-]

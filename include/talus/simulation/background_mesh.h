@@ -27,6 +27,7 @@ namespace talus
   class BackgroundMesh
   {
   public:
+    /// All arguments must outlive the object.
     BackgroundMesh(State<dim>          &state,
                    Problem<dim>        &problem,
                    const Transfer<dim> &transfer,

@@ -22,6 +22,7 @@ namespace talus
   class StaticSolver
   {
   public:
+    /// All arguments must outlive the object.
     StaticSolver(State<dim>          &state,
                  Problem<dim>        &problem,
                  const Transfer<dim> &transfer,

@@ -18,6 +18,7 @@ namespace talus
   class StaticStages
   {
   public:
+    /// All arguments must outlive the object.
     StaticStages(State<dim>          &state,
                  Problem<dim>        &problem,
                  const Transfer<dim> &transfer,
