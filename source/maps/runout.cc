@@ -149,6 +149,7 @@ namespace talus
 
 
 
+  /// Return position, m, and speed, m/s, of the centre of mass in plan.
   /// Collective.
   template <int dim>
   typename Runout<dim>::Centre

@@ -65,8 +65,8 @@ namespace talus
       for (unsigned int p = 0; p < points.size(); ++p)
         {
           // Points are nearly always sorted by cell, and consecutive points are
-          // mostly in the same cell: counting runs keeps the list to sort
-          // short.
+          // mostly in the same cell: merging equal neighbours keeps the list
+          // to sort short.
           const std::uint64_t key = lattice.find(points, p);
           if (!cells.empty() && cells.back().key == key)
             ++cells.back().n_points;

@@ -429,8 +429,8 @@ namespace talus
 
 
 
-  /// A separate series, restarted at each call: of several failures only the
-  /// last is kept.
+  /// Uses a separate series, restarted at each call: only the last of several
+  /// failures is kept.
   template <int dim>
   void
   Output<dim>::write_mechanism(const State<dim>          &state,

@@ -131,8 +131,8 @@ namespace talus
         mass += candidates[p].mass;
       }
     // The tolerance is less than the mass of any point and more than the
-    // round-off of the sum: of 200 equal points the 199th always completes 99.5
-    // %.
+    // round-off of the sum: of 200 equal points the 199th always completes
+    // 99.5 %.
     const double target =
       (fraction - 1e-12) * Utilities::MPI::sum(mass, communicator);
 

@@ -99,9 +99,9 @@ namespace talus
 
 
 
-    /// Mean stress and von Mises stress, Pa. The von Mises stress is sqrt(3/2
-    /// s:s) with the deviator s; off-diagonal components count twice. In 2-D
-    /// the mean includes the out-of-plane stress, which is not zero.
+    /// Return mean stress and von Mises stress sqrt(3/2 s:s), Pa, with the
+    /// deviator s; off-diagonal components count twice. In 2-D the mean includes
+    /// the out-of-plane stress, which is not zero.
     template <int dim>
     std::pair<double, double>
     stress_measures(const Points<dim> &points, const unsigned int p)
@@ -283,8 +283,8 @@ namespace talus
 
 
 
-  /// For the state after an error, without communication: vertices need only
-  /// the position of a point.
+  /// Used for the state after an error, without communication: vertices need
+  /// only the position of a point.
   template <int dim>
   void
   write_points(const State<dim> &state, const std::filesystem::path &path)

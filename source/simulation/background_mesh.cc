@@ -223,8 +223,7 @@ namespace talus
 
 
 
-  /// For points at arbitrary positions in the cells of the rank, such as new
-  /// points.
+  /// Points may be anywhere in the cells of the rank, such as new points.
   template <int dim>
   void
   BackgroundMesh<dim>::insert_points()
@@ -235,7 +234,6 @@ namespace talus
 
 
 
-  /// Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::repartition()
@@ -351,7 +349,6 @@ namespace talus
 
 
 
-  /// Collective.
   template <int dim>
   std::string
   BackgroundMesh<dim>::description() const
@@ -377,7 +374,6 @@ namespace talus
 
 
 
-  /// Collective.
   template <int dim>
   std::string
   BackgroundMesh<dim>::history() const

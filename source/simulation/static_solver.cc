@@ -219,7 +219,7 @@ namespace talus
 
 
 
-  /// The sentence for the user states the fraction of the load reached.
+  /// State the fraction of the load reached, in a sentence for the user.
   template <int dim>
   std::string
   StaticSolver<dim>::no_equilibrium() const

@@ -46,7 +46,7 @@ namespace talus
 
 
 
-  /// In most steps the only message of all ranks.
+  /// The reduction is the only message of all ranks in most steps.
   StepPlan
   StepAgreement::agree(const StepPlan &own, const MPI_Comm communicator) const
   {

@@ -54,6 +54,7 @@ namespace talus
     insert_points();
 
     /// Redistribute the cells over the ranks, weighted by the points.
+    /// Collective.
     void
     repartition();
 
