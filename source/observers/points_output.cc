@@ -100,8 +100,8 @@ namespace talus
 
 
     /// Return mean stress and von Mises stress sqrt(3/2 s:s), Pa, with the
-    /// deviator s; off-diagonal components count twice. In 2-D the mean includes
-    /// the out-of-plane stress, which is not zero.
+    /// deviator s; off-diagonal components count twice. In 2-D the mean
+    /// includes the out-of-plane stress, which is not zero.
     template <int dim>
     std::pair<double, double>
     stress_measures(const Points<dim> &points, const unsigned int p)

@@ -46,7 +46,7 @@ namespace talus
 
 
 
-  /// The reduction is the only message of all ranks in most steps.
+  /// In most steps the reduction is the only message of all ranks.
   StepPlan
   StepAgreement::agree(const StepPlan &own, const MPI_Comm communicator) const
   {

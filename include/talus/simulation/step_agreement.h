@@ -26,9 +26,9 @@ namespace talus
 
 
 
-  /// Combines the step plans of all ranks in a single message. Except for mesh
-  /// tracking, no other message of a step involves all ranks, and on many ranks
-  /// waiting for the message costs time.
+  /// Combines the step plans of all ranks in a single message. Without mesh
+  /// tracking, outflow and maps, no other message of a step involves all ranks:
+  /// on many ranks the time is spent waiting for the message.
   class StepAgreement
   {
   public:
