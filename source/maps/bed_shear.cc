@@ -6,9 +6,9 @@ namespace talus
 {
   using namespace dealii;
 
-  /// The force of a facet is spread over the plan of its cell, and that of a
-  /// node over half a cell to each side: what a steep bed loses where its facet
-  /// ends, it gets back from the cell below or above.
+  /// The force of a facet is distributed over the plan area of the cell, and
+  /// the force of a node over half a cell to each side: on a steep bed, the
+  /// force lost where a facet ends comes back from the cell below or above.
   template <int dim>
   void
   add_bed_shear(const State<dim>        &state,

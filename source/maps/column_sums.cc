@@ -20,7 +20,7 @@ namespace talus
 
 
 
-  /// Only what was touched: a map is larger than the slide.
+  /// Only the touched columns are cleared: a map is larger than the slide.
   template <int dim>
   void
   ColumnSums<dim>::clear()
@@ -37,7 +37,7 @@ namespace talus
   ColumnSum<dim> &
   ColumnSums<dim>::touch(const unsigned int column)
   {
-    // A force may come to a column before soil, or alone.
+    // A column may receive a force before soil, or a force only.
     if (sums_[column].mass == 0)
       touched_.push_back(column);
     return sums_[column];
@@ -45,8 +45,8 @@ namespace talus
 
 
 
-  /// Whether points of the batch can have a share in a column. Points outside
-  /// of the mesh count to the outermost cells, and then may be passed over.
+  /// Return whether points of the batch can overlap a column. Points outside of
+  /// the mesh are assigned to the outermost cells, and may then be missed.
   template <int dim>
   bool
   ColumnSums<dim>::may_reach(const State<dim> &state, const Batch &batch) const
@@ -70,8 +70,8 @@ namespace talus
 
 
 
-  /// Boxes parallel to the axes by their stretch, several points at a time;
-  /// convected domains one by one.
+  /// Boxes parallel to the axes are computed from the stretch, several points
+  /// at a time; convected domains are computed individually.
   template <int dim>
   void
   ColumnSums<dim>::find_footprints(const State<dim> &state, const Batch &batch)
@@ -219,9 +219,9 @@ namespace talus
 
 
 
-  /// All columns between the first and the last one that any rank has touched
-  /// go through one sum: soil is in one place of the map, and messages that
-  /// find out which columns two ranks share would cost more.
+  /// All columns between the first and the last column touched by any rank are
+  /// summed in a single reduction: the soil covers a compact part of the map,
+  /// and messages to determine the columns shared by ranks would cost more.
   template <int dim>
   void
   ColumnSums<dim>::sum_over_ranks(const MPI_Comm communicator)
@@ -231,7 +231,7 @@ namespace talus
                   "sums go through MPI as numbers");
     if (Utilities::MPI::n_mpi_processes(communicator) == 1)
       return;
-    // Both by one maximum.
+    // A single maximum determines the first and the last column.
     const double none    = std::numeric_limits<double>::lowest();
     double       ends[2] = {none, none};
     for (const unsigned int column : touched_)

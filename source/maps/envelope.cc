@@ -13,7 +13,7 @@ namespace talus
   {
     constexpr double not_yet = std::numeric_limits<double>::quiet_NaN();
 
-    /// The peaks of a history, in the order of a checkpoint's columns.
+    /// Peaks of a history, in the order of the columns of a checkpoint.
     template <typename History>
     auto
     peaks_of(History &history)
@@ -131,10 +131,10 @@ namespace talus
         AssertThrow(column >= 0 && column < histories_.size(),
                     ExcUser(text("A checkpoint has a maximum for column ",
                                  column,
-                                 " of a map that has ",
+                                 ", but the map has ",
                                  histories_.size(),
-                                 ". Remove this checkpoint, so that the one "
-                                 "before it is used.")));
+                                 " columns. Remove the checkpoint, so that the "
+                                 "previous checkpoint is used.")));
         ColumnHistory &history = histories_[column];
         reached_.push_back(column);
         history.thickness          = *number++;

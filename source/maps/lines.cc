@@ -34,13 +34,14 @@ namespace talus
                              n,
                              " places, each a 'Stations/Width' of ",
                              width,
-                             " m from the next. Make that larger.")));
+                             " m from the next. Make 'Stations/Width' "
+                             "larger.")));
   }
 
 
 
-  /// Each leg from corner to corner has places at both ends, and equal
-  /// distances between them.
+  /// Each leg from corner to corner has places at the ends, and further places
+  /// at equal distances between the ends.
   template <int dim>
   std::vector<typename Lines<dim>::Place>
   Lines<dim>::places(const State<dim> &state) const

@@ -13,44 +13,44 @@ namespace talus
   {
     add_parameter("Write",
                   is_enabled_,
-                  "Write maps of the largest thickness, speed, momentum flux "
-                  "and shear stress of the bed in all steps, with their times, "
-                  "of the times of arrival, and of the final thickness and the "
-                  "erosion: in 3-D rasters (Esri ASCII grids in the folder "
-                  "maps) and maps.vtu, in 2-D maps.csv.");
+                  "Write maps: the maximum over all steps of thickness, speed, "
+                  "momentum flux and bed shear stress, with the times of the "
+                  "maxima; arrival times; final thickness and erosion. In 3-D "
+                  "rasters (Esri ASCII grids in the folder maps) and maps.vtu, "
+                  "in 2-D maps.csv.");
     add_parameter("Write GeoTIFF",
                   writes_geotiff_,
-                  "3-D only: write each of these rasters as GeoTIFF, too, with "
-                  "the coordinate system of the raster whose cells they have. "
-                  "Needs a talus that was built with GDAL.");
+                  "3-D only: write each raster of the maps as GeoTIFF, too, "
+                  "with the coordinate system of the raster that defines the "
+                  "cells. Needs talus built with GDAL.");
     add_parameter("Raster",
                   raster_,
-                  "3-D only: name of the surface whose raster gives the maps "
-                  "their cells and their place. Empty: the first one that has "
-                  "a raster; without any, cells of the mesh's size.");
+                  "3-D only: name of the surface whose raster defines the "
+                  "cells of the maps. Empty: the first surface with a raster; "
+                  "without any raster, cells of 'Grid/Cell size'.");
     add_parameter("Cell size",
                   cell_size_,
-                  "Of the maps [m]. 0: that of the raster; without one, and in "
-                  "2-D, that of the mesh.",
+                  "Cell size of the maps [m]. 0: cell size of the raster; "
+                  "without a raster, and in 2-D, 'Grid/Cell size'.",
                   this->prm,
                   Patterns::Double(0.));
     add_parameter("Arrival thresholds",
                   arrival_thresholds_,
-                  "Thicknesses whose first time is mapped [m], separated by "
-                  "commas. Empty: 'Smallest thickness'.",
+                  "Thicknesses for which arrival times are mapped [m], "
+                  "separated by commas. Empty: 'Smallest thickness'.",
                   this->prm,
                   Patterns::List(Patterns::Double(1e-12)));
     add_parameter("Smallest thickness",
                   smallest_thickness_,
-                  "Where soil is thinner, speed, flux and shear stress do not "
-                  "count [m]: else the last drops, which fly ahead, would give "
-                  "the largest ones. 0: a tenth of 'Grid/Cell size'.",
+                  "Thickness of soil below which speed, flux and shear stress "
+                  "do not count [m]: thin soil flying ahead would give the "
+                  "largest values. 0: a tenth of 'Grid/Cell size'.",
                   this->prm,
                   Patterns::Double(0.));
     add_parameter("Steps between samples",
                   steps_between_samples_,
-                  "1: look at every step, so that no maximum is missed; more "
-                  "is cheaper.",
+                  "Number of time steps between two samples [-]. 1: sample "
+                  "every step and miss no maximum; larger numbers are cheaper.",
                   this->prm,
                   Patterns::Integer(1));
   }

@@ -32,8 +32,8 @@ namespace talus
                   this->problem().surfaces().raster(name) != nullptr,
                 ExcUser(text("'Maps/Raster' is '",
                              name,
-                             "', which is no surface with a raster. Name one "
-                             "of 'Surfaces/Names' that has a `File`.")));
+                             "', which is no surface with a raster. Use a "
+                             "surface of 'Surfaces/Names' with a `File`.")));
     const Box<dim> domain = state.grid.domain_before_growth();
     this->settings().check(domain.length(1));
     double n = 1;
@@ -66,8 +66,8 @@ namespace talus
 
 
 
-  // Faces of columns are faces of the raster's cells, and columns cover the
-  // mesh, beyond the raster, too.
+  // Faces of columns coincide with cell faces of the raster. The columns cover
+  // the mesh, also outside of the raster.
   template <int dim>
   std::array<typename Maps<dim>::Axis, dim - 1>
   Maps<dim>::axes(const State<dim> &state) const
@@ -116,7 +116,8 @@ namespace talus
 
 
 
-  /// Once, unless it moves. Outside of the mesh it is as high as at its edge.
+  /// Evaluated once, unless obstacles move. Outside of the mesh the ground has
+  /// the height of the mesh edge.
   template <int dim>
   void
   Maps<dim>::find_ground(const State<dim> &state)
@@ -143,8 +144,8 @@ namespace talus
 
 
 
-  /// Numbers of the corners of a column among those of ground_, in deal.II's
-  /// order.
+  /// Return the indices into ground_ of the corners of a column, in the order
+  /// of deal.II.
   template <int dim>
   std::vector<unsigned int>
   corners_of_column(const unsigned int column, const unsigned int n_x)
@@ -189,8 +190,8 @@ namespace talus
 
   namespace
   {
-    /// A field of the table has the thresholds of the settings, those of arrival
-    /// included.
+    /// Fields of the table: all fields of the history, including the arrival
+    /// time for each threshold of the settings.
     template <int dim>
     std::vector<HistoryField>
     fields_of(const Envelope<dim> &envelope)
@@ -225,7 +226,7 @@ namespace talus
 
 
 
-  /// @p name without what it ends with.
+  /// Write a raster in all formats; @p name is the path without extension.
   template <int dim>
   void
   Maps<dim>::write_raster(const std::filesystem::path &name,
@@ -244,8 +245,8 @@ namespace talus
 
 
 
-  /// Row by row as the columns are numbered: z points south, and a raster's
-  /// first row is the northernmost.
+  /// The rows of a raster have the order of the columns: z points south, and
+  /// the first row of a raster is the northernmost row.
   template <int dim>
   void
   Maps<dim>::write_rasters()

@@ -11,7 +11,7 @@ namespace talus
 
   namespace
   {
-    /// The share of [@p lower, @p upper] that lies in [@p from, @p to).
+    /// Return the fraction of [@p lower, @p upper] inside [@p from, @p to) [-].
     double
     share_of_interval(const double lower,
                       const double upper,
@@ -70,8 +70,8 @@ namespace talus
 
   namespace
   {
-    /// The columns along one axis that a box reaches, and its share in each:
-    /// in the first, in the last, and in all between.
+    /// Columns along an axis overlapped by a box, and the fraction of the box
+    /// in the first, the last, and each intermediate column.
     struct SharesAlongAxis
     {
       int    first = 0, last = 0;
@@ -86,14 +86,18 @@ namespace talus
 
 
 
-    /// Of a box around @p centre, counted in columns from the first one of the
-    /// lattice, whose last one has the number @p end.
+    /// Distribute a box over the columns along an axis. All coordinates are in
+    /// widths of a column, from the lower face of the first column.
+    ///
+    /// @param centre of the box
+    /// @param half width of the box
+    /// @param end number of the last column
     inline SharesAlongAxis
     shares_along_axis(const double centre, const double half, const double end)
     {
       const double    lower = centre - half, upper = centre + half;
       SharesAlongAxis shares;
-      // Compared as doubles: a point may be anywhere.
+      // Compared as doubles: the coordinates of a point have no bounds.
       shares.first =
         static_cast<int>(std::max(0., std::min(std::floor(lower), end)));
       shares.last =
@@ -109,8 +113,8 @@ namespace talus
 
 
 
-  /// This is done for each point in each step: hence no division but for boxes
-  /// that reach over a face, and no call but one for many points.
+  /// Called for each point in each step. Therefore divisions are needed only
+  /// for boxes across a face, and a call handles many points.
   template <int dim>
   void
   LatticeColumns<dim>::find_shares(const Footprints<dim> &footprints,

@@ -17,7 +17,7 @@ namespace talus
 
   namespace
   {
-    /// The way of the centre of mass has corners at this distance, in cells.
+    /// Distance between corners of the path of the centre of mass, in cells.
     constexpr double distance_of_corners = 4.;
   } // namespace
 
@@ -29,20 +29,20 @@ namespace talus
     add_parameter(
       "Path",
       path_,
-      "3-D only: corners of the line in plan along which front, "
-      "rear and runout in runout.csv are measured, 'x, z; x, z; "
-      "...' [m], such as a thalweg. Empty: the way of the centre of "
-      "mass so far.");
+      "3-D only: corners of the line in plan along which front, rear and "
+      "runout in runout.csv are measured, 'x, z; x, z; ...' [m], such as a "
+      "thalweg. Empty: the path of the centre of mass so far.");
     add_parameter("Coordinates",
                   coordinates_,
-                  "'map': the path has easting and northing in place of x and "
-                  "z.",
+                  "Coordinates of 'Path'; 'map': easting and northing in place "
+                  "of x and z.",
                   this->prm,
                   Patterns::Selection("mesh|map"));
     add_parameter("Smallest thickness",
                   smallest_thickness_,
-                  "Where soil is thinner it is neither front nor rear, and its "
-                  "speed does not count [m]. 0: a tenth of 'Grid/Cell size'.",
+                  "Thickness of soil below which a column counts neither for "
+                  "front, rear and area, nor for the largest speed [m]. 0: a "
+                  "tenth of 'Grid/Cell size'.",
                   this->prm,
                   Patterns::Double(0.));
   }
@@ -54,8 +54,8 @@ namespace talus
   {
     AssertThrow(dim == 3 || (path_.empty() && coordinates_ == "mesh"),
                 ExcUser("'Runout/Path' or 'Runout/Coordinates' is given, but "
-                        "the simulation is two-dimensional, where all ways lie "
-                        "along x. Remove the entry."));
+                        "the simulation is two-dimensional, where the path is "
+                        "always along x. Remove the entry."));
     std::vector<Point<2>> result;
     for (const std::string &place : Utilities::split_string_list(path_, ';'))
       {
@@ -149,13 +149,14 @@ namespace talus
 
 
 
+  /// Return position, m, and speed, m/s, of the centre of mass in plan.
   /// Collective.
   template <int dim>
   typename Runout<dim>::Centre
   Runout<dim>::centre_of_mass(const State<dim> &state) const
   {
     const Points<dim>  &points = state.points;
-    std::vector<double> sums(5, 0.); // mass; times place, and times velocity
+    std::vector<double> sums(5, 0.); // mass, mass * place, mass * velocity
     for (unsigned int p = 0; p < points.size(); ++p)
       {
         const double mass     = points.data(points.mass)[p];
@@ -204,8 +205,9 @@ namespace talus
 
 
 
-  /// Where the centre is close to the last corner, as that of a slide at rest may
-  /// be for long, the segment between them would have any direction.
+  /// A corner close to the centre is dropped: the centre of a slide at rest may
+  /// stay close for long, and the segment in between would have an arbitrary
+  /// direction.
   template <int dim>
   std::vector<Point<2>>
   Runout<dim>::way_until(const Point<2> &centre, const double h) const
@@ -221,7 +223,8 @@ namespace talus
 
 
 
-  /// Zeros where there is no way yet. Of the first rank.
+  /// Row of the table, on the first rank; positions are zero while the path has
+  /// no length.
   template <int dim>
   std::vector<double>
   Runout<dim>::row(const State<dim> &state, const Centre &centre) const
@@ -252,7 +255,7 @@ namespace talus
                      in_plan(Point<dim>(sums_->velocity(column))).norm());
           result[7] += sums_->columns().area();
         }
-    // To the outer edges of the outermost columns.
+    // Extend front and rear to the outer edges of the outermost columns.
     result[1] = front - front_at_start;
     result[2] = front + 0.5 * h;
     result[3] = rear - 0.5 * h;
@@ -276,7 +279,7 @@ namespace talus
 
 
 
-  /// All ranks know the way; that of the first one is saved.
+  /// All ranks have the same path; the first rank saves the path.
   template <int dim>
   void
   Runout<dim>::list_state(StateList &list)

@@ -22,13 +22,14 @@ namespace talus
     add_parameter(
       "Lines",
       lines_,
-      "Lines, such as routes of pipelines, along which maxima are "
-      "written to lines.csv: 'name: x, z; x, z; ...' (in 2-D 'name: "
-      "x; x'), separated by '|' [m]. Thresholds are those of the "
-      "section Maps, which need not be switched on.");
+      "Lines, such as routes of pipelines, along which maxima are written to "
+      "lines.csv: 'name: x, z; x, z; ...' (in 2-D 'name: x; x'), separated by "
+      "'|' [m]. The thresholds of section Maps apply, even if no maps are "
+      "written.");
     add_parameter("Coordinates",
                   coordinates_,
-                  "'map', 3-D only: easting and northing in place of x and z.",
+                  "Coordinates of places and lines; 'map', 3-D only: easting "
+                  "and northing in place of x and z.",
                   this->prm,
                   Patterns::Selection("mesh|map"));
     add_parameter("Width",
@@ -39,14 +40,15 @@ namespace talus
                   Patterns::Double(0.));
     add_parameter("Drag coefficient",
                   impact_.drag_coefficient,
-                  "C_D of the estimate of the force on a pipeline per length "
-                  "and diameter, C_D rho u^2/2 + N_p s_u [-]. With both at 0 "
-                  "it is not written.",
+                  "Factor C_D [-] in the estimated force on a pipeline per "
+                  "length and diameter, C_D rho u^2/2 + N_p s_u. The force is "
+                  "not written if C_D and N_p are 0.",
                   this->prm,
                   Patterns::Double(0., 1e3));
     add_parameter("Bearing factor",
                   impact_.bearing_factor,
-                  "N_p of that estimate [-].",
+                  "Factor N_p [-] in the estimated force on a pipeline, see "
+                  "'Drag coefficient'.",
                   this->prm,
                   Patterns::Double(0., 1e3));
   }
@@ -58,16 +60,17 @@ namespace talus
   StationList<dim>::check(const Box<dim> &domain) const
   {
     AssertThrow(dim == 3 || coordinates_ == "mesh",
-                ExcUser("'Stations/Coordinates' is 'map', but a section has "
-                        "no places on the map. Give x along it, and 'mesh'."));
+                ExcUser("'Stations/Coordinates' is 'map', but a 2-D section "
+                        "has no position on the map. Give x along the section, "
+                        "and set 'mesh'."));
     AssertThrow(width_ == 0. || (width_ <= domain.length(0) &&
                                  width_ > 1e-9 * domain.length(0)),
                 ExcUser(text("'Stations/Width' is ",
                              width_,
                              " m, on a mesh that is ",
                              domain.length(0),
-                             " m long. A width between a billionth of that and "
-                             "all of it was expected; correct it.")));
+                             " m long. Set a width between 1e-9 times this "
+                             "length and this length.")));
   }
 
 
@@ -101,9 +104,9 @@ namespace talus
                                  }),
                     ExcUser(text("'Stations/",
                                  entry,
-                                 "' has two of the name '",
+                                 "' has two entries of the name '",
                                  named.name,
-                                 "'. Give each its own.")));
+                                 "'. Give each entry a different name.")));
         for (const std::string &place :
              Utilities::split_string_list(item.substr(colon + 1), ';'))
           {
@@ -121,8 +124,8 @@ namespace talus
                                      named.name,
                                      "' has a place '",
                                      place,
-                                     "' outside of the mesh. Correct it (and "
-                                     "look at 'Stations/Coordinates' and "
+                                     "' outside of the mesh. Correct the place "
+                                     "(check also 'Stations/Coordinates' and "
                                      "'Grid/Origin'), or make the mesh "
                                      "larger.")));
             named.corners.push_back(x);
@@ -146,7 +149,7 @@ namespace talus
                                "' has ",
                                point.corners.size(),
                                " places, where one was expected. Separate "
-                               "points by '|'; a line stands in "
+                               "points by '|', and enter lines in "
                                "'Stations/Lines'.")));
     return points;
   }

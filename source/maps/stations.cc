@@ -28,7 +28,7 @@ namespace talus
 
   namespace
   {
-    /// Of a column; zeros where there is no soil.
+    /// Append the quantities of a column; zeros without soil.
     template <int dim>
     void
     list_station(const std::string     &name,
@@ -82,8 +82,7 @@ namespace talus
 
 
 
-  /// Without stations there is no file, and nothing that a checkpoint would
-  /// have to know of it.
+  /// Without stations there is no file, and the checkpoint has no entry.
   template <int dim>
   void
   Stations<dim>::list_state(StateList &list)

@@ -10,8 +10,8 @@ namespace talus
     : lower_(grid.domain().lower)
     , size_(grid.cell_size())
   {
-    // The mesh is a whole number of cells long; lround only takes the round-off
-    // away. The largest coordinate must leave room for the spare value below
+    // The mesh is a whole number of cells long; lround removes only the
+    // round-off. The largest index must leave space for the spare value below
     // zero in a key.
     for (unsigned int d = 0; d < dim; ++d)
       {

@@ -12,8 +12,8 @@ namespace talus
 
   namespace
   {
-    /// Lengths along @p axes of the part of the facet's plane that lies in its
-    /// cell, m; 0 if the plane is one of the cell's faces.
+    /// Lengths along @p axes, m, of the part of the plane of the facet inside
+    /// the cell; 0 if the plane is a face of the cell.
     std::array<double, 2>
     lengths_in_cell(const Cell<3>                     &cell,
                     const ContactFacet<3>             &facet,
@@ -38,7 +38,7 @@ namespace talus
 
 
 
-    /// The line that stands for a facet.
+    /// Edge of the line that represents a facet, m.
     std::array<Tensor<1, 2>, 1>
     edges_of(const Cell<2> & /*cell*/, const ContactFacet<2> &facet)
     {
@@ -47,10 +47,10 @@ namespace talus
 
 
 
-    /// The rectangle that stands for a facet: as long and as wide as its plane
-    /// in the cell, but of the facet's area. One edge is normal to the axis of
-    /// the mesh that is most nearly so, so that facets side by side on a prism
-    /// tile it.
+    /// Edges of the rectangle that represents a facet, m: proportions of the
+    /// plane inside the cell, area of the facet. The edges follow the mesh axis
+    /// closest to the plane of the facet, so that adjacent facets on a prism
+    /// tile the surface.
     std::array<Tensor<1, 3>, 2>
     edges_of(const Cell<3> &cell, const ContactFacet<3> &facet)
     {
@@ -91,8 +91,8 @@ namespace talus
 
 
 
-    /// Of the soil along the surface, m/s: with the velocities at the nodes
-    /// after the step, which belong to its middle.
+    /// Velocity of the soil relative to and along the surface, m/s, from the
+    /// nodal velocities after the step, which belong to the middle of the step.
     template <int dim>
     Tensor<1, dim>
     slip_velocity(const FacetContact<dim> &contact,
@@ -137,10 +137,10 @@ namespace talus
 
 
 
-    // Stresses are over the whole area of the facet, of which soil may cover a
-    // part, so that they have the right integrals and stay bounded where soil
-    // is thin.
-    /// Of facets by their number; they read when a file is written.
+    // Stresses refer to the whole area of the facet, which may be covered by
+    // soil only partly: the integrals are correct, and the stresses stay
+    // bounded where soil is thin.
+    /// Fields of facets by facet number, evaluated when a file is written.
     template <int dim>
     std::vector<Field>
     facet_fields(const FacetContact<dim> &contact, const State<dim> &state)
@@ -216,8 +216,8 @@ namespace talus
 
 
 
-  /// Not before the first step (or the first equilibrium): until then no facet
-  /// knows whether there is soil.
+  /// Nothing is written before the first step (or the first equilibrium): until
+  /// then loaded facets are unknown.
   template <int dim>
   void
   FacetsOutput<dim>::observe(const State<dim> &state)
@@ -241,7 +241,7 @@ namespace talus
 
 
 
-  /// Without obstacles a checkpoint need not know of it.
+  /// Without obstacles the checkpoint has no entry for the series.
   template <int dim>
   void
   FacetsOutput<dim>::list_state(StateList &list)

@@ -15,8 +15,8 @@ namespace talus
 
   namespace
   {
-    /// Columns along y over the plan of the soil, dim-1 axes, and which of them
-    /// have soil. Those of a lattice through the lower corner of the mesh.
+    /// Plan view of the soil (dim-1 axes): columns along y on a lattice through
+    /// the lower corner of the mesh, with a mark per column for soil.
     template <int dim>
     class PlanOfSoil
     {
@@ -44,9 +44,9 @@ namespace talus
         return width_;
       }
 
-      /// Call action(x, n) for squares of 4 x 4 columns with soil, of which n have
-      /// some: x lies in the middle, x[1] is that of the lower corner of the mesh.
-      /// Each rank has a part of the squares.
+      /// Call action(x, n) for squares of 4 x 4 columns, n > 0 of which have
+      /// soil. x is the middle of the square in plan; x[1] is the bottom of the
+      /// mesh. The squares are distributed over the ranks.
       template <typename Action>
       void
       for_each_square(const MPI_Comm communicator, const Action &action) const
@@ -86,9 +86,9 @@ namespace talus
         return d == 0 ? 0 : 2;
       }
 
-      /// Call action(first, last) for each box: the columns whose middles lie
-      /// under it. A box that has grown longer than its cell acts over the length
-      /// of the cell only.
+      /// Call action(first, last) for each box with the range of columns whose
+      /// middles lie under the box. The length of a box is limited to the
+      /// length of the cell.
       template <typename Action>
       void
       for_each_box(const State<dim> &state, const Action &action) const
@@ -114,12 +114,13 @@ namespace talus
             }
       }
 
-      /// Find the range of columns under the boxes of all ranks. Collective.
+      /// Determine the range of columns under the boxes of all ranks.
+      /// Collective.
       void
       find_extent(const State<dim> &state)
       {
-        // Upper ends are stored with the opposite sign, so that one minimum
-        // serves both.
+        // Upper ends are stored with opposite sign, so that a single minimum
+        // serves lower and upper ends.
         std::array<long, 2 * (dim - 1)> ends;
         ends.fill(std::numeric_limits<long>::max());
         for_each_box(state, [&](const Columns &first, const Columns &last) {
@@ -148,6 +149,7 @@ namespace talus
         has_soil_.assign(n_all, 0);
       }
 
+      /// Mark the columns from @p first to @p last, inclusive.
       void
       mark(const Columns &first, const Columns &last)
       {
@@ -166,8 +168,8 @@ namespace talus
 
 
 
-    /// Area of the ground under the soil, m^(dim-1). Of walls, which are steeper
-    /// than 45 degrees, and overhangs nothing counts. Collective.
+    /// Area of the ground under the soil, m^(dim-1). Walls (steeper than 45
+    /// degrees) and overhangs do not count. Collective.
     template <int dim>
     double
     footprint(const State<dim> &state, const Ground<dim> &ground)
@@ -186,8 +188,8 @@ namespace talus
 
 
 
-    /// Area of the ground on which soil acted in the last step, m^(dim-1), as
-    /// footprint() counts it. Collective.
+    /// Area of the ground on which soil acted in the last step, m^(dim-1), with
+    /// the same exclusions as footprint(). Collective.
     template <int dim>
     double
     contact_area(const State<dim>        &state,

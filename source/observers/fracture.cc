@@ -20,7 +20,7 @@ namespace talus
       std::uint64_t key;
       unsigned long n_points;
 
-      /// For the message between ranks.
+      /// Serialize for MPI messages.
       template <typename Archive>
       void
       serialize(Archive &archive, const unsigned int)
@@ -31,7 +31,7 @@ namespace talus
 
 
 
-    /// Sort the cells and add up what is listed more than once.
+    /// Sort the cells and combine entries with equal keys.
     void
     merge(std::vector<Occupied> &cells)
     {
@@ -51,11 +51,11 @@ namespace talus
 
 
 
-    /// The occupied cells of all ranks, sorted, on the first rank (empty on the
-    /// others). Found from the points: their number, not that of cells of the
-    /// mesh, decides what it costs. A cell may have points of several ranks, as
-    /// where the mesh has smaller cells than the lattice, so the lists are
-    /// merged. Collective.
+    /// Collect the occupied cells of all ranks, sorted, on the first rank
+    /// (empty on the other ranks). The cost grows with the number of points,
+    /// not with the number of cells of the mesh. Several ranks may have points
+    /// in a cell, for example where the mesh is finer than the lattice, so the
+    /// lists are merged. Collective.
     template <int dim>
     std::vector<Occupied>
     find_occupied(const Points<dim> &points, const Grid<dim> &grid)
@@ -64,8 +64,9 @@ namespace talus
       std::vector<Occupied>  cells;
       for (unsigned int p = 0; p < points.size(); ++p)
         {
-          // Points are nearly always sorted by cell, so the next one is mostly
-          // in the same cell: this keeps the list to sort short.
+          // Points are nearly always sorted by cell, and consecutive points are
+          // mostly in the same cell: merging equal neighbours keeps the list
+          // to sort short.
           const std::uint64_t key = lattice.find(points, p);
           if (!cells.empty() && cells.back().key == key)
             ++cells.back().n_points;
@@ -86,8 +87,8 @@ namespace talus
 
 
 
-    /// Differences of the keys to the neighbours that come earlier in the
-    /// order, across faces, edges and corners.
+    /// Differences between the key of a cell and the keys of all neighbours
+    /// with smaller keys, across faces, edges and corners.
     template <int dim>
     std::vector<std::uint64_t>
     steps_to_earlier_neighbors()
@@ -108,9 +109,9 @@ namespace talus
 
 
 
-    /// For each cell the first one of its connected group, by union-find. The
-    /// cells are sorted, so for each direction the neighbours are found by
-    /// walking along the list once.
+    /// For each cell the index of the first cell of its connected group, by
+    /// union-find. The cells are sorted, so a single walk along the list finds
+    /// all neighbours in a given direction.
     template <int dim>
     std::vector<std::size_t>
     find_bodies(const std::vector<Occupied> &cells)
@@ -143,7 +144,7 @@ namespace talus
 
 
 
-    /// Whether soil can be at the centre of a cell.
+    /// Return whether the centre of a cell is outside of all obstacles.
     template <int dim>
     bool
     is_open(const CellLattice<dim> &lattice,
@@ -158,9 +159,9 @@ namespace talus
 
 
 
-    /// For each cell whether its group has a cell on the ground: at the bottom
-    /// of the mesh, or above one that is closed. Soil on the ground has to fill
-    /// the cells below it; soil that hangs, or falls, does not.
+    /// For each cell, whether the connected group has a cell on the ground: at
+    /// the bottom of the mesh, or above a cell inside an obstacle. Soil on the
+    /// ground must fill the cells below; hanging or falling soil need not.
     template <int dim>
     std::vector<bool>
     rests_on_ground(const std::vector<Occupied>    &cells,
@@ -171,7 +172,7 @@ namespace talus
       const auto lies_on_ground = [&](const std::size_t i) {
         if (CellLattice<dim>::place(cells[i].key)[1] == 0)
           return true;
-        // Keys of a column follow each other from below.
+        // Keys of a column increase upwards by 1.
         const std::uint64_t below = cells[i].key - 1;
         return !ground.is_bottom_face() &&
                !(i > 0 && cells[i - 1].key == below) &&
@@ -188,9 +189,17 @@ namespace talus
 
 
 
-    /// Unoccupied cells below an occupied one: down to the one with coordinate
-    /// @p end, exclusive, or to the ground. What lies below a closed cell, as
-    /// under a pipe, is not between the soil and its ground.
+    /// Number of unoccupied cells below the occupied cell @p key, down to the
+    /// cell with index @p end, exclusive, or to the ground. Cells below a
+    /// closed cell, as under a pipe, are not between the soil and the ground.
+    ///
+    /// @param key of the occupied cell
+    /// @param end y index of the next occupied cell below; -1 for the mesh
+    ///   bottom
+    /// @param is_occupied_at_end whether the cell at @p end is occupied
+    /// @param rests whether the soil rests on the ground
+    /// @param lattice of the cells
+    /// @param ground under the soil
     template <int dim>
     unsigned long
     n_empty_below(const std::uint64_t     key,
@@ -213,10 +222,10 @@ namespace talus
 
 
 
-  /// Keys sort by x, then z, then y, so one pass over the occupied cells is
-  /// enough: between a cell and the one before it in the list there are either
-  /// empty cells of one column, or empty columns. Nothing is allocated for the
-  /// unoccupied cells of the mesh, which are most.
+  /// Keys sort by x, then z, then y, so a single pass over the occupied cells
+  /// suffices: between consecutive cells of the list there are either empty
+  /// cells of a column, or empty columns. No memory is used for unoccupied
+  /// cells, the majority of the mesh.
   template <int dim>
   FractureCounts
   count_fractures(const Points<dim> &points,
@@ -248,8 +257,8 @@ namespace talus
                         lattice,
                         ground);
 
-        // In 3-D the cells with one x are a slab. Within it the difference is 0
-        // or less.
+        // In 3-D the cells with equal x form a slab, within which the
+        // difference is not positive.
         const int left =
           (i == 0 ? place[0] : Lattice::place(cells[i - 1].key)[0]);
         counts.empty_columns += std::max(place[0] - left - 1, 0);
@@ -259,7 +268,7 @@ namespace talus
 
 
 
-  /// Without unit, since they are numbers of cells.
+  /// Numbers of cells have no unit.
   template <int dim>
   void
   list_fractures(const State<dim>  &state,

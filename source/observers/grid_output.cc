@@ -9,16 +9,16 @@ namespace talus
 
   namespace
   {
-    /// Mass and force of a node, as they are sent to other ranks: 1 + dim.
+    /// Number of values exchanged per node: mass and force.
     template <int dim>
     constexpr unsigned int n_sent = 1 + dim;
 
 
 
-    /// Of all nodes this rank knows, those of ghosts from their owners.
-    /// Sums are right at the owners only. The cells of this rank have nodes of
-    /// others at their corners, so these are asked for; once per output, where
-    /// the step does not need them. Collective.
+    /// Return mass, kg, and force, N, of all nodes known to the rank, 1 + dim
+    /// values per node. Sums are complete only at the owner of a node, so ghost
+    /// values are imported, once per output: the step itself does not need
+    /// them. Collective.
     template <int dim>
     AlignedVector<double>
     mass_and_force(const State<dim> &state)
@@ -41,9 +41,9 @@ namespace talus
 
 
 
-    /// Fields that read from @p sums (mass and force) and, for the velocity,
-    /// from the nodes themselves: velocities of ghosts are there after a step.
-    /// Both must outlive the fields.
+    /// Fields of nodes: mass and force from @p sums, velocity from @p nodes,
+    /// where ghosts are valid after a step. Both arguments must outlive the
+    /// fields.
     template <int dim>
     std::vector<Field>
     node_fields(const NodalFields<dim>      &nodes,
@@ -81,7 +81,8 @@ namespace talus
 
 
 
-    /// Corners of a cell in deal.II's order, and the nodes there.
+    /// Add the corners of a cell in the order of deal.II, and the nodes at the
+    /// corners.
     template <int dim>
     void
     add_cell(OutputCells &cells, const Cell<dim> &cell)
@@ -96,11 +97,11 @@ namespace talus
 
 
 
-  /// Cells with points only: the mesh far from the soil has nothing to show and
-  /// may be most of it. Points are sorted by cell, so the segments of a cell
-  /// follow each other. A corner that several cells share is written once for
-  /// each: no numbering of the nodes over the ranks is needed, and ParaView
-  /// does not mind.
+  /// Only cells with points are written: the mesh far from the soil has no
+  /// content and may be much larger. Points are sorted by cell, so the segments
+  /// of a cell follow each other. A corner shared by several cells is written
+  /// once per cell: a global numbering of nodes is not needed, and ParaView
+  /// accepts duplicates.
   template <int dim>
   void
   GridOutput<dim>::observe(const State<dim> &state)

@@ -14,7 +14,7 @@ namespace talus
 
   namespace
   {
-    /// An element of the surface of an obstacle.
+    /// Element of the surface of an obstacle.
     template <int dim>
     struct Element
     {
@@ -33,8 +33,8 @@ namespace talus
 
 
 
-    /// Of all obstacles within @p box, from their distances alone, so that new
-    /// shapes need nothing more.
+    /// Surface elements, about @p size m long, of all obstacles inside @p box.
+    /// Uses signed distances only, so new shapes need no further code.
     template <int dim>
     std::vector<Element<dim>>
     elements_in(const Box<dim>       &box,
@@ -56,7 +56,8 @@ namespace talus
 
 
 
-    /// Of elements by their number, which must outlive the fields.
+    /// Fields of surface elements by element number. The arguments must outlive
+    /// the fields.
     template <int dim>
     std::vector<Field>
     surface_fields(const Obstacles<dim>            &obstacles,
@@ -80,7 +81,7 @@ namespace talus
                "Pa",
                FieldKind::scalar,
                [&](const unsigned int i, double *value) {
-                 // An infinite value would take all of ParaView's scale.
+                 // An infinite value would spoil the colour scale of ParaView.
                  const double limit =
                    obstacles[elements[i].obstacle].maximum_shear_stress(
                      elements[i].middle());
@@ -110,9 +111,10 @@ namespace talus
 
 
 
-  /// By the first rank: all know the obstacles, and surfaces in cells of others
-  /// have no more elements there than elsewhere. In the mesh as it was asked
-  /// for: its faces may have moved far away to make room for large cells.
+  /// The first rank writes all surfaces: every rank knows the obstacles, and
+  /// distributing the elements has no benefit. The domain is the mesh as
+  /// requested: mesh faces may have moved far away to make space for large
+  /// cells.
   template <int dim>
   void
   ObstaclesOutput<dim>::observe(const State<dim> &state)
@@ -140,7 +142,7 @@ namespace talus
 
 
 
-  /// Without obstacles a checkpoint need not know of it.
+  /// Without obstacles the checkpoint has no entry for the series.
   template <int dim>
   void
   ObstaclesOutput<dim>::list_state(StateList &list)

@@ -16,7 +16,7 @@ namespace talus
 
   namespace
   {
-    /// Declare the entries of section Output that choose the files of fields.
+    /// Declare the entries of section Output for field files.
     void
     add_field_parameters(ParameterAcceptor &section, OutputSettings &settings)
     {
@@ -32,14 +32,13 @@ namespace talus
       section.add_parameter(
         "Write obstacles",
         settings.write_obstacles,
-        "Write, where there are obstacles, their surfaces, and the "
-        "facets of these that soil touches, with the traction "
-        "there, for ParaView.");
+        "If there are obstacles, write the surfaces of all obstacles, and the "
+        "facets in contact with soil with the traction, for ParaView.");
       section.add_parameter(
         "Boxes as cells",
         settings.boxes_as_cells,
-        "Write each point as its box, a quad or hex, so that "
-        "ParaView shows a continuum, instead of as a dot.");
+        "Write each point as a box, a quad or hex, instead of a dot: ParaView "
+        "shows a continuum.");
       section.add_parameter("Format",
                             settings.format,
                             "Files of points, grid and obstacles: " +
@@ -61,34 +60,34 @@ namespace talus
   {
     add_parameter("Folder",
                   folder_,
-                  "Folder for all files of the run, made if it is not there; "
-                  "files of an earlier run are overwritten.");
+                  "Folder for all files of the run, created if missing; files "
+                  "of an earlier run are overwritten.");
     add_parameter("Statistics interval",
                   rows_.interval,
                   "Simulated time between two rows of statistics.csv, and "
                   "between two lines on the terminal [s]. Rows are written at "
-                  "the first step that reaches a multiple of it.",
+                  "the first step that reaches a multiple of the interval.",
                   this->prm,
                   Patterns::Double(1e-12));
     add_parameter("Field interval",
                   fields_.interval,
                   "Simulated time between two outputs of points, grid and "
-                  "profile [s]; at the first step that reaches a multiple of "
-                  "it.",
+                  "profile [s]. Fields are written at the first step that "
+                  "reaches a multiple of the interval.",
                   this->prm,
                   Patterns::Double(1e-12));
     add_field_parameters(*this, settings_);
     add_parameter("Runout",
                   settings_.write_runout,
-                  "Write what tells the runout: the columns of front and rear "
-                  "in statistics.csv, and profile.csv. Not with damping, which "
-                  "falsifies the runout.");
+                  "Write the runout: the columns of front and rear in "
+                  "statistics.csv, and profile.csv. Not allowed with local "
+                  "damping, which falsifies the runout.");
     add_parameter("Force averaging time",
                   settings_.averaging_time,
-                  "Time over which the forces on obstacles and faces are "
-                  "averaged for the columns of the least and largest mean "
-                  "force [s]: extremes of single steps are impacts that a "
-                  "structure hardly feels. 0: no averaging.",
+                  "Time constant of the running mean of the forces on "
+                  "obstacles and mesh faces, for the columns of the least and "
+                  "largest mean force [s]: extremes of single steps are "
+                  "impacts too short to load a structure. 0: no averaging.",
                   this->prm,
                   Patterns::Double(0.));
     list_observers(obstacles);
@@ -96,8 +95,8 @@ namespace talus
 
 
 
-  /// A new one is one line here, among those that look when a row is due (rows_)
-  /// or when fields are (fields_).
+  /// A new observer is added here in one line, to rows_ (called when a row is
+  /// due) or to fields_ (called when fields are due).
   template <int dim>
   void
   Output<dim>::list_observers(const Obstacles<dim> *obstacles)
@@ -116,7 +115,7 @@ namespace talus
   void
   Output<dim>::set_folder(const std::string &folder)
   {
-    // Through the parameter, so that parameters.prm tells it.
+    // Set the parameter, so that parameters.prm contains the folder.
     this->enter_my_subsection(this->prm);
     this->prm.set("Folder", folder);
     this->leave_my_subsection(this->prm);
@@ -131,7 +130,7 @@ namespace talus
   {
     AssertThrow(!folder_.empty(),
                 ExcUser("Output/Folder is empty, but the name of a folder is "
-                        "expected. Name one there or with --output."));
+                        "expected. Set Output/Folder or --output."));
     AssertThrow(std::none_of(folder_.begin(),
                              folder_.end(),
                              [](const unsigned char c) {
@@ -140,17 +139,16 @@ namespace talus
                              }) &&
                   folder_.back() != '\\',
                 ExcUser("The output folder '" + folder_ +
-                        "' has a name with a control character, as a line "
-                        "break, a '#', a '{' or a '\\' at its end, which "
+                        "' has a name with a control character (such as a line "
+                        "break), a '#', a '{' or a '\\' at the end, which "
                         "parameters.prm cannot hold. Choose another name with "
                         "Output/Folder or --output."));
     AssertThrow(local_damping == 0 || !settings_.write_runout,
                 ExcUser(text("'Damping/Local damping' is ",
                              local_damping,
                              ", but artificial damping falsifies the runout, "
-                             "which is to be written. Set Output/Runout = "
-                             "false to go without it, or Damping/Local damping "
-                             "= 0.")));
+                             "and Output/Runout is true. Set Output/Runout = "
+                             "false or Damping/Local damping = 0.")));
   }
 
 
@@ -186,10 +184,10 @@ namespace talus
 
 
 
-  /// The first rank makes the folder before anyone opens a file in it, hence
-  /// the barrier. parameters.prm comes first: write_file() replaces it only on
-  /// success, so a folder that cannot be written stops the run before the
-  /// results of an earlier one are touched. Collective.
+  /// The first rank creates the folder before any rank opens a file in it,
+  /// hence the barrier. parameters.prm is written first: write_file() replaces
+  /// a file only on success, so an unwritable folder stops the run before
+  /// earlier results are touched. Collective.
   template <int dim>
   void
   Output<dim>::begin(const State<dim> &state,
@@ -203,8 +201,8 @@ namespace talus
         const std::filesystem::path record =
           std::filesystem::path(folder_) / "parameters.prm";
         const bool had_a_run = is_run_record(record);
-        // First, as it shows whether the folder can be written and replaces
-        // an earlier file only on success.
+        // The first write tests whether the folder is writable, and replaces an
+        // earlier file only on success.
         write_run_record(record, this->prm);
         if (beginning == Beginning::resumed)
           remove_remains(folder_);
@@ -218,9 +216,9 @@ namespace talus
     settings_.folder = folder_;
     for (Schedule *schedule : {&rows_, &fields_})
       {
-        // From the time of the state, which a resumed run has loaded: output
-        // goes on at the same multiples of the interval as if there had been no
-        // stop.
+        // Start from the time of the state, loaded from the checkpoint in a
+        // resumed run: output continues at the same multiples of the interval
+        // as without interruption.
         schedule->times.begin(schedule->interval, state.time);
         for (const auto &observer : schedule->observers)
           if (observer->is_enabled(settings_))
@@ -231,8 +229,8 @@ namespace talus
 
 
   /// The first row and fields belong to the beginning of the motion, after the
-  /// static stages. has_started_ is state of the run: a run that is resumed
-  /// later must not write them a second time.
+  /// static stages. has_started_ is part of the checkpoint, so a resumed run
+  /// does not write them again.
   template <int dim>
   void
   Output<dim>::start(const State<dim> &state)
@@ -251,9 +249,9 @@ namespace talus
 
 
 
-  /// Both questions are asked before anything is written, as reached() answers
-  /// yes only once. Whether output is due follows from the simulated time, so
-  /// that all ranks agree without a message.
+  /// Both schedules are queried before anything is written, because reached()
+  /// returns true only once. Output times depend only on the simulated time, so
+  /// all ranks agree without a message.
   template <int dim>
   bool
   Output<dim>::observe(const State<dim> &state, const bool last)
@@ -271,8 +269,8 @@ namespace talus
       write(fields_, state);
     if (last)
       {
-        // Wall times go to the log: the files by which two runs are compared
-        // hold none.
+        // Wall times are written to the log only: files compared between runs
+        // contain no wall times.
         for (const std::string &line :
              phase_times(timer_, state.communicator()))
           log_.say(LogLevel::info, line);
@@ -283,7 +281,7 @@ namespace talus
 
 
 
-  /// The time goes to the phase "output".
+  /// The time is added to the phase "output".
   template <int dim>
   void
   Output<dim>::follow(const State<dim> &state)
@@ -297,8 +295,9 @@ namespace talus
 
 
 
-  /// Everything is due at the last step, but for what the same step wrote
-  /// already: a row twice would have the mean of an interval of no length.
+  /// In the last step everything is due, except output already written in the
+  /// same step: a repeated row would contain means over an interval of zero
+  /// length.
   template <int dim>
   bool
   Output<dim>::Schedule::is_due(const State<dim> &state, const bool last)
@@ -308,7 +307,7 @@ namespace talus
 
 
 
-  /// The time goes to the phase "output".
+  /// The time is added to the phase "output".
   template <int dim>
   void
   Output<dim>::write(Schedule &schedule, const State<dim> &state)
@@ -322,8 +321,8 @@ namespace talus
 
 
 
-  /// Observers that are switched off list theirs, too: what a checkpoint holds
-  /// must not depend on parameters that may change when a run is resumed.
+  /// Disabled observers list their state, too: the content of a checkpoint must
+  /// not depend on parameters that may change when a run is resumed.
   template <int dim>
   void
   Output<dim>::list_state(StateList &list)
@@ -341,10 +340,10 @@ namespace talus
 
 
 
-  /// Before any file is opened: begin() cuts files to their length at the
-  /// checkpoint, which must not happen to one of them if another is missing. A
-  /// file is looked at by the first rank, and its answer is told to all, so
-  /// that all of them throw.
+  /// Call before any file is opened: begin() truncates files to the length at
+  /// the checkpoint, which must not happen to a file while another file is
+  /// missing. The first rank checks the files and sends the result to all
+  /// ranks, so that all ranks throw.
   template <int dim>
   void
   Output<dim>::check_resumable(const State<dim> &state) const
@@ -392,8 +391,8 @@ namespace talus
 
 
 
-  /// At the end and not before: who removes files while the run goes on may
-  /// need the room for what is still to come.
+  /// Checked only at the end: a user may delete files during a run to free disk
+  /// space for later output.
   template <int dim>
   void
   Output<dim>::check_complete(const MPI_Comm communicator) const
@@ -406,9 +405,9 @@ namespace talus
                folder_,
                "' lacks ",
                missing,
-               ", which it wrote and somebody has removed or "
-               "cut short. All else is complete. Put back what is missing, or "
-               "start anew with --overwrite.");
+               ", written by the run and since then removed or cut short. All "
+               "other files are complete. Restore the missing files, or start "
+               "anew with --overwrite.");
     const std::string first = first_sentence(sentence, communicator);
     AssertThrow(first.empty(), ExcUser(first));
   }
@@ -423,15 +422,15 @@ namespace talus
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings_))
           observer->sync();
-    // The names of the field files, which a checkpoint lists.
+    // Force the names of the field files, listed in a checkpoint, to disk, too.
     if (is_first_rank(MPI_COMM_WORLD))
       sync_to_disk(folder_);
   }
 
 
 
-  /// A series of its own that is started each time: of several failures only
-  /// the last one stays.
+  /// Uses a separate series, restarted at each call: only the last of several
+  /// failures is kept.
   template <int dim>
   void
   Output<dim>::write_mechanism(const State<dim>          &state,
@@ -452,9 +451,9 @@ namespace talus
 
 
 
-  /// Not collective: an error may have stopped one rank alone, and to wait for
-  /// the others would be to wait for ever. So each rank that gets here writes a
-  /// file of its own, as VTU, which needs no common file as HDF5 does.
+  /// Not collective: an error may have stopped a single rank, and waiting for
+  /// the other ranks would never end. Each rank writes a separate VTU file,
+  /// because HDF5 needs a common file.
   template <int dim>
   std::string
   Output<dim>::write_last_state(const State<dim> &state) const

@@ -13,19 +13,19 @@ namespace talus
   std::vector<std::string>
   phase_times(const PhaseTimer &timer, const MPI_Comm communicator)
   {
-    // All ranks know the same phases in the same order, since the sums below
-    // are taken phase by phase.
+    // All ranks have the same phases in the same order, as required by the sums
+    // over ranks below.
     const auto phases = timer.seconds();
     double     total  = 0;
     for (const auto &phase : phases)
       total += phase.second;
-    // Mean over the ranks: shares of means add up to 100 %.
+    // Use means over the ranks: the shares of the means add up to 100 %.
     total = Utilities::MPI::sum(total, communicator) /
             Utilities::MPI::n_mpi_processes(communicator);
 
     std::vector<std::string> lines = {
       "Wall time by phase, s: least, mean and largest over the ranks, share"};
-    // Least and largest show whether ranks wait for each other.
+    // The difference of minimum and maximum shows whether ranks wait.
     for (const auto &[name, seconds] : phases)
       {
         const auto over_ranks =
@@ -39,7 +39,7 @@ namespace talus
         lines.push_back(line.str());
       }
 
-    // VmHWM is the largest resident memory so far, kB.
+    // VmHWM is the peak resident memory, kB.
     Utilities::System::MemoryStats memory;
     Utilities::System::get_memory_stats(memory);
     const auto peak =

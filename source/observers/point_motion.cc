@@ -13,7 +13,7 @@ namespace talus
 
   namespace
   {
-    /// Sums over the points, and what follows from them.
+    /// Sums and extremes over the points.
     template <int dim>
     struct PointSums
     {
@@ -29,8 +29,8 @@ namespace talus
 
 
 
-    /// One pass over this rank's points. Extremes begin beyond all numbers, so
-    /// a rank without points does not count.
+    /// Sum over the points of the local rank in a single pass. Extremes start
+    /// at the limits of double, so a rank without points does not count.
     template <int dim>
     PointSums<dim>
     sum_over_own_points(const Points<dim> &points)
@@ -63,8 +63,8 @@ namespace talus
 
 
 
-    /// The same over all ranks; without points, places are not numbers.
-    /// Collective.
+    /// Sum over the points of all ranks; without points front, rear and top are
+    /// NaN. Collective.
     template <int dim>
     PointSums<dim>
     sum_over_points(const Points<dim> &points, const MPI_Comm communicator)
@@ -86,7 +86,7 @@ namespace talus
 
 
 
-    /// Largest height of a point above the ground below it, m.
+    /// Maximum height of a point of the local rank above the ground below, m.
     template <int dim>
     double
     height_above(const Ground<dim> &ground, const Points<dim> &points)
@@ -103,15 +103,14 @@ namespace talus
 
 
 
-  // Finds the place by counting mass in bins and going on with the points of
-  // the one bin that holds it: no sort, and only the bins travel between ranks.
-  /// Each round divides the range that holds the place into 1024 bins, sums
-  /// mass by bin over the ranks, and keeps the points of the bin in which the
-  /// sum passes the target: three rounds resolve 1e-9 of the length of the
-  /// slide. It ends when all points that are left, over all ranks, have the
-  /// same x, so the result is the x of a point exactly and does not depend on
-  /// how points are distributed. mass_below is the mass in front of the range,
-  /// the same on all ranks.
+  /// The search needs no sort, and only bin sums travel between ranks. Each
+  /// round divides the range of x into 1024 bins, sums the mass by bin over the
+  /// ranks, and keeps the points of the bin in which the cumulative mass passes
+  /// the target: three rounds resolve 1e-9 of the length of the slide. The
+  /// search ends when all remaining points, over all ranks, have equal x, so
+  /// the result is exactly the x of a point and does not depend on the
+  /// distribution of points. mass_below is the mass with x below the range,
+  /// equal on all ranks.
   template <int dim>
   double
   front_of_mass(const Points<dim> &points,
@@ -131,8 +130,9 @@ namespace talus
                          points.data(points.mass)[p]};
         mass += candidates[p].mass;
       }
-    // Less than any point's mass, more than the round-off of the sum: with 200
-    // equal points it is surely the 199th that completes 99.5 %.
+    // The tolerance is less than the mass of any point and more than the
+    // round-off of the sum: of 200 equal points the 199th always completes
+    // 99.5 %.
     const double target =
       (fraction - 1e-12) * Utilities::MPI::sum(mass, communicator);
 
@@ -151,7 +151,7 @@ namespace talus
           return lower > upper ? std::numeric_limits<double>::quiet_NaN() :
                                  upper;
 
-        // The largest x would be in a bin beyond the last.
+        // The largest x would fall in a bin beyond the last.
         const auto bin = [&](const Candidate &c) {
           const double at = (c.x - lower) / (upper - lower) * n_bins;
           return std::min(n_bins - 1, static_cast<unsigned int>(at));
@@ -161,8 +161,8 @@ namespace talus
           bins[bin(c)] += c.mass;
         Utilities::MPI::sum(bins, communicator, bins);
 
-        // The last bin is taken in any case: by round-off the sum may miss the
-        // target.
+        // The last bin is accepted in any case: by round-off the sum may miss
+        // the target.
         unsigned int b = 0;
         for (; b + 1 < n_bins && mass_below + bins[b] < target; ++b)
           mass_below += bins[b];
@@ -177,9 +177,8 @@ namespace talus
 
 
 
-  /// Columns of statistics.csv; doc/output.md says what each means. The front
-  /// by mass costs some messages more, so it is found only if it is to be
-  /// written.
+  /// Columns of statistics.csv are explained in doc/output.md. The front by
+  /// mass needs additional messages, so it is computed only on request.
   template <int dim>
   void
   list_motion(const State<dim>  &state,

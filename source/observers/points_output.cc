@@ -16,8 +16,8 @@ namespace talus
 
   namespace
   {
-    /// 3x3 tensor from the components of a symmetric one, xx, yy, zz, xy (xz,
-    /// yz).
+    /// Fill a 3x3 tensor from the components of a symmetric tensor, stored in
+    /// the order xx, yy, zz, xy (xz, yz).
     template <int dim>
     void
     read_symmetric_tensor(const Points<dim> &points,
@@ -35,10 +35,10 @@ namespace talus
 
 
 
-    /// What output shows of a column: one field, or of a list one per number.
-    /// New columns of laws get here by themselves, by their kind: nobody has to
-    /// name them for the output. Lambdas keep the place of the column, not a
-    /// copy of its values, which are read when a file is written.
+    /// Append the fields of a column: a single field, or a field per number of
+    /// a list. The kind of the column decides, so new columns of material laws
+    /// need no code here. The lambdas store the index of the column, not
+    /// values; values are read when a file is written.
     template <int dim>
     void
     append_column(std::vector<Field> &fields,
@@ -87,8 +87,9 @@ namespace talus
                 FieldKind::tensor,
                 [&points, first, kind = column.kind](const unsigned int p,
                                                      double *values) {
-                  // In 2-D: nothing is stretched out of the plane, but any
-                  // other tensor has 0 there. In 3-D the loop sets it.
+                  // In 2-D the out-of-plane component is 1 for a deformation
+                  // gradient and 0 for any other tensor. In 3-D the loop
+                  // overwrites the value.
                   values[8] = (kind == ColumnKind::deformation);
                   for (unsigned int c = 0; c < dim * dim; ++c)
                     values[3 * (c / dim) + c % dim] = points.data(first, c)[p];
@@ -98,10 +99,9 @@ namespace talus
 
 
 
-    /// Mean and von Mises stress, Pa.
-    /// sqrt(3/2 s:s) with the deviator s; off the diagonal each component
-    /// counts twice. The mean is over three components in 2-D, too: the stress
-    /// out of the plane is not zero.
+    /// Return mean stress and von Mises stress sqrt(3/2 s:s), Pa, with the
+    /// deviator s; off-diagonal components count twice. In 2-D the mean
+    /// includes the out-of-plane stress, which is not zero.
     template <int dim>
     std::pair<double, double>
     stress_measures(const Points<dim> &points, const unsigned int p)
@@ -117,8 +117,8 @@ namespace talus
 
 
 
-    /// What follows from the columns and is asked for often enough that
-    /// ParaView should not have to compute it.
+    /// Append derived vectors, needed often enough to spare users the
+    /// calculator of ParaView.
     template <int dim>
     void
     append_derived_vectors(std::vector<Field> &fields, const State<dim> &state)
@@ -145,7 +145,7 @@ namespace talus
 
 
 
-    /// J is that of F, as the volume in the dynamics.
+    /// Append derived scalars. J is det F, as for the volume in the dynamics.
     template <int dim>
     void
     append_derived_scalars(std::vector<Field> &fields,
@@ -178,9 +178,8 @@ namespace talus
 
 
 
-    /// No vertices yet, the points as items of the cells.
-    /// The items of the cells are the numbers of the points, from which fields
-    /// read.
+    /// Return output cells without vertices. The items are the numbers of the
+    /// points, from which fields read.
     template <int dim>
     OutputCells
     one_cell_per_point(const State<dim> &state,
@@ -198,7 +197,7 @@ namespace talus
 
 
 
-    /// A vertex at the centre of each point, with values at vertices.
+    /// Create a vertex at the centre of each point, with values at vertices.
     template <int dim>
     OutputCells
     points_as_vertices(const State<dim> &state)
@@ -213,10 +212,10 @@ namespace talus
 
 
 
-    /// Corners in the order of deal.II, x fastest: bit d of v tells the side
-    /// along axis d. Edges may be oblique, as those of a convected domain.
-    /// Neighbouring boxes share no vertices, since they have gaps and overlaps.
-    /// Values are those of cells.
+    /// Create a cell per box, with values at cells. Corners are in the order of
+    /// deal.II, x fastest: bit d of v is the side along axis d. Edges of a
+    /// convected domain may be oblique. Neighbouring boxes share no vertices,
+    /// because boxes have gaps and overlaps.
     template <int dim>
     OutputCells
     points_as_boxes(const State<dim> &state)
@@ -284,8 +283,8 @@ namespace talus
 
 
 
-  /// For the state after an error, of this rank alone: vertices need nothing of
-  /// a point but its place.
+  /// Used for the state after an error, without communication: vertices need
+  /// only the position of a point.
   template <int dim>
   void
   write_points(const State<dim> &state, const std::filesystem::path &path)

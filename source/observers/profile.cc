@@ -20,10 +20,9 @@ namespace talus
 
   namespace
   {
-    /// What is summed up for a column.
-    // Volume, mass and momentum add up by shares; lowest and highest are edges
-    // of whole boxes, as a box stands in each of its columns with its full
-    // height.
+    /// Sums over the soil of a column. Volume, mass and momentum add up by
+    /// fractions of boxes; lowest and highest are edges of whole boxes, because
+    /// a box has the full height in each of its columns.
     struct Sums
     {
       double lowest     = std::numeric_limits<double>::max();    // m
@@ -32,7 +31,7 @@ namespace talus
       double mass       = 0;                                     // kg
       double momentum_x = 0, momentum_z = 0;
 
-      /// @p share of what @p more holds.
+      /// Add the fraction @p share of volume, mass and momentum of @p more.
       void
       add(const Sums &more, const double share = 1.)
       {
@@ -44,7 +43,7 @@ namespace talus
         momentum_z += share * more.momentum_z;
       }
 
-      /// For the message between ranks.
+      /// Serialize for MPI messages.
       template <typename Archive>
       void
       serialize(Archive &archive, const unsigned int)
@@ -58,8 +57,8 @@ namespace talus
 
 
 
-    /// All of point @p p.
-    /// @p half_height of the box, m. Velocities along z only in 3-D.
+    /// Contribution of the whole point @p p, with @p half_height of the box, m.
+    /// The momentum along z is zero in 2-D.
     template <int dim>
     Sums
     whole_point(const Points<dim> &points,
@@ -80,17 +79,23 @@ namespace talus
 
 
 
-    /// The columns that a box reaches along one axis, and its share in each.
+    /// Columns under a box along an axis, and the fraction of the box in each
+    /// column.
     struct Shares
     {
       int                 first;
       std::vector<double> share;
     };
 
-    /// Shares add up to one, so that volume and mass of the profile are those
-    /// of the soil. What lies outside the mesh belongs to the outermost column:
-    /// coordinate() ends there, and the first and the last share take what is
-    /// left.
+    /// Distribute a box over columns along axis @p d. The shares add up to 1,
+    /// so volume and mass of the profile equal volume and mass of the soil.
+    /// coordinate() is limited to the mesh, so the first and the last share
+    /// include the parts outside the mesh.
+    ///
+    /// @param d axis
+    /// @param lattice of the columns
+    /// @param centre coordinate of the centre of the box, m
+    /// @param length of the box, m
     template <int dim>
     Shares
     shares_along(const unsigned int      d,
@@ -108,7 +113,7 @@ namespace talus
           result.share.push_back((to - from) / length);
           from = to;
         }
-      // A box that ends at a face between columns has nothing behind it.
+      // A box that ends at a face between columns has no part behind the face.
       if (upper > from || result.share.empty())
         result.share.push_back(length > 0 ? (upper - from) / length : 1.);
       return result;
@@ -116,8 +121,8 @@ namespace talus
 
 
 
-    /// Add to @p columns what each has of point @p p.
-    /// By boxes, not by centres: with points a fraction of a cell apart, the
+    /// Add the shares of point @p p to @p columns. Shares of boxes are used,
+    /// not centres: the distance of points is a fraction of a cell, and the
     /// thickness of a column would jump by whole points whenever a centre
     /// crosses a face.
     template <int dim>
@@ -137,18 +142,18 @@ namespace talus
                             lengths[d]);
       };
       const Shares x = along(0);
-      // In 2-D all is in one slab.
+      // In 2-D there is a single slab.
       const Shares z = (dim == 3 ? along(dim - 1) : Shares{0, {1.}});
 
       typename CellLattice<dim>::Place place = {};
       for (unsigned int i = 0; i < x.share.size(); ++i)
         for (unsigned int k = 0; k < z.share.size(); ++k)
           {
-            // In 2-D the first line sets y, which the second one overwrites.
+            // In 2-D the first line sets y, and the second line overwrites y.
             place[dim - 1] = z.first + k;
             place[1]       = 0;
             place[0]       = x.first + i;
-            // By round-off a share may be nothing, and the column without mass.
+            // By round-off a share may be zero, and the column without mass.
             if (const double share = x.share[i] * z.share[k]; share > 0)
               columns[lattice.column(lattice.key(place))].add(whole, share);
           }
@@ -156,9 +161,9 @@ namespace talus
 
 
 
-    /// On the first rank the columns of all; a column may have soil of several
-    /// ranks. They are added in the order of the ranks, so that the result is
-    /// the same in each run. Collective.
+    /// Sum the columns of all ranks on the first rank; a column may have soil
+    /// of several ranks. The order of summation is the order of ranks, so the
+    /// result is the same in each run. Collective.
     template <int dim>
     Columns
     sum_columns(const State<dim> &state)
@@ -217,8 +222,8 @@ namespace talus
 
 
 
-  /// z comes behind x in 3-D, as in observe(). The ground is a column only
-  /// where it is not the bottom face of the mesh.
+  /// In 3-D z follows x, as in observe(). The ground is a column only if it
+  /// differs from the bottom face of the mesh.
   template <int dim>
   std::vector<std::string>
   Profile<dim>::columns(const OutputSettings & /*settings*/,

@@ -20,8 +20,7 @@ namespace talus
 
 
 
-    /// 3:07 or 2:03:07.
-    /// What is longer than 115 days, or no number, is not known.
+    /// Format a time as 3:07 or 2:03:07; "?" for NaN or more than 115 days.
     std::string
     clock_time(const double seconds)
     {
@@ -59,9 +58,9 @@ namespace talus
 
 
 
-  /// Speed and time left are those since the line before, not since the start:
-  /// steps take longer as points split. The sums are taken on all ranks before
-  /// the first one decides whether to print, or they would wait for each other.
+  /// Speed and remaining time refer to the interval since the previous line,
+  /// not since the start: steps take longer as points split. All ranks must
+  /// take part in the sums before the first rank decides whether to print.
   void
   Progress::print_line(const double time, const unsigned int n_points)
   {
@@ -72,7 +71,7 @@ namespace talus
                           communicator_);
     const unsigned long all_points =
       Utilities::MPI::sum(static_cast<unsigned long>(n_points), communicator_);
-    // Wall seconds per simulated second, whatever the time step.
+    // Pace: wall seconds per simulated second, for any time step.
     const double elapsed = seconds(now_.wall_time - line_before_.wall_time);
     const double pace    = elapsed / (now_.time - line_before_.time);
     const double steps   = now_.steps - line_before_.steps;
@@ -94,7 +93,8 @@ namespace talus
 
 
 
-  /// Of all that went on since begin(), output and static stages included.
+  /// The throughput covers everything since begin(), including output and
+  /// static stages.
   void
   Progress::finish(const double time, const unsigned int n_points)
   {

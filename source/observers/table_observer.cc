@@ -4,8 +4,8 @@
 
 namespace talus
 {
-  /// The names may need a message of all ranks, so all of them ask for them;
-  /// the same in cannot_resume().
+  /// All ranks evaluate the names, which may need communication; likewise in
+  /// cannot_resume().
   template <int dim>
   void
   TableObserver<dim>::begin(const OutputSettings &settings,
@@ -51,7 +51,7 @@ namespace talus
 
 
 
-  /// Flushed, so that a run can be looked at while it goes on.
+  /// Flush the rows, so that the table can be read during the run.
   template <int dim>
   void
   TableObserver<dim>::add_rows(const State<dim>                       &state,

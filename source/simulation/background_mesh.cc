@@ -12,9 +12,9 @@ namespace talus
 
   namespace
   {
-    /// Coverage and reach, after a change of the mesh: every point lies in its
-    /// cell, or beyond a wall at most half a cell outside, and its weights sum
-    /// to one (which weights_of_point() asserts). (Used in Debug only.)
+    /// Check coverage and reach after a change of the mesh: every point lies in
+    /// its cell, or beyond a wall by at most half a cell, and the weights of a
+    /// point sum to one (asserted by weights_of_point()). (Used in Debug only.)
     template <int dim>
     [[maybe_unused]] bool
     points_are_covered(const State<dim> &state)
@@ -31,7 +31,8 @@ namespace talus
                 const double xi =
                   (points.data(points.position, d)[p] - cell.lower[d]) /
                   cell.size;
-                // At walls, and the seabed, centres may dip half a cell.
+                // At walls, and at the seabed, centres may be half a cell
+                // outside.
                 const bool first = cell.lower[d] <= grid.domain().lower[d];
                 const bool last =
                   cell.lower[d] + 1.5 * cell.size > grid.domain().upper[d];
@@ -63,7 +64,7 @@ namespace talus
 
   namespace
   {
-    /// Cells of a mesh that is as fine everywhere as its base level.
+    /// Number of cells of a mesh uniformly refined to the base level.
     template <int dim>
     double
     n_cells_of_base_level(const Grid<dim> &grid)
@@ -77,13 +78,13 @@ namespace talus
 
 
 
-  /// Without points, which need cells to be put into. With mesh tracking the
-  /// cells are fine where the bodies will be, known by their boxes.
+  /// The mesh is created without points, because points need cells. With mesh
+  /// tracking the cells are fine around the bounding boxes of the bodies.
   template <int dim>
   void
   BackgroundMesh<dim>::create(Log &log)
   {
-    // Some seconds of one core.
+    // Takes some seconds on one core.
     constexpr double n_cells_that_take_long = 1e6;
     Grid<dim>       &grid                   = state_.grid;
     grid.create(problem_.faces_that_may_move(),
@@ -106,11 +107,11 @@ namespace talus
 
 
 
-  /// The mesh is that of the checkpoint, on as many ranks as there are now. The
-  /// partition, if the ranks are as many; then the points, whose cells were
-  /// saved with them. A point on an edge could be found in either cell, and the
-  /// order of sums would change. From prepare() on all is as after any change
-  /// of the mesh. Collective.
+  /// The mesh of the checkpoint is created on the current ranks, with the saved
+  /// partition if the number of ranks is the same. Points are loaded with the
+  /// saved cells: a point on an edge could be found in either cell, and the
+  /// order of sums would change. From prepare() on, all steps are as after any
+  /// change of the mesh. Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::load(const std::string    &mesh,
@@ -127,7 +128,7 @@ namespace talus
     if (n_ranks == head.n_ranks && n_ranks > 1)
       restore_partition(file);
     prepare();
-    // Not found by their positions: on an edge of a cell these leave a choice.
+    // Saved cells are used, because positions on cell edges are ambiguous.
     relocation_.rebuild(state_.points,
                         load_points(file, grid.n_owned_cells(), state_.points));
     activate_nodes();
@@ -135,10 +136,10 @@ namespace talus
 
 
 
-  /// p4est has shared the cells evenly; the sums over ranks are bit by bit the
-  /// same only if every rank has what it had.
-  /// Twice: the weights of the cells that the rank has now decide what it gets,
-  /// and then those of what it got are the state that load_balance_ keeps.
+  /// p4est distributes the cells evenly, but sums over ranks are bit-identical
+  /// only if every rank has its previous cells and points. The weights are
+  /// loaded twice: weights of the current cells determine the partition, and
+  /// weights of the resulting cells become the state of load_balance_.
   template <int dim>
   void
   BackgroundMesh<dim>::restore_partition(Hdf5InputFile &file)
@@ -155,7 +156,8 @@ namespace talus
 
 
 
-  /// All that depends on the mesh. Points stay on their rank. Collective.
+  /// Prepare everything that depends on the mesh. Points stay on their rank.
+  /// Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::prepare()
@@ -166,15 +168,14 @@ namespace talus
 
 
 
-  /// With these and prepare_nodes() all caches that follow from the mesh are
-  /// made, so that start, resumed run and change of the mesh cannot differ.
-  /// Collective.
+  /// Together with prepare_nodes() rebuilds all caches derived from the mesh,
+  /// so start, resumed run and mesh change cannot differ. Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::prepare_cells()
   {
-    // In cells. Through a free face a point leaves the mesh, which is an error
-    // where the face is not one of outflow.
+    // Distances in cells. A point leaves the mesh through a free face, which is
+    // an error unless the face is an outflow face.
     std::array<double, 2 * dim> may_lie_outside;
     std::array<bool, 2 * dim>   is_outflow;
     for (unsigned int face = 0; face < 2 * dim; ++face)
@@ -191,8 +192,8 @@ namespace talus
 
 
 
-  /// Numbers of nodes change with the cells, so boundaries find theirs anew.
-  /// Collective.
+  /// The numbering of nodes changes with the cells, so boundaries search their
+  /// nodes again. Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::prepare_nodes()
@@ -200,7 +201,7 @@ namespace talus
     state_.nodes.prepare(state_.grid);
     problem_.locate(state_.grid);
     activate_nodes();
-    // Of the smallest cell, so that the same nodes carry motion at any level.
+    // Uses the smallest cell, so that the same nodes carry motion at any level.
     state_.added_mass  = problem_.added_mass();
     state_.mass_cutoff = transfer_.mass_cutoff(problem_.least_density(),
                                                state_.grid.finest_size());
@@ -208,7 +209,8 @@ namespace talus
 
 
 
-  /// The points are in their new cells.
+  /// Activate the nodes of occupied cells; all points must be in their new
+  /// cells.
   template <int dim>
   void
   BackgroundMesh<dim>::activate_nodes()
@@ -221,7 +223,7 @@ namespace talus
 
 
 
-  /// For points that lie anywhere in this rank's cells, as new ones do.
+  /// Points may be anywhere in the cells of the rank, such as new points.
   template <int dim>
   void
   BackgroundMesh<dim>::insert_points()
@@ -232,7 +234,6 @@ namespace talus
 
 
 
-  /// Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::repartition()
@@ -243,9 +244,9 @@ namespace talus
 
 
 
-  /// Cells and points travel together. Relocation gets the cells from those who
-  /// sent the points and need not search. Returns whether there is more than one
-  /// rank. Collective.
+  /// Cells and points are sent together. The sender also provides the cell of
+  /// each point, so relocation needs no search. Returns whether there is more
+  /// than one rank. Collective.
   template <int dim>
   bool
   BackgroundMesh<dim>::share_out()
@@ -260,12 +261,12 @@ namespace talus
 
 
 
-  /// In front of the step, while points are in cells that they may still touch.
-  /// Two questions of different price: whether the mesh is due, by the step, is
-  /// known to each rank alone; whether it is urgent, since a point could reach
-  /// a larger cell in the next step, is asked of all ranks, by one message. A
-  /// new mesh is shared out anew at once, as its cells may all be on few ranks.
-  /// Load is looked at every some steps only. Collective.
+  /// Called before the step, while points are in cells that they may still
+  /// touch. Whether the mesh is due depends on the step number, known to each
+  /// rank without communication. Whether a change is urgent, because a point
+  /// could reach a larger cell in the next step, needs a message of all ranks.
+  /// A new mesh is repartitioned immediately, because all new cells may be on
+  /// few ranks. The load is checked only every few steps. Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::adapt()
@@ -291,9 +292,9 @@ namespace talus
 
 
 
-  /// The gather has listed the points that left their cell, so that only those
-  /// are looked at. Nodes are activated anew only if other cells have points
-  /// now. Points travel between neighbours; collective.
+  /// Only the points that left their cell, listed by the gather, are checked.
+  /// Nodes are activated again only if the set of occupied cells has changed.
+  /// Points are sent between neighbouring ranks. Collective.
   template <int dim>
   void
   BackgroundMesh<dim>::relocate()
@@ -318,8 +319,8 @@ namespace talus
 
 
 
-  /// In a load step of large strain points may move farther than into a
-  /// neighbour cell, so each is searched for, and may go to any rank.
+  /// In a load step with large strain points may move beyond neighbouring
+  /// cells. Each point is therefore searched for, and may go to any rank.
   /// Collective.
   template <int dim>
   void
@@ -336,7 +337,7 @@ namespace talus
 
 
 
-  /// Never shared out, all cells weigh the same.
+  /// Before the first repartition all cells have weight 1.
   template <int dim>
   std::vector<double>
   BackgroundMesh<dim>::cell_weights() const
@@ -348,7 +349,6 @@ namespace talus
 
 
 
-  /// A sentence for the log. Collective.
   template <int dim>
   std::string
   BackgroundMesh<dim>::description() const
@@ -374,7 +374,6 @@ namespace talus
 
 
 
-  /// What became of the mesh so far, for the log. Collective.
   template <int dim>
   std::string
   BackgroundMesh<dim>::history() const

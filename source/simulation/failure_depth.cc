@@ -14,24 +14,24 @@ namespace talus
 
   namespace
   {
-    // A mechanism that is thinner than so many cells depends on their size.
+    // A mechanism thinner than this number of cells depends on the cell size.
     constexpr double few_cells = 2.;
 
-    // Depths are counted in so many parts of a cell.
+    // Number of layers per cell for counting depths.
     constexpr double parts_of_cell = 4.;
 
-    /// Sums over points, by their motion: volume times square of displacement.
+    /// Sums over points, weighted by motion: volume times squared displacement.
     struct MotionSums
     {
-      std::vector<double> of_layer; ///< by depth, a part of a cell each
-      /// Motion half a cell to one and a half cells below the mudline, and its
-      /// product with the strength, Pa, and with the unit weight, N/m^dim.
+      std::vector<double> of_layer; ///< by depth, in parts of a cell
+      /// Motion between 0.5 and 1.5 cells below the mudline, and the sums of
+      /// motion times strength, Pa, and times unit weight, N/m^dim.
       double motion = 0., strength = 0., unit_weight = 0.;
     };
 
 
 
-    /// Sum up over all ranks. Collective.
+    /// Sum over all ranks. Collective.
     void
     sum_over_ranks(MotionSums &sums, const MPI_Comm communicator)
     {
@@ -48,8 +48,8 @@ namespace talus
 
 
 
-    /// Number of layers from the mudline down that have nine tenths of the
-    /// motion; 0 if nothing moves.
+    /// Number of layers below the mudline that contain nine tenths of the
+    /// motion; 0 without motion.
     unsigned int
     n_moving_layers(const std::vector<double> &motion_of_layer)
     {
@@ -68,9 +68,9 @@ namespace talus
     sentence_on_coarse_cells(const double strength, const double weight)
     {
       return text(std::setprecision(3),
-                  " So thin a mechanism depends on the size of the cells: "
-                  "halve 'Grid/Cell size' and compare. One cell below the "
-                  "mudline the strength of the soil that moves is ",
+                  " A mechanism less than two cells thick depends on the size "
+                  "of the cells: halve 'Grid/Cell size' and compare. One cell "
+                  "below the mudline the strength of the moving soil is ",
                   strength,
                   " Pa, ",
                   strength / weight,

@@ -35,7 +35,7 @@ namespace talus
 
 
 
-  /// As a run does that is resumed from a checkpoint with this length.
+  /// Implemented as a resume from a checkpoint with the given length.
   void
   NewtonTable::cut(const std::uintmax_t length)
   {
@@ -55,8 +55,8 @@ namespace talus
 
 
 
-  /// Flushed row by row: a search that fails can be followed while it runs.
-  /// Whole numbers are doubles here, as in all tables.
+  /// Each row is flushed, so a failing search can be followed while running.
+  /// Integers are stored as doubles, as in all tables.
   void
   NewtonTable::add(const unsigned int         stage,
                    const double               factor,

@@ -11,7 +11,7 @@ namespace talus
 {
   using namespace dealii;
 
-  // The first step finds caches and pages that nobody has touched.
+  // The first step is not measured, because caches and pages are still cold.
   Pace
   measure_pace(const std::function<bool()> &step, const MPI_Comm communicator)
   {
@@ -25,7 +25,7 @@ namespace talus
         ++pace.n_steps;
       }
     timer.stop();
-    // A run of one step has that one only.
+    // A run of a single step has no measured step.
     if (pace.n_steps > 0)
       pace.seconds =
         Utilities::MPI::max(timer.wall_time(), communicator) / pace.n_steps;
@@ -36,7 +36,7 @@ namespace talus
 
   namespace
   {
-    /// As a person would say it; two digits.
+    /// Format a time in a readable unit with two digits.
     std::string
     duration(const double seconds)
     {

@@ -18,24 +18,23 @@ namespace talus
   {
     add_parameter("Kinetic energy ratio",
                   ratio_,
-                  "Soil is at rest when the kinetic energy of the background "
-                  "grid is less than this share of its maximum so far, for the "
-                  "'Duration' below [-].",
+                  "Kinetic energy of the background grid over the maximum so "
+                  "far [-], below which the soil is at rest after 'Duration'.",
                   this->prm,
                   Patterns::Double(0., 1.));
     add_parameter("Duration",
                   duration_,
-                  "For how long the energy must stay small, and the outermost "
-                  "points must not move in plan by more than a fiftieth of the "
-                  "smallest cell [s].",
+                  "Time for which the kinetic energy must stay small, and the "
+                  "outermost points must not move in plan by more than a "
+                  "fiftieth of the smallest cell [s].",
                   this->prm,
                   Patterns::Double(1e-6));
   }
 
 
 
-  /// Whether the root mean square of the displacements, weighted by mass, is
-  /// larger than the smallest cell. Collective.
+  /// Return whether the mass-weighted root mean square displacement exceeds the
+  /// smallest cell. Collective.
   template <int dim>
   bool
   RestDetector<dim>::has_slid(const State<dim> &state) const
@@ -105,7 +104,8 @@ namespace talus
   void
   RestDetector<dim>::update(const State<dim> &state, const double last_change)
   {
-    // At every step, since a step without points goes on to the end time.
+    // Checked in every step, because a step without points goes to the end
+    // time.
     has_left_ =
       state.outflow.is_open() &&
       Utilities::MPI::sum(1. * state.points.size(), state.communicator()) == 0;
@@ -150,15 +150,15 @@ namespace talus
       return text(std::setprecision(4),
                   "The soil still moves at the end of the run, t = ",
                   time,
-                  " s: its kinetic energy is ",
+                  " s: the kinetic energy is ",
                   peak_energy_ > 0. ? energy_ / peak_energy_ : 0.,
                   " of the maximum. Rest is a ratio below ",
                   ratio_,
-                  " and ends in plan that move by less than a fiftieth of the "
-                  "smallest cell, both for ",
+                  " and outermost points that move in plan by less than a "
+                  "fiftieth of the smallest cell, for ",
                   duration_,
-                  " s. The runout is not final: go on with a later 'End time' "
-                  "and --resume.");
+                  " s. The runout is not final: continue with a later 'End "
+                  "time' and --resume.");
     const std::string rest = text(std::setprecision(6),
                                   "The soil is at rest since t = ",
                                   quiet_since_,

@@ -39,13 +39,13 @@ namespace talus
            " s points are stretched too far and cannot be split, so "
            "that the soil may tear: ",
            unsplit.at_generation_limit,
-           " points have reached 'Splitting/Maximum generation' (raise "
-           "it, unless they lie on a base without slip); the children "
+           " points have reached 'Splitting/Maximum generation' (raise the "
+           "limit, unless the points lie on a base without slip); the children "
            "of ",
            unsplit.at_mesh_limit,
-           " points would lie more than half a cell outside the mesh "
-           "(use a larger mesh or smaller cells). The columns 'points at "
-           "... limit' of statistics.csv count them on."));
+           " points would lie more than half a cell outside the mesh (use a "
+           "larger mesh or smaller cells). The columns 'points at ... limit' "
+           "of statistics.csv continue the count."));
   }
 
 

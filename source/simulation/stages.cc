@@ -22,18 +22,17 @@ namespace talus
   {
     add_parameter("Stages",
                   names_,
-                  "What the run does, in this order, separated by commas: "
-                  "'equilibrium' brings the soil into balance with its weight, "
-                  "standing still; 'strength reduction' finds the factor of "
-                  "safety, and leaves the soil as it was; 'dynamics' lets it "
-                  "go, to the end time.");
+                  "Stages of the run, in this order, separated by commas: "
+                  "'equilibrium' brings the soil into static balance with the "
+                  "weight; 'strength reduction' finds the factor of safety and "
+                  "leaves the soil unchanged; 'dynamics' computes the motion "
+                  "of the soil up to the end time.");
   }
 
 
 
-  /// In the order of the enumeration: each stage starts from what the one
-  /// before it leaves, so that no other order makes sense. Stages may be left
-  /// out.
+  /// Each stage starts from the result of the previous stage, so only the order
+  /// of the enumeration is meaningful. Stages may be omitted.
   void
   Stages::check()
   {
@@ -61,7 +60,7 @@ namespace talus
       }
     AssertThrow(!stages_.empty(),
                 ExcUser("Stages is empty, so that there is nothing to do. Give "
-                        "'dynamics', or 'equilibrium' before it."));
+                        "'dynamics', or 'equilibrium, dynamics'."));
   }
 
 
@@ -74,7 +73,7 @@ namespace talus
 
 
 
-  /// Stages that are done are not run again. Stages as such are parameters.
+  /// Finished stages are not run again. The list of stages is a parameter.
   void
   Stages::list_state(StateList &list)
   {

@@ -28,7 +28,7 @@ namespace talus
 
 
 
-  /// The table belongs to the first rank.
+  /// Only the first rank writes the table.
   template <int dim>
   void
   StaticSolver<dim>::begin(const std::filesystem::path &folder,
@@ -61,9 +61,8 @@ namespace talus
 
 
 
-  /// With all that acts at the time it is now.
-  /// References to the state and the rest as they are now; loads at the state's
-  /// time, which stands still.
+  /// Collect references to the state and to all forces, with the loads at the
+  /// current time, constant during a static stage.
   template <int dim>
   StaticProblem<dim>
   StaticSolver<dim>::problem()
@@ -81,9 +80,9 @@ namespace talus
 
 
 
-  /// From no load to all of it. With large strain points move: after each load
-  /// step they find their cells and the mesh follows them, so that the next
-  /// step begins on nodes that fit. With small strain nothing moves.
+  /// Apply the load from zero to full. With large strain the points move: after
+  /// each load step points are relocated and the mesh is adapted, so that the
+  /// next step begins on suitable nodes. With small strain nothing moves.
   /// Collective.
   template <int dim>
   bool
@@ -108,11 +107,11 @@ namespace talus
 
 
 
-  /// For soil that was in balance and has become weaker: its stress returns to
-  /// the new yield surface first, by a load step without displacement, and what
-  /// that puts out of balance is the load. Small strain, since the shape is
-  /// that whose safety is asked for. Load steps of trials are not told one by
-  /// one; newton.csv has them. Collective.
+  /// The soil was in balance and has become weaker. First a load step without
+  /// displacement returns the stress to the new yield surface, and the
+  /// resulting imbalance is the load. Small strain keeps the shape for which
+  /// the factor of safety is sought. Load steps of trials are written to
+  /// newton.csv, not to the log. Collective.
   template <int dim>
   bool
   StaticSolver<dim>::find_again(const EquilibriumLimits &limits,
@@ -138,7 +137,8 @@ namespace talus
 
 
 
-  /// Returns whether balance was found. The log has nothing of the load steps.
+  /// Take load steps until balance. Returns whether balance was found; nothing
+  /// is written to the log.
   template <int dim>
   bool
   StaticSolver<dim>::take_all_steps(const Label &label)
@@ -154,7 +154,7 @@ namespace talus
 
 
 
-  /// Returns false if no step, however small, succeeds.
+  /// Returns false if no step succeeds, however small.
   template <int dim>
   bool
   StaticSolver<dim>::take_load_step(const Label &label, StepNote &note)
@@ -167,8 +167,9 @@ namespace talus
 
 
 
-  /// Each iteration to newton.csv; those of the last try of a step to @p note.
-  /// Returns false after a signal, which may come to some ranks only.
+  /// Write each iteration to newton.csv, and collect the iterations of the last
+  /// attempt of a step in @p note. Returns false after a signal, possibly
+  /// received by some ranks only.
   template <int dim>
   bool
   StaticSolver<dim>::observe(const EquilibriumProgress &progress,
@@ -190,8 +191,8 @@ namespace talus
 
 
 
-  /// A line of the log per load step: the residuals show whether convergence
-  /// was quadratic.
+  /// Write a line per load step to the log: the residuals show whether
+  /// convergence was quadratic.
   template <int dim>
   void
   StaticSolver<dim>::tell(const StepNote &note)
@@ -218,7 +219,7 @@ namespace talus
 
 
 
-  /// The sentence for the user, with how far the load came.
+  /// State the fraction of the load reached, in a sentence for the user.
   template <int dim>
   std::string
   StaticSolver<dim>::no_equilibrium() const
@@ -236,9 +237,8 @@ namespace talus
 
 
 
-  /// A copy of all columns in memory, and the contact with seabed and
-  /// obstacles, which belongs to it: trials must be undone, and a checkpoint on
-  /// the disk would take longer.
+  /// Copies all columns, and the contact with seabed and obstacles, in memory:
+  /// trials must be undone, and a checkpoint on disk would take longer.
   template <int dim>
   typename StaticSolver<dim>::Saved
   StaticSolver<dim>::save() const
@@ -255,7 +255,7 @@ namespace talus
 
 
 
-  /// Points must be the same ones in the same order, as after small strain.
+  /// Points must be the same in the same order, as after small strain.
   template <int dim>
   void
   StaticSolver<dim>::restore(const Saved &saved)
@@ -271,9 +271,10 @@ namespace talus
 
 
 
-  /// After large strain points may have moved to other cells and ranks: they
-  /// are made anew from the copy, which has those of this rank at that time,
-  /// sent to the owners of their places, and the mesh follows. Collective.
+  /// After large strain points may be in different cells and on different
+  /// ranks. The points are created again from the saved copy of each rank and
+  /// sent to the ranks owning the positions; then the mesh is adapted.
+  /// Collective.
   template <int dim>
   void
   StaticSolver<dim>::bring_back(const Saved &saved)
@@ -289,7 +290,7 @@ namespace talus
 
 
 
-  /// With small strain points have not moved, and stay in their order.
+  /// With small strain points have neither moved nor changed their order.
   template <int dim>
   void
   StaticSolver<dim>::undo_stage(const Saved &saved)

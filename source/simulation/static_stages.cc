@@ -49,8 +49,8 @@ namespace talus
 
 
 
-  /// Time stands still. The workspace is freed, which a static stage makes as
-  /// large as all points: a step needs it for a batch only. Collective.
+  /// Time does not advance. The workspace is freed at the end: a static stage
+  /// needs memory for all points, a time step only for a batch. Collective.
   template <int dim>
   void
   StaticStages<dim>::run_next()
@@ -72,8 +72,8 @@ namespace talus
 
 
 
-  /// A stage cannot be resumed in the middle: its searches are a chain of states
-  /// that no checkpoint has.
+  /// A stage cannot be resumed in the middle: its searches form a chain of
+  /// states not stored in checkpoints.
   template <int dim>
   void
   StaticStages<dim>::undo_stage(const typename StaticSolver<dim>::Saved &before)
@@ -82,13 +82,13 @@ namespace talus
     if (strength_reduction_.includes_seabed())
       problem_.scale_seabed_strength(1. / standing_factor_);
     log_.say(LogLevel::result,
-             "The stage was stopped by a signal: a resumed run begins it "
-             "anew.");
+             "The stage was stopped by a signal: a resumed run starts the "
+             "stage again.");
   }
 
 
 
-  /// The strength reduction goes on with the contact of the stage before it.
+  /// The strength reduction continues with the contact of the previous stage.
   template <int dim>
   void
   StaticStages<dim>::list_state(StateList &list)
@@ -102,7 +102,7 @@ namespace talus
 
 
 
-  /// What the stages cannot do is said before the mesh is made.
+  /// Invalid stages are reported before the mesh is created.
   template <int dim>
   void
   StaticStages<dim>::check() const
@@ -112,10 +112,10 @@ namespace talus
       equilibrium().check(problem_.materials, names_of_bodies);
     AssertThrow(!stages_.have_static() ||
                   problem_.loading.share_of_gravity(0.) > 0.,
-                ExcUser("Stages lists a stage before 'dynamics', which takes "
+                ExcUser("Stages lists a stage before 'dynamics', computed with "
                         "the loads of t = 0, but there is no gravity at t = 0. "
-                        "Set 'Gravity/Ramp time' to 0: the load comes on in "
-                        "the steps of the stage."));
+                        "Set 'Gravity/Ramp time' to 0: the stage itself "
+                        "applies the load in steps."));
     if (!stages_.contain(Stage::strength_reduction))
       return;
     strength_reduction_.check();
@@ -124,9 +124,9 @@ namespace talus
     for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
       has_strength |= problem_.materials.of_body(b).has_strength();
     AssertThrow(has_strength,
-                ExcUser("Stages lists 'strength reduction', but nothing has a "
-                        "strength that could be reduced: all bodies are made "
-                        "of materials as that of section " +
+                ExcUser("Stages lists 'strength reduction', but there is no "
+                        "strength to reduce: the materials of all bodies are "
+                        "like section " +
                         problem_.materials.of_body(0).section() +
                         ". Choose the law " +
                         names_of_laws_with_strength<dim>() +
@@ -136,9 +136,9 @@ namespace talus
 
 
 
-  /// Soil that finds no balance ends the run, unless the strength reduction
-  /// that follows can tell how much it lacks. @p before is the state without
-  /// loads.
+  /// If no balance is found, the run ends, unless a following strength
+  /// reduction can determine the missing strength. @p before is the state
+  /// without loads.
   template <int dim>
   void
   StaticStages<dim>::find_equilibrium(
@@ -164,9 +164,9 @@ namespace talus
                   equilibrium().newton().n_unknowns(),
                   " unknowns (linear solver: ",
                   equilibrium().newton().linear_solver(),
-                  "). The force out of balance is ",
+                  "). The force out of balance, relative to the loads, is ",
                   equilibrium().imbalance(),
-                  " of that of the loads; the largest one of a node is ",
+                  "; the largest nodal force out of balance is ",
                   largest,
                   " N, at ",
                   place,
@@ -174,13 +174,13 @@ namespace talus
     if (equilibrium().newton().equations().reference_force() == 0.)
       log_.remark("The stage 'equilibrium' had nothing to balance: neither "
                   "gravity, 'Gravity/Magnitude', nor another load acts on the "
-                  "soil, and it has no stress.");
+                  "soil, and the soil has no stress.");
     tell_of_well_balanced_load();
   }
 
 
 
-  /// Collective.
+  /// Write the size of the correction to the log. Collective.
   template <int dim>
   void
   StaticStages<dim>::tell_of_well_balanced_load() const
@@ -193,13 +193,13 @@ namespace talus
       equations.well_balanced_load().n_nodes_without();
     log_.say(LogLevel::result,
              text(std::setprecision(3),
-                  "The load is well-balanced: its correction in cells that "
-                  "are not full is ",
+                  "The load is well-balanced: the correction in partly filled "
+                  "cells is ",
                   share,
                   " of the loads (Euclidean norms of the forces at the "
                   "nodes)",
                   n_without > 0
-                    ? text(". There is none at ",
+                    ? text(". There is no correction at ",
                            n_without,
                            " nodes beside free faces of the soil, as at "
                            "cliffs.")
@@ -208,9 +208,10 @@ namespace talus
 
 
 
-  /// The explicit scheme knows no well-balanced load: what this has subtracted
-  /// acts as one more load step. If the soil at the mudline cannot bear it, the
-  /// dynamics starts from the balance with the well-balanced load. Collective.
+  /// The explicit scheme has no well-balanced load: the correction is released
+  /// in a further load step. If the soil at the mudline cannot carry the
+  /// additional load, the dynamics starts from the balance with the
+  /// well-balanced load. Collective.
   template <int dim>
   void
   StaticStages<dim>::let_weight_act()
@@ -233,15 +234,14 @@ namespace talus
           "The dynamics takes the weight without the correction "
           "of the well-balanced load, for which no balance was found. " +
           equilibrium().failure() +
-          ". It starts from the balance with the correction, so that "
-          "soil in cells that are not full may move a little in the "
-          "first seconds.");
+          ". It starts from the balance with the correction, so that soil in "
+          "partly filled cells may move a little in the first seconds.");
       }
   }
 
 
 
-  /// Show what moved, and end the run with @p sentence.
+  /// Write the failure mechanism, and end the run with @p sentence.
   template <int dim>
   void
   StaticStages<dim>::throw_no_equilibrium(const std::string &sentence) const
@@ -249,19 +249,19 @@ namespace talus
     write_mechanism("no-equilibrium");
     throw ExcUser(
       sentence +
-      " 'no-equilibrium' in the output folder shows where it moved. Either "
-      "the soil cannot bear its weight, and needs more strength or support "
-      "before the trigger" +
+      " 'no-equilibrium' in the output folder shows where the soil moved. "
+      "Either the soil cannot bear its weight, and needs more strength or "
+      "support before the trigger" +
       (stages_.contain(Stage::strength_reduction)
          ? ""
-         : " (the stage 'strength reduction' after this one finds how much)") +
+         : " (a following stage 'strength reduction' finds how much)") +
       "; or the search needs more 'Equilibrium/Load steps'.");
   }
 
 
 
-  /// Divide all strengths by @p factor.
-  /// Set, not multiplied: each trial is that of a factor, whatever was before.
+  /// Divide all strengths by @p factor [-]. The factors are set, not
+  /// multiplied: a trial does not depend on previous trials.
   template <int dim>
   void
   StaticStages<dim>::divide_strength(const double factor)
@@ -277,9 +277,9 @@ namespace talus
 
 
 
-  /// Small strain, in which the slope keeps the shape whose factor of safety is
-  /// asked for: with large strain a little more strength would let it stand
-  /// after a long way. Hyperelastic laws know large strain only.
+  /// Small strain keeps the shape for which the factor of safety is sought:
+  /// with large strain and slightly more strength the slope would stand after a
+  /// long displacement. Hyperelastic laws support large strain only.
   template <int dim>
   StrainMeasure
   StaticStages<dim>::measure_of_stronger_soil() const
@@ -290,9 +290,9 @@ namespace talus
 
 
 
-  /// The soil does not stand with the strength that it has. So that the stage
-  /// 'strength reduction' has where to start from, look for a strength with
-  /// which it does; @p before is the state without loads.
+  /// The soil does not stand with the actual strength. To provide an initial
+  /// state for the stage 'strength reduction', search for a strength with which
+  /// the soil stands. @p before is the state without loads.
   template <int dim>
   void
   StaticStages<dim>::find_equilibrium_with_more_strength(
@@ -301,19 +301,20 @@ namespace talus
     const std::string sentence = solver_.no_equilibrium();
     log_.say(LogLevel::result,
              sentence +
-               " The soil seems not to bear its weight. Since the stage "
-               "'strength reduction' follows, one is looked for with more "
+               " The soil seems too weak for its weight. For the following "
+               "stage 'strength reduction', a balance is looked for with more "
                "strength.");
     strength_reduction_.begin(
       problem_.materials.largest_strength_factor(state_.points,
                                                  state_.communicator()));
-    // The search of the reduction itself, from above: factors less than one.
+    // Uses the search of the reduction, from above: factors less than one.
     strength_reduction_.record(1., false);
     while (strength_reduction_.lower() == 0.)
       {
         if (strength_reduction_.is_done())
           throw_no_equilibrium(sentence +
-                               " Nor was one found with more strength. " +
+                               " No balance was found with more strength "
+                               "either. " +
                                strength_reduction_.result());
         const double factor = strength_reduction_.next();
         solver_.bring_back(before);
@@ -335,8 +336,8 @@ namespace talus
 
 
 
-  /// Afterwards soil and seabed are as @p before, in the state at the beginning
-  /// of the stage. Collective.
+  /// At the end soil and seabed are restored to @p before, the state at the
+  /// beginning of the stage. Collective.
   template <int dim>
   void
   StaticStages<dim>::reduce_strength(
@@ -365,11 +366,11 @@ namespace talus
 
 
 
-  /// Every trial goes on from the largest factor with which the soil stood.
-  /// What stood is the better start: less is put out of balance than from full
-  /// strength, and the search costs less. But the result must not depend on the
-  /// way, hence the second look that StrengthReduction takes at its upper end.
-  /// A signal ends the search, also before it begins.
+  /// Every trial starts from the state with the largest factor so far at which
+  /// the soil stood. Compared with full strength, less is out of balance, and
+  /// the search is cheaper. But the result must not depend on the path of the
+  /// search; therefore StrengthReduction checks the upper end a second time. A
+  /// signal ends the search, also before the first trial.
   template <int dim>
   void
   StaticStages<dim>::search_factor()
@@ -393,7 +394,7 @@ namespace talus
                    equilibrium().failure()));
         if (stands)
           state = solver_.save();
-        else // of all that fail the last one has the smallest factor
+        else // the last failed trial has the smallest factor
           {
             write_mechanism("mechanism");
             failure_depth_.record(
@@ -405,8 +406,8 @@ namespace talus
 
 
 
-  /// The soil is in equilibrium. By the measure of the reduction it must be so,
-  /// too, or every factor would seem to fell it.
+  /// The soil is in equilibrium. Verify the balance by the measure of the
+  /// reduction, or else every factor would appear to cause failure.
   template <int dim>
   void
   StaticStages<dim>::start_reduction()
@@ -416,18 +417,17 @@ namespace talus
       stands_with(standing_factor_) || solver_.is_stopped(),
       ExcUser(text(
         "The stage 'strength reduction' starts from soil that is out of "
-        "balance by its measure, which is small strain, so that there is no "
-        "factor of safety. ",
+        "balance in small strain, so that no factor of safety exists. ",
         equilibrium().failure(),
         ". Set 'Equilibrium/Strain' to small or 'Equilibrium/Allowed "
-        "imbalance' to less; or, if that is small against the 'Tolerance' of "
-        "the factor that you need, set 'Strength reduction/Allowed "
+        "imbalance' to less; or, if the imbalance is small against the "
+        "required 'Tolerance' of the factor, set 'Strength reduction/Allowed "
         "imbalance' to more.")));
   }
 
 
 
-  /// Look for balance with all strengths divided by @p factor.
+  /// Search for balance with all strengths divided by @p factor [-].
   template <int dim>
   bool
   StaticStages<dim>::stands_with(const double factor)
@@ -449,20 +449,20 @@ namespace talus
       standing_factor_ == 1. || !stages_.contain(Stage::dynamics),
       ExcUser(text(
         std::setprecision(6),
-        "The stage 'equilibrium' found no balance with the strength that the "
-        "soil has, only with ",
+        "The stage 'equilibrium' found no balance with the strength of the "
+        "soil, only with ",
         1. / standing_factor_,
-        " times as much, so that there is no state of rest that the stage "
-        "'dynamics' could start from; log.txt has the factor of safety. "
-        "Either the soil cannot bear its weight, and needs more strength or "
-        "support before the trigger; or, if the factor is more than 1, the "
-        "search needs more 'Equilibrium/Load steps'. To let the soil fall "
-        "without stress from t = 0 list 'dynamics' alone.")));
+        " times as much, so that there is no state of rest for the start of "
+        "the stage 'dynamics'; log.txt has the factor of safety. Either the "
+        "soil cannot bear its weight, and needs more strength or support "
+        "before the trigger; or, if the factor is more than 1, the search "
+        "needs more 'Equilibrium/Load steps'. To let the soil fall without "
+        "stress from t = 0 list 'dynamics' alone.")));
   }
 
 
 
-  /// Show how the soil moves where the search failed.
+  /// Write the motion of the soil where the search failed.
   template <int dim>
   void
   StaticStages<dim>::write_mechanism(const std::string &name) const

@@ -7,10 +7,10 @@ namespace talus
 {
   namespace
   {
-    /// Least time step, largest request and number of points, element by
-    /// element: the form that MPI wants for an operation of one's own. All
-    /// commute, sums of whole numbers, too, so the result does not depend on the
-    /// order of the ranks.
+    /// Combine plans element by element: minimum time step, maximum request,
+    /// sum of points. The signature is required by MPI for user-defined
+    /// operations. All three operations commute, including sums of whole
+    /// numbers, so the result does not depend on the order of the ranks.
     void
     combine(void *more, void *all, int *n, MPI_Datatype *)
     {
@@ -27,7 +27,8 @@ namespace talus
 
 
 
-  /// As bytes: ranks of a run are the same program on the same kind of machine.
+  /// Plans are sent as bytes: all ranks run the same program on machines of the
+  /// same kind.
   StepAgreement::StepAgreement()
   {
     MPI_Type_contiguous(sizeof(StepPlan), MPI_BYTE, &type_);
@@ -45,7 +46,7 @@ namespace talus
 
 
 
-  /// In most steps the only message of all ranks.
+  /// In most steps the reduction is the only message of all ranks.
   StepPlan
   StepAgreement::agree(const StepPlan &own, const MPI_Comm communicator) const
   {

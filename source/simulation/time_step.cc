@@ -14,7 +14,7 @@ namespace talus
 
   namespace
   {
-    /// The larger one; what is not a number is taken, and then stays.
+    /// Return the larger number; a NaN is returned, and then stays.
     template <typename Number>
     TALUS_ALWAYS_INLINE Number
     larger_or_none(const Number &a, const Number &b)
@@ -24,10 +24,10 @@ namespace talus
 
 
 
-    /// Half of the distance between opposite sides of the box(es) of point(s)
-    /// @p p, in cells, as the weights see it; of a convected domain nearly so:
-    /// its sides belong to the axes of the undeformed box, and their normals
-    /// are F^-T e_d.
+    /// Half distance between opposite sides of the box(es) of point(s) @p p, in
+    /// cells, clamped as in the weights. For a convected domain the value is
+    /// approximate: the sides belong to the axes of the undeformed box, and the
+    /// normals are F^-T e_d.
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE std::array<Number, dim>
     half_widths_in_cells(const PointsView<dim, const double> &points,
@@ -62,8 +62,8 @@ namespace talus
 
 
     /// Upper bound of the largest (omega h/c)^2 at a free surface just beyond a
-    /// face of the cells, for boxes of the half length h/@p beta
-    /// (doc/method.md, section 8).
+    /// face of the cells, for boxes of half length h/@p beta (doc/method.md,
+    /// section 8).
     template <typename Number>
     TALUS_ALWAYS_INLINE Number
     eigenvalue_at_surface(const Number &beta)
@@ -81,33 +81,34 @@ namespace talus
   {
     add_parameter("CFL number",
                   cfl_number_,
-                  "Share of a cell that the fastest wave, carried by the "
-                  "fastest point, may cross in a step [-]. Soil with a free "
+                  "Largest fraction of a cell that a wave, carried by the "
+                  "moving soil, crosses in a step [-]. Soil with a free "
                   "surface is stable up to 0.6 with one box per cell and axis, "
                   "0.56 with two, 0.47 with four and 0.43 with the thinnest "
-                  "boxes; steps are not longer than that, and log.txt says so.",
+                  "boxes; the time step never exceeds this limit, and log.txt "
+                  "names the limiting bound.",
                   this->prm,
                   Patterns::Double(1e-6, 1.));
     add_parameter(
       "Box safety factor",
       box_safety_factor_,
-      "Share of the stability limit of thin boxes, 2 (h/c)/sqrt(sum "
-      "over axes of h/l) with l the half length of the box, or half of the "
-      "width between opposite sides of a convected domain [-].",
+      "Fraction of the stability limit of thin boxes, 2 (h/c)/sqrt(sum over "
+      "axes of h/l) with l the half length of the box, or half of the width "
+      "between opposite sides of a convected domain [-].",
       this->prm,
       Patterns::Double(1e-6, 1.));
     add_parameter("Maximum",
                   maximum_,
-                  "Longest step [s]; 0 for no limit.",
+                  "Maximum time step [s]; 0: no limit.",
                   this->prm,
                   Patterns::Double(0.));
   }
 
 
 
-  // Squares, since what this takes its time for are divisions and roots: with
-  // c^2 = M V/m and the sum of the inverse half lengths as one fraction, one of
-  // each is enough.
+  // Squares are used, because divisions and square roots take most of the time:
+  // with c^2 = M V/m, and the sum of the inverse half lengths as a single
+  // fraction, one division and one root suffice.
   template <int dim>
   template <typename Number>
   TALUS_ALWAYS_INLINE std::array<Number, 3>
@@ -145,8 +146,8 @@ namespace talus
 
 
 
-  /// For the message after an error: the place of the first point of which a
-  /// number that the time step needs is not finite, or the volume not positive.
+  /// For the error message: describe the first point with a non-finite value
+  /// needed for the time step, or with a volume that is not positive.
   template <int dim>
   std::string
   TimeStep<dim>::first_without_bound(const Points<dim>    &points,
@@ -173,8 +174,8 @@ namespace talus
 
 
 
-  /// What the points of a batch do not know themselves: the modulus of their
-  /// fastest wave, and the size of their cell.
+  /// Collect data of a batch not stored with the points: the modulus of the
+  /// fastest wave, and the inverse cell size.
   template <int dim>
   void
   TimeStep<dim>::find_moduli_and_sizes(const Points<dim>    &points,
@@ -201,7 +202,7 @@ namespace talus
                                       });
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
-        // Whole registers; the next segment overwrites what is too much.
+        // Stores whole registers; the next segment overwrites the excess.
         using Number                = Simd<simd_width>;
         const Segment &segment      = points.segments()[s];
         const Number   inverse_size = 1. / grid.cells()[segment.cell].size;
@@ -212,11 +213,10 @@ namespace talus
 
 
 
-  /// The bound is kept as the largest of 1/dt^2 (doc/method.md, section 8): so
-  /// two bounds are compared without a root or a division for each. Moduli are
-  /// asked for range by range of one material, and what is a cell's is spread
-  /// over its points, so that the loop over points has no branches and takes
-  /// whole registers.
+  /// The bound is stored as the maximum of 1/dt^2 (doc/method.md, section 8):
+  /// bounds are compared without a root or a division for each. Moduli are
+  /// evaluated by ranges of the same material, and cell sizes are copied to the
+  /// points, so the loop over points has no branches and uses whole registers.
   template <int dim>
   void
   TimeStep<dim>::add_batch(const Points<dim>    &points,
@@ -248,8 +248,8 @@ namespace talus
                         largest_of_rest =
                           larger_or_none(largest_of_rest, bound);
                   });
-    // A maximum is the same in any order, so it does not depend on the width of
-    // the registers.
+    // A maximum does not depend on the order, and thus not on the width of the
+    // registers.
     largest_ = largest_of_rest[0];
     for (unsigned int i = 0; i < simd_width; ++i)
       largest_ = larger_or_none(largest_, largest[i]);
@@ -257,7 +257,7 @@ namespace talus
 
 
 
-  /// All points at once, for the start and for tests.
+  /// Evaluate all points at once, for the start and for tests.
   template <int dim>
   double
   TimeStep<dim>::choose(const Points<dim>    &points,
@@ -279,7 +279,7 @@ namespace talus
   TimeStep<dim>::stable_time_step(const Points<dim>    &points,
                                   const Materials<dim> &materials) const
   {
-    // Infinite where there are no points.
+    // Infinite without points.
     const double dt = 1. / std::sqrt(largest_);
     AssertThrow((std::isfinite(dt) || points.size() == 0) && dt > 0,
                 ExcPoint(
@@ -295,9 +295,9 @@ namespace talus
 
 
 
-  /// Looks for the point of the largest bound once more, one by one: the step
-  /// itself keeps the bound only, and words are needed for the log alone. On
-  /// the first rank. Collective.
+  /// Searches for the point of the largest bound point by point: the step
+  /// itself stores the bound only, and words are needed only for the log. Valid
+  /// on the first rank. Collective.
   template <int dim>
   std::string
   TimeStep<dim>::limited_by(const Points<dim>    &points,
@@ -336,7 +336,7 @@ namespace talus
                         material.wave_speed(points, p),
                         " m/s)");
         }
-    // The first of the ranks with the shortest step has the word.
+    // Among ranks with the shortest step, the first rank determines the reason.
     const auto all =
       Utilities::MPI::gather(grid.communicator(),
                              std::pair<double, std::string>(largest, reason));
@@ -366,9 +366,8 @@ namespace talus
                               " s, limited by ",
                               limited_by(),
                               ", so that time stands still. The simulation "
-                              "became unstable: lower 'Time step/CFL "
-                              "number', or look at that point in the last "
-                              "state.")));
+                              "became unstable: lower 'Time step/CFL number', "
+                              "or check the point in the last state.")));
   }
 
 

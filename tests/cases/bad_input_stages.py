@@ -160,5 +160,5 @@ class BadInputStages(Case):
             self.WEAK_SEABED, "Materials/clay/Hardening modulus=-125e3",
             "Materials/clay/Residual undrained shear strength=2400")
         self.assert_refused(result, "'equilibrium' found no balance",
-                            "Nor was one found with more strength",
+                            "No balance was found with more strength",
                             "soften faster")

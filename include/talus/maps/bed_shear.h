@@ -7,9 +7,14 @@
 
 namespace talus
 {
-  /// Add the forces along the bed that the soil felt in the last step: from the
-  /// facets of obstacles that belong to the ground, and from the bottom face of
-  /// the mesh if it is a seabed (see Boundaries::remember_bed_friction()).
+  /// Add the forces of the last step along the bed, N, acting on the soil: from
+  /// the facets of obstacles belonging to the ground, and from the bottom face
+  /// of the mesh if it is a seabed (see Boundaries::remember_bed_friction()).
+  ///
+  /// @param state of the run
+  /// @param contact facets of the obstacles
+  /// @param boundaries faces of the mesh
+  /// @param sums receives the forces by column
   template <int dim>
   void
   add_bed_shear(const State<dim>        &state,

@@ -11,23 +11,23 @@
 
 namespace talus
 {
-  /// What the soil in a column adds up to.
+  /// Integrals over the soil in a column.
   template <int dim>
   struct ColumnSum
   {
     double                 volume   = 0; ///< m^dim
     double                 mass     = 0; ///< kg
-    double                 strength = 0; ///< times the volume, Pa m^dim
+    double                 strength = 0; ///< strength times volume, Pa m^dim
     dealii::Tensor<1, dim> momentum;     ///< kg m/s
     dealii::Tensor<1, dim> bed_force;    ///< along the bed, N
   };
 
 
 
-  /// The soil over the plan at one time, column by column: what is called
-  /// depth-integrated and depth-averaged in the literature on landslides. Each
-  /// column has of a point the share of its box (see box_lengths()) that stands
-  /// over the column's section, as in find_profile().
+  /// Soil summed over columns in plan at a given time: the depth-integrated and
+  /// depth-averaged quantities of the literature on landslides. A point
+  /// contributes to each column by the fraction of the box (see box_lengths())
+  /// over the section of the column, as in find_profile().
   template <int dim>
   class ColumnSums
   {
@@ -40,22 +40,21 @@ namespace talus
       return *columns_;
     }
 
-    /// Add up this rank's soil anew; with its strength, if there are
-    /// @p materials.
+    /// Replace all sums by the sums over the soil of the local rank; shear
+    /// strength is included only if @p materials is not null.
     void
     sum_soil(const State<dim>     &state,
              const Materials<dim> *materials = nullptr);
 
-    /// Add a force along the bed, N, that acts on all of @p box alike.
+    /// Add a force along the bed, N, distributed uniformly over @p box.
     void
     add_bed_force(const dealii::Tensor<1, dim> &force, const Box<dim> &box);
 
-    /// Add up the shares of all ranks; the result is on the first one.
-    /// Collective.
+    /// Add up the sums of all ranks on the first rank. Collective.
     void
     sum_over_ranks(MPI_Comm communicator);
 
-    /// The columns that hold soil.
+    /// Columns with soil.
     const std::vector<unsigned int> &
     with_soil() const
     {
@@ -68,7 +67,7 @@ namespace talus
       return sums_[column];
     }
 
-    /// Volume over the area of the section, m.
+    /// Thickness of the soil: volume over the area of the section, m.
     double
     thickness(const unsigned int column) const
     {
@@ -82,21 +81,21 @@ namespace talus
       return sums_[column].mass / columns_->area();
     }
 
-    /// Mean of the soil's density, kg/m^3.
+    /// Mean density of the soil, kg/m^3.
     double
     density(const unsigned int column) const
     {
       return sums_[column].mass / sums_[column].volume;
     }
 
-    /// Depth-mean velocity, by mass, m/s.
+    /// Depth-averaged velocity, weighted by mass, m/s.
     dealii::Tensor<1, dim>
     velocity(const unsigned int column) const
     {
       return sums_[column].momentum / sums_[column].mass;
     }
 
-    /// Depth-integrated flux of momentum rho |u|^2 h, N/m.
+    /// Depth-integrated momentum flux rho |u|^2 h, N/m.
     double
     momentum_flux(const unsigned int column) const
     {
@@ -104,14 +103,14 @@ namespace talus
              velocity(column).norm_square();
     }
 
-    /// Mean of the shear strength, by volume, Pa.
+    /// Mean shear strength, weighted by volume, Pa.
     double
     strength(const unsigned int column) const
     {
       return sums_[column].strength / sums_[column].volume;
     }
 
-    /// Shear stress that the bed passes to the soil, per area of the plan, Pa.
+    /// Shear stress of the bed on the soil, per plan area, Pa.
     double
     bed_shear_stress(const unsigned int column) const
     {
@@ -138,10 +137,10 @@ namespace talus
     std::vector<ColumnSum<dim>>             sums_;
     std::vector<unsigned int>               touched_, with_soil_;
 
-    // Of one batch
+    // Scratch data of the current batch
     Footprints<dim>     footprints_;
     std::vector<double> volumes_;   ///< m^dim
-    std::vector<double> strengths_; ///< Pa; empty if nobody asks
+    std::vector<double> strengths_; ///< Pa; empty if not requested
     ColumnShares        shares_;
   };
 } // namespace talus

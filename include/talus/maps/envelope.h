@@ -13,7 +13,7 @@
 
 namespace talus
 {
-  /// The largest value so far, and when it was reached.
+  /// Maximum value so far, and the time of the maximum.
   struct Peak
   {
     double value = 0;
@@ -32,33 +32,34 @@ namespace talus
 
 
 
-  /// What has happened in a column since the start of the motion.
+  /// History of a column since the start of the motion.
   struct ColumnHistory
   {
-    double thickness          = 0; ///< now, m
-    double mass               = 0; ///< now, per area of the plan, kg/m^2
+    double thickness          = 0; ///< current, m
+    double mass               = 0; ///< current, per plan area, kg/m^2
     double thickness_at_start = 0; ///< m
     Peak   most_thickness;         ///< m
     Peak   speed;                  ///< of the depth-mean velocity, m/s
     Peak   momentum_flux;          ///< N/m
     Peak   bed_shear_stress;       ///< Pa
     Peak   impact_pressure;        ///< Pa
-    /// When each threshold of thickness was first reached, s; NaN: not yet.
+    /// Time of first reaching each threshold of thickness, s; NaN: not yet.
     std::vector<double> arrival;
   };
 
 
 
-  /// Largest values and arrival times over all samples, column by column, as
-  /// maps of hazard show them. Of the first rank.
+  /// Maximum values and arrival times over all samples, by column, as in hazard
+  /// maps. Used on the first rank only.
   template <int dim>
   class Envelope
   {
   public:
     struct Settings
     {
-      /// Thinner soil, m, has no velocity, flux, shear stress or pressure: of
-      /// the last drops that fly ahead these would be the largest.
+      /// Below this thickness of soil, m, velocity, flux, shear stress and
+      /// pressure do not count: thin soil flying ahead would give the
+      /// largest values.
       double              smallest_thickness = 0;
       std::vector<double> arrival_thresholds; ///< of thickness, m
       ImpactFormula       impact;
@@ -72,15 +73,15 @@ namespace talus
       return settings_;
     }
 
-    /// The motion begins with this soil.
+    /// Record the thickness at the start of the motion.
     void
     start(const ColumnSums<dim> &sums);
 
-    /// Add a sample of time @p t, s.
+    /// Add a sample at time @p t, s.
     void
     add(const ColumnSums<dim> &sums, double t);
 
-    /// Columns that soil has reached, by growing number.
+    /// Columns reached by soil, sorted by number.
     std::vector<unsigned int>
     reached() const;
 
@@ -90,14 +91,14 @@ namespace talus
       return histories_[column];
     }
 
-    /// All columns as rows of a checkpoint, and back. Throws ExcUser if
-    /// @p rows are not those of such an envelope.
+    /// Convert all reached columns to rows of a checkpoint, and restore them.
+    /// restore() throws ExcUser if @p rows do not fit the number of columns.
     std::vector<double>
     save() const;
     void
     restore(const std::vector<double> &rows);
 
-    /// Numbers in such a row.
+    /// Number of values per row of a checkpoint.
     static constexpr unsigned int
     n_numbers(const unsigned int n_arrival_thresholds)
     {
@@ -112,15 +113,15 @@ namespace talus
 
 
 
-  /// A number that tells of the history of a column, for maps and tables.
+  /// Quantity derived from the history of a column, for maps and tables.
   struct HistoryField
   {
     std::string name, unit;
     std::function<double(const ColumnHistory &)>
-      value; ///< NaN: nothing to tell
+      value; ///< NaN: undefined
   };
 
-  /// All of them, but for the impact pressure.
+  /// Return all fields except the impact pressure.
   std::vector<HistoryField>
   history_fields(const std::vector<double> &arrival_thresholds);
 } // namespace talus

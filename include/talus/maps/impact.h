@@ -4,9 +4,9 @@
 
 namespace talus
 {
-  /// The hybrid formula for what a slide does to a pipeline in its way, a part of
-  /// fluid mechanics and one of soil mechanics: force per length and diameter
-  /// p = 1/2 C_D rho u^2 + N_p s_u. The coefficients are the user's.
+  /// Hybrid formula for the impact of a slide on a pipeline, the sum of a
+  /// fluid-mechanics and a soil-mechanics term: force per length and diameter
+  /// p = 1/2 C_D rho u^2 + N_p s_u. The user provides the coefficients.
   struct ImpactFormula
   {
     double drag_coefficient = 0; ///< C_D [-]
@@ -18,8 +18,11 @@ namespace talus
       return drag_coefficient != 0 || bearing_factor != 0;
     }
 
-    /// For soil of @p density, kg/m^3, with @p speed, m/s, and operative
-    /// undrained @p strength, Pa; Pa.
+    /// Return the impact pressure p, Pa.
+    ///
+    /// @param density of the soil, kg/m^3
+    /// @param speed of the soil, m/s
+    /// @param strength operative undrained shear strength, Pa
     double
     pressure(const double density,
              const double speed,

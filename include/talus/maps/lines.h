@@ -7,8 +7,9 @@
 
 namespace talus
 {
-  /// lines.csv: the largest values over all steps along the user's lines, at
-  /// places as far apart as the columns around them are wide, or less.
+  /// Table lines.csv: maximum values over all steps along the lines of the
+  /// user, at places not further apart than the width of the columns around the
+  /// places.
   template <int dim>
   class Lines : public EnvelopeObserver<dim>
   {
@@ -29,11 +30,11 @@ namespace talus
     static constexpr const char *file_name = "lines.csv";
 
   private:
-    /// A place on a line.
+    /// Place on a line.
     struct Place
     {
       std::string        line;
-      double             distance; ///< along it, m
+      double             distance; ///< along the line, m
       dealii::Point<dim> x;
     };
 

@@ -7,8 +7,9 @@
 
 namespace talus
 {
-  /// Add to @p output what looks at the plan: maps, stations, and lines; declares
-  /// the sections Maps and Stations. @p problem must outlive it.
+  /// Add the plan-view observers (maps, stations, lines, runout) to @p output,
+  /// and declare the sections Maps, Stations and Runout. @p problem must
+  /// outlive @p output.
   template <int dim>
   void
   add_map_observers(Problem<dim> &problem, Output<dim> &output);

@@ -9,14 +9,14 @@
 
 namespace talus
 {
-  /// What the user wants of maps, section Maps.
+  /// Settings of the user in section Maps.
   class MapSettings : public dealii::ParameterAcceptor
   {
   public:
     MapSettings();
 
-    /// Throw ExcUser if soil in a mesh of this @p height [m] cannot be as thick
-    /// as asked for, or a threshold stands there twice.
+    /// Throw ExcUser if a thickness exceeds the @p height of the mesh, m, or if
+    /// a threshold is listed twice.
     void
     check(double height) const;
 
@@ -26,35 +26,39 @@ namespace talus
       return is_enabled_;
     }
 
-    /// Whether rasters are written as GeoTIFF, too.
+    /// Return whether rasters are also written as GeoTIFF.
     bool
     writes_geotiff() const
     {
       return writes_geotiff_;
     }
 
-    /// Name of the surface whose raster gives the cells; may be empty.
+    /// Name of the surface whose raster defines the cells of the maps; may be
+    /// empty.
     const std::string &
     raster() const
     {
       return raster_;
     }
 
-    /// Of the maps, m; 0: that of the raster or, without one, of the mesh.
+    /// Cell size of the maps, m; 0: cell size of the raster or, without a
+    /// raster, of the mesh.
     double
     cell_size() const
     {
       return cell_size_;
     }
 
-    /// On a mesh with cells of @p h, m.
+    /// Minimum thickness for speed, flux and stress, m, on a mesh with cells of
+    /// @p h, m.
     double
     smallest_thickness(const double h) const
     {
       return smallest_thickness_ > 0 ? smallest_thickness_ : 0.1 * h;
     }
 
-    /// Of thickness, m; one at least.
+    /// Thicknesses for arrival times, m, at least one, on a mesh with cells of
+    /// @p h, m.
     std::vector<double>
     arrival_thresholds(double h) const;
 

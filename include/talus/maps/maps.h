@@ -6,10 +6,10 @@
 
 namespace talus
 {
-  /// What the slide did at each place of the plan: in 3-D rasters that lie on
-  /// the map as that of the bathymetry does, maps/NAME.asc (and NAME.tif, if the
-  /// user asks for it), and the same on the ground as maps.vtu; in 2-D the table
-  /// maps.csv. doc/output.md lists them.
+  /// Maps of maximum values and final state of the slide in plan. In 3-D:
+  /// rasters maps/NAME.asc, aligned with the raster of the bathymetry (and
+  /// NAME.tif, if requested), and the same fields on the ground as maps.vtu. In
+  /// 2-D: the table maps.csv. doc/output.md lists the fields.
   template <int dim>
   class Maps : public EnvelopeObserver<dim>
   {
@@ -22,12 +22,12 @@ namespace talus
       return this->settings().is_enabled();
     }
 
-    /// Throws ExcUser if there is no such raster, or the maps had too many
-    /// cells.
+    /// Throw ExcUser if the named raster does not exist, or if the maps have
+    /// too many cells.
     void
     check(const State<dim> &state) const override;
 
-    /// For the rasters; in 2-D there are none.
+    /// Folder of the rasters; empty in 2-D.
     std::string
     subfolder() const override
     {

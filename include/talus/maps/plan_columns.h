@@ -9,12 +9,12 @@
 
 namespace talus
 {
-  /// Boxes as they are seen from above, of several items (points, facets).
+  /// Boxes of several items (points, facets) in plan view.
   template <int dim>
   struct Footprints
   {
-    /// Along each axis of the plan, x and z: the middle of each item's box, and
-    /// half of its width; m.
+    /// Along each axis of the plan, x and z: the centre and the half width of
+    /// the box of each item, m.
     std::array<std::vector<double>, dim - 1> centre, half;
 
     void
@@ -36,7 +36,7 @@ namespace talus
 
 
 
-  /// Axis of the mesh that is axis @p a of the plan: x, z.
+  /// Return the axis of the mesh for axis @p a of the plan: x, z.
   template <int dim>
   constexpr unsigned int
   axis_of_plan(const unsigned int a)
@@ -46,19 +46,20 @@ namespace talus
 
 
 
-  /// What a column has of an item's box.
+  /// Fraction of the box of an item inside a column.
   struct ColumnShare
   {
     unsigned int item;
     unsigned int column;
-    double       share; ///< of the box's volume [-]
+    double       share; ///< of the volume of the box [-]
   };
 
 
 
-  /// A list of them that grows in place, number by number: std::vector copies
-  /// each one as a whole right after its parts were written, for which the
-  /// processor waits longer than for all the rest.
+  /// Growing list of ColumnShare, written in place, member by member:
+  /// std::vector::push_back copies each element right after writing its
+  /// members, and the processor stalls longer on the copy than all other work
+  /// takes.
   class ColumnShares
   {
   public:
@@ -98,9 +99,8 @@ namespace talus
 
 
 
-  /// Columns, all of the same section, that stand on the plan: x in 2-D, x and z
-  /// in 3-D. What they hold is what lies above or below their section, whatever
-  /// its height.
+  /// Columns of equal section in plan: x in 2-D, x and z in 3-D. A column
+  /// extends to any height above and below the section.
   template <int dim>
   class PlanColumns
   {
@@ -110,20 +110,21 @@ namespace talus
     virtual unsigned int
     size() const = 0;
 
-    /// Of the section of a column, m^(dim-1).
+    /// Area of the section of a column, m^(dim-1).
     virtual double
     area() const = 0;
 
-    /// The middle of a column's section, at y = 0, m.
+    /// Centre of the section of a column, at y = 0, m.
     virtual dealii::Point<dim>
     centre(unsigned int column) const = 0;
 
-    /// Whether a box can reach any of them; true if in doubt.
+    /// Return whether a box can overlap any column; true if in doubt.
     virtual bool
     may_reach(const Box<dim> &box) const = 0;
 
-    /// Append the columns that boxes reach, with their shares of these. A box
-    /// without width along an axis belongs to the column it lies in.
+    /// Append the columns overlapped by each box, with the fraction of the box
+    /// in each column. A box without width along an axis belongs to the column
+    /// around the centre.
     virtual void
     find_shares(const Footprints<dim> &footprints,
                 ColumnShares          &shares) const = 0;
@@ -131,21 +132,21 @@ namespace talus
 
 
 
-  /// Columns side by side, row by row: x fastest, then z. What lies outside of
-  /// them all counts to the outermost ones, so that nothing is lost.
+  /// Adjacent columns, numbered row by row: x fastest, then z. Soil outside of
+  /// all columns is assigned to the outermost columns, so that nothing is lost.
   template <int dim>
   class LatticeColumns : public PlanColumns<dim>
   {
   public:
-    /// Along one axis of the plan.
+    /// Columns along an axis of the plan.
     struct Axis
     {
       double       lower  = 0; ///< outer face of the first column, m
-      double       size   = 1; ///< of a column, m
-      unsigned int number = 1; ///< of columns
+      double       size   = 1; ///< width of a column, m
+      unsigned int number = 1; ///< number of columns
     };
 
-    /// x, and in 3-D z.
+    /// @p axes are x, and in 3-D z.
     explicit LatticeColumns(const std::array<Axis, dim - 1> &axes)
       : axes_(axes)
     {}
@@ -173,13 +174,13 @@ namespace talus
 
 
 
-  /// Columns whose sections are squares (in 2-D intervals) anywhere, which may
-  /// overlap.
+  /// Columns with square sections (in 2-D intervals) at arbitrary positions,
+  /// possibly overlapping.
   template <int dim>
   class SquareColumns : public PlanColumns<dim>
   {
   public:
-    /// @p centres, whose y does not count; @p width in m.
+    /// @p centres of the columns, m (y is ignored); @p width of the columns, m.
     SquareColumns(const std::vector<dealii::Point<dim>> &centres, double width);
 
     unsigned int
@@ -205,13 +206,13 @@ namespace talus
                 ColumnShares          &shares) const override;
 
   private:
-    /// In by_x_, the first one whose centre is not in front of @p x, m.
+    /// First column in by_x_ with centre coordinate not less than @p x, m.
     std::vector<unsigned int>::const_iterator
     first_behind(double x) const;
 
     std::vector<dealii::Point<dim>> centres_;
     double                          width_;
-    std::vector<unsigned int>       by_x_; ///< columns by growing x
+    std::vector<unsigned int>       by_x_; ///< columns sorted by x
   };
 } // namespace talus
 

@@ -8,16 +8,17 @@
 
 namespace talus
 {
-  /// A polyline in plan, along which distances are measured. The first and the
-  /// last segment go on straight beyond the ends.
+  /// Polyline in plan for measuring distances along the path. The first and the
+  /// last segment extend straight beyond the ends.
   class PlanPath
   {
   public:
-    /// @p corners in plan, m; two at least, and neighbours differ.
+    /// @p corners in plan, m; at least two, and consecutive corners must
+    /// differ.
     explicit PlanPath(const std::vector<dealii::Point<2>> &corners);
 
-    /// Distance along the path, m, from the first corner to the place on the
-    /// path that is nearest to @p x: negative in front of the first corner.
+    /// Distance along the path, m, from the first corner to the point of the
+    /// path nearest to @p x; negative before the first corner.
     double
     chainage(const dealii::Point<2> &x) const;
 
@@ -25,9 +26,9 @@ namespace talus
     struct Segment
     {
       dealii::Point<2>     start;
-      dealii::Tensor<1, 2> direction; ///< of length 1
+      dealii::Tensor<1, 2> direction; ///< unit vector
       double               length;    ///< m
-      double               chainage;  ///< of the start, m
+      double               chainage;  ///< at the start, m
     };
 
     std::vector<Segment> segments_;

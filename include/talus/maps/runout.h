@@ -20,13 +20,17 @@ namespace talus
   public:
     RunoutSettings();
 
-    /// Corners of the user's path in the plan of a mesh with its origin at
-    /// @p origin on the map, m; empty if the path is that of the soil. Throws
+    /// Return the corners of the path given by the user, in plan coordinates of
+    /// the mesh, m; empty if the path of the centre of mass is used. Throws
     /// ExcUser.
+    ///
+    /// @param dim dimension of the simulation
+    /// @param origin of the mesh on the map, m
     std::vector<dealii::Point<2>>
     corners(unsigned int dim, const dealii::Point<3> &origin) const;
 
-    /// Thickness, m, from which soil counts on a mesh with cells of @p h, m.
+    /// Minimum thickness of soil that counts, m, on a mesh with cells of @p h,
+    /// m.
     double
     smallest_thickness(const double h) const
     {
@@ -41,19 +45,19 @@ namespace talus
 
 
 
-  /// runout.csv: where the slide is along its way in plan, whatever the direction
-  /// of the way, a row whenever one of the statistics is due.
+  /// Table runout.csv: position of the slide along a path in plan, a row
+  /// whenever a row of the statistics is due.
   ///
-  /// The way is a polyline of the user, or that of the centre of mass so far,
-  /// from its place at the start. Front and rear are the outermost of the
-  /// columns, as wide as a cell, in which soil is thicker than `Runout/Smallest
-  /// thickness`; runout is how far the front is beyond that of the start, both
-  /// measured along the way of now.
+  /// The path is a polyline of the user, or the path of the centre of mass so
+  /// far, from the start of the motion. Front and rear are the outermost
+  /// columns, one cell wide, with soil thicker than `Runout/Smallest
+  /// thickness`; runout is the distance of the front from the front at the
+  /// start, both measured along the current path.
   template <int dim>
   class Runout : public TableObserver<dim>
   {
   public:
-    /// @p origin of the mesh on the map, m, must outlive it.
+    /// @p origin of the mesh on the map, m, must outlive the observer.
     explicit Runout(const dealii::Point<3> &origin);
 
     bool
@@ -70,7 +74,7 @@ namespace talus
           const State<dim>     &state,
           Beginning             beginning) override;
 
-    /// Note where the soil lies, and the first corner of its way.
+    /// Record the columns with soil, and the first corner of the path.
     void
     start(const State<dim> &state) override;
 
@@ -105,8 +109,8 @@ namespace talus
     RunoutSettings                   settings_;
     std::unique_ptr<ColumnSums<dim>> sums_;
     std::vector<dealii::Point<2>>    user_path_; ///< m; may be empty
-    std::vector<dealii::Point<2>>    way_; ///< of the centre of mass so far, m
-    std::vector<unsigned int>        release_; ///< columns; of the first rank
+    std::vector<dealii::Point<2>>    way_; ///< path of the centre of mass, m
+    std::vector<unsigned int>        release_; ///< columns, on the first rank
   };
 } // namespace talus
 

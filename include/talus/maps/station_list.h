@@ -12,13 +12,13 @@
 
 namespace talus
 {
-  /// Where the user wants to know what passes, section Stations: places and
-  /// lines (the route of a pipeline) with names.
+  /// Named places and lines (the route of a pipeline) of the user, for which
+  /// passing soil is recorded; section Stations.
   template <int dim>
   class StationList : public dealii::ParameterAcceptor
   {
   public:
-    /// A place, or the corners of a line; y does not count.
+    /// Place, or corners of a line, m; y is ignored.
     struct Named
     {
       std::string                     name;
@@ -39,15 +39,18 @@ namespace talus
       return !lines_.empty();
     }
 
-    /// With @p origin of the mesh on the map. They throw ExcUser if an entry
-    /// cannot be understood or lies outside of the mesh, which fills @p domain.
+    /// Parse the places and the lines. Throw ExcUser if an entry is invalid or
+    /// outside of the mesh.
+    ///
+    /// @param domain of the mesh
+    /// @param origin of the mesh on the map, m
     std::vector<Named>
     points(const Box<dim> &domain, const dealii::Point<3> &origin) const;
     std::vector<Named>
     lines(const Box<dim> &domain, const dealii::Point<3> &origin) const;
 
-    /// Of the square (in 2-D the interval) around a place that counts as being
-    /// there, on a mesh with cells of @p h; m.
+    /// Side of the square (in 2-D length of the interval) around a place, m, on
+    /// a mesh with cells of @p h, m.
     double
     width(const double h) const
     {

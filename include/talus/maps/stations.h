@@ -10,8 +10,8 @@
 
 namespace talus
 {
-  /// stations.csv: what passes the user's places, a row whenever one of the
-  /// statistics is due. doc/output.md lists the columns.
+  /// Table stations.csv: soil passing the places of the user, a row whenever a
+  /// row of the statistics is due. doc/output.md lists the columns.
   template <int dim>
   class Stations : public QuantityTable<dim>
   {

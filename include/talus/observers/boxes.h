@@ -11,8 +11,8 @@
 
 namespace talus
 {
-  /// Longest that a box in a cell of @p cell_size is along an axis, m: that the
-  /// weights let it be.
+  /// Maximum length of a box along an axis, m, that the weights allow in a cell
+  /// of @p cell_size, m.
   template <int dim>
   inline double
   longest_box(const State<dim> &state, const double cell_size)
@@ -22,10 +22,11 @@ namespace talus
 
 
 
-  /// The edges of the box of point @p p, m: along the axes, or those of a
-  /// convected domain. A box that is longer than @p longest is as long: in a shear
-  /// layer F grows without bound. One that is too thin for the weights is as thin
-  /// as it is, so that boxes cover the soil once.
+  /// Return the edge vectors of the box of point @p p, m: parallel to the axes,
+  /// or oblique for a convected domain. A box longer than @p longest, m, along
+  /// an axis is shortened to @p longest, because F grows without bound in a
+  /// shear layer. A box too thin for the weights is not thickened, so that
+  /// boxes cover the soil once.
   template <int dim>
   inline std::array<dealii::Tensor<1, dim>, dim>
   box_edges(const State<dim> &state, const unsigned int p, const double longest)
@@ -52,8 +53,8 @@ namespace talus
 
 
 
-  /// The same as long as the weights let it be. Points that are in no cell yet
-  /// have their whole box.
+  /// Return the edge vectors of the box of point @p p, m, shortened to
+  /// longest_box(). The box of a point without a cell is not shortened.
   template <int dim>
   inline std::array<dealii::Tensor<1, dim>, dim>
   box_edges(const State<dim> &state, const unsigned int p)
@@ -69,8 +70,8 @@ namespace talus
 
 
 
-  /// Length along each axis of a box with these edges, m; of a convected domain,
-  /// from its lowest to its highest corner.
+  /// Extent along each axis, m, of a box with the given edges; for a convected
+  /// domain from the lowest to the highest corner.
   template <int dim>
   inline dealii::Tensor<1, dim>
   lengths_of(const std::array<dealii::Tensor<1, dim>, dim> &edges)
@@ -84,7 +85,7 @@ namespace talus
 
 
 
-  /// That of point @p p, see box_edges().
+  /// Extent of the box of point @p p along each axis, m; see box_edges().
   template <int dim>
   inline dealii::Tensor<1, dim>
   box_lengths(const State<dim> &state, const unsigned int p)

@@ -10,12 +10,12 @@
 
 namespace talus
 {
-  /// The lattice of cells of size h (`Grid/Cell size`) over the box of the
-  /// mesh, whatever the mesh's own cells are. y points up: a column is all
-  /// cells with the same x (2-D) or x and z (3-D).
+  /// Lattice of cells of size h (`Grid/Cell size`) over the box of the mesh,
+  /// independent of the cells of the mesh. y points up: a column is all cells
+  /// with the same x (2-D) or x and z (3-D).
   ///
-  /// A cell is one number, its key. Keys sort by x, then z, then y, so the
-  /// cells of a column follow each other from the bottom to the top.
+  /// A cell is represented by a number, the key. Keys sort by x, then z, then
+  /// y, so the cells of a column follow each other from bottom to top.
   template <int dim>
   class CellLattice
   {
@@ -25,8 +25,8 @@ namespace talus
 
     explicit CellLattice(const Grid<dim> &grid);
 
-    /// Cell of the centre of point @p p. A centre outside the mesh counts to
-    /// the nearest boundary cell, as it does for the transfer.
+    /// Return the cell of the centre of point @p p. A centre outside the mesh
+    /// is assigned to the nearest boundary cell, as in the transfer.
     Key
     find(const Points<dim> &points, const unsigned int p) const
     {
@@ -36,7 +36,8 @@ namespace talus
       return key(place);
     }
 
-    /// Coordinate @p d of the place of the cells at @p x, m, as in find().
+    /// Lattice index along axis @p d of the cells at coordinate @p x, m,
+    /// clamped to the mesh.
     int
     coordinate(const double x, const unsigned int d) const
     {
@@ -47,7 +48,8 @@ namespace talus
                                    : extent_[d] - 1;
     }
 
-    /// Lower face of the cells with coordinate @p i along axis @p d, m.
+    /// Coordinate of the lower face of the cells with index @p i along axis
+    /// @p d, m.
     double
     lower_face(const int i, const unsigned int d) const
     {
@@ -60,8 +62,9 @@ namespace talus
       return size_;
     }
 
-    /// Each coordinate of a key has a spare value below zero, so that adding
-    /// the difference of two keys walks to a neighbour and never wraps around.
+    /// Key of a cell from the lattice indices. Each index is stored with a
+    /// spare value below zero, so that adding the difference of two keys leads
+    /// to a neighbour and never wraps around.
     static Key
     key(const Place &place)
     {
@@ -71,6 +74,7 @@ namespace talus
       return (result << n_bits) | Key(place[1] + 1);
     }
 
+    /// Lattice indices of a cell: inverse of key().
     static Place
     place(const Key key)
     {
@@ -82,21 +86,22 @@ namespace talus
       return result;
     }
 
-    /// The same for all cells of a column and for no other.
+    /// Number of a column: equal for all cells of the column, different for all
+    /// other cells.
     static Key
     column(const Key key)
     {
       return key >> n_bits;
     }
 
-    /// The cell of a column that lies on the bottom face of the mesh.
+    /// Key of the cell of a column at the bottom face of the mesh.
     static Key
     lowest_cell(const Key column)
     {
       return (column << n_bits) | 1;
     }
 
-    /// x-coordinate (d = 0), ... of the centre of the cell, m.
+    /// Coordinate @p d of the centre of the cell, m.
     double
     center(const Key key, const unsigned int d) const
     {

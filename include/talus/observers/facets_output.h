@@ -7,14 +7,14 @@
 
 namespace talus
 {
-  /// The series of files called facets: the parts of the surfaces of obstacles
-  /// that had soil in their cells in the step before, each as one cell, with
-  /// what the soil did there.
+  /// Series of files "facets": the facets of obstacle surfaces with soil in
+  /// their cells in the previous step, one output cell per facet, with the
+  /// traction of the soil and further fields.
   ///
-  /// A facet is drawn as a line (in 3-D a rectangle) in its mean plane, about
-  /// its centroid and of its area, so that integrals over the cells are those
-  /// over the facets: the integral of the traction is the force on the
-  /// obstacle.
+  /// A facet is drawn as a line (in 3-D a rectangle) in the mean plane, around
+  /// the centroid and with the area of the facet. An integral over the output
+  /// cells therefore equals the integral over the facets: the integral of the
+  /// traction is the force on the obstacle.
   template <int dim>
   class FacetsOutput : public SeriesObserver<dim>
   {
@@ -22,7 +22,7 @@ namespace talus
     /// @p contact must outlive the observer.
     explicit FacetsOutput(const FacetContact<dim> &contact);
 
-    /// Where there are obstacles.
+    /// Return whether obstacle output is requested and obstacles exist.
     bool
     is_enabled(const OutputSettings &settings) const override;
 

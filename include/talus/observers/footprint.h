@@ -8,11 +8,11 @@
 
 namespace talus
 {
-  /// Append the area in which soil touches the ground and the area of the ground
-  /// that lies under the boxes of the points, m^(dim-1), both for the last step.
-  /// They differ where soil is in the air, or where contact misses soil that lies
-  /// on the ground. The second one is found on columns of a quarter of a cell.
-  /// Both are 0 without seabed and obstacles. Collective.
+  /// Append two areas of the last step, m^(dim-1): the area of ground in
+  /// contact with soil, and the area of ground under the boxes of the points,
+  /// counted on columns a quarter of a cell wide. The areas differ where soil
+  /// is in the air, or where contact misses soil lying on the ground. Without
+  /// seabed and obstacles both areas are 0. Collective.
   template <int dim>
   void
   list_contact_area(const State<dim>        &state,

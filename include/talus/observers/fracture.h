@@ -8,22 +8,22 @@
 
 namespace talus
 {
-  /// Signs of numerical fracture: where the points no longer form a continuum.
-  /// Counted on cells of size h (`Grid/Cell size`) (see CellLattice); a cell is
-  /// occupied when the centre of a point is in it.
+  /// Signs of numerical fracture, where the points no longer form a continuum.
+  /// Counted on cells of size h (`Grid/Cell size`), see CellLattice; a cell is
+  /// occupied if it contains the centre of a point.
   struct FractureCounts
   {
     unsigned long occupied_cells = 0;
-    /// Unoccupied cells below an occupied one of their column, which has the
-    /// same x (and z), down to the next occupied one or to the ground: to the
-    /// bottom face of the mesh or a cell whose centre lies in an obstacle. Down
-    /// to the ground only if the occupied one belongs to a connected body with
-    /// a cell that lies on it: below soil that hangs there is none to miss.
+    /// Unoccupied cells below an occupied cell of the same column (same x and
+    /// z), down to the next occupied cell or to the ground: the bottom face of
+    /// the mesh or a cell whose centre lies in an obstacle. Cells down to the
+    /// ground count only if the occupied cell belongs to a connected body
+    /// resting on the ground: under a hanging body no soil is missing.
     unsigned long empty_interior_cells = 0;
-    /// Columns of the mesh without an occupied cell between the first and the
-    /// last with one; in 3-D slabs of cells with the same x.
+    /// Columns of the mesh without an occupied cell, between the first and the
+    /// last occupied column; in 3-D slabs of cells with the same x.
     unsigned long empty_columns = 0;
-    /// Groups of occupied cells that touch across faces, edges or corners.
+    /// Groups of occupied cells connected across faces, edges or corners.
     unsigned long connected_bodies = 0;
     /// Cells with exactly one point.
     unsigned long cells_with_one_point = 0;
@@ -31,9 +31,9 @@ namespace talus
 
 
 
-  /// Count; collective over the ranks of the grid, the result is on the first
-  /// one. The points need not be sorted. The cost follows the points, not the
-  /// mesh.
+  /// Count the signs of fracture. The points need not be sorted. The cost grows
+  /// with the number of points, not with the size of the mesh. Collective over
+  /// the ranks of the grid; the result is valid on the first rank only.
   template <int dim>
   FractureCounts
   count_fractures(const Points<dim> &points,
@@ -42,7 +42,7 @@ namespace talus
 
 
 
-  /// List the counts but for that of the occupied cells. Collective.
+  /// Append all counts except occupied_cells. Collective.
   template <int dim>
   void
   list_fractures(const State<dim>  &state,

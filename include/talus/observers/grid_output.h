@@ -6,10 +6,10 @@
 
 namespace talus
 {
-  /// The series of files called grid: the cells of the background grid that
-  /// hold points, with the mass, velocity and force of the step before at their
-  /// nodes. All three are zero at nodes the step did not touch, and at the
-  /// start; mass and force of a hanging node went to its masters.
+  /// Series of files "grid": the cells of the background grid with points, and
+  /// mass, velocity and force of the previous step at the nodes. All three
+  /// fields are zero at the start and at nodes not used by the step; mass and
+  /// force of a hanging node are included in the master nodes.
   template <int dim>
   class GridOutput : public SeriesObserver<dim>
   {

@@ -12,7 +12,7 @@
 
 namespace talus
 {
-  /// What the user wants of the output, section Output.
+  /// Settings of the user in section Output.
   struct OutputSettings
   {
     std::filesystem::path folder;
@@ -22,72 +22,70 @@ namespace talus
     bool                  write_grid      = true;
     bool                  write_obstacles = true;
     bool                  write_runout    = true;
-    double                averaging_time  = 0.1; ///< of forces, s
+    double                averaging_time  = 0.1; ///< window for forces, s
   };
 
 
 
-  /// Looks at the state of a run at times that Output chooses, or after each
-  /// step, changes nothing and writes files of its own. All members but
-  /// list_state() are collective; they throw ExcUser if a file cannot be
-  /// written.
+  /// Observes the state of a run after each step, or at times chosen by Output,
+  /// without changing the state, and writes files. All members except
+  /// list_state() are collective and throw ExcUser if a file cannot be written.
   ///
-  /// A new observer is a class of this kind and a line in
-  /// Output::list_observers().
+  /// A new observer is a derived class and a line in Output::list_observers().
   template <int dim>
   class Observer
   {
   public:
     virtual ~Observer() = default;
 
-    /// Whether the user wants it.
+    /// Return whether the user has requested the observer.
     virtual bool
     is_enabled(const OutputSettings & /*settings*/) const
     {
       return true;
     }
 
-    /// Name of the folder in the output folder that it makes for its files;
-    /// empty if it makes none.
+    /// Name of the subfolder of the output folder for the files of the
+    /// observer; empty if not needed.
     virtual std::string
     subfolder() const
     {
       return "";
     }
 
-    /// Throw ExcUser if its parameters cannot be followed; nothing is written
-    /// yet. To be called when the mesh is there.
+    /// Throw ExcUser if the parameters are invalid. Call when the mesh exists,
+    /// before anything is written.
     virtual void
     check(const State<dim> & /*state*/) const
     {}
 
-    /// Start the files, or go on with them in a resumed run.
+    /// Start the files; in a resumed run continue the existing files.
     virtual void
     begin(const OutputSettings &settings,
           const State<dim>     &state,
           Beginning             beginning) = 0;
 
-    /// The motion begins: what counts from there starts from zero.
+    /// Begin the motion: reset quantities counted from here on.
     virtual void
     start(const State<dim> & /*state*/)
     {}
 
-    /// A step is done: take what must be seen in every step.
+    /// Update quantities that depend on every step. Called after each step.
     virtual void
     follow(const State<dim> & /*state*/)
     {}
 
-    /// Write what there is to see now.
+    /// Write the output of the current time.
     virtual void
     observe(const State<dim> &state) = 0;
 
-    /// Add what was written so far to the state of the run.
+    /// List the amount written so far as state of the run.
     virtual void
     list_state(StateList &list) = 0;
 
-    /// Why a resumed run cannot go on with the files in the folder, a sentence
-    /// on the first rank; empty if it can. To be called when the state was
-    /// loaded.
+    /// Return an error sentence, on the first rank, if a resumed run cannot
+    /// continue with the files in the folder; else an empty string. Call after
+    /// the state has been loaded.
     virtual std::string
     cannot_resume(const OutputSettings & /*settings*/,
                   const State<dim> & /*state*/) const
@@ -95,15 +93,15 @@ namespace talus
       return "";
     }
 
-    /// Names of the files written so far, by this run or the one that it goes
-    /// on with, that somebody has removed, on the first rank. Also before begin().
+    /// Names, on the first rank, of files written so far, by the current run or
+    /// the run it continues, but deleted since. Can be called before begin().
     virtual std::vector<std::string>
     missing_files(const OutputSettings & /*settings*/) const
     {
       return {};
     }
 
-    /// Bring all that was written to the disk.
+    /// Force all output written so far to disk.
     virtual void
     sync() = 0;
   };

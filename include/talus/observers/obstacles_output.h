@@ -7,9 +7,9 @@
 
 namespace talus
 {
-  /// The series of files called obstacles: the surfaces of all obstacles in the
-  /// mesh, as lines (in 3-D triangles), whatever their shapes. Once, at the
-  /// start, or at each output time if one of them moves.
+  /// Series of files "obstacles": the surfaces of all obstacles in the mesh, of
+  /// any shape, as lines (in 3-D triangles). Written once at the start, or at
+  /// each output time if an obstacle moves.
   template <int dim>
   class ObstaclesOutput : public SeriesObserver<dim>
   {
@@ -17,7 +17,7 @@ namespace talus
     /// @p obstacles must outlive the observer.
     explicit ObstaclesOutput(const Obstacles<dim> &obstacles);
 
-    /// Where there are obstacles.
+    /// Return whether obstacle output is requested and obstacles exist.
     bool
     is_enabled(const OutputSettings &settings) const override;
 

@@ -19,18 +19,19 @@
 
 namespace talus
 {
-  /// All that a run leaves behind, in one folder: parameters.prm, log.txt,
-  /// statistics.csv, profile.csv, points.pvd and grid.pvd with their VTU files
-  /// (or .xdmf and HDF5 files); and the progress on the terminal.
+  /// All output of a run, in one folder (parameters.prm, log.txt,
+  /// statistics.csv, profile.csv, points.pvd and grid.pvd with VTU files, or
+  /// .xdmf with HDF5 files), and the progress on the terminal.
   ///
   /// Rows and fields are written at the start, at the first step that reaches
-  /// each multiple of their interval (see OutputTimes) and at the last step.
+  /// each multiple of the interval (see OutputTimes) and at the last step.
   template <int dim>
   class Output : public dealii::ParameterAcceptor
   {
   public:
-    /// @p timer gets the section "output"; see phase_times(). @p log is opened
-    /// in the folder. @p obstacles belong to the ground; null for none.
+    /// Construct all observers. @p timer gets the section "output", see
+    /// phase_times(). @p log is opened in the folder. @p obstacles may belong
+    /// to the ground; null for no obstacles.
     Output(PhaseTimer           &timer,
            Log                  &log,
            const Obstacles<dim> *obstacles = nullptr);
@@ -42,116 +43,121 @@ namespace talus
       statistics_->add_source(source);
     }
 
-    /// Add one that looks whenever a row of the statistics is due.
+    /// Add an observer called whenever a row of statistics.csv is due.
     void
     add_row_observer(std::unique_ptr<Observer<dim>> observer)
     {
       rows_.observers.push_back(std::move(observer));
     }
 
-    /// Add one that looks whenever fields are due.
+    /// Add an observer called whenever fields are due.
     void
     add_field_observer(std::unique_ptr<Observer<dim>> observer)
     {
       fields_.observers.push_back(std::move(observer));
     }
 
-    /// Write to this folder, whatever the parameter file says; to be called
-    /// after parsing.
+    /// Write to @p folder, overriding the parameter file. Call after parsing.
     void
     set_folder(const std::string &folder);
 
-    /// Time over which forces on obstacles and faces are averaged, s.
+    /// Averaging window for the forces on obstacles and mesh faces, s.
     double
     force_averaging_time() const
     {
       return settings_.averaging_time;
     }
 
-    /// As given by the parameter or by set_folder().
+    /// Output folder, from the parameter or from set_folder().
     const std::string &
     folder() const
     {
       return folder_;
     }
 
-    /// Throw ExcUser if the parameters contradict each other, or if the runout
-    /// is asked for while @p local_damping falsifies it.
+    /// Throw ExcUser if the parameters contradict each other, or if runout
+    /// output is requested together with @p local_damping [-], which falsifies
+    /// the runout.
     void
     check(double local_damping) const;
 
-    /// Let all observers check their parameters, when the mesh is there and
-    /// nothing is written. Throws ExcUser. Collective.
+    /// Check the parameters of all observers. Call when the mesh exists, before
+    /// anything is written. Throws ExcUser. Collective.
     void
     check_observers(const State<dim> &state) const;
 
-    /// Let no other run write into the folder, which is made if it is not there.
-    /// Throws ExcUser if one does. Collective.
+    /// Create the folder if needed and lock it against other runs. Throws
+    /// ExcUser if another run holds the lock. Collective.
     void
     lock_folder(const MPI_Comm communicator)
     {
       lock_.acquire(folder_, communicator);
     }
 
-    /// Throw ExcUser if the folder holds what this run would write over and must
-    /// not: files of the user, or what it reads. Changes nothing. Collective.
+    /// Throw ExcUser if the run would overwrite files of the user, or input of
+    /// the run. Changes nothing. Collective.
     void
     check_folder(MPI_Comm communicator, Beginning beginning) const;
 
-    /// Make the folder, write the parameters and begin all files of a run to
-    /// @p end_time, s; in a resumed run go on with them. Throws ExcUser if the
-    /// folder cannot be written; then no file of an earlier run was touched.
+    /// Create the folder, write parameters.prm and open all files of a run to
+    /// @p end_time, s; a resumed run continues the existing files. Throws
+    /// ExcUser if the folder is not writable; then all files of an earlier run
+    /// are untouched.
     void
     begin(const State<dim> &state,
           double            end_time,
           Beginning         beginning = Beginning::fresh);
 
-    /// Write all that is due at the start of the motion, unless that was done.
+    /// Write the output due at the start of the motion, unless already written.
     void
     start(const State<dim> &state);
 
-    /// Add what was written so far to the state of the run.
+    /// List the amount written so far as state of the run.
     void
     list_state(StateList &list);
 
-    /// Throw ExcUser if a file is missing that a resumed run is to go on with;
-    /// to be called when the state was loaded. Collective.
+    /// Throw ExcUser if a file needed by a resumed run is missing. Call after
+    /// the state has been loaded. Collective.
     void
     check_resumable(const State<dim> &state) const;
 
-    /// Of the files of the run those that somebody has removed, in words: 'a'
-    /// with 2 more. Empty if there are none, and on all ranks but the first.
+    /// Describe the files of the run that have been deleted: 'a' with 2 more.
+    /// Empty if no file is missing, and on all ranks except the first.
     std::string
     missing_files(MPI_Comm communicator) const;
 
-    /// Throw ExcUser if files are missing. Collective.
+    /// Throw ExcUser if files of the run are missing. Collective.
     void
     check_complete(MPI_Comm communicator) const;
 
-    /// Bring all rows and fields written so far to the disk.
+    /// Force all rows and fields written so far to disk.
     void
     sync();
 
-    /// To be called after each step: write what is due. At the @p last step
-    /// everything is due, and the throughput is printed. Returns whether fields
-    /// were written. Throws ExcUser if a file cannot be written.
+    /// Write the output due after a step. Call after each step. In the @p last
+    /// step all output is due, and the throughput is printed. Returns whether
+    /// fields were written. Throws ExcUser if a file cannot be written.
     bool
     observe(const State<dim> &state, bool last);
 
-    /// Write the points with how they move in a mechanism of failure, dim
-    /// numbers for each, to NAME.pvd and its files (or .xdmf). Collective.
+    /// Write the points with a failure mechanism to NAME.pvd and its files (or
+    /// .xdmf). Collective.
+    ///
+    /// @param state of the run
+    /// @param name of the series of files
+    /// @param mechanism motion of the points [-], dim components per point
     void
     write_mechanism(const State<dim>          &state,
                     const std::string         &name,
                     const std::vector<double> &mechanism) const;
 
-    /// Write the points as they are, after an error that ends the run, to
-    /// last-state.vtu. Returns the path, for the message.
+    /// Write the points to last-state.vtu after a fatal error. Returns the
+    /// path, for the message.
     std::string
     write_last_state(const State<dim> &state) const;
 
   private:
-    /// Observers that look at the same times.
+    /// Observers with common output times.
     struct Schedule
     {
       double                                      interval; ///< s
@@ -177,7 +183,7 @@ namespace talus
 
     Schedule         rows_{0.25, {}, 0, {}};
     Schedule         fields_{1., {}, 0, {}};
-    Statistics<dim> *statistics_; ///< one of the observers
+    Statistics<dim> *statistics_; ///< owned by rows_
     PhaseTimer      &timer_;
     Log             &log_;
     Progress         progress_;

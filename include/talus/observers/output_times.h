@@ -6,15 +6,15 @@
 
 namespace talus
 {
-  /// Output is due at the first step whose time reaches k times the interval,
-  /// k = 1, 2, ...; the time step is not altered to hit these times. Which
-  /// multiple is next follows from the time alone, without any tolerance, so
-  /// it is the same after a restart, and times do not drift.
+  /// Output times k * interval, k = 1, 2, ...: output is due at the first step
+  /// that reaches an output time; the time step is not adjusted. The next
+  /// multiple follows from the time alone, without any tolerance: a restart
+  /// does not change the output times, and rounding errors do not accumulate.
   class OutputTimes
   {
   public:
-    /// Output was just made at @p time; the next is due one @p interval (both
-    /// s) or less later.
+    /// Start after an output at @p time, s; the next output is due after at
+    /// most @p interval, s.
     void
     begin(const double interval, const double time)
     {
@@ -22,8 +22,8 @@ namespace talus
       advance(time);
     }
 
-    /// True, once, when @p time has reached the next output time. A step that
-    /// passes several of them counts once.
+    /// Return true, once, when @p time has reached the next output time. A step
+    /// that passes several output times counts once.
     bool
     reached(const double time)
     {
@@ -34,12 +34,13 @@ namespace talus
     }
 
   private:
-    /// Go to the smallest multiple beyond @p time.
+    /// Set the next output time to the smallest multiple beyond @p time.
     void
     advance(const double time)
     {
       next_ = std::floor(time / interval_);
-      // The quotient is rounded: one to either side may be right.
+      // The quotient is rounded: the correct multiple may be one lower or
+      // higher.
       while (next_ * interval_ > time)
         --next_;
       while (next_ * interval_ <= time)

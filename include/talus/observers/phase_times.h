@@ -11,9 +11,9 @@
 
 namespace talus
 {
-  /// The wall time of each phase, one line each: least, mean and
-  /// largest over the ranks, and the mean's share of all; and the peak memory.
-  /// Collective; the lines are right on all ranks.
+  /// Report lines with the wall time of each phase (minimum, mean and maximum
+  /// over the ranks; share of the mean in the total) and with the peak memory.
+  /// Collective; the lines are valid on all ranks.
   std::vector<std::string>
   phase_times(const PhaseTimer &timer, MPI_Comm communicator);
 } // namespace talus

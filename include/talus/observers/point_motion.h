@@ -8,8 +8,9 @@
 
 namespace talus
 {
-  /// Smallest x of a point, m, such that the points up to it have at least the
-  /// share @p fraction of the mass of all. Collective over @p communicator.
+  /// Smallest x of a point, m, for which the points with x not larger have at
+  /// least the share @p fraction [-] of the total mass. NaN without points.
+  /// Collective over @p communicator.
   template <int dim>
   double
   front_of_mass(const Points<dim> &points,
@@ -18,8 +19,8 @@ namespace talus
 
 
 
-  /// List number, places, speeds, mass and momentum of the points, those of
-  /// front and rear only @p with_runout. Collective.
+  /// Append number, extreme positions, centre of mass, velocities, mass and
+  /// momentum of the points; front and rear only @p with_runout. Collective.
   template <int dim>
   void
   list_motion(const State<dim>  &state,

@@ -9,12 +9,12 @@
 
 namespace talus
 {
-  /// What ParaView gets to see of the points: every column by its name and
-  /// unit, and derived from them the displacement, speed, mean and von Mises
-  /// stress, volume ratio J and current length of the boxes.
+  /// Fields of the points for ParaView: every column by name and unit, and the
+  /// derived displacement, speed, mean and von Mises stress, volume ratio J and
+  /// current length of the boxes.
   ///
-  /// Tensors are 3x3 (in 2-D with the stress out of the plane, 1 for the
-  /// deformation gradient), a list of scalars is one field per number. The
+  /// Tensors are 3x3 (in 2-D with the out-of-plane stress, and with 1 for the
+  /// deformation gradient); a list of scalars gives a field per number. The
   /// points must outlive the fields.
   template <int dim>
   std::vector<Field>
@@ -22,10 +22,10 @@ namespace talus
 
 
 
-  /// The series of files called points: each point as a vertex, or its box as a
-  /// quad (hex), so that ParaView shows a continuum. Boxes are as long as the
-  /// weights let them be; see box_edges(). The values of a point are at its
-  /// vertex or at the cell that is its box.
+  /// Series of files "points": each point as a vertex, or as a quad (hex) of
+  /// the size of the box, so that ParaView shows a continuum. Boxes are limited
+  /// to the length allowed by the weights, see box_edges(). Values are stored
+  /// at vertices, or at cells for boxes.
   template <int dim>
   class PointsOutput : public SeriesObserver<dim>
   {
@@ -52,8 +52,8 @@ namespace talus
       write(state);
     }
 
-    /// Write the files of one output time, with these fields besides
-    /// point_fields(); collective. Throws ExcUser if that fails.
+    /// Write the files of an output time, with @p further_fields besides
+    /// point_fields(). Collective. Throws ExcUser on failure.
     void
     write(const State<dim>         &state,
           const std::vector<Field> &further_fields = {});
@@ -64,8 +64,8 @@ namespace talus
 
 
 
-  /// Write the points of this rank, as vertices, to the VTU file @p path. They
-  /// need not be sorted, nor their values be numbers.
+  /// Write the points of the local rank as vertices to the VTU file @p path.
+  /// The points need not be sorted, and values may be NaN.
   template <int dim>
   void
   write_points(const State<dim> &state, const std::filesystem::path &path);

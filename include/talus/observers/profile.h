@@ -9,40 +9,41 @@
 
 namespace talus
 {
-  /// The soil in one column of cells of size h (`Grid/Cell size`).
+  /// Soil in a column of cells of size h (`Grid/Cell size`).
   struct ProfileColumn
   {
     double x;         ///< of the column's centre, m
     double z;         ///< of the column's centre, m; 0 in 2-D
     double ground;    ///< height of the ground below the soil, m
-    double lowest;    ///< lower edge of the lowest box, m
-    double highest;   ///< upper edge of the highest box, m
-    double thickness; ///< volume of the soil over the column's area, m
-    double mass;      ///< kg
-    /// Mass-weighted mean of the points' velocities along x and z, m/s.
+    double lowest;    ///< bottom of the lowest box, m
+    double highest;   ///< top of the highest box, m
+    double thickness; ///< volume of soil per plan area of the column, m
+    double mass;      ///< mass of soil in the column, kg
+    /// Mass-weighted mean velocity of the soil along x and z, m/s.
     double velocity_x;
     double velocity_z;
   };
 
 
 
-  /// The columns with soil, by growing x (then z). Each column has of a point
-  /// the share of its box, see box_lengths(), that lies in the column: volume,
-  /// mass and momentum. What is outside the mesh counts to the outermost
-  /// columns. Collective, the result is on the first rank.
+  /// Return the columns with soil, sorted by x (then z). A point contributes
+  /// volume, mass and momentum to each column by the fraction of the box inside
+  /// the column, see box_lengths(). Soil outside the mesh is assigned to the
+  /// outermost columns. Collective; the result is valid on the first rank only.
   template <int dim>
   std::vector<ProfileColumn>
   find_profile(const State<dim> &state, const Ground<dim> &ground);
 
 
 
-  /// profile.csv: for each output time, one row per column of the mesh (of
-  /// size h) with points.
+  /// Table profile.csv: for each output time, a row per column of cells (of
+  /// size h) with soil.
   template <int dim>
   class Profile : public TableObserver<dim>
   {
   public:
-    /// @p obstacles that belong to the ground, null for none, must outlive it.
+    /// @p obstacles may belong to the ground and must outlive the observer;
+    /// null for no obstacles.
     explicit Profile(const Obstacles<dim> *obstacles = nullptr);
 
     bool
@@ -51,7 +52,7 @@ namespace talus
       return settings.write_runout;
     }
 
-    /// Append the rows of one output time.
+    /// Append the rows of the current output time.
     void
     observe(const State<dim> &state) override;
 

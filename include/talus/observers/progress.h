@@ -11,20 +11,21 @@
 
 namespace talus
 {
-  /// Tells how far the simulation is and how fast: lines on the terminal, and
-  /// one line with the throughput at the end, which is printed also where
-  /// standard output is no terminal.
+  /// Progress and speed of the run: lines on the terminal, and a final line
+  /// with the throughput, printed even if standard output is no terminal.
   class Progress
   {
   public:
     explicit Progress(std::ostream &out         = std::cout,
                       bool          is_terminal = stdout_is_terminal());
 
-    /// Start the clock at simulated time @p time, on the way to @p end_time, s.
+    /// Start the clock at simulated time @p time, s; the run ends at
+    /// @p end_time, s.
     void
     begin(double time, double end_time, MPI_Comm communicator);
 
-    /// To be called after each step, with the number of this rank's points.
+    /// Count a step with @p n_points points on the local rank. Call after each
+    /// step.
     void
     count_step(const unsigned int n_points)
     {
@@ -32,13 +33,13 @@ namespace talus
       now_.point_steps += n_points;
     }
 
-    /// Time, share of the end time, steps and point-steps per second since the
-    /// line before, time left at that pace, points. Nothing unless on a
-    /// terminal; collective.
+    /// Print time, share of the end time, steps and point-steps per second
+    /// since the previous line, remaining wall time at the current pace, and
+    /// number of points. Prints only on a terminal. Collective.
     void
     print_line(double time, unsigned int n_points);
 
-    /// The throughput. Collective.
+    /// Print the throughput. Collective.
     void
     finish(double time, unsigned int n_points);
 
@@ -50,7 +51,7 @@ namespace talus
       Clock::time_point wall_time;
       double            time        = 0; // simulated, s
       double            steps       = 0;
-      double            point_steps = 0; // of this rank
+      double            point_steps = 0; // on the local rank
     };
 
     std::ostream &out_;

@@ -10,16 +10,16 @@
 
 namespace talus
 {
-  /// A table with one row at a time. Names and values come from one list, so that
-  /// header and rows cannot differ.
+  /// Table with one row per output time. Names and values come from the same
+  /// list, so header and rows always agree.
   template <int dim>
   class QuantityTable : public TableObserver<dim>
   {
   public:
     using TableObserver<dim>::TableObserver;
 
-    /// What a row holds, in the order of the columns; right on the first rank.
-    /// Collective.
+    /// Quantities of a row, in the order of the columns; valid on the first
+    /// rank. Collective.
     virtual Quantities
     evaluate(const State<dim> &state) const = 0;
 
@@ -33,7 +33,7 @@ namespace talus
     }
 
   private:
-    // Values are dropped; this is asked for once per run.
+    // The values are discarded; called once per run.
     std::vector<std::string>
     columns(const OutputSettings & /*settings*/,
             const State<dim> &state) const override

@@ -9,8 +9,8 @@
 
 namespace talus
 {
-  /// An observer that writes one series of files, in one of the formats of
-  /// FieldWriter. Whoever derives from it says what is in them.
+  /// Observer with a series of files in a format of FieldWriter. A derived
+  /// class provides the content.
   template <int dim>
   class SeriesObserver : public Observer<dim>
   {

@@ -7,8 +7,9 @@
 
 namespace talus
 {
-  /// For cells of this state, none yet: its time and step, and the precision
-  /// that its mesh needs.
+  /// Return an empty set of output cells with the given @p fields, the time and
+  /// step of @p state, and the precision required by the coordinates of the
+  /// mesh.
   template <int dim>
   OutputCells
   state_cells(const State<dim>  &state,

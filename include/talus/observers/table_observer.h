@@ -9,8 +9,8 @@
 
 namespace talus
 {
-  /// An observer that writes one table, a CSV file of the first rank. Whoever
-  /// derives from it names the columns and adds the rows.
+  /// Observer with a table, a CSV file written by the first rank. A derived
+  /// class provides columns and rows.
   template <int dim>
   class TableObserver : public Observer<dim>
   {
@@ -35,7 +35,7 @@ namespace talus
     sync() override;
 
   protected:
-    /// Append the rows of one output time, those of the first rank.
+    /// Append the rows of the current output time, given on the first rank.
     void
     add_rows(const State<dim>                       &state,
              const std::vector<std::vector<double>> &rows);

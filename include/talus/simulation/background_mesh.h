@@ -17,63 +17,72 @@
 
 namespace talus
 {
-  /// The mesh of a run over time: made, changed where the soil goes, shared out
-  /// among the ranks; and the points in its cells.
+  /// Mesh of a run over time, with the points in the cells: creates the mesh,
+  /// adapts the mesh to the motion of the soil and distributes the cells over
+  /// the ranks.
   ///
-  /// Whatever changes the mesh or its partition ends in prepare_nodes(), so that
-  /// start, resumed run and change of the mesh go the same way.
+  /// Every change of the mesh or of the partition ends in prepare_nodes(), so
+  /// start, resumed run and mesh change use the same code.
   template <int dim>
   class BackgroundMesh
   {
   public:
+    /// All arguments must outlive the object.
     BackgroundMesh(State<dim>          &state,
                    Problem<dim>        &problem,
                    const Transfer<dim> &transfer,
                    PhaseTimer          &timer);
 
-    /// Make the mesh that the parameters ask for, around the bodies to be. If
-    /// that takes long, @p log says so before.
+    /// Create the initial mesh for the bodies of the problem. @p log reports
+    /// beforehand if the creation takes long.
     void
     create(Log &log);
 
-    /// Make the mesh of a checkpoint, with its partition on as many ranks as
-    /// then, and load its points.
+    /// Create the mesh of a checkpoint and load the points. The partition is
+    /// restored if the number of ranks is unchanged.
+    ///
+    /// @param mesh path of the saved mesh
+    /// @param file with the points
+    /// @param head of the checkpoint
     void
     load(const std::string    &mesh,
          Hdf5InputFile        &file,
          const CheckpointHead &head);
 
-    /// Sort in points that were just made, anywhere.
+    /// Sort newly created points, at any position, into the cells.
     void
     insert_points();
 
-    /// Share the cells out anew among the ranks, by their points.
+    /// Redistribute the cells over the ranks, weighted by the points.
+    /// Collective.
     void
     repartition();
 
-    /// Change mesh and partition if it is time to. Collective.
+    /// Adapt mesh and partition if due. Collective.
     void
     adapt();
 
-    /// Sort the points after a step that noted in the workspace which of them
-    /// may have left their cell.
+    /// Sort the points after a step. The workspace lists the points that may
+    /// have left the cell.
     void
     relocate();
 
-    /// Sort the points after all of them may have moved, farther than to a
-    /// neighbouring cell. Collective.
+    /// Sort all points after large motion, possibly beyond neighbouring cells.
+    /// Collective.
     void
     relocate_all();
 
-    /// Weights of the owned cells at the last repartition.
+    /// Weights of the owned cells at the last repartition [-].
     std::vector<double>
     cell_weights() const;
 
-    /// Sentence that describes the mesh and the number of points.
+    /// Sentence describing the mesh and the number of points, for the log.
+    /// Collective.
     std::string
     description() const;
 
-    /// Sentences on what became of mesh and partition so far.
+    /// Sentences on the changes of mesh and partition so far, for the log.
+    /// Collective.
     std::string
     history() const;
 

@@ -10,27 +10,28 @@
 
 namespace talus
 {
-  /// How deep a mechanism of failure reaches, against the size of the cells.
+  /// Depth of a failure mechanism, compared with the cell size.
   template <int dim>
   class FailureDepth
   {
   public:
-    /// Remember the motion of the points: @p mechanism with dim components for
-    /// each point of this rank, of any unit.
+    /// Store the motion of the points: @p mechanism has dim components per
+    /// point of the local rank, of any unit.
     void
     record(const std::vector<double> &mechanism);
 
-    /// Sentences for the log on soil with the strength that it has: the depth
-    /// below the mudline above which nine tenths of the motion lie, by volume and
-    /// square of the displacement, and, if this is less than two cells, the
-    /// strength one cell below the mudline against the weight of a cell. Empty
-    /// if no mechanism was recorded or the mudline is not known. Points must be
-    /// those of record(), in the same order. Collective.
+    /// Sentences for the log on the depth of the mechanism at the actual
+    /// strength of the soil. The depth below the mudline contains nine tenths
+    /// of the motion, weighted by volume and squared displacement. If the depth
+    /// is less than two cells, the sentences also compare the strength one cell
+    /// below the mudline with the weight of a cell. Empty without a recorded
+    /// mechanism or without a mudline. The points must have the order of
+    /// record(). Collective.
     std::string
     note(const State<dim> &state, const Problem<dim> &problem) const;
 
   private:
-    std::vector<double> square_; ///< of the displacement, by point
+    std::vector<double> square_; ///< of the displacement by point
   };
 } // namespace talus
 

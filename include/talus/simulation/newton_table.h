@@ -10,25 +10,31 @@
 
 namespace talus
 {
-  /// newton.csv: one row for each iteration of Newton's method.
+  /// Table newton.csv: one row per iteration of Newton's method.
   class NewtonTable
   {
   public:
     void
     begin(const std::filesystem::path &folder, Beginning beginning);
 
-    /// Why a run cannot go on with the table, see CsvFile.
+    /// Return the reason why a resumed run cannot continue the table, see
+    /// CsvFile.
     std::string
     cannot_resume(const std::filesystem::path &folder) const;
 
+    /// Append a row for an iteration.
+    ///
+    /// @param stage number, from 1
+    /// @param factor by which strengths are divided [-]
+    /// @param progress of the search
     void
     add(unsigned int stage, double factor, const EquilibriumProgress &progress);
 
-    /// Length of the file, B.
+    /// Length of the file, bytes.
     std::uintmax_t
     length() const;
 
-    /// Remove all rows beyond @p length, B.
+    /// Truncate the file to @p length, bytes.
     void
     cut(std::uintmax_t length);
 

@@ -12,18 +12,23 @@ namespace talus
   /// Wall time of the first time steps of a run.
   struct Pace
   {
-    unsigned int n_steps = 0;  ///< that were measured
-    double       seconds = 0.; ///< of one of them on the slowest rank, s
+    unsigned int n_steps = 0;  ///< number of measured steps
+    double       seconds = 0.; ///< per step on the slowest rank, s
   };
 
-  /// Measure up to ten steps, or those of a fifth of a second, after one that is
-  /// not measured. @p step makes one and returns whether there may be another.
+  /// Measure up to ten steps, or about 0.2 s, after an unmeasured first step.
+  /// @p step performs a time step and returns whether the run continues.
   /// Collective.
   Pace
   measure_pace(const std::function<bool()> &step, MPI_Comm communicator);
 
-  /// Return the sentence that says how long @p n_steps steps of @p n_points points
-  /// take at this pace, and what memory the ranks have taken so far. Collective.
+  /// Sentence with the estimated wall time and memory of a run, for the log.
+  /// Collective.
+  ///
+  /// @param pace of the measured steps
+  /// @param n_steps number of time steps of the run
+  /// @param n_points number of points on all ranks
+  /// @param communicator of the run
   std::string
   estimate(const Pace &pace,
            double      n_steps,

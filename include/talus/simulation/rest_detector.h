@@ -12,22 +12,22 @@
 
 namespace talus
 {
-  /// Finds out whether a slide has come to rest. Soil is at rest when, for
-  /// `Rest/Duration`, the kinetic energy of the background grid has stayed below
-  /// `Rest/Kinetic energy ratio` times its maximum so far, and the outermost
-  /// material points have moved by less than a fiftieth of the smallest cell in
-  /// plan. What has never moved as a whole by a cell is no slide, and is never
-  /// said to be at rest: a column that settles, or a bar that swings. Without any
-  /// material points, when all of them have left the mesh, there is rest. The
-  /// state is looked at ten times in each `Duration`.
+  /// Detects whether a slide has come to rest. Soil is at rest if two
+  /// conditions hold for `Rest/Duration`: the kinetic energy of the background
+  /// grid is below `Rest/Kinetic energy ratio` times its maximum so far, and
+  /// the outermost points move in plan by less than a fiftieth of the smallest
+  /// cell. Soil without an overall displacement of at least a cell is not a
+  /// slide and never counts as at rest, such as a settling column or a
+  /// vibrating bar. If all points have left the mesh, the slide is at rest. The
+  /// state is checked ten times per `Duration`.
   template <int dim>
   class RestDetector : public dealii::ParameterAcceptor
   {
   public:
     RestDetector();
 
-    /// Look at the state after a step. Nothing counts as rest before
-    /// @p last_change, s, when loads and strengths stop to change in time.
+    /// Check the state after a step. Soil in the mesh is never at rest before
+    /// @p last_change, s, the time of the last change of loads and strengths.
     /// Collective.
     void
     update(const State<dim> &state, double last_change);
@@ -38,13 +38,15 @@ namespace talus
       return is_at_rest_;
     }
 
-    /// Sentence for the end of a run at @p time, s, that was to end at
-    /// @p end_time, s: that the soil is at rest, or that it still moves. Empty if
-    /// there was no slide.
+    /// Sentence for the end of a run: the soil is at rest, or still moves.
+    /// Empty if there was no slide.
+    ///
+    /// @param time of the end, s
+    /// @param end_time planned end, s
     std::string
     sentence(double time, double end_time) const;
 
-    /// Add whether the soil is at rest, 1 or 0.
+    /// Append whether the soil is at rest, 1 or 0.
     void
     list_quantities(Quantities &list) const;
 
@@ -52,7 +54,7 @@ namespace talus
     list_state(StateList &list);
 
   private:
-    /// Least and largest coordinates of the points' centres in plan, m.
+    /// Minimum and maximum coordinates of points in plan, m.
     using Extent = Box<dim>;
 
     bool
@@ -66,9 +68,9 @@ namespace talus
     double ratio_    = 1e-3;
     double duration_ = 5.; ///< s
 
-    double next_look_   = 0.; ///< time, s
+    double next_look_   = 0.; ///< of the next check, s
     double peak_energy_ = 0.; ///< of the grid, J
-    double energy_      = 0.; ///< of the grid at the last look, J
+    double energy_      = 0.; ///< of the grid at the last check, J
     double quiet_since_ = std::numeric_limits<double>::max(); ///< time, s
     Extent extent_; ///< at the time quiet_since_
     bool   has_slid_   = false;

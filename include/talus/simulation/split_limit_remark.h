@@ -8,11 +8,10 @@
 
 namespace talus
 {
-  /// Writes a remark to the log when points that are stretched too far are not
-  /// split for the first time in a run, since a limit of the splitter forbids
-  /// it: soil may tear there. Looks when a row of statistics is due. Points
-  /// that are shorter than `Minimum length` are no reason for the remark: their
-  /// boxes fit into their cells.
+  /// Writes a remark to the log, once per run, when a limit of the splitter
+  /// prevents the split of overstretched points: soil may tear there. Checked
+  /// when a row of statistics is due. Points shorter than `Minimum length` do
+  /// not count, because the boxes fit into the cells.
   template <int dim>
   class SplitLimitRemark : public Observer<dim>
   {
@@ -25,15 +24,17 @@ namespace talus
           const State<dim>     &state,
           Beginning             beginning) override;
 
-    /// Write the remark, if there is a reason for the first time. Collective.
+    /// Write the remark when points are prevented from splitting for the first
+    /// time. Collective.
     void
     observe(const State<dim> &state) override;
 
-    /// Add whether the remark was written: a resumed run does not repeat it.
+    /// Add whether the remark was written: a resumed run does not repeat the
+    /// remark.
     void
     list_state(StateList &list) override;
 
-    /// Do nothing: the log is no result.
+    /// Do nothing: the log is not a result.
     void
     sync() override;
 

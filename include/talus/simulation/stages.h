@@ -11,24 +11,24 @@
 
 namespace talus
 {
-  /// What a run does, one after the other.
+  /// Stages of a run, in order of execution.
   enum class Stage
   {
-    equilibrium,        ///< brings the soil into balance
-    strength_reduction, ///< finds the factor of safety
-    dynamics            ///< lets it go, to the end time
+    equilibrium,        ///< static balance of the soil
+    strength_reduction, ///< search for the factor of safety
+    dynamics            ///< motion of the soil, to the end time
   };
 
 
 
-  /// The stages of a run and how many of them are done.
+  /// Stages of a run, and the number of stages done.
   class Stages : public dealii::ParameterAcceptor
   {
   public:
     Stages();
 
-    /// To be called after parsing. Throws ExcUser unless each stage is listed
-    /// once at most, in the order of Stage.
+    /// Throw ExcUser unless each stage is listed at most once, in the order of
+    /// Stage. Call after parsing.
     void
     check();
 
@@ -41,15 +41,15 @@ namespace talus
       return stages_.front() != Stage::dynamics;
     }
 
-    /// Whether the next one is of those that stand still.
+    /// Return whether the next stage is static.
     bool
     next_is_static() const
     {
       return n_done_ < stages_.size() && stages_[n_done_] != Stage::dynamics;
     }
 
-    /// Whether no other static stage comes after the next one, so that a run may
-    /// go on with the dynamics from there, now or when it is resumed.
+    /// Return whether the next stage is not followed by another static stage,
+    /// so that the dynamics may follow, now or in a resumed run.
     bool
     next_is_last_static() const
     {
@@ -63,7 +63,7 @@ namespace talus
       return stages_[n_done_];
     }
 
-    /// From 1.
+    /// One-based number of the next stage.
     unsigned int
     number() const
     {

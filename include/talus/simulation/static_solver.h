@@ -16,67 +16,70 @@
 
 namespace talus
 {
-  /// Brings the soil of a run into balance, load step by load step, tells of
-  /// them, and can take the soil back to where it was.
+  /// Static solver of a run: finds balance by load steps, reports the load
+  /// steps, and restores earlier states of the soil.
   template <int dim>
   class StaticSolver
   {
   public:
+    /// All arguments must outlive the object.
     StaticSolver(State<dim>          &state,
                  Problem<dim>        &problem,
                  const Transfer<dim> &transfer,
                  BackgroundMesh<dim> &mesh,
                  Log                 &log);
 
-    /// Start newton.csv, or go on with it.
+    /// Start newton.csv; in a resumed run continue the table.
     void
     begin(const std::filesystem::path &folder, Beginning beginning);
 
-    /// Why newton.csv cannot be gone on with; empty on other ranks than the
-    /// first.
+    /// Return the reason why newton.csv cannot be continued; empty on all ranks
+    /// except the first.
     std::string
     cannot_resume(const std::filesystem::path &folder) const;
 
-    /// A stage begins: points and mesh may be others than in the last one.
+    /// Begin a stage: points and mesh may differ from the previous stage.
     void
     begin_stage();
 
-    /// Whether a signal to any rank stopped the last search, which then found
-    /// nothing.
+    /// Return whether a signal to any rank stopped the last search without
+    /// result.
     bool
     is_stopped() const
     {
       return equilibrium_.is_stopped();
     }
 
-    /// What is told of a search: the number of its stage and the factor that
-    /// strengths are divided by.
+    /// Description of a search: number of the stage, and factor by which
+    /// strengths are divided [-].
     struct Label
     {
       unsigned int stage;
       double       strength_factor;
     };
 
-    /// Search from the state as it is without loads. Returns false if there is
-    /// no balance: then no_equilibrium() says why. Collective.
+    /// Search for balance, starting from the current state without loads.
+    /// Returns false if there is no balance; see no_equilibrium(). Collective.
     bool
     find(StrainMeasure measure, const Label &label);
 
-    /// Whether soil in balance with all its load, but with other strengths now,
-    /// finds it again within these limits, in small strain. Collective.
+    /// Search for balance again after a change of strengths, starting from a
+    /// balance at full load, in small strain. Returns whether a balance within
+    /// @p limits was found. Collective.
     bool
     find_again(const EquilibriumLimits &limits, const Label &label);
 
-    /// Whether soil in balance with a well-balanced load finds a balance with
-    /// its weight as the dynamics takes it, too, in small strain. Collective.
+    /// Search for balance with the weight as used in the dynamics, starting
+    /// from a balance with a well-balanced load, in small strain. Returns
+    /// whether a balance was found. Collective.
     bool
     find_with_weight(const Label &label);
 
-    /// Why find() failed, a sentence.
+    /// Sentence with the reason why find() failed.
     std::string
     no_equilibrium() const;
 
-    /// State of points and contact, which a search changes.
+    /// State of points and contact, modified by a search.
     struct Saved
     {
       std::vector<std::vector<double>> columns; ///< of the points
@@ -87,17 +90,17 @@ namespace talus
     Saved
     save() const;
 
-    /// Go back; the points are still where they were.
+    /// Restore a state in place: same points in the same order as at save().
     void
     restore(const Saved &saved);
 
-    /// Go back; points may have moved since, the mesh with them, and to other
-    /// ranks. Collective.
+    /// Restore a state after points have moved, possibly to different ranks,
+    /// with changes of the mesh. Collective.
     void
     bring_back(const Saved &saved);
 
-    /// Go back to the beginning of the stage, newton.csv too; @p saved is the
-    /// state since begin_stage(). Collective.
+    /// Undo a stage, including newton.csv. @p saved is the state at
+    /// begin_stage(). Collective.
     void
     undo_stage(const Saved &saved);
 
@@ -110,7 +113,7 @@ namespace talus
     void
     list_state(StateList &list);
 
-    /// Add the contact of the last load step, if @p is_needed.
+    /// Add the contact of the last load step, if @p is_needed() when saving.
     void
     list_contact(StateList &list, const std::function<bool()> &is_needed)
     {
@@ -118,7 +121,7 @@ namespace talus
     }
 
   private:
-    /// What a load step is told of.
+    /// Data of a load step for the log.
     struct StepNote
     {
       unsigned int        step = 0;

@@ -12,12 +12,13 @@
 
 namespace talus
 {
-  /// The stages of a run in which time stands still: the search for
-  /// equilibrium, and that for the factor of safety.
+  /// Static stages of a run, without time: search for equilibrium and for the
+  /// factor of safety.
   template <int dim>
   class StaticStages
   {
   public:
+    /// All arguments must outlive the object.
     StaticStages(State<dim>          &state,
                  Problem<dim>        &problem,
                  const Transfer<dim> &transfer,
@@ -25,35 +26,35 @@ namespace talus
                  const Output<dim>   &output,
                  Log                 &log);
 
-    /// To be called after parsing and before the stages are asked for. Throws
-    /// ExcUser if they are not what they may be.
+    /// Throw ExcUser if the list of stages is invalid. Call after parsing,
+    /// before any query of the stages.
     void
     check_list()
     {
       stages_.check();
     }
 
-    /// Throw ExcUser if a stage could not do its work; the problem has been
-    /// prepared.
+    /// Throw ExcUser if a listed stage cannot work. Call after the problem has
+    /// been prepared.
     void
     check() const;
 
-    /// Start the files of the stages, or go on with them.
+    /// Start the files of the stages; in a resumed run continue the files.
     void
     begin(const std::filesystem::path &folder, Beginning beginning);
 
-    /// Throw ExcUser if their files are not as the checkpoint left them, before
-    /// any file is cut. Collective.
+    /// Throw ExcUser if the files of the stages differ from the checkpoint.
+    /// Call before any file is truncated. Collective.
     void
     check_resumable(const std::filesystem::path &folder) const;
 
-    /// Do the next stage, which is one of these. If a signal stops it, all is
-    /// as before, and the stage still the next one. Collective.
+    /// Run the next stage, which must be static. If a signal stops the stage,
+    /// the state is restored, and the same stage is still next. Collective.
     void
     run_next();
 
-    /// Throw ExcUser if the dynamics would start from a balance that takes more
-    /// strength than there is.
+    /// Throw ExcUser if the dynamics would start from a balance that needs more
+    /// than the actual strength.
     void
     check_soil_stands() const;
 
@@ -122,8 +123,8 @@ namespace talus
     StrengthReduction  strength_reduction_;
     FailureDepth<dim>  failure_depth_;
 
-    /// The soil is in balance with its strengths divided by this [-]: 1, or less
-    /// where it does not stand with those that it has.
+    /// The soil is in balance with strengths divided by this factor [-]: 1, or
+    /// less if the soil does not stand with the actual strength.
     double standing_factor_ = 1.;
   };
 } // namespace talus

@@ -6,29 +6,29 @@
 
 namespace talus
 {
-  /// What is to happen after a step.
+  /// Action after a step.
   enum class RunRequest : unsigned int
   {
     none       = 0,
-    checkpoint = 1, ///< write one and go on
-    stop       = 2  ///< write one and end
+    checkpoint = 1, ///< write a checkpoint and continue
+    stop       = 2  ///< write a checkpoint and end
   };
 
 
 
-  /// What the ranks must know of each other in a step.
+  /// Data of a step to be agreed by all ranks.
   struct StepPlan
   {
-    double     time_step; ///< s; the least of all ranks is taken
-    RunRequest request;   ///< the greatest of all ranks is fulfilled
-    double     n_points;  ///< those of all ranks are added up
+    double     time_step; ///< s; minimum over the ranks
+    RunRequest request;   ///< maximum over the ranks
+    double     n_points;  ///< sum over the ranks
   };
 
 
 
-  /// Lets all ranks agree on a step, in a single message: but for mesh tracking
-  /// it is the only one in a step that all take part in, and on many ranks it is
-  /// waiting for it that costs.
+  /// Combines the step plans of all ranks in a single message. Without mesh
+  /// tracking, outflow and maps, no other message of a step involves all ranks:
+  /// on many ranks the time is spent waiting for the message.
   class StepAgreement
   {
   public:
@@ -36,7 +36,7 @@ namespace talus
     StepAgreement(const StepAgreement &) = delete;
     ~StepAgreement();
 
-    /// The plan of all. Collective.
+    /// Return the combined plan of all ranks. Collective.
     StepPlan
     agree(const StepPlan &own, MPI_Comm communicator) const;
 

@@ -13,29 +13,35 @@
 
 namespace talus
 {
-  /// Chooses the time step of the explicit scheme: with c the speed of the
-  /// fastest wave at a point, v its speed, h its cell and l_d the clipped half
-  /// lengths of its box,
+  /// Time step of the explicit scheme, with the fastest wave speed c at a
+  /// point, speed v of the point, cell size h, and clipped half lengths l_d of
+  /// the box:
   ///   dt = min over points of  cfl h/(c + |v|)  and
   ///                            safety 2 (h/c)/sqrt(sum_d h/l_d),
   ///                            (h/c) sqrt(2/lambda(max_d h/l_d)).
-  /// The second bound is the stability limit of a thin box: its mass on the
-  /// nodes falls with l, its stiffness does not. The third one is that of a free
-  /// surface just beyond a face of the cells.
+  /// The second bound is the stability limit of a thin box, whose nodal mass
+  /// decreases with l while the stiffness does not. The third bound is the
+  /// stability limit of a free surface just beyond a face of the cells.
   template <int dim>
   class TimeStep : public dealii::ParameterAcceptor
   {
   public:
     TimeStep();
 
-    /// Forget all points.
+    /// Start a new minimum over points.
     void
     begin()
     {
       largest_ = 0;
     }
 
-    /// Take the points of a batch into account.
+    /// Include the points of a batch in the minimum.
+    ///
+    /// @param points material points
+    /// @param batch range of points
+    /// @param grid with the cell sizes
+    /// @param materials with the wave moduli
+    /// @param shape of the boxes
     void
     add_batch(const Points<dim>    &points,
               const Batch          &batch,
@@ -43,21 +49,21 @@ namespace talus
               const Materials<dim> &materials,
               const BoxShape       &shape);
 
-    /// The step that the points added since begin() allow, s; infinite if there
-    /// are none. Throws ExcPoint if it is not a positive number.
+    /// Stable time step of the points added since begin(), s; infinite without
+    /// points. Throws ExcPoint if the result is not positive.
     double
     stable_time_step(const Points<dim>    &points,
                      const Materials<dim> &materials) const;
 
-    /// The step that all points of this rank allow.
+    /// Stable time step of all points of the local rank, s.
     double
     choose(const Points<dim>    &points,
            const Grid<dim>      &grid,
            const Materials<dim> &materials,
            const BoxShape       &shape);
 
-    /// Sentence that names what limits the step in this state, right on the
-    /// first rank. Collective.
+    /// Sentence naming the bound and the point that limit the current time
+    /// step; valid on the first rank. Collective.
     std::string
     limited_by(const Points<dim>    &points,
                const Grid<dim>      &grid,
@@ -71,7 +77,7 @@ namespace talus
                           const Grid<dim>      &grid,
                           const Materials<dim> &materials);
 
-    /// Squares of the inverse of the three bounds at point(s) p, 1/s^2.
+    /// Inverse squares of the three bounds at point(s) p, 1/s^2.
     template <typename Number>
     std::array<Number, 3>
     inverse_squares(const PointsView<dim, const double> &points,
@@ -80,7 +86,7 @@ namespace talus
                     const Number                        &wave_modulus,
                     const Number &inverse_cell_size) const;
 
-    /// Name and place of the first point whose speed is not finite.
+    /// Identify the first point with a value that is not finite.
     std::string
     first_without_bound(const Points<dim>    &points,
                         const Materials<dim> &materials) const;
@@ -89,19 +95,19 @@ namespace talus
     double box_safety_factor_ = 0.9;
     double maximum_           = 0.;
 
-    /// The largest inverse square of a bound so far, 1/s^2.
+    /// Maximum inverse square of a bound so far, 1/s^2.
     double largest_ = 0;
 
-    // Of a batch.
+    // Scratch data of a batch.
     std::vector<double> wave_modulus_;
     std::vector<double> inverse_cell_size_;
   };
 
 
 
-  /// Throw ExcPoint if @p time + @p dt is not later than @p time, s, as with a
-  /// step that is lost in round-off: the run would go on for ever. Only then
-  /// what limits the step is asked for.
+  /// Throw ExcPoint if @p time + @p dt is not later than @p time, s: a step
+  /// lost in round-off would continue the run for ever. @p limited_by is called
+  /// only in case of error.
   void
   check_time_goes_on(double                              time,
                      double                              dt,
