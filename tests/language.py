@@ -108,7 +108,8 @@ POINTING_WORD = re.compile(
 WORD = re.compile(r"[A-Za-z][A-Za-z'-]*")
 OPENING = re.compile(
     r"(that|those|these|this|it|its|they|them|their|such|so|else|ones|both|"
-    r"one (?:of|that|which|who)|others?|what|whatever|whoever|who|whom|whose|which|where|of|"
+    r"one (?:of|that|which|who)|others?|what|whatever|whoever|who|whom|whose|"
+    r"which|where|of|"
     r"in which|from which|to which|by which|the same|the other|the others)\b",
     re.IGNORECASE)
 # What is used instead is in CONTRIBUTING.md.
@@ -265,7 +266,8 @@ def compare(what, name, found, ceilings, usual, problems, spare):
     """Note a count over its ceiling, and a ceiling that is not needed."""
     ceiling = ceilings.get(name, usual)
     if found > ceiling + 0.05:
-        problems.append("%s: %.4g %s, at most %.4g" % (name, found, what, ceiling))
+        problems.append("%s: %.4g %s, at most %.4g" % (name, found, what,
+                                                       ceiling))
         return True
     if name in ceilings and found <= usual:
         spare.append("delete the ceiling of '%s': %s" % (name, what))
