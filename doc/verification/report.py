@@ -188,7 +188,7 @@ def write_table(rows, compares):
         if compares else "gate | verdict |\n|---|---|---|---|---|\n")
     last = None
     for row in rows:
-        case = "%s<br>`%s`<br>%s" % (row["case"], row["run"], row["source"])
+        case = "%s <br>`%s` <br>%s" % (row["case"], row["run"], row["source"])
         value, reference, error = values(row)
         cells = [case if case != last else "", row["quantity"], value]
         if compares:
