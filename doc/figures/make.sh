@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# Run the cases and make all pictures of the documentation, doc/figures/*.png.
+# Run the cases and make all pictures of the documentation, doc/figures/*.png
+# and *.svg.
 #
 #   doc/figures/make.sh [TALUS [SCRATCH]]
 #
@@ -62,6 +63,7 @@ draw() {
   shift
   /usr/bin/python3 "$here/$script.py" "$@"
 }
+draw concepts $here
 draw bar $here/bar.png $scratch/bar $scratch/bar-unsplit
 draw landslide $scratch/landslide $here/landslide.png
 draw landslide $scratch/first-slope $here/first-slope.png

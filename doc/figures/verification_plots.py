@@ -121,6 +121,7 @@ def vertical_cut(source, target):
 
 def deposits(results, target):
     """Height of the soil in the last rows of profile.csv."""
+    is_empty = True
     figure, axes = plt.subplots(figsize=(7.8, 1.9), constrained_layout=True)
     for label, name, color, dash in (
             ("h = 0.2 m", "landslide-full", SPLIT, "-"),
@@ -128,9 +129,13 @@ def deposits(results, target):
             ("h = 0.4 m, unsplit", "landslide-unsplit", UNSPLIT, "-")):
         table = read(os.path.join(results, name, "profile.csv"))
         if table:
+            is_empty = False
             last = table["time [s]"] == table["time [s]"][-1]
             axes.plot(table["x [m]"][last], table["highest [m]"][last], dash,
                       color=color, label=label)
+    if is_empty:
+        plt.close(figure)
+        return None
     axes.set_title("landslide of the paper at rest: height of the soil [m]")
     axes.set_xlabel("x [m]")
     axes.set_ylim(0, 2.6)
@@ -140,43 +145,20 @@ def deposits(results, target):
 
 
 def draw_all(source, target):
-    """Draw what there are series for; returns file names and captions by the
-    heading they belong to."""
-    pictures = {}
-
-    def add(heading, name, caption):
-        if name:
-            pictures.setdefault(heading, []).append((name, caption))
-
-    add("The bar of the paper", bar(source, target),
-        "Velocity of the bar's centre of mass over ten periods.")
-    add("Manufactured solutions", convergence(source, target),
-        "Errors under refinement. With boxes that follow the deformation the "
-        "order is two (vortex: above one), with and without splits; with fixed "
-        "boxes it is lost.")
-    add("Elasticity", profiles(
-        source, target,
-        [("vertical stress [kPa]", "kPa",
-          [("16 cells", "column-16"), ("64 cells", "column-64")])],
-        "verification-column.png"),
-        "Self-weight column: stress over the height before the load.")
-    add("Seabed and layers", profiles(
-        source, target,
-        [("velocity down the slope", "m/s",
-          [("Bingham", "layer-bingham"),
-           ("Herschel-Bulkley, n = 0.5", "layer-herschel-bulkley")]),
-         ("shear stress", "Pa", [("layer on a capped seabed", "shear-layer")])],
-        "verification-layers.png"),
-        "Viscoplastic layers on a slope of 5 degrees, and a layer that slides "
-        "on a capped seabed, against their closed forms (grey).")
-    add("Seabed and layers", vertical_cut(source, target),
-        "Vertical cut in clay under growing weight. Runs end where the crest "
-        "has settled by 0.2 % of the height. Grey: bounds of the load at which "
-        "it collapses.")
-    add("Obstacles", "pipe-flow.png",
-        "Clay around a pipe that has been dragged by 0.2 D, cells of D/16. "
-        "Speeds of the points, whose noise beside the pipe the grid does not "
-        "see.")
-    add("The landslide of the paper", deposits(os.path.join(source, "..", ".."), target),
-        "Shape of the deposit.")
-    return pictures
+    """Draw the pictures of the verification from the series in the folder
+    @p source, into the folder @p target."""
+    bar(source, target)
+    convergence(source, target)
+    profiles(source, target,
+             [("vertical stress [kPa]", "kPa",
+               [("16 cells", "column-16"), ("64 cells", "column-64")])],
+             "verification-column.png")
+    profiles(source, target,
+             [("velocity down the slope", "m/s",
+               [("Bingham", "layer-bingham"),
+                ("Herschel-Bulkley, n = 0.5", "layer-herschel-bulkley")]),
+              ("shear stress", "Pa",
+               [("layer on a capped seabed", "shear-layer")])],
+             "verification-layers.png")
+    vertical_cut(source, target)
+    deposits(os.path.join(source, "..", ".."), target)

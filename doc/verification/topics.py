@@ -1,0 +1,119 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Pages of the verification, and what kind of evidence each row is.
+
+PAGES lists, per page, the capabilities in the order of the page, and below each
+capability the test suites of ctest's label `verification` that hold it. A new suite
+needs an entry here, and in SLOW if it has the label `slow`.
+"""
+
+import re
+
+# (file, title, [(capability, [suite, ...]), ...])
+PAGES = [
+    ("scheme", "Transfer, convergence and elasticity", [
+        ("Bar of the paper", ["Bar", "BarConvergence"]),
+        ("Manufactured solutions",
+         ["ManufacturedBar", "Manufactured2d", "Manufactured3d", "Vortex",
+          "ExpandingRing"]),
+        ("Elasticity at large strain",
+         ["Discs", "SelfWeightColumn", "ElasticaLoads", "Elastica"]),
+        ("Convected domains", ["Cantilever", "HangingCube"]),
+    ]),
+    ("strength", "Strength and flow", [
+        ("Strength at one point", ["OnePoint"]),
+        ("Layers on a slope", ["ShearLayer", "ViscoplasticLayer"]),
+        ("Vertical cut", ["VerticalCut", "VerticalCutBracket"]),
+    ]),
+    ("contact", "Seabed, obstacles and water", [
+        ("Seabed", ["Block"]),
+        ("Thin layers", ["ThinLayers"]),
+        ("Obstacles", ["BlockOnPlane", "Arc", "Container", "Bowl"]),
+        ("Pipes in clay", ["Pipe", "PipeRefined"]),
+        ("Water", ["BlockInWater"]),
+        ("Runout, rest and outflow", ["Runout", "Rest", "Outflow"]),
+    ]),
+    ("statics", "Equilibrium and factor of safety", [
+        ("Equilibrium",
+         ["ImplicitColumn", "ImplicitElasticaLoads", "ImplicitElastica",
+          "Multigrid"]),
+        ("Factor of safety",
+         ["InfiniteSlope", "TaylorSlope", "PaperSlopeSafety", "ClaySlope",
+          "ClaySlopeFine", "SlopeStability", "StripFooting",
+          "StripFootingFine", "VerticalCutSafety", "VerticalCutSafetyFine"]),
+        ("Initial stress, trigger and ground motion",
+         ["Geostatic", "Trigger", "GroundMotion", "LandslideFromEquilibrium",
+          "LandslideFromEquilibriumFine"]),
+    ]),
+    ("landslide", "The landslide of the paper", [
+        ("Landslide to rest",
+         ["LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
+          "LandslideStretched", "LandslideUnsplit", "LandslideSimilarity",
+          "LandslideOfLayers", "Landslide3d"]),
+        ("Numerical fracture and thin slides", ["HangingBlock", "ThinSlide"]),
+        ("Merging", ["LandslideMerged"]),
+        ("Filter and boxes", ["QuietPoints", "Boxes"]),
+        ("Landslide on an obstacle",
+         ["LandslideInclined", "LandslideInclined3d", "LandslideInclinedFull",
+          "LandslideInclinedFine"]),
+    ]),
+]
+
+SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
+        "VerticalCutBracket", "ElasticaLoads", "ImplicitElasticaLoads",
+        "StripFootingFine", "VerticalCutSafetyFine", "ClaySlopeFine",
+        "SlopeStability", "LandslideFromEquilibriumFine", "PipeRefined",
+        "LandslideInclinedFull", "LandslideInclinedFine",
+        "LandslideInclined3d"}
+
+# Kinds of evidence: name, heading of the column of the matrix, explanation.
+KINDS = [
+    ("reference", "reference",
+     "a closed form, a published value or an independent computation"),
+    ("order", "order",
+     "order of convergence, or growth of the work under refinement"),
+    ("balance", "balance",
+     "a conservation law, or the continuity of the body"),
+    ("agreement", "agreement",
+     "two computations of talus that must agree: other cells, another "
+     "direction, two or three dimensions"),
+    ("baseline", "baseline",
+     "values of talus itself: the gate notices a change and says nothing about "
+     "accuracy"),
+]
+
+# (kind, suites, text in `case | quantity | source`); the first that matches. A
+# row without a match is compared with a reference.
+RULES = [
+    ("order", "", r"order of|growth per halving|residuals of one load step"),
+    ("baseline", "Boxes", ""),
+    ("balance", "Bowl", r"height"),
+    ("baseline", "Discs", r"speed towards each other"),
+    ("baseline", "", r"at rest from|highest point at rest|unsplit: |"
+     r"points at rest|splits / splits|speed of points|scatter of the mean|"
+     r"largest stretch|mean thickness|3 generations|\| without: |merging work"),
+    ("balance", "", r"energy (drift|lost|created|gained|remainder)|ledger|"
+     r"mass inside|empty interior|empty columns|bodies|work of the loads|"
+     r"mass below|seabed force over|kinetic energy before"),
+    ("agreement", "LandslideFromEquilibrium", r"\| front"),
+    ("reference", "Trigger|Outflow", ""),
+    ("balance", "", r"momentum"),
+    ("agreement", "LandslideInclined|LandslideSimilarity|LandslideOfLayers|"
+     "LandslideMerged|Landslide3d|QuietPoints|PaperSlopeSafety", ""),
+    ("agreement", "", r"the same pipe|to the right|no splits|against T/6|"
+     r"well-balanced load|after equilibrium with|difference to \d+ s"),
+]
+
+
+def kind_of(suite, row):
+    """Kind of evidence of a row, by name."""
+    text = " | ".join((row["case"], row["quantity"], row["source"]))
+    for kind, suites, pattern in RULES:
+        if re.match(suites, suite) and re.search(pattern, text):
+            return kind
+    return "reference"
+
+
+def page_of():
+    """File of the page by suite."""
+    return {suite: page for page, _, sections in PAGES
+            for _, suites in sections for suite in suites}
