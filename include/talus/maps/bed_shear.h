@@ -9,7 +9,7 @@ namespace talus
 {
   /// Add the forces along the bed that the soil felt in the last step: from the
   /// facets of obstacles that belong to the ground, and from the bottom face of
-  /// the mesh if it is a seabed (see Boundaries::remember_bed_friction()).
+  /// the mesh if it is a seabed (Boundaries::bed_friction()).
   template <int dim>
   void
   add_bed_shear(const State<dim>        &state,

@@ -36,11 +36,11 @@ namespace talus
     bool
     is_beyond(const dealii::Point<dim> &x, const Box<dim> &domain) const;
 
-    /// Add point @p p to the account. @p added_mass is that of State.
+    /// Add point @p p to the account. @p added_mass as in RunConstants.
     void
-    book(const Points<dim>         &points,
-         unsigned int               p,
-         const std::vector<double> &added_mass);
+    record(const Points<dim>         &points,
+           unsigned int               p,
+           const std::vector<double> &added_mass);
 
     /// Energy that left from this rank, J: kinetic energy of soil and added
     /// mass, elastic energy, and the plastic work that the points had stored.
