@@ -584,11 +584,12 @@ namespace talus
     add("largest generation",
         Utilities::MPI::max(statistics_.largest_generation, communicator));
     add("clipped boxes",
-        Utilities::MPI::sum(
-          count_clipped_boxes(state.points, state.grid, state.box_shape),
-          communicator));
+        Utilities::MPI::sum(count_clipped_boxes(state.points,
+                                                state.grid,
+                                                state.constants.box_shape),
+                            communicator));
     const UnsplitPoints unsplit =
-      count_unsplit(state.points, state.grid, state.box_shape.rule);
+      count_unsplit(state.points, state.grid, state.constants.box_shape.rule);
     add("points at generation limit", unsplit.at_generation_limit);
     add("points at mesh limit", unsplit.at_mesh_limit);
     add("points at length limit", unsplit.at_length_limit);

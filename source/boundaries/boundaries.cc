@@ -13,6 +13,8 @@ namespace talus
 
   namespace
   {
+    constexpr unsigned int bottom_face = 2; // in both dimensions
+
     template <int dim>
     using ConditionPtr = std::unique_ptr<BoundaryCondition<dim>>;
 
@@ -89,10 +91,10 @@ namespace talus
   // needed.
   template <int dim>
   void
-  Boundaries<dim>::locate_nodes(const Grid<dim> &grid)
+  Boundaries<dim>::prepare(const Grid<dim> &grid)
   {
     places_.clear();
-    if (reactions_.is_enabled() || remembers_friction_ ||
+    if (reactions_.is_enabled() || is_seabed(bottom_face) ||
         std::any_of(conditions_.begin(),
                     conditions_.end(),
                     [](const auto &condition) {
@@ -107,6 +109,18 @@ namespace talus
       seabed_.locate(places_, [&](const unsigned int node) {
         return grid.faces_of_node(node) & seabed_faces;
       });
+  }
+
+
+
+  template <int dim>
+  void
+  Boundaries<dim>::open_accounts(Accounts<dim> &accounts)
+  {
+    accounts.open_energy("friction work");
+    accounts.open_energy("contact work");
+    accounts.open_impulse("seabed impulse");
+    accounts.open_impulse("wall impulse");
   }
 
 
@@ -191,11 +205,11 @@ namespace talus
 
   template <int dim>
   void
-  Boundaries<dim>::book_walls(const NodalFields<dim> &nodes,
-                              const unsigned char     faces,
-                              const unsigned int      node,
-                              const Tensor<1, dim>   &impulse,
-                              Works<dim>             &work)
+  Boundaries<dim>::record_walls(const NodalFields<dim> &nodes,
+                                const unsigned char     faces,
+                                const unsigned int      node,
+                                const Tensor<1, dim>   &impulse,
+                                BoundaryWork<dim>      &work)
   {
     work.contact -= impulse * nodes.mean_velocity(node);
     work.wall_impulse += impulse;
@@ -212,11 +226,11 @@ namespace talus
                                 const unsigned int  node,
                                 const double        t,
                                 const double        dt,
-                                Works<dim>         &work)
+                                BoundaryWork<dim>  &work)
   {
     const Tensor<1, dim> impulse =
       constraints_at(faces, node, t + 0.5 * dt).impose(nodes, node);
-    book_walls(nodes, faces, node, impulse, work);
+    record_walls(nodes, faces, node, impulse, work);
   }
 
 
@@ -286,7 +300,7 @@ namespace talus
                                  const unsigned int node,
                                  const double       t,
                                  const double       dt,
-                                 Works<dim>        &work)
+                                 BoundaryWork<dim> &work)
   {
     const unsigned char faces = grid.faces_of_node(node);
     using Impulses            = std::pair<Tensor<1, dim>, Tensor<1, dim>>;
@@ -306,8 +320,7 @@ namespace talus
           of_condition[c] = condition.apply_contact(nodes, grid, node, dt, gap);
           contact += of_condition[c].first;
           friction += of_condition[c].second;
-          if (constexpr unsigned int bottom = 2;
-              remembers_friction_ && condition.face() == bottom)
+          if (condition.face() == bottom_face)
             bed_friction_.emplace_back(place_of(node),
                                        of_condition[c].second / dt);
         }
@@ -337,14 +350,14 @@ namespace talus
   // Node by node: with the lumped mass none of them feels its neighbours, and
   // the order of the nodes does not matter but for the round-off in the sums.
   template <int dim>
-  Works<dim>
+  BoundaryWork<dim>
   Boundaries<dim>::apply(NodalFields<dim> &nodes,
                          const Grid<dim>  &grid,
                          const double      t,
                          const double      dt,
                          const double      mass_cutoff)
   {
-    Works<dim> work;
+    BoundaryWork<dim> work;
     bed_friction_.clear();
     seabed_.begin_step();
     for (const unsigned int node : nodes.active_boundary_nodes())
@@ -520,7 +533,7 @@ namespace talus
   // stand anywhere in the file.
   template <int dim>
   void
-  Boundaries<dim>::prepare(const Constants &constants)
+  Boundaries<dim>::parse(const Constants &constants)
   {
     for (unsigned int face = 0; face < 2 * dim; ++face)
       check_expressions(face);

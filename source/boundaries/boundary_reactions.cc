@@ -11,40 +11,19 @@ namespace talus
     is_enabled_ = is_enabled;
     names_      = names;
     steps_.assign(names.size(), {});
-    reactions_.assign(names.size(), {});
+    reactions_.assign(is_enabled ? names.size() : 0, {});
   }
 
 
 
   template <int dim>
   void
-  BoundaryReactions<dim>::finish_step(const double   dt,
-                                      const MPI_Comm communicator)
+  BoundaryReactions<dim>::finish_step(const MPI_Comm communicator)
   {
     if (!is_enabled_)
       return;
-    add_to_reactions(steps_, dt, averaging_time_, communicator, reactions_);
+    add_to_reactions(steps_, communicator, reactions_);
     steps_.assign(names_.size(), {});
-  }
-
-
-
-  template <int dim>
-  void
-  BoundaryReactions<dim>::start_interval()
-  {
-    for (Reaction<dim> &reaction : reactions_)
-      reaction.start_interval();
-  }
-
-
-
-  template <int dim>
-  void
-  BoundaryReactions<dim>::list_quantities(Quantities &row) const
-  {
-    for (unsigned int k = 0; k < names_.size(); ++k)
-      reactions_[k].list_quantities(names_[k], row);
   }
 
 
@@ -53,9 +32,8 @@ namespace talus
   void
   BoundaryReactions<dim>::list_state(StateList &list)
   {
-    if (is_enabled_)
-      for (unsigned int k = 0; k < names_.size(); ++k)
-        reactions_[k].list_state("face " + names_[k], list);
+    for (unsigned int k = 0; k < reactions_.size(); ++k)
+      reactions_[k].list_state("face " + names_[k], list);
   }
 
 

@@ -9,8 +9,11 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  Damping<dim>::Damping()
+  Damping<dim>::Damping(const Boundaries<dim>            &boundaries,
+                        const std::vector<unsigned char> &feels_obstacle)
     : ParameterAcceptor("/Damping")
+    , boundaries_(boundaries)
+    , feels_obstacle_(feels_obstacle)
   {
     add_parameter("Local damping",
                   coefficient_,
@@ -30,22 +33,20 @@ namespace talus
   // which the limit 2 |w| keeps from turning around: so it is never negative.
   template <int dim>
   double
-  Damping<dim>::apply(NodalFields<dim>                 &nodes,
-                      const Grid<dim>                  &grid,
-                      const Boundaries<dim>            &boundaries,
-                      const std::vector<unsigned char> &feels_obstacle,
-                      const double                      mass_cutoff) const
+  Damping<dim>::apply(NodalFields<dim> &nodes,
+                      const Grid<dim>  &grid,
+                      const double      mass_cutoff) const
   {
     double work = 0;
     if (coefficient_ == 0)
       return work;
     for (const unsigned int node : nodes.active_nodes())
       if (nodes.mass(node) > mass_cutoff &&
-          (feels_obstacle.empty() || !feels_obstacle[node]))
+          (feels_obstacle_.empty() || !feels_obstacle_[node]))
         {
           const unsigned char faces = grid.faces_of_node(node);
           const unsigned char held =
-            (faces == 0 ? 0 : boundaries.constrained_components(faces));
+            (faces == 0 ? 0 : boundaries_.constrained_components(faces));
           const Tensor<1, dim> mean = nodes.mean_velocity(node);
           Tensor<1, dim>       v    = nodes.velocity(node);
           for (unsigned int d = 0; d < dim; ++d)

@@ -29,14 +29,16 @@ namespace talus
     for (const unsigned int node : facets_.nodes_on_faces())
       held_[node] = boundaries.components_constrained_by_walls(
         state.grid.faces_of_node(node));
+    BoundaryWork<dim> work;
     for (const unsigned int node : facets_.owned_nodes_on_faces())
-      if (held_[node] && state.nodes.mass(node) > state.mass_cutoff)
+      if (held_[node] && state.nodes.mass(node) > state.constants.mass_cutoff)
         boundaries.impose_walls(state.nodes,
                                 state.grid.faces_of_node(node),
                                 node,
                                 state.time,
                                 state.time_step,
-                                state.works);
+                                work);
+    work.record(state.accounts);
   }
 
 
@@ -57,7 +59,7 @@ namespace talus
       {
         const double mass = nodes.mass(node);
         const double room = facets_.open_volume(node);
-        if (mass <= state.mass_cutoff || room <= 0)
+        if (mass <= state.constants.mass_cutoff || room <= 0)
           continue;
         active_.push_back(node);
         double *const record = records_.data() + std::size_t(width) * node;
@@ -105,9 +107,10 @@ namespace talus
 
   template <int dim>
   void
-  ContactNodes<dim>::book_walls(State<dim>      &state,
-                                Boundaries<dim> &boundaries) const
+  ContactNodes<dim>::record_walls(State<dim>      &state,
+                                  Boundaries<dim> &boundaries) const
   {
+    BoundaryWork<dim> work;
     for (const unsigned int node : facets_.owned_nodes_on_faces())
       if (held_[node])
         {
@@ -115,12 +118,10 @@ namespace talus
           for (unsigned int d = 0; d < dim; ++d)
             if (is_held(node, d))
               taken_up[d] = -totals_[std::size_t(dim) * node + d];
-          boundaries.book_walls(state.nodes,
-                                state.grid.faces_of_node(node),
-                                node,
-                                taken_up,
-                                state.works);
+          boundaries.record_walls(
+            state.nodes, state.grid.faces_of_node(node), node, taken_up, work);
         }
+    work.record(state.accounts);
   }
 
 

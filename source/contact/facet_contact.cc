@@ -47,8 +47,10 @@ namespace talus
 
 
   template <int dim>
-  FacetContact<dim>::FacetContact(Obstacles<dim> &obstacles)
+  FacetContact<dim>::FacetContact(Obstacles<dim>  &obstacles,
+                                  Boundaries<dim> &boundaries)
     : obstacles_(obstacles)
+    , boundaries_(boundaries)
     , reactions_(obstacles.size())
   {}
 
@@ -84,11 +86,11 @@ namespace talus
   // component that a wall holds is one that no facet can change.
   template <int dim>
   void
-  FacetContact<dim>::apply(State<dim> &state, Boundaries<dim> &boundaries)
+  FacetContact<dim>::correct_velocities(State<dim> &state)
   {
     if (obstacles_.empty())
       return;
-    nodes_.hold_walls(state, boundaries);
+    nodes_.hold_walls(state, boundaries_);
     find_constraints(state);
     warm_start(state);
     const unsigned int n_sweeps = (!has_begun_         ? n_first_sweeps
@@ -149,7 +151,7 @@ namespace talus
   /// To where they are at the end of the step. Impulses stay with their cells.
   template <int dim>
   void
-  FacetContact<dim>::move_obstacles(const State<dim> &state)
+  FacetContact<dim>::begin_step(State<dim> &state)
   {
     if (obstacles_.empty())
       return;
@@ -272,7 +274,7 @@ namespace talus
     for (const auto &inside : facets_.nodes_inside())
       {
         const double mass = state.nodes.mass(inside.node);
-        if (mass <= state.mass_cutoff)
+        if (mass <= state.constants.mass_cutoff)
           continue;
         const Obstacle<dim> &obstacle = obstacles_[inside.obstacle];
         const Tensor<1, dim> n        = obstacle.normal(inside.place);
@@ -294,8 +296,8 @@ namespace talus
   /// This rank's shares.
   template <int dim>
   void
-  FacetContact<dim>::book_facets(const State<dim>               &state,
-                                 std::vector<StepReaction<dim>> &steps) const
+  FacetContact<dim>::record_facets(const State<dim>               &state,
+                                   std::vector<StepReaction<dim>> &steps) const
   {
     for (const unsigned int c : constraints_.loaded())
       {
@@ -335,33 +337,19 @@ namespace talus
   // the kinetic energy.
   template <int dim>
   void
-  FacetContact<dim>::book(State<dim> &state, Boundaries<dim> &boundaries)
+  FacetContact<dim>::record(State<dim> &state)
   {
     if (obstacles_.empty())
       return;
-    nodes_.book_walls(state, boundaries);
+    nodes_.record_walls(state, boundaries_);
     std::vector<StepReaction<dim>> steps(obstacles_.size());
-    book_facets(state, steps);
+    record_facets(state, steps);
     for (const StepReaction<dim> &step : steps)
       {
-        state.works.friction += step.friction_work;
-        state.works.contact += step.contact_work;
+        state.accounts.energy("friction work") += step.friction_work;
+        state.accounts.energy("contact work") += step.contact_work;
       }
-    add_to_reactions(steps,
-                     state.time_step,
-                     averaging_time_,
-                     state.communicator(),
-                     reactions_);
-  }
-
-
-
-  template <int dim>
-  void
-  FacetContact<dim>::start_interval()
-  {
-    for (Reaction<dim> &reaction : reactions_)
-      reaction.start_interval();
+    add_to_reactions(steps, state.communicator(), reactions_);
   }
 
 

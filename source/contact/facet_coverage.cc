@@ -217,7 +217,7 @@ namespace talus
         {
           const Point<dim> x = load_place(points, points.position, p) + shift;
           const Tensor<1, dim> half =
-            half_lengths_of_box(points, state.box_shape, p);
+            half_lengths_of_box(points, state.constants.box_shape, p);
           for (unsigned int i = 0; i < samples.size(); ++i)
             {
               const Tensor<1, dim> from   = x - samples[i];

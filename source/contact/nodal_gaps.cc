@@ -131,7 +131,7 @@ namespace talus
     Tensor<1, dim> half;
     for (unsigned int d = 0; d < dim; ++d)
       half[d] = half_length_in_cells<dim>(
-        state.points, state.box_shape, d, p, 1. / cell.size);
+        state.points, state.constants.box_shape, d, p, 1. / cell.size);
     return half;
   }
 
@@ -189,7 +189,8 @@ namespace talus
   NodalGaps<dim>::add_segment(const State<dim> &state, const Segment &segment)
   {
     const Cell<dim> &cell = state.grid.cells()[segment.cell];
-    if (cell.uniform && state.box_shape.rule != BoxRule::convected_domain)
+    if (cell.uniform &&
+        state.constants.box_shape.rule != BoxRule::convected_domain)
       {
         add_to_patch(state, segment);
         return;
@@ -200,8 +201,12 @@ namespace talus
       {
         find_of_point(load_place(state.points, state.points.position, p),
                       cell.size * half_lengths(state, cell, p));
-        weights_of_point(
-          state.points, state.grid, state.box_shape, segment.cell, p, weights);
+        weights_of_point(state.points,
+                         state.grid,
+                         state.constants.box_shape,
+                         segment.cell,
+                         p,
+                         weights);
         for (const NodeWeight<dim> &weight : weights)
           if (weight.value > 0 && is_open_[weight.node])
             lower(weight.node);

@@ -20,7 +20,7 @@ namespace talus
                          const unsigned int p)
     {
       Tensor<1, dim> half =
-        half_lengths_of_box(state.points, state.box_shape, p);
+        half_lengths_of_box(state.points, state.constants.box_shape, p);
       for (unsigned int d = 0; d < dim; ++d)
         half[d] = std::min(half[d], 0.5 * state.grid.cells()[cell].size);
       return half;

@@ -181,7 +181,7 @@ namespace talus
                    const Tensor<1, dim> &half)
     {
       const Points<dim> &points = state.points;
-      if (state.box_shape.rule == BoxRule::convected_domain)
+      if (state.constants.box_shape.rule == BoxRule::convected_domain)
         return points.data(points.reference_volume)[p] *
                determinant(load_matrix<dim, double>(points,
                                                     points.deformation_gradient,
@@ -211,14 +211,15 @@ namespace talus
       {
         const double x = state.points.data(state.points.position, axis)[p];
         const Tensor<1, dim> half =
-          half_lengths_of_box(state.points, state.box_shape, p);
+          half_lengths_of_box(state.points, state.constants.box_shape, p);
         const double distance =
           (at.face % 2 == 0 ? x - domain.lower[axis] : domain.upper[axis] - x);
         double area = weight_of_gap((distance - half[axis]) / cell.size);
         if (area == 0)
           continue;
         area *= section_of_box(state, p, axis, half);
-        if (cell.uniform && state.box_shape.rule != BoxRule::convected_domain)
+        if (cell.uniform &&
+            state.constants.box_shape.rule != BoxRule::convected_domain)
           add_to_patch(state, at, p, area);
         else
           add_by_weights(state, at, p, area);
@@ -240,11 +241,11 @@ namespace talus
     for (unsigned int d = 0; d < dim; ++d)
       if (d != axis)
         share[d] =
-          axis_weights((state.points.data(state.points.position, d)[p] -
-                        cell.lower[d]) /
-                         cell.size,
-                       half_length_in_cells<dim>(
-                         state.points, state.box_shape, d, p, 1. / cell.size))
+          axis_weights(
+            (state.points.data(state.points.position, d)[p] - cell.lower[d]) /
+              cell.size,
+            half_length_in_cells<dim>(
+              state.points, state.constants.box_shape, d, p, 1. / cell.size))
             .value;
     for (unsigned int k = 0; k < cell.patch.size(); ++k)
       if (k / power(4, axis) % 4 == at.row)
@@ -270,8 +271,12 @@ namespace talus
                                       const unsigned int p,
                                       const double       area_of_box)
   {
-    weights_of_point(
-      state.points, state.grid, state.box_shape, at.cell, p, weights_);
+    weights_of_point(state.points,
+                     state.grid,
+                     state.constants.box_shape,
+                     at.cell,
+                     p,
+                     weights_);
     const auto is_on_face = [&](const NodeWeight<dim> &weight) {
       return state.grid.faces_of_node(weight.node) & (1u << at.face);
     };

@@ -54,7 +54,7 @@ namespace talus
     sum_forces(problem);
     unknowns_.number(problem.state.nodes,
                      problem.state.grid,
-                     problem.state.mass_cutoff);
+                     problem.state.constants.mass_cutoff);
     weights_.compute(problem.state.points,
                      problem.state.grid,
                      problem.transfer.box_shape(),

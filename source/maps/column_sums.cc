@@ -77,7 +77,7 @@ namespace talus
   ColumnSums<dim>::find_footprints(const State<dim> &state, const Batch &batch)
   {
     const Points<dim> &points = state.points;
-    const BoxRule      rule   = state.box_shape.rule;
+    const BoxRule      rule   = state.constants.box_shape.rule;
     const unsigned int n      = batch.end - batch.begin;
     footprints_.resize(n);
     volumes_.resize(n);

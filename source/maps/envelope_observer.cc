@@ -38,8 +38,6 @@ namespace talus
     if (is_first_rank(state.communicator()))
       envelope_->restore(restored_);
     restored_.clear();
-    problem_.boundaries.remember_bed_friction();
-    problem_.boundaries.locate_nodes(state.grid);
   }
 
 

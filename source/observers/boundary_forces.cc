@@ -4,8 +4,8 @@
 namespace talus
 {
   template <int dim>
-  BoundaryForces<dim>::BoundaryForces(BoundaryReactions<dim> &reactions)
-    : QuantityTable<dim>("boundaries.csv")
+  BoundaryForces<dim>::BoundaryForces(const BoundaryReactions<dim> &reactions)
+    : ReactionTable<dim>("boundaries.csv")
     , reactions_(reactions)
   {}
 
@@ -25,28 +25,9 @@ namespace talus
   BoundaryForces<dim>::evaluate(const State<dim> &state) const
   {
     Quantities row = {{"time", "s", state.time}};
-    reactions_.list_quantities(row);
+    for (unsigned int k = 0; k < reactions_.all().size(); ++k)
+      this->list_reaction(k, row);
     return row;
-  }
-
-
-
-  template <int dim>
-  void
-  BoundaryForces<dim>::observe(const State<dim> &state)
-  {
-    QuantityTable<dim>::observe(state);
-    reactions_.start_interval();
-  }
-
-
-
-  template <int dim>
-  void
-  BoundaryForces<dim>::list_state(StateList &list)
-  {
-    if (reactions_.is_enabled())
-      TableObserver<dim>::list_state(list);
   }
 
 

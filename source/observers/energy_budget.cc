@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/agreement.h>
 #include <talus/observers/energy_budget.h>
 
 #include <deal.II/base/mpi.h>
 
-#include <array>
 #include <numeric>
 #include <string>
 
@@ -13,8 +13,8 @@ namespace talus
 
   namespace
   {
-    /// Of this rank's points, J, with the velocities as they are, those of the
-    /// half step.
+    /// Kinetic energy of the points of this rank, J, from their half-step
+    /// velocities.
     template <int dim>
     double
     kinetic_energy(const Points<dim> &points)
@@ -32,24 +32,7 @@ namespace talus
 
 
 
-    /// Of the water that moves with this rank's points, J.
-    template <int dim>
-    double
-    kinetic_energy_of_added_mass(const State<dim> &state)
-    {
-      const Points<dim> &points = state.points;
-      double             energy = 0;
-      if (!state.added_mass.empty())
-        for (unsigned int p = 0; p < points.size(); ++p)
-          energy += 0.5 * points.data(points.mass)[p] *
-                    state.added_mass[points.data(points.body)[p]] *
-                    load_place(points, points.velocity, p).norm_square();
-      return energy;
-    }
-
-
-
-    /// Sum of a column over this rank's points.
+    /// Sum of a column over the points of this rank.
     template <int dim>
     double
     total(const Points<dim> &points, const unsigned int column)
@@ -60,144 +43,91 @@ namespace talus
 
 
 
-    /// What must be there for a term to have a column.
-    enum class Needs
-    {
-      nothing,
-      water,
-      merging,
-      outflow
-    };
-
-
-
-    // A term and its name: columns of statistics.csv, sums over ranks and state
-    // of a checkpoint go through the same list, so that none of them can forget
-    // one.
     struct Term
     {
-      const char *name;
-      double EnergyTerms::*value;
-      Needs                needs = Needs::nothing;
+      std::string name;
+      int         sign; ///< in the remainder; 0: no part of the budget
+      double      value;
     };
 
-    /// The terms but for what they leave, in the order of their columns.
-    constexpr std::array<Term, 12> terms = {
-      {{"kinetic energy", &EnergyTerms::kinetic},
-       {"grid kinetic energy", &EnergyTerms::grid_kinetic},
-       {"elastic energy", &EnergyTerms::elastic},
-       {"plastic work", &EnergyTerms::plastic},
-       {"friction work", &EnergyTerms::friction},
-       {"contact work", &EnergyTerms::contact},
-       {"damping work", &EnergyTerms::damping},
-       {"gravity work", &EnergyTerms::gravity},
-       {"drag work", &EnergyTerms::drag, Needs::water},
-       {"added mass kinetic energy", &EnergyTerms::added, Needs::water},
-       {"merging work", &EnergyTerms::merging, Needs::merging},
-       {"outflow energy", &EnergyTerms::outflow, Needs::outflow}}};
 
 
-
+    /// Terms over all ranks, in the order of their columns. Collective.
     template <int dim>
-    bool
-    has_column(const Term &term, const State<dim> &state)
-    {
-      return term.needs == Needs::water     ? !state.added_mass.empty()
-             : term.needs == Needs::merging ? state.may_merge
-             : term.needs == Needs::outflow ? state.outflow.is_open()
-                                            : true;
-    }
-
-
-
-    /// All terms but the remainder, over all ranks. Points carry their elastic
-    /// energy and plastic work themselves; what boundaries, damping and gravity
-    /// did is in the works of the state, each rank's share. Collective.
-    template <int dim>
-    EnergyTerms
+    std::vector<Term>
     sum_terms(const State<dim> &state)
     {
       const Points<dim> &points = state.points;
-      EnergyTerms        result;
-      result.kinetic      = kinetic_energy(points);
-      result.grid_kinetic = state.nodes.kinetic_energy();
-      result.elastic      = total(points, points.elastic_energy);
-      result.plastic      = total(points, points.plastic_work);
-      result.friction     = state.works.friction;
-      result.contact      = state.works.contact;
-      result.damping      = state.works.damping;
-      result.gravity      = state.works.gravity;
-      result.drag         = state.works.drag;
-      result.merging      = state.works.merging;
-      result.outflow      = state.outflow.energy();
-      result.added        = kinetic_energy_of_added_mass(state);
-      for (const Term &term : terms)
-        result.*term.value =
-          Utilities::MPI::sum(result.*term.value, state.communicator());
-      return result;
+      std::vector<Term>  terms  = {
+          {"kinetic energy", -1, kinetic_energy(points)},
+          {"grid kinetic energy", 0, state.nodes.kinetic_energy()},
+          {"elastic energy", -1, total(points, points.elastic_energy)},
+          {"plastic work", -1, total(points, points.plastic_work)}};
+      using Kind = typename Accounts<dim>::EnergyKind;
+      for (const auto &energy : state.accounts.energies())
+        terms.push_back(
+          {energy.name,
+           energy.kind == Kind::supplied ? 1 : -1,
+           energy.kind == Kind::stored ? energy.stored(points) : energy.value});
+      for (Term &term : terms)
+        term.value = Utilities::MPI::sum(term.value, state.communicator());
+      return terms;
     }
   } // namespace
 
 
 
   /// The run may begin with energy: of an initial velocity, of K0 stress, or
-  /// what the static stages left. Only changes since then can balance.
+  /// left by the static stages. Only changes since then can balance.
   template <int dim>
   void
   EnergyBudget<dim>::begin(const State<dim> &state)
   {
-    start_ = sum_terms(state);
+    is_first_rank_ = is_first_rank(state.communicator());
+    start_.clear();
+    for (const Term &term : sum_terms(state))
+      start_.push_back(term.value);
   }
 
 
 
-  /// The grid's kinetic energy is no part of the balance: it is the same motion
-  /// seen from the nodes, and smaller by what FLIP keeps at the points. A
-  /// remainder is therefore what the transfer dissipates (doc/method.md,
-  /// section 7), and a negative one would be energy made from nothing.
   template <int dim>
-  EnergyTerms
+  Quantities
   EnergyBudget<dim>::evaluate(const State<dim> &state) const
   {
-    EnergyTerms now = sum_terms(state);
-    now.remainder =
-      (now.gravity - start_.gravity) - (now.kinetic - start_.kinetic) -
-      (now.elastic - start_.elastic) - (now.plastic - start_.plastic) -
-      (now.friction - start_.friction) - (now.contact - start_.contact) -
-      (now.damping - start_.damping) - (now.drag - start_.drag) -
-      (now.added - start_.added) - now.merging - now.outflow;
-    return now;
+    const std::vector<Term> terms  = sum_terms(state);
+    const auto              change = [&](const unsigned int i) {
+      return terms[i].value - (i < start_.size() ? start_[i] : 0.);
+    };
+    Quantities result;
+    double     remainder = 0;
+    for (unsigned int i = 0; i < terms.size(); ++i)
+      {
+        result.push_back({terms[i].name, "J", terms[i].value});
+        if (terms[i].sign > 0)
+          remainder += change(i);
+      }
+    for (unsigned int i = 0; i < terms.size(); ++i)
+      if (terms[i].sign < 0)
+        remainder -= change(i);
+    result.push_back({"energy remainder", "J", remainder});
+    return result;
   }
 
 
 
-  template <int dim>
-  void
-  EnergyBudget<dim>::list_quantities(const State<dim> &state,
-                                     Quantities       &list) const
-  {
-    const EnergyTerms now = evaluate(state);
-    for (const Term &term : terms)
-      if (has_column(term, state))
-        list.push_back({term.name, "J", now.*term.value});
-    list.push_back({"energy remainder", "J", now.remainder});
-  }
-
-
-
-  /// All ranks have the same sums, so a checkpoint may be read by other numbers
-  /// of ranks.
+  /// All ranks have the same sums, so the first rank saves them, and a checkpoint
+  /// may be read by another number of ranks.
   template <int dim>
   void
   EnergyBudget<dim>::list_state(StateList &list)
   {
-    for (const Term &term : terms)
-      // Nothing is merged, and nothing leaves, before the start.
-      if (term.needs != Needs::merging && term.needs != Needs::outflow)
-        list.add(std::string(term.name) + " at the start",
-                 "J",
-                 start_.*term.value,
-                 Reduction::equal);
+    list.add_table(
+      {"energies at the start",
+       "energy [J], by term of the energy budget",
+       1,
+       [this]() { return is_first_rank_ ? start_ : std::vector<double>(); },
+       [this](const std::vector<double> &rows) { start_ = rows; }});
   }
 
 

@@ -99,8 +99,9 @@ namespace talus
             {
               const double half_cell =
                 0.5 * state.grid.cells()[segment.cell].size;
-              const auto half = half_lengths_of_box(points, state.box_shape, p);
-              Columns    first, last;
+              const auto half =
+                half_lengths_of_box(points, state.constants.box_shape, p);
+              Columns first, last;
               for (unsigned int d = 0; d < dim - 1; ++d)
                 {
                   const unsigned int a = axis(d);

@@ -12,8 +12,8 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  ObstacleForces<dim>::ObstacleForces(FacetContact<dim> &contact)
-    : QuantityTable<dim>("obstacles.csv")
+  ObstacleForces<dim>::ObstacleForces(const FacetContact<dim> &contact)
+    : ReactionTable<dim>("obstacles.csv")
     , contact_(contact)
   {}
 
@@ -32,10 +32,9 @@ namespace talus
   void
   ObstacleForces<dim>::list_forces(const unsigned int k, Quantities &row) const
   {
-    const std::string &name = contact_.obstacles()[k].name();
-    contact_.reactions()[k].list_quantities(name, row);
+    this->list_reaction(k, row);
     append_vector<dim>(row,
-                       name + " displacement",
+                       name(k) + " displacement",
                        "m",
                        contact_.obstacles()[k].displacement());
   }
@@ -76,9 +75,9 @@ namespace talus
                 load_place(points, points.position, p));
               if (distance >= 0)
                 continue;
-              const double support =
-                support_of_box(half_lengths_of_box(points, state.box_shape, p),
-                               normal);
+              const double support = support_of_box(
+                half_lengths_of_box(points, state.constants.box_shape, p),
+                normal);
               const double v = points.data(points.reference_volume)[p] *
                                determinant(load_matrix<dim, double>(
                                  points, points.deformation_gradient, p));
@@ -130,28 +129,6 @@ namespace talus
         list_penetration(k, own[k], state, row);
       }
     return row;
-  }
-
-
-
-  template <int dim>
-  void
-  ObstacleForces<dim>::observe(const State<dim> &state)
-  {
-    QuantityTable<dim>::observe(state);
-    contact_.start_interval();
-  }
-
-
-
-  /// Without obstacles there is no file, and nothing that a checkpoint would
-  /// have to know of it.
-  template <int dim>
-  void
-  ObstacleForces<dim>::list_state(StateList &list)
-  {
-    if (!contact_.obstacles().empty())
-      TableObserver<dim>::list_state(list);
   }
 
 

@@ -12,8 +12,8 @@ namespace talus
     double
     impulse(const State<dim> &state)
     {
-      return dealii::Utilities::MPI::sum(state.works.seabed_impulse[0],
-                                         state.communicator());
+      return dealii::Utilities::MPI::sum(
+        state.accounts.impulse("seabed impulse")[0], state.communicator());
     }
   } // namespace
 

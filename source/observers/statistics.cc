@@ -35,7 +35,8 @@ namespace talus
     const Ground<dim> ground(state.grid.domain(), obstacles_);
     list_motion(state, ground, with_runout, row);
     seabed_force_.list_quantities(state, row);
-    budget_.list_quantities(state, row);
+    const Quantities energies = budget_.evaluate(state);
+    row.insert(row.end(), energies.begin(), energies.end());
     list_fractures(state, ground, row);
     for (const Source &source : sources_)
       source(state, row);

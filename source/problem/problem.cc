@@ -2,11 +2,13 @@
 #include <talus/base/errors.h>
 #include <talus/contact/obstacle_remarks.h>
 #include <talus/contact/obstacle_sizes.h>
+#include <talus/contact/seabed_gaps.h>
 #include <talus/problem/bottom_of_mesh.h>
 #include <talus/problem/geostatic.h>
 #include <talus/problem/layer_surfaces.h>
 #include <talus/problem/problem.h>
 #include <talus/problem/strength_field.h>
+#include <talus/problem/surface_weakening.h>
 #include <talus/transfer/send_to_owners.h>
 
 #include <algorithm>
@@ -26,12 +28,22 @@ namespace talus
     , surfaces_(preview.surfaces)
     , remarks_(preview.remarks)
     , materials(preview.materials)
-    , seabed_coverage(boundaries)
-    , seabed_gaps(boundaries)
     , obstacles(preview.obstacles)
-    , contact(obstacles)
     , loading(preview.folder)
+    , boundaries(interactions.template add<Boundaries<dim>>())
+    , seabed_coverage(
+        interactions.template add<SeabedCoverage<dim>>(boundaries))
+    , contact(
+        interactions.template add<FacetContact<dim>>(obstacles, boundaries))
+    , damping(interactions.template add<Damping<dim>>(boundaries,
+                                                      contact.feels_obstacle()))
+    , water(interactions.template add<Water<dim>>(materials, contact))
   {
+    interactions.template add<SeabedGaps<dim>>(boundaries);
+    interactions.template add<SurfaceWeakening<dim>>(trigger,
+                                                     boundaries,
+                                                     obstacles);
+
     for (const std::string &name : preview.bodies)
       bodies_.push_back(std::make_unique<Body<dim>>(name));
     add_parameter(
@@ -93,7 +105,7 @@ namespace talus
                           trigger.changes_strength() || changes_strength);
     trigger.add_columns(points);
     loading.prepare(materials, bodies_.size(), constants_, end_time);
-    boundaries.prepare(constants_);
+    boundaries.parse(constants_);
     obstacles.prepare(constants_, &surfaces_);
   }
 
@@ -129,7 +141,7 @@ namespace talus
                        begin,
                        points.size(),
                        material,
-                       state.box_shape.rule,
+                       state.constants.box_shape.rule,
                        constants_);
         material.initialize(points, begin, points.size());
       }
@@ -355,9 +367,8 @@ namespace talus
     std::vector<std::string> result       = remarks_;
     const auto               on_materials = materials.notes(cell_size);
     result.insert(result.end(), on_materials.begin(), on_materials.end());
-    if (const std::string note = water.note(materials, bodies_.size());
-        !note.empty())
-      result.push_back(note);
+    const auto on_interactions = interactions.notes();
+    result.insert(result.end(), on_interactions.begin(), on_interactions.end());
     return result;
   }
 

@@ -40,10 +40,14 @@ namespace talus
                       xi <= (last ? 1.5 : 1. + 1e-12)))
                   return false;
               }
-            weights_of_point(
-              points, grid, state.box_shape, segment.cell, p, weights);
+            weights_of_point(points,
+                             grid,
+                             state.constants.box_shape,
+                             segment.cell,
+                             p,
+                             weights);
           }
-      return state.box_shape.most_half <= 0.5;
+      return state.constants.box_shape.most_half <= 0.5;
     }
   } // namespace
 
@@ -185,6 +189,11 @@ namespace talus
       }
     relocation_.allow_outside(may_lie_outside);
     state_.outflow.open(is_outflow);
+    if (state_.outflow.is_open())
+      state_.accounts.open_stored_energy("outflow energy",
+                                         [this](const Points<dim> &) {
+                                           return state_.outflow.energy();
+                                         });
 
     state_.grid.prepare();
     relocation_.rebuild(state_.points, state_.grid);
@@ -202,9 +211,9 @@ namespace talus
     problem_.locate(state_.grid);
     activate_nodes();
     // Uses the smallest cell, so that the same nodes carry motion at any level.
-    state_.added_mass  = problem_.added_mass();
-    state_.mass_cutoff = transfer_.mass_cutoff(problem_.least_density(),
-                                               state_.grid.finest_size());
+    state_.constants.mass_cutoff =
+      transfer_.mass_cutoff(problem_.least_density(),
+                            state_.grid.finest_size());
   }
 
 
@@ -305,7 +314,7 @@ namespace talus
       if (!state_.outflow.is_beyond(load_place(points, points.position, p),
                                     state_.grid.domain()))
         return false;
-      state_.outflow.book(points, p, state_.added_mass);
+      state_.outflow.record(points, p, state_.constants.added_mass);
       return true;
     };
     if (relocation_.update_points_out_of_cell(

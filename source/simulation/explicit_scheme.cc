@@ -64,18 +64,8 @@ namespace talus
   ExplicitScheme<dim>::advance(const double end_time, const RunRequest own)
   {
     mesh_.adapt();
-    if (merger_.is_due(state_.step))
-      merge();
-    if (filter_.is_due(state_.step))
-      {
-        PhaseTimer::Scope scope(timer_, "filter");
-        filter_.apply(state_.points,
-                      state_.workspace,
-                      state_.grid,
-                      state_.nodes,
-                      transfer_,
-                      state_.mass_cutoff);
-      }
+    merge();
+    filter();
     points_to_grid();
     const RunRequest request = agree_on_step(end_time, own);
     update_nodes();
@@ -89,59 +79,26 @@ namespace talus
 
 
 
-  /// The energy that goes is booked, so that the budget closes as without.
   template <int dim>
   void
   ExplicitScheme<dim>::merge()
   {
-    PhaseTimer::Scope   scope(timer_, "merging");
-    const unsigned long n_before = merger_.n_merges();
-    state_.works.merging += merger_.merge(state_.points,
-                                          state_.grid,
-                                          transfer_.box_shape().rule,
-                                          state_.added_mass,
-                                          splitter_);
-    if (merger_.n_merges() > n_before)
-      state_.points.for_each_batch([this](const Batch &batch) {
-        state_.works.merging += restore_hyperelastic(batch);
-      });
+    if (!merger_.is_due(state_.step))
+      return;
+    PhaseTimer::Scope scope(timer_, "merging");
+    merger_.apply(state_, splitter_, problem_.materials);
   }
 
 
 
-  // What a rate law has stored belongs to the points and was summed up. Where
-  // the stress is a function of the deformation gradient, the mean of two of
-  // these has another stress and stores another energy: with a step of no time
-  // such a law computes both.
-  /// Returns the elastic energy that is gone, J.
   template <int dim>
-  double
-  ExplicitScheme<dim>::restore_hyperelastic(const Batch &batch)
+  void
+  ExplicitScheme<dim>::filter()
   {
-    double loss = 0;
-    problem_.materials.for_each_material_range(
-      state_.points,
-      batch,
-      [&](const auto &law, const unsigned int begin, const unsigned int end) {
-        if (!law.is_hyperelastic())
-          return;
-        const auto energy = [&]() {
-          const double *const of_point =
-            state_.points.data(state_.points.elastic_energy);
-          return std::accumulate(of_point + begin, of_point + end, 0.);
-        };
-        state_.workspace.reinit(begin, end);
-        for (unsigned int i = 0; i < dim; ++i)
-          for (unsigned int j = 0; j < dim; ++j)
-            std::fill_n(state_.workspace.velocity_gradient(i, j),
-                        end - begin,
-                        0.);
-        const double before = energy();
-        law.update_stress(
-          state_.points, state_.workspace, begin, end, /*dt=*/0.);
-        loss += before - energy();
-      });
-    return loss;
+    if (!filter_.is_due(state_.step))
+      return;
+    PhaseTimer::Scope scope(timer_, "filter");
+    filter_.apply(state_, transfer_);
   }
 
 
@@ -213,59 +170,31 @@ namespace talus
 
 
 
-  /// Forces before momentum, momentum before boundaries: tractions are forces,
-  /// damping reduces what moved the nodes, walls and seabed then correct the
-  /// velocities that came out. Each books its work. Sums are complete after the
-  /// first message, the motion of ghosts is right after the last. Loops go over
-  /// active nodes only.
+  /// Sums at the nodes are complete after the first message, the motion of
+  /// ghosts is right after the second one.
   template <int dim>
   void
   ExplicitScheme<dim>::update_nodes()
   {
-    const double time = state_.time, dt = state_.time_step;
-    {
-      PhaseTimer::Scope scope(timer_, "messages");
-      state_.nodes.sum_over_ranks(state_.grid);
-    }
+    const auto in_phase = [this](const char *phase, const auto &action) {
+      PhaseTimer::Scope scope(timer_, phase);
+      action();
+    };
+    NodalInteractions<dim> &interactions = problem_.interactions;
+    in_phase("messages", [&]() { state_.nodes.sum_over_ranks(state_.grid); });
     Assert(nodes_carry_all_mass(state_),
            ExcMessage("The nodes do not carry all mass of the points: a box "
                       "reaches beyond the cells around its own."));
-    Boundaries<dim> &boundaries = problem_.boundaries;
-    {
-      PhaseTimer::Scope scope(timer_, "nodal update");
-      problem_.contact.move_obstacles(state_);
-      problem_.water.apply(state_, problem_.contact);
-      boundaries.add_tractions(state_.nodes,
-                               state_.grid,
-                               time,
-                               state_.mass_cutoff);
-      state_.nodes.update_momentum(dt, state_.mass_cutoff);
-      state_.works.damping += damping_.apply(state_.nodes,
-                                             state_.grid,
-                                             boundaries,
-                                             problem_.contact.feels_obstacle(),
-                                             state_.mass_cutoff);
-    }
-    {
-      PhaseTimer::Scope scope(timer_, "boundaries");
-      // As the strength of the points, that of the end of the step.
-      const double factor = problem_.trigger.seabed_factor(time + dt);
-      boundaries.scale_seabed_shear_stress(factor);
-      problem_.obstacles.scale_maximum_shear_stress(factor);
-      problem_.contact.apply(state_, boundaries);
-      problem_.seabed_coverage.find(state_);
-      problem_.seabed_gaps.find(state_);
-      state_.works += boundaries.apply(
-        state_.nodes, state_.grid, time, dt, state_.mass_cutoff);
-      problem_.water.book(state_);
-    }
-    {
-      PhaseTimer::Scope scope(timer_, "messages");
-      state_.nodes.share_with_ghosts(state_.grid);
-    }
-    PhaseTimer::Scope scope(timer_, "boundaries");
-    problem_.contact.book(state_, boundaries);
-    boundaries.reactions().finish_step(dt, state_.communicator());
+    in_phase("nodal update", [&]() {
+      interactions.begin_step(state_);
+      interactions.add_forces(state_);
+      state_.nodes.update_momentum(state_.time_step,
+                                   state_.constants.mass_cutoff);
+    });
+    in_phase("boundaries", [&]() { interactions.correct_velocities(state_); });
+    in_phase("messages",
+             [&]() { state_.nodes.share_with_ghosts(state_.grid); });
+    in_phase("boundaries", [&]() { interactions.record(state_); });
   }
 
 
@@ -284,17 +213,18 @@ namespace talus
                             problem_.materials.strength_factor(),
                             state_.time,
                             state_.time + dt);
-    const BoxRule rule = transfer_.box_shape().rule;
+    const BoxRule rule         = transfer_.box_shape().rule;
+    double       &gravity_work = state_.accounts.energy("gravity work");
     state_.points.for_each_batch([&](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
       confinement_.note(state_, batch);
-      state_.works.gravity += transfer_.gather(state_.nodes,
-                                               state_.grid,
-                                               problem_.loading.loads(),
-                                               state_.points,
-                                               state_.workspace,
-                                               batch,
-                                               dt);
+      gravity_work += transfer_.gather(state_.nodes,
+                                       state_.grid,
+                                       problem_.loading.loads(),
+                                       state_.points,
+                                       state_.workspace,
+                                       batch,
+                                       dt);
       confinement_.confine(state_);
       transfer_.apply_bbar_to_dilatation(state_.points,
                                          state_.workspace,
@@ -334,8 +264,8 @@ namespace talus
 
 
 
-  /// Those that grid_to_points() marked; children are added to the points out
-  /// of their cell.
+  /// Split the points that grid_to_points() marked. Adds the children to the
+  /// points out of their cell.
   template <int dim>
   void
   ExplicitScheme<dim>::split()

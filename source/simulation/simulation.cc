@@ -68,9 +68,7 @@ namespace talus
       scheme_.merger().list_quantities(state, list);
       rest_.list_quantities(list);
       state.outflow.list_quantities(state.communicator(), list);
-      problem_.water.list_quantities(state,
-                                     -problem_.loading.gravity()[1],
-                                     list);
+      problem_.interactions.list_quantities(state, list);
     });
   }
 
@@ -188,20 +186,20 @@ namespace talus
     static_stages_.check_list();
     state_.grid.check();
     transfer_.check();
-    output_.check(scheme_.damping().coefficient());
+    output_.check(problem_.damping.coefficient());
     check_can_be_made(output_.folder());
     check_can_be_made(output_.folder() + "/checkpoints");
     problem_.prepare(state_.points,
                      static_stages_.stages().contain(Stage::strength_reduction),
                      end_time_);
-    problem_.contact.set_averaging_time(output_.force_averaging_time());
-    problem_.boundaries.reactions().set_averaging_time(
-      output_.force_averaging_time());
     static_stages_.check();
     transfer_.use_bbar(problem_.bodies_with_bbar());
-    state_.box_shape = transfer_.box_shape();
+    state_.constants.box_shape  = transfer_.box_shape();
+    state_.constants.added_mass = problem_.water.added_mass_of_bodies();
+    state_.constants.gravity    = problem_.loading.gravity();
     scheme_.merger().check(scheme_.splitter());
-    state_.may_merge = scheme_.merger().is_enabled();
+    problem_.open_accounts(state_.accounts);
+    scheme_.merger().open_accounts(state_.accounts);
   }
 
 

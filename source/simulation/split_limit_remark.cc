@@ -29,7 +29,9 @@ namespace talus
     if (is_written_)
       return;
     const UnsplitPoints unsplit =
-      splitter_.count_unsplit(state.points, state.grid, state.box_shape.rule);
+      splitter_.count_unsplit(state.points,
+                              state.grid,
+                              state.constants.box_shape.rule);
     if (unsplit.at_generation_limit + unsplit.at_mesh_limit == 0)
       return;
     is_written_ = true;

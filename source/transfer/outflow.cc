@@ -42,9 +42,9 @@ namespace talus
 
   template <int dim>
   void
-  Outflow<dim>::book(const Points<dim>         &points,
-                     const unsigned int         p,
-                     const std::vector<double> &added_mass)
+  Outflow<dim>::record(const Points<dim>         &points,
+                       const unsigned int         p,
+                       const std::vector<double> &added_mass)
   {
     const double mass     = points.data(points.mass)[p];
     const auto   velocity = load_place(points, points.velocity, p);

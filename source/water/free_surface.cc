@@ -177,7 +177,7 @@ namespace talus
   {
     const NodalFields<dim> &nodes = state.nodes;
     for (const unsigned int node : nodes.active_nodes())
-      if (nodes.mass(node) > state.mass_cutoff)
+      if (nodes.mass(node) > state.constants.mass_cutoff)
         {
           double *const to = record(node);
           to[fraction] =

@@ -12,8 +12,11 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  Water<dim>::Water()
+  Water<dim>::Water(const Materials<dim>    &materials,
+                    const FacetContact<dim> &contact)
     : ParameterAcceptor("/Water")
+    , materials_(materials)
+    , contact_(contact)
   {
     const auto add = [this](const std::string &name,
                             double            &value,
@@ -54,40 +57,61 @@ namespace talus
 
   template <int dim>
   std::vector<double>
-  Water<dim>::added_mass_of_bodies(const Materials<dim> &materials,
-                                   const unsigned int    n_bodies) const
+  Water<dim>::added_mass_of_bodies() const
   {
     std::vector<double> result;
-    for (unsigned int b = 0; acts() && b < n_bodies; ++b)
-      result.push_back(added_mass_ * density_ / materials.of_body(b).density());
+    for (unsigned int b = 0; acts() && b < materials_.n_bodies(); ++b)
+      result.push_back(added_mass_ * density_ /
+                       materials_.of_body(b).density());
     return result;
   }
 
 
 
   template <int dim>
-  std::string
-  Water<dim>::note(const Materials<dim> &materials,
-                   const unsigned int    n_bodies) const
+  std::vector<std::string>
+  Water<dim>::notes() const
   {
-    for (unsigned int b = 0; acts() && b < n_bodies; ++b)
+    for (unsigned int b = 0; acts() && b < materials_.n_bodies(); ++b)
       {
-        const double whole     = materials.of_body(b).density();
-        const double submerged = materials.of_body(b).submerged_density();
+        const double whole     = materials_.of_body(b).density();
+        const double submerged = materials_.of_body(b).submerged_density();
         if (std::abs(whole - submerged - density_) > 0.01 * density_)
-          return text("Water of ",
-                      density_,
-                      " kg/m^3 acts on soil whose density and submerged "
-                      "density, ",
-                      whole,
-                      " and ",
-                      submerged,
-                      " kg/m^3, differ by ",
-                      whole - submerged,
-                      " kg/m^3: saturated soil loses the weight of the water "
-                      "that it displaces.");
+          return {text("Water of ",
+                       density_,
+                       " kg/m^3 acts on soil whose density and submerged "
+                       "density, ",
+                       whole,
+                       " and ",
+                       submerged,
+                       " kg/m^3, differ by ",
+                       whole - submerged,
+                       " kg/m^3: saturated soil loses the weight of the water "
+                       "that it displaces.")};
       }
-    return "";
+    return {};
+  }
+
+
+
+  template <int dim>
+  void
+  Water<dim>::open_accounts(Accounts<dim> &accounts)
+  {
+    if (!acts())
+      return;
+    accounts.open_energy("drag work");
+    accounts.open_impulse("drag impulse");
+    accounts.open_stored_energy(
+      "added mass kinetic energy",
+      [added_mass = added_mass_of_bodies()](const Points<dim> &points) {
+        double energy = 0;
+        for (unsigned int p = 0; p < points.size(); ++p)
+          energy += 0.5 * points.data(points.mass)[p] *
+                    added_mass[points.data(points.body)[p]] *
+                    load_place(points, points.velocity, p).norm_square();
+        return energy;
+      });
   }
 
 
@@ -107,13 +131,12 @@ namespace talus
 
   template <int dim>
   void
-  Water<dim>::apply(State<dim> &state, const FacetContact<dim> &contact)
+  Water<dim>::begin_step(State<dim> &state)
   {
     if (!acts())
       return;
-    surface_.find(state, contact);
+    surface_.find(state, contact_);
     add_inertia(state.nodes);
-    add_drag(state.nodes, state.grid);
   }
 
 
@@ -167,11 +190,12 @@ namespace talus
 
 
 
-  /// Collective.
   template <int dim>
   void
-  Water<dim>::add_drag(NodalFields<dim> &nodes, const Grid<dim> &grid)
+  Water<dim>::add_forces(State<dim> &state)
   {
+    if (!acts())
+      return;
     const auto add = [this](const unsigned int    node,
                             const Tensor<1, dim> &force) {
       for (unsigned int d = 0; d < dim; ++d)
@@ -183,7 +207,7 @@ namespace talus
         for (unsigned int v = 0; v < facet.node.size(); ++v)
           add(facet.node[v], facet.share[v] * force);
       }
-    for (const auto &hanging : grid.hanging_nodes())
+    for (const auto &hanging : state.grid.hanging_nodes())
       {
         const Tensor<1, dim> force = force_at(hanging.node);
         for (const auto &[master, weight] : hanging.masters)
@@ -191,24 +215,26 @@ namespace talus
         add(hanging.node, -force);
       }
     exchange_of_forces_.add_to_owners(forces_.data());
-    for (const unsigned int node : nodes.active_nodes())
-      nodes.add_force(node, force_at(node));
+    for (const unsigned int node : state.nodes.active_nodes())
+      state.nodes.add_force(node, force_at(node));
   }
 
 
 
   template <int dim>
   void
-  Water<dim>::book(State<dim> &state)
+  Water<dim>::record(State<dim> &state)
   {
     if (!acts())
       return;
-    const double dt = state.time_step;
+    const double    dt    = state.time_step;
+    double         &work  = state.accounts.energy("drag work");
+    Tensor<1, dim> &total = state.accounts.impulse("drag impulse");
     for (const unsigned int node : state.nodes.active_nodes())
       {
         const Tensor<1, dim> impulse = dt * force_at(node);
-        state.works.drag -= impulse * state.nodes.mean_velocity(node);
-        state.works.drag_impulse += impulse;
+        work -= impulse * state.nodes.mean_velocity(node);
+        total += impulse;
         std::fill_n(forces_.begin() + std::size_t(dim) * node, dim, 0.);
       }
   }
@@ -219,9 +245,7 @@ namespace talus
   // its volume over the area that the free surface covers, seen along gravity.
   template <int dim>
   void
-  Water<dim>::list_quantities(const State<dim> &state,
-                              const double      gravity,
-                              Quantities       &list) const
+  Water<dim>::list_quantities(const State<dim> &state, Quantities &list) const
   {
     if (!acts())
       return;
@@ -232,7 +256,8 @@ namespace talus
       {
         const double         m = points.data(points.mass)[p];
         const Tensor<1, dim> v = load_place(points, points.velocity, p);
-        const double added = m * state.added_mass[points.data(points.body)[p]];
+        const double         added =
+          m * state.constants.added_mass[points.data(points.body)[p]];
         mass += m;
         volume += points.data(points.reference_volume)[p];
         momentum += m * v;
@@ -247,10 +272,11 @@ namespace talus
     };
     mass = sum(mass), volume = sum(volume), covered = sum(covered);
     momentum = sum(momentum), added_momentum = sum(added_momentum);
-    const Tensor<1, dim> impulse = sum(state.works.drag_impulse);
+    const Tensor<1, dim> impulse = sum(state.accounts.impulse("drag impulse"));
     append_vector<dim>(list, "drag impulse", "N s", impulse);
     append_vector<dim>(list, "added mass momentum", "kg m/s", added_momentum);
-    const double lightness = (mass / volume / density_ - 1.) * gravity;
+    const double lightness =
+      -(mass / volume / density_ - 1.) * state.constants.gravity[1];
     list.push_back(
       {"densimetric Froude number",
        "",

@@ -122,9 +122,10 @@ namespace
         heights.push_back(height_of(block.points(), place, reach));
         if (times.size() % 10 == 1)
           {
-            const EnergyTerms energy = budget.evaluate(state);
-            work                     = std::max(work, std::abs(energy.gravity));
-            remainder       = std::max(remainder, std::abs(energy.remainder));
+            work =
+              std::max(work, std::abs(state.accounts.energy("gravity work")));
+            remainder       = std::max(remainder,
+                                 std::abs(budget.evaluate(state).back().value));
             result.n_bodies = std::max<unsigned int>(
               result.n_bodies,
               count_fractures(state.points,

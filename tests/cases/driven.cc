@@ -114,8 +114,8 @@ TEST(Driven, TractionStretchesABar)
   while (bar->state().time < 40. - 1e-12)
     {
       bar->advance();
-      EXPECT_GE(bar->state().works.damping, last_work);
-      last_work = bar->state().works.damping;
+      EXPECT_GE(bar->state().accounts.energy("damping work"), last_work);
+      last_work = bar->state().accounts.energy("damping work");
     }
   const auto &points = bar.points();
   double      stress = 0, stretch = 0;
@@ -142,16 +142,18 @@ TEST(Damped, ColumnComesToRest)
   double  most_energy = 0, last_work = 0;
   while (column->state().time < 20. - 1e-12)
     {
-      const double impulse = column->state().works.wall_impulse[1];
+      const double impulse =
+        column->state().accounts.impulse("wall impulse")[1];
       column->advance();
       const auto &now = column->state();
       most_energy     = std::max(most_energy, now.nodes.kinetic_energy());
-      EXPECT_GE(now.works.damping, last_work);
-      last_work = now.works.damping;
+      EXPECT_GE(now.accounts.energy("damping work"), last_work);
+      last_work = now.accounts.energy("damping work");
       // At rest the rollers bear the whole weight, though there is damping.
       if (now.time > 19.)
         {
-          EXPECT_NEAR((now.works.wall_impulse[1] - impulse) / now.time_step,
+          EXPECT_NEAR((now.accounts.impulse("wall impulse")[1] - impulse) /
+                        now.time_step,
                       1000. * 10. * 10. * 0.5,
                       50.);
         }
@@ -189,7 +191,7 @@ TEST(Damped, UndampedColumnRings)
       if (column->state().time > 19.)
         late = std::max(late, energy);
     }
-  EXPECT_EQ(column->state().works.damping, 0.);
+  EXPECT_EQ(column->state().accounts.energy("damping work"), 0.);
   EXPECT_GT(late, 0.5 * most);
 }
 

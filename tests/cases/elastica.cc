@@ -60,7 +60,9 @@ namespace
       };
     compare("w", w, exact.w);
     compare("u", u, exact.u);
-    EXPECT_LT(state.nodes.kinetic_energy() / state.works.gravity, 1e-4);
+    EXPECT_LT(state.nodes.kinetic_energy() /
+                state.accounts.energy("gravity work"),
+              1e-4);
   }
 
 

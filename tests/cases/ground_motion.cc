@@ -90,7 +90,9 @@ TEST(GroundMotion, SeenFromTheGround)
       const double kinetic = 0.5 * mass * (v[0] * v[0] + v[1] * v[1] - 0.25);
       energy_error =
         std::max(energy_error,
-                 std::abs(block->state().works.gravity - kinetic) / mass);
+                 std::abs(block->state().accounts.energy("gravity work") -
+                          kinetic) /
+                   mass);
     }
   Verification gates("Block that flies above moving ground",
                      "prm/" + block_file + " with a table",

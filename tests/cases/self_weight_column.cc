@@ -38,7 +38,8 @@ namespace
       column->advance();
     const auto &state = column->state();
     return {measure_column(state),
-            state.nodes.kinetic_energy() / state.works.gravity};
+            state.nodes.kinetic_energy() /
+              state.accounts.energy("gravity work")};
   }
 } // namespace
 

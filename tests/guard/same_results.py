@@ -53,6 +53,7 @@ CASES = {
     "hdf5": ("landslide-quick.prm",
              COARSE + ["End time=2", "Output/Format=hdf5"]),
     "block": ("verification/block-on-incline.prm", []),
+    "slope": ("slope.prm", ["Grid/Cell size=10", "End time=20"]),
 }
 # Cases that are also interrupted by the end time and resumed.
 RESUMED = {"slide": "End time=12", "tracked": "End time=5"}

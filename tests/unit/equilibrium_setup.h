@@ -56,7 +56,7 @@ namespace
         bodies.push_back(name.name);
       materials.assign(bodies, bodies);
       materials.add_columns(points);
-      boundaries.prepare(Constants());
+      boundaries.parse(Constants());
       obstacles.prepare(Constants());
       contact.prepare(grid);
     }
@@ -99,11 +99,12 @@ namespace
     void
     load(const Tensor<1, dim> &gravity)
     {
-      boundaries.locate_nodes(grid);
+      boundaries.prepare(grid);
       seabed_coverage.prepare(grid);
       for (auto &acceleration : loads.acceleration_of_body)
         acceleration = gravity;
-      this->mass_cutoff = transfer.mass_cutoff(density, grid.finest_size());
+      this->constants.mass_cutoff =
+        transfer.mass_cutoff(density, grid.finest_size());
       this->sort();
     }
 
@@ -153,7 +154,7 @@ namespace
 
     Materials<dim>                            materials;
     Obstacles<dim>                            obstacles;
-    FacetContact<dim>                         contact{obstacles};
+    FacetContact<dim>                         contact{obstacles, boundaries};
     SeabedCoverage<dim>                       seabed_coverage{boundaries};
     Equilibrium<dim>                          equilibrium;
     std::function<double(const Point<dim> &)> mudline; ///< see StaticProblem

@@ -58,6 +58,12 @@ struct Scene : public talus::State<dim>
     grid.refine();
     grid.prepare();
     nodes.prepare(grid);
+    for (const std::string name :
+         {"friction work", "contact work", "damping work"})
+      this->accounts.open_energy(name);
+    this->accounts.open_energy("gravity work",
+                               talus::Accounts<dim>::EnergyKind::supplied);
+    this->accounts.open_impulse("seabed impulse");
   }
 
   /// Boxes are half a cell wide and undeformed. (The velocity is a Point

@@ -7,6 +7,7 @@
 #include <talus/adaptivity/splitter.h>
 #include <talus/base/quantity.h>
 #include <talus/grid/grid.h>
+#include <talus/materials/materials.h>
 #include <talus/points/points.h>
 #include <talus/points/reordering.h>
 #include <talus/state/state.h>
@@ -53,6 +54,20 @@ namespace talus
     {
       return enabled_ && step > 0 && step % interval_ == 0;
     }
+
+    /// Open the account of the energy that merging takes from the points.
+    void
+    open_accounts(Accounts<dim> &accounts) const
+    {
+      if (enabled_)
+        accounts.open_energy("merging work");
+    }
+
+    /// Merge points and record the energy lost.
+    void
+    apply(State<dim>           &state,
+          const Splitter<dim>  &splitter,
+          const Materials<dim> &materials);
 
     /// Merge all pairs that fulfil the criterion. The points must be sorted and
     /// remain sorted; no cell becomes empty.

@@ -2,10 +2,10 @@
 #ifndef talus_boundaries_boundaries_h
 #define talus_boundaries_boundaries_h
 
-#include <talus/base/works.h>
 #include <talus/boundaries/boundary_condition.h>
 #include <talus/boundaries/boundary_reactions.h>
 #include <talus/boundaries/seabed.h>
+#include <talus/interaction/nodal_interaction.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -19,6 +19,30 @@
 
 namespace talus
 {
+  /// Energy and impulses that the boundaries exchanged with the soil in one step.
+  template <int dim>
+  struct BoundaryWork
+  {
+    double friction = 0; ///< energy taken by friction on seabeds, J
+    /// Energy taken by normal contact, walls and tractions, J; negative where
+    /// these drive the soil.
+    double                 contact = 0;
+    dealii::Tensor<1, dim> seabed_impulse; ///< on the soil, N s
+    dealii::Tensor<1, dim> wall_impulse;   ///< of walls and tractions, N s
+
+    /// Add to the accounts that Boundaries::open_accounts() opened.
+    void
+    record(Accounts<dim> &accounts) const
+    {
+      accounts.energy("friction work") += friction;
+      accounts.energy("contact work") += contact;
+      accounts.impulse("seabed impulse") += seabed_impulse;
+      accounts.impulse("wall impulse") += wall_impulse;
+    }
+  };
+
+
+
   /// Conditions on the faces of the mesh.
   ///
   /// A node on several faces: tractions are forces and come first, of all
@@ -31,21 +55,51 @@ namespace talus
   /// A new condition is a class that derives from BoundaryCondition and a line
   /// in the list of source/boundaries/boundaries.cc.
   template <int dim>
-  class Boundaries : public dealii::ParameterAcceptor
+  class Boundaries : public dealii::ParameterAcceptor,
+                     public NodalInteraction<dim>
   {
   public:
     Boundaries();
 
-    /// To be called after parsing. Throws ExcUser if conditions and expressions
-    /// contradict each other.
+    /// Parse the expressions with @p constants. Throws ExcUser if conditions and
+    /// expressions contradict each other.
     void
-    prepare(const Constants &constants);
+    parse(const Constants &constants);
+
+    void
+    open_accounts(Accounts<dim> &accounts) override;
 
     /// Find the nodes of the seabed, and the places of nodes that expressions
-    /// are needed at, after each change of the mesh or its partition.
-    /// Collective.
+    /// are needed at. Collective.
     void
-    locate_nodes(const Grid<dim> &grid);
+    prepare(const Grid<dim> &grid) override;
+
+    void
+    add_forces(State<dim> &state) override
+    {
+      add_tractions(state.nodes,
+                    state.grid,
+                    state.time,
+                    state.constants.mass_cutoff);
+    }
+
+    void
+    correct_velocities(State<dim> &state) override
+    {
+      apply(state.nodes,
+            state.grid,
+            state.time,
+            state.time_step,
+            state.constants.mass_cutoff)
+        .record(state.accounts);
+    }
+
+    /// Sum the reactions of the step over the ranks.
+    void
+    record(State<dim> &state) override
+    {
+      reactions_.finish_step(state.communicator());
+    }
 
     /// Whether nothing is there: a point that crosses the face has left.
     bool
@@ -80,7 +134,7 @@ namespace talus
     bool
     has_seabed() const;
 
-    /// To be called before locate_nodes() if the seabed depends on the depth.
+    /// To be called before prepare() if the seabed depends on the depth.
     void
     set_depth(const typename ShearStressCap<dim>::Depth &depth)
     {
@@ -137,23 +191,23 @@ namespace talus
                   double            mass_cutoff);
 
     /// Give a node on @p faces the velocity that walls prescribe in a step from
-    /// time @p t over @p dt, s, and book the impulse that this takes.
+    /// time @p t over @p dt, s, and record the impulse that this takes.
     void
-    impose_walls(NodalFields<dim> &nodes,
-                 unsigned char     faces,
-                 unsigned int      node,
-                 double            t,
-                 double            dt,
-                 Works<dim>       &work);
+    impose_walls(NodalFields<dim>  &nodes,
+                 unsigned char      faces,
+                 unsigned int       node,
+                 double             t,
+                 double             dt,
+                 BoundaryWork<dim> &work);
 
-    /// Book an impulse on the soil, N s, that walls took up at a node on @p faces,
+    /// Record an impulse on the soil, N s, that walls took up at a node on @p faces,
     /// in components that they hold.
     void
-    book_walls(const NodalFields<dim>       &nodes,
-               unsigned char                 faces,
-               unsigned int                  node,
-               const dealii::Tensor<1, dim> &impulse,
-               Works<dim>                   &work);
+    record_walls(const NodalFields<dim>       &nodes,
+                 unsigned char                 faces,
+                 unsigned int                  node,
+                 const dealii::Tensor<1, dim> &impulse,
+                 BoundaryWork<dim>            &work);
 
     void
     set_covered_area(const typename Seabed<dim>::CoveredArea &covered_area)
@@ -174,22 +228,15 @@ namespace talus
     /// conditions ask, after the momentum update of a step from time @p t over
     /// @p dt; velocities are those of the half step, t + dt/2. Returns what the
     /// boundaries did, the tractions added before included.
-    Works<dim>
+    BoundaryWork<dim>
     apply(NodalFields<dim> &nodes,
           const Grid<dim>  &grid,
           double            t,
           double            dt,
           double            mass_cutoff);
 
-    /// From now on keep the friction of each step for bed_friction().
-    void
-    remember_bed_friction()
-    {
-      remembers_friction_ = true;
-    }
-
-    /// Where a seabed at the bottom of the mesh acted in the last step, m, on
-    /// this rank's nodes, and the force of its friction on the soil, N.
+    /// Places where a seabed at the bottom of the mesh acted in the last step, m,
+    /// at the nodes of this rank, and the force of its friction on the soil, N.
     const std::vector<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>> &
     bed_friction() const
     {
@@ -210,7 +257,7 @@ namespace talus
     }
 
     void
-    list_state(StateList &list);
+    list_state(StateList &list) override;
 
   private:
     void
@@ -231,12 +278,12 @@ namespace talus
                        unsigned int                    node,
                        const dealii::Tensor<1, dim>   &impulse);
     void
-    apply_to_node(NodalFields<dim> &nodes,
-                  const Grid<dim>  &grid,
-                  unsigned int      node,
-                  double            t,
-                  double            dt,
-                  Works<dim>       &work);
+    apply_to_node(NodalFields<dim>  &nodes,
+                  const Grid<dim>   &grid,
+                  unsigned int       node,
+                  double             t,
+                  double             dt,
+                  BoundaryWork<dim> &work);
 
     // Parameters, by face
     std::array<std::string, 2 * dim> names_;
@@ -249,11 +296,10 @@ namespace talus
     std::vector<std::unique_ptr<BoundaryCondition<dim>>> conditions_;
     BoundaryReactions<dim> reactions_; ///< of these
     Gap                    gap_;
-    bool                   remembers_friction_ = false;
     std::vector<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>>
       bed_friction_;
 
-    /// Of the owned nodes, by node, if somebody asks for them; m.
+    /// Places of the owned nodes, by node, m; empty where nothing needs them.
     std::vector<dealii::Point<dim>> places_;
 
     /// What a condition with a traction does to a node in this step.

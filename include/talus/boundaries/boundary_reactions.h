@@ -11,22 +11,15 @@
 
 namespace talus
 {
-  /// What the soil does to each face of the mesh that has a condition. Moments
+  /// Forces of the soil on each face of the mesh that has a condition. Moments
   /// are about the origin.
   template <int dim>
   class BoundaryReactions
   {
   public:
-    /// One for each of @p names; none is booked unless it @p is_enabled.
+    /// Prepare one reaction for each of @p names if @p is_enabled, else none.
     void
     prepare(const std::vector<std::string> &names, bool is_enabled);
-
-    /// Average forces over @p time, s; see Reaction::add().
-    void
-    set_averaging_time(const double time)
-    {
-      averaging_time_ = time;
-    }
 
     bool
     is_enabled() const
@@ -58,24 +51,29 @@ namespace talus
       steps_[k].area += area;
     }
 
-    /// The step of @p dt, s, is over. Collective.
+    /// Sum what was added in the step over the ranks. Collective.
     void
-    finish_step(double dt, MPI_Comm communicator);
+    finish_step(MPI_Comm communicator);
 
-    /// A row of the output was written.
-    void
-    start_interval();
+    /// One per face with a condition if forces are asked for, else empty.
+    const std::vector<Reaction<dim>> &
+    all() const
+    {
+      return reactions_;
+    }
 
-    /// Append those of all faces.
-    void
-    list_quantities(Quantities &row) const;
+    /// Name of the face of reaction @p k.
+    const std::string &
+    name(const unsigned int k) const
+    {
+      return names_[k];
+    }
 
     void
     list_state(StateList &list);
 
   private:
-    bool                           is_enabled_     = false;
-    double                         averaging_time_ = 0; ///< s
+    bool                           is_enabled_ = false;
     std::vector<std::string>       names_;
     std::vector<StepReaction<dim>> steps_; ///< this rank's share
     std::vector<Reaction<dim>>     reactions_;

@@ -21,10 +21,20 @@ namespace talus
   /// velocity before the step, damping would drive the soil where a step turns
   /// the motion around.
   template <int dim>
-  class Damping : public dealii::ParameterAcceptor
+  class Damping : public dealii::ParameterAcceptor, public NodalInteraction<dim>
   {
   public:
-    Damping();
+    /// Components of the velocity that @p boundaries may hold are left alone, as
+    /// the boundary bears the unbalanced force; so are the nodes for which
+    /// @p feels_obstacle is not zero (by node; empty: no such node).
+    Damping(const Boundaries<dim>            &boundaries,
+            const std::vector<unsigned char> &feels_obstacle);
+
+    void
+    open_accounts(Accounts<dim> &accounts) override
+    {
+      accounts.open_energy("damping work");
+    }
 
     /// The coefficient alpha [-]; 0 for none.
     double
@@ -33,20 +43,24 @@ namespace talus
       return coefficient_;
     }
 
-    /// Damp the motion of the active nodes after the momentum update and before
-    /// Boundaries::apply(). Components that @p boundaries may hold are left
-    /// alone: their force is no unbalanced one, the boundary bears it; so are
-    /// nodes at which @p feels_obstacle is not zero (empty: none). Nor are
-    /// nodes with less than @p mass_cutoff touched. Returns the work taken, J.
+    void
+    correct_velocities(State<dim> &state) override
+    {
+      state.accounts.energy("damping work") +=
+        apply(state.nodes, state.grid, state.constants.mass_cutoff);
+    }
+
+    /// Damp the motion of the active nodes with more than @p mass_cutoff, kg,
+    /// after the momentum update. Return the energy taken from the soil, J.
     double
-    apply(NodalFields<dim>                 &nodes,
-          const Grid<dim>                  &grid,
-          const Boundaries<dim>            &boundaries,
-          const std::vector<unsigned char> &feels_obstacle,
-          double                            mass_cutoff) const;
+    apply(NodalFields<dim> &nodes,
+          const Grid<dim>  &grid,
+          double            mass_cutoff) const;
 
   private:
-    double coefficient_ = 0.;
+    const Boundaries<dim>            &boundaries_;
+    const std::vector<unsigned char> &feels_obstacle_;
+    double                            coefficient_ = 0.;
   };
 } // namespace talus
 

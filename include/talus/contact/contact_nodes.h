@@ -84,7 +84,7 @@ namespace talus
 
     /// Walls take up what facets did to the components that they hold.
     void
-    book_walls(State<dim> &state, Boundaries<dim> &boundaries) const;
+    record_walls(State<dim> &state, Boundaries<dim> &boundaries) const;
 
   private:
     // By node, for exchange: degree of filling [-], number of facets over mass

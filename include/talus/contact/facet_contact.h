@@ -8,6 +8,7 @@
 #include <talus/contact/facet_constraints.h>
 #include <talus/contact/facet_impulses.h>
 #include <talus/contact/facets.h>
+#include <talus/interaction/nodal_interaction.h>
 #include <talus/state/state.h>
 
 #include <vector>
@@ -24,10 +25,11 @@ namespace talus
   /// nearly right. A facet is closed only while the boxes of the points come
   /// nearer than a twentieth of a cell. doc/method.md, section "Obstacles".
   template <int dim>
-  class FacetContact
+  class FacetContact : public NodalInteraction<dim>
   {
   public:
-    explicit FacetContact(Obstacles<dim> &obstacles);
+    /// Walls among @p boundaries hold nodes that touch obstacles.
+    FacetContact(Obstacles<dim> &obstacles, Boundaries<dim> &boundaries);
 
     const Obstacles<dim> &
     obstacles() const
@@ -35,44 +37,36 @@ namespace talus
       return obstacles_;
     }
 
-    /// Average the forces of reactions() over @p time, s; see Reaction::add().
     void
-    set_averaging_time(const double time)
+    open_accounts(Accounts<dim> &accounts) override
     {
-      averaging_time_ = time;
+      boundaries_.open_accounts(accounts);
     }
 
-    /// Find facets and nodes; to be called after each change of the mesh or its
-    /// partition. Facets that were there before keep their impulses.
+    /// Find facets and nodes. Facets that were there before keep their impulses.
     /// Collective.
     void
-    prepare(const Grid<dim> &grid);
+    prepare(const Grid<dim> &grid) override;
 
-    /// Let obstacles move on by the time step, before anybody asks where they
-    /// are in it.
+    /// Advance moving obstacles to the end of the time step.
     void
-    move_obstacles(const State<dim> &state);
+    begin_step(State<dim> &state) override;
 
-    /// Change the velocities of the nodes after the momentum update, and before
-    /// @p boundaries act, as obstacles ask. Collective.
+    /// Solve for the impulses of the facets and change the velocities of the
+    /// nodes by them. Collective.
     void
-    apply(State<dim> &state, Boundaries<dim> &boundaries);
+    correct_velocities(State<dim> &state) override;
 
-    /// Add up what the step did, when the velocities of all nodes, ghosts too,
-    /// are final. Collective.
+    /// Sum the reactions of the step over the ranks.
     void
-    book(State<dim> &state, Boundaries<dim> &boundaries);
+    record(State<dim> &state) override;
 
-    /// Of the obstacles; all ranks have the same.
+    /// Forces on the obstacles, one per obstacle; identical on all ranks.
     const std::vector<Reaction<dim>> &
     reactions() const
     {
       return reactions_;
     }
-
-    /// A row of the output was written.
-    void
-    start_interval();
 
     /// By node, whether soil there feels an obstacle; empty without obstacles.
     const std::vector<unsigned char> &
@@ -134,7 +128,7 @@ namespace talus
     }
 
     void
-    list_state(StateList &list);
+    list_state(StateList &list) override;
 
   private:
     void
@@ -148,8 +142,8 @@ namespace talus
     void
     hold_nodes_inside(State<dim> &state);
     void
-    book_facets(const State<dim>               &state,
-                std::vector<StepReaction<dim>> &steps) const;
+    record_facets(const State<dim>               &state,
+                  std::vector<StepReaction<dim>> &steps) const;
 
     /// At a node that touches no facet.
     struct ImpulseInside
@@ -161,10 +155,10 @@ namespace talus
     };
 
     Obstacles<dim>            &obstacles_;
+    Boundaries<dim>           &boundaries_;
     Facets<dim>                facets_;
     FacetImpulses<dim>         impulses_{facets_};
     std::vector<Reaction<dim>> reactions_;
-    double                     averaging_time_     = 0; ///< s
     bool                       has_begun_          = false;
     double                     previous_time_step_ = 0; ///< s
 

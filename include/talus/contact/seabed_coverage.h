@@ -3,6 +3,7 @@
 #define talus_contact_seabed_coverage_h
 
 #include <talus/boundaries/boundaries.h>
+#include <talus/interaction/nodal_interaction.h>
 #include <talus/state/state.h>
 #include <talus/transfer/weights.h>
 
@@ -15,7 +16,7 @@ namespace talus
   /// boxes along the face. Unlike the volume fraction of the cells at the face it
   /// does not shrink with the thickness of a layer thinner than a cell.
   template <int dim>
-  class SeabedCoverage
+  class SeabedCoverage : public NodalInteraction<dim>
   {
   public:
     /// @p boundaries gets the areas for its friction.
@@ -24,11 +25,17 @@ namespace talus
     /// Find cells and nodes at the seabed, after each change of the mesh or its
     /// partition.
     void
-    prepare(const Grid<dim> &grid);
+    prepare(const Grid<dim> &grid) override;
 
     /// Find the areas, when the volumes at the nodes are known. Collective.
     void
     find(const State<dim> &state);
+
+    void
+    begin_step(State<dim> &state) override
+    {
+      find(state);
+    }
 
   private:
     struct CellAtFace

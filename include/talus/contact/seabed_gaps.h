@@ -4,6 +4,7 @@
 
 #include <talus/boundaries/boundaries.h>
 #include <talus/contact/nodal_gaps.h>
+#include <talus/interaction/nodal_interaction.h>
 
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace talus
 {
   /// How far soil is from those faces of the mesh that are a seabed with a gap.
   template <int dim>
-  class SeabedGaps
+  class SeabedGaps : public NodalInteraction<dim>
   {
   public:
     /// @p boundaries will ask here.
@@ -19,11 +20,17 @@ namespace talus
 
     /// To be called after each change of the mesh or its partition.
     void
-    prepare(const Grid<dim> &grid);
+    prepare(const Grid<dim> &grid) override;
 
     /// Find the gaps of this step. Collective.
     void
     find(const State<dim> &state);
+
+    void
+    begin_step(State<dim> &state) override
+    {
+      find(state);
+    }
 
   private:
     Boundaries<dim>            &boundaries_;

@@ -58,7 +58,7 @@ namespace talus
     problem.boundaries.add_tractions(state.nodes,
                                      state.grid,
                                      state.time,
-                                     state.mass_cutoff);
+                                     state.constants.mass_cutoff);
   }
 } // namespace talus
 

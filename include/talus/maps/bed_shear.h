@@ -9,7 +9,7 @@ namespace talus
 {
   /// Add the forces of the last step along the bed, N, acting on the soil: from
   /// the facets of obstacles belonging to the ground, and from the bottom face
-  /// of the mesh if it is a seabed (see Boundaries::remember_bed_friction()).
+  /// of the mesh if it is a seabed (see Boundaries::bed_friction()).
   ///
   /// @param state of the run
   /// @param contact facets of the obstacles

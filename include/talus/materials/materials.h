@@ -38,6 +38,12 @@ namespace talus
       return *models_[material_of_body_[body]];
     }
 
+    unsigned int
+    n_bodies() const
+    {
+      return material_of_body_.size();
+    }
+
     /// Remarks on all materials used by bodies, see MaterialModel::note().
     /// @p cell_size in m.
     std::vector<std::string>

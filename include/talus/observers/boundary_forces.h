@@ -3,19 +3,17 @@
 #define talus_observers_boundary_forces_h
 
 #include <talus/boundaries/boundary_reactions.h>
-#include <talus/observers/quantity_table.h>
+#include <talus/observers/reaction_table.h>
 
 namespace talus
 {
-  /// boundaries.csv: what the soil does to each face of the mesh that has a
-  /// condition, one row per interval of the statistics, as obstacles.csv does it
-  /// for obstacles.
+  /// boundaries.csv: forces of the soil on each face of the mesh that has a
+  /// condition.
   template <int dim>
-  class BoundaryForces : public QuantityTable<dim>
+  class BoundaryForces : public ReactionTable<dim>
   {
   public:
-    /// @p reactions start a new interval with each row.
-    explicit BoundaryForces(BoundaryReactions<dim> &reactions);
+    explicit BoundaryForces(const BoundaryReactions<dim> &reactions);
 
     /// If the parameters of the boundaries ask for it.
     bool
@@ -24,14 +22,26 @@ namespace talus
     Quantities
     evaluate(const State<dim> &state) const override;
 
-    void
-    observe(const State<dim> &state) override;
-
-    void
-    list_state(StateList &list) override;
-
   private:
-    BoundaryReactions<dim> &reactions_;
+    const std::vector<Reaction<dim>> &
+    reactions() const override
+    {
+      return reactions_.all();
+    }
+
+    const std::string &
+    name(const unsigned int k) const override
+    {
+      return reactions_.name(k);
+    }
+
+    std::string
+    kind() const override
+    {
+      return "face";
+    }
+
+    const BoundaryReactions<dim> &reactions_;
   };
 } // namespace talus
 

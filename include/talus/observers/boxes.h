@@ -17,7 +17,7 @@ namespace talus
   inline double
   longest_box(const State<dim> &state, const double cell_size)
   {
-    return 2. * state.box_shape.most_half * cell_size;
+    return 2. * state.constants.box_shape.most_half * cell_size;
   }
 
 
@@ -32,7 +32,7 @@ namespace talus
   box_edges(const State<dim> &state, const unsigned int p, const double longest)
   {
     const Points<dim>                      &points = state.points;
-    const BoxShape                         &shape  = state.box_shape;
+    const BoxShape                         &shape  = state.constants.box_shape;
     std::array<dealii::Tensor<1, dim>, dim> edges;
     for (unsigned int d = 0; d < dim; ++d)
       if (shape.rule != BoxRule::fixed)

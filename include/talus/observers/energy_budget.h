@@ -5,62 +5,37 @@
 #include <talus/base/quantity.h>
 #include <talus/state/state.h>
 
+#include <vector>
+
 namespace talus
 {
-  /// Where the energy is and where it went, over all ranks; J, in 2-D J per
-  /// metre width.
-  struct EnergyTerms
-  {
-    double kinetic      = 0; ///< of the points, velocities at the half step
-    double grid_kinetic = 0; ///< of the background grid
-    double elastic      = 0;
-    double plastic      = 0; ///< plastic work so far
-    double friction     = 0; ///< taken by friction so far
-    /// Taken by normal contact, walls and tractions so far; negative where
-    /// these drive the soil.
-    double contact = 0;
-    double damping = 0; ///< taken by local damping so far
-    double drag    = 0; ///< taken by the drag of water so far
-    double added   = 0; ///< kinetic energy of the added mass of water
-    double merging = 0; ///< taken by merging points so far
-    double outflow = 0; ///< taken along by points that left the mesh so far
-    double gravity = 0; ///< work of weight and body forces so far
-    /// What the other terms leave of the gravity work since the start;
-    /// positive if energy was lost, negative if some was created.
-    double remainder = 0;
-  };
-
-
-
-  /// The energy budget
-  ///   remainder = gravity work - change of kinetic energy - change of elastic
-  ///   energy - plastic work - friction work - contact work - damping work - drag
-  ///   work - merging work - outflow energy,
-  /// every term counted from the start. It is the points' kinetic energy that
-  /// enters, with that of the water that moves with them, so the remainder
-  /// holds what the transfer dissipates.
+  /// Energy budget of the run, over all ranks; J, in 2-D J per metre width:
+  ///   remainder = energies supplied - energies taken - change of energies stored,
+  /// every term counted from the start of the motion. The points store kinetic
+  /// energy, elastic energy and plastic work; all other terms are those of
+  /// State::accounts, the work of gravity among them. The kinetic energy of the
+  /// points enters the budget, so the remainder holds the energy that the
+  /// transfer dissipates. A negative remainder is energy made from nothing.
   template <int dim>
   class EnergyBudget
   {
   public:
-    /// Count from here.
+    /// Count from the present state. Collective.
     void
     begin(const State<dim> &state);
 
-    /// The terms now; collective over the ranks of the grid.
-    EnergyTerms
+    /// Return the terms, the kinetic energy of the background grid, which is no
+    /// part of the budget, and the remainder. Collective.
+    Quantities
     evaluate(const State<dim> &state) const;
-
-    /// List the terms. Collective.
-    void
-    list_quantities(const State<dim> &state, Quantities &list) const;
 
     /// Add the terms at the start to the state of the run.
     void
     list_state(StateList &list);
 
   private:
-    EnergyTerms start_;
+    std::vector<double> start_; ///< terms at the start, J
+    bool                is_first_rank_ = false;
   };
 } // namespace talus
 

@@ -3,38 +3,46 @@
 #define talus_observers_obstacle_forces_h
 
 #include <talus/contact/facet_contact.h>
-#include <talus/observers/quantity_table.h>
+#include <talus/observers/reaction_table.h>
 
 #include <vector>
 
 namespace talus
 {
-  /// obstacles.csv: what the soil does to each obstacle, one row per interval of
-  /// the statistics. Forces are those on the obstacle: means over all steps
-  /// since the row before, and the least and largest components in any of these
-  /// steps. Impulses and works are those since the start. doc/output.md lists
-  /// the columns.
+  /// obstacles.csv: forces of the soil on each obstacle, and how much soil is
+  /// below its surface. doc/output.md lists the columns.
   template <int dim>
-  class ObstacleForces : public QuantityTable<dim>
+  class ObstacleForces : public ReactionTable<dim>
   {
   public:
-    /// @p contact starts a new interval with each row.
-    explicit ObstacleForces(FacetContact<dim> &contact);
+    explicit ObstacleForces(const FacetContact<dim> &contact);
 
     /// Where there are obstacles.
     bool
     is_enabled(const OutputSettings &settings) const override;
 
-    void
-    observe(const State<dim> &state) override;
-
-    void
-    list_state(StateList &list) override;
-
     Quantities
     evaluate(const State<dim> &state) const override;
 
   private:
+    const std::vector<Reaction<dim>> &
+    reactions() const override
+    {
+      return contact_.reactions();
+    }
+
+    const std::string &
+    name(const unsigned int k) const override
+    {
+      return contact_.obstacles()[k].name();
+    }
+
+    std::string
+    kind() const override
+    {
+      return "obstacle";
+    }
+
     void
     list_forces(unsigned int k, Quantities &row) const;
     /// Soil below the surface of an obstacle.
@@ -53,7 +61,7 @@ namespace talus
                      const State<dim>  &state,
                      Quantities        &row) const;
 
-    FacetContact<dim> &contact_;
+    const FacetContact<dim> &contact_;
   };
 } // namespace talus
 

@@ -28,7 +28,7 @@ namespace talus
   ///   that of the background grid, without the points' FLIP noise: what tells
   ///   whether the slide has come to rest. It is 0 before the first step.
   /// - `clipped boxes` counts axes of boxes that the weights clip now.
-  /// - The energy terms are those of EnergyTerms; the columns from `empty
+  /// - The energy terms are those of EnergyBudget; the columns from `empty
   ///   interior cells` on are those of FractureCounts, of the splitter and
   ///   of the merger.
   template <int dim>

@@ -3,9 +3,10 @@
 #define talus_problem_problem_h
 
 #include <talus/boundaries/boundaries.h>
+#include <talus/boundaries/damping.h>
 #include <talus/contact/facet_contact.h>
 #include <talus/contact/seabed_coverage.h>
-#include <talus/contact/seabed_gaps.h>
+#include <talus/interaction/nodal_interactions.h>
 #include <talus/problem/body.h>
 #include <talus/problem/body_thickness.h>
 #include <talus/problem/loading.h>
@@ -40,6 +41,15 @@ namespace talus
     void
     prepare(Points<dim> &points, bool changes_strength, double end_time);
 
+    /// Open the accounts of all that exchanges energy with the soil; to be called
+    /// after prepare().
+    void
+    open_accounts(Accounts<dim> &accounts)
+    {
+      interactions.open_accounts(accounts);
+      accounts.open_energy("gravity work", Accounts<dim>::EnergyKind::supplied);
+    }
+
     /// Fill the bodies with points and set all they start with. Points are in
     /// no order then. Collective.
     void
@@ -71,14 +81,6 @@ namespace talus
     /// Boxes around the bodies in a mesh that fills @p domain.
     std::vector<Box<dim>>
     bounding_boxes(const Box<dim> &domain) const;
-
-    /// By body, mass of water that moves with the soil, as a share of its mass
-    /// [-]; empty if water does nothing.
-    std::vector<double>
-    added_mass() const
-    {
-      return water.added_mass_of_bodies(materials, bodies_.size());
-    }
 
     /// For which bodies the dilatation is averaged over the cells.
     std::vector<bool>
@@ -134,11 +136,7 @@ namespace talus
     locate(const Grid<dim> &grid)
     {
       find_mudline(grid);
-      boundaries.locate_nodes(grid);
-      seabed_coverage.prepare(grid);
-      seabed_gaps.prepare(grid);
-      contact.prepare(grid);
-      water.prepare(grid);
+      interactions.prepare(grid);
     }
 
     /// Height of the mudline of the start, m, in the vertical through a place,
@@ -168,8 +166,7 @@ namespace talus
         table.list_state(list);
       loading.list_state(list);
       obstacles.list_state(list);
-      contact.list_state(list);
-      boundaries.list_state(list);
+      interactions.list_state(list);
     }
 
   private:
@@ -194,15 +191,19 @@ namespace talus
 
   public:
     // The parts, for those who work with them.
-    Materials<dim>      materials;
-    Boundaries<dim>     boundaries;
-    SeabedCoverage<dim> seabed_coverage;
-    SeabedGaps<dim>     seabed_gaps;
-    Obstacles<dim>      obstacles;
-    FacetContact<dim>   contact; ///< with the obstacles
-    Water<dim>          water;
-    Loading<dim>        loading;
-    Trigger<dim>        trigger;
+    Materials<dim> materials;
+    Obstacles<dim> obstacles;
+    Loading<dim>   loading;
+    Trigger<dim>   trigger;
+
+    /// Everything that acts at the nodes; the references below lead to those
+    /// members of the list that other parts of the program ask by themselves.
+    NodalInteractions<dim> interactions;
+    Boundaries<dim>       &boundaries;
+    SeabedCoverage<dim>   &seabed_coverage;
+    FacetContact<dim>     &contact; ///< with the obstacles
+    Damping<dim>          &damping;
+    Water<dim>            &water;
   };
 } // namespace talus
 

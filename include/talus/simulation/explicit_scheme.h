@@ -5,14 +5,13 @@
 #include <talus/adaptivity/merger.h>
 #include <talus/adaptivity/splitter.h>
 #include <talus/base/phase_timer.h>
-#include <talus/boundaries/damping.h>
 #include <talus/contact/point_confinement.h>
 #include <talus/problem/problem.h>
 #include <talus/simulation/background_mesh.h>
+#include <talus/simulation/null_space_filter.h>
 #include <talus/simulation/step_agreement.h>
 #include <talus/simulation/time_step.h>
 #include <talus/state/state.h>
-#include <talus/transfer/null_space_filter.h>
 #include <talus/transfer/transfer.h>
 
 #include <string>
@@ -45,12 +44,6 @@ namespace talus
     std::string
     description();
 
-    const Damping<dim> &
-    damping() const
-    {
-      return damping_;
-    }
-
     const Splitter<dim> &
     splitter() const
     {
@@ -78,8 +71,8 @@ namespace talus
   private:
     void
     merge();
-    double
-    restore_hyperelastic(const Batch &batch);
+    void
+    filter();
     void
     points_to_grid();
     RunRequest
@@ -100,7 +93,6 @@ namespace talus
     PhaseTimer           &timer_;
     PointConfinement<dim> confinement_;
     NullSpaceFilter<dim>  filter_;
-    Damping<dim>          damping_;
     Splitter<dim>         splitter_;
     Merger<dim>           merger_;
     TimeStep<dim>         time_step_;

@@ -2,20 +2,19 @@
 #ifndef talus_state_state_h
 #define talus_state_state_h
 
-#include <talus/base/works.h>
 #include <talus/grid/nodal_fields.h>
 #include <talus/points/points.h>
 #include <talus/points/step_workspace.h>
-#include <talus/transfer/box_shape.h>
+#include <talus/state/accounts.h>
+#include <talus/state/run_constants.h>
 #include <talus/transfer/outflow.h>
 
 namespace talus
 {
-  /// Where a simulation is: all that a step changes, for those who go on with
-  /// it and for those who look at it. Points, works and counts are this rank's
-  /// share; observers sum up. Between two steps the points are sorted, and the
-  /// nodal fields are those of the step before (none at the start), which
-  /// nothing depends on.
+  /// State of a simulation: everything that a step changes. Points, accounts and
+  /// counts are the share of this rank; observers sum over the ranks. Between two
+  /// steps the points are sorted by cell, and the nodal fields are left over from
+  /// the previous step (none at the start); no result depends on them.
   template <int dim>
   struct State
   {
@@ -29,16 +28,15 @@ namespace talus
       return grid.communicator();
     }
 
-    /// Add all but points and mesh, which checkpoints know, to the list.
+    /// Add all but points and mesh, which a checkpoint holds by itself, to the
+    /// list.
     void
     list_state(StateList &list)
     {
       list.add("time", "s", time, Reduction::equal);
       list.add("time step", "s", time_step, Reduction::equal);
       list.add("step", "-", step, Reduction::equal);
-      works.list_state(list);
-      if (may_merge)
-        list.add("merging work", "J", works.merging, Reduction::sum);
+      accounts.list_state(list);
       outflow.list_state(list);
     }
 
@@ -46,17 +44,12 @@ namespace talus
     StepWorkspace<dim> workspace; ///< of the phases of a step
     Grid<dim>          grid;
     NodalFields<dim>   nodes;
-    BoxShape           box_shape;     ///< how the boxes of the points deform
-    Works<dim>         works;         ///< so far
-    Outflow<dim>       outflow;       ///< so far
+    RunConstants<dim>  constants;     ///< set before the first step
+    Accounts<dim>      accounts;      ///< of energy and impulses
+    Outflow<dim>       outflow;       ///< soil that left the mesh so far
     double             time      = 0; ///< s
-    double             time_step = 0; ///< of the last step, s
+    double             time_step = 0; ///< length of the last step, s
     unsigned long      step      = 0; ///< number of steps so far
-    bool               may_merge = false; ///< whether points are merged
-    /// By body, mass of water that moves with the soil, as a share of that of
-    /// the soil [-]; empty if water does nothing.
-    std::vector<double> added_mass;
-    double              mass_cutoff = 0; ///< nodes with less mass carry nothing, kg
   };
 } // namespace talus
 

@@ -36,12 +36,12 @@ namespace talus
     bool
     is_beyond(const dealii::Point<dim> &x, const Box<dim> &domain) const;
 
-    /// Add point @p p to the account. @p added_mass is State::added_mass: added
+    /// Add point @p p to the account. @p added_mass is RunConstants::added_mass: added
     /// mass divided by mass [-] of each body, or empty.
     void
-    book(const Points<dim>         &points,
-         unsigned int               p,
-         const std::vector<double> &added_mass);
+    record(const Points<dim>         &points,
+           unsigned int               p,
+           const std::vector<double> &added_mass);
 
     /// Energy of the points that left from this rank, J: kinetic energy of soil
     /// and added mass, elastic energy, and plastic work.

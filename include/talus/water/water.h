@@ -2,7 +2,7 @@
 #ifndef talus_water_water_h
 #define talus_water_water_h
 
-#include <talus/base/quantity.h>
+#include <talus/interaction/nodal_interaction.h>
 #include <talus/materials/materials.h>
 #include <talus/water/free_surface.h>
 
@@ -17,47 +17,50 @@ namespace talus
   /// weight: it must be accelerated with the soil (added mass), and drags at
   /// its free surface. doc/method.md, section "Water".
   template <int dim>
-  class Water : public dealii::ParameterAcceptor
+  class Water : public dealii::ParameterAcceptor, public NodalInteraction<dim>
   {
   public:
-    Water();
+    /// Obstacles of @p contact bound the soil, the densities are those of
+    /// @p materials.
+    Water(const Materials<dim> &materials, const FacetContact<dim> &contact);
 
-    /// Whether it does anything.
+    /// Whether any effect of water is switched on.
     bool
     acts() const
     {
       return added_mass_ > 0 || skin_friction_ > 0 || pressure_drag_ > 0;
     }
 
-    /// Added mass of the soil of each body, as a share of its mass [-]; empty
-    /// if water does nothing.
+    /// Return the mass of water that moves with the soil divided by the mass of
+    /// the soil [-], by body; empty if water has no effect.
     std::vector<double>
-    added_mass_of_bodies(const Materials<dim> &materials,
-                         unsigned int          n_bodies) const;
+    added_mass_of_bodies() const;
 
-    /// A sentence if buoyancy does not fit the density; empty if it does.
-    std::string
-    note(const Materials<dim> &materials, unsigned int n_bodies) const;
-
-    /// To be called after each change of the mesh or its partition. Collective.
     void
-    prepare(const Grid<dim> &grid);
+    open_accounts(Accounts<dim> &accounts) override;
 
-    /// Add the inertia of the water to the nodes, and drag to their forces; when
-    /// sums are complete and before the momentum update. Collective.
     void
-    apply(State<dim> &state, const FacetContact<dim> &contact);
+    prepare(const Grid<dim> &grid) override;
 
-    /// Book what drag did, when the velocities of owned nodes are final.
+    /// Find the free surface and add the inertia of the water to the nodes.
     void
-    book(State<dim> &state);
+    begin_step(State<dim> &state) override;
 
-    /// List drag, added mass and Froude number; @p gravity normal to the slope,
-    /// m/s^2. Collective.
+    /// Add the drag on the free surface.
     void
-    list_quantities(const State<dim> &state,
-                    double            gravity,
-                    Quantities       &list) const;
+    add_forces(State<dim> &state) override;
+
+    /// Record energy and impulse of the drag.
+    void
+    record(State<dim> &state) override;
+
+    /// List drag, momentum of the added mass, and Froude number.
+    void
+    list_quantities(const State<dim> &state, Quantities &list) const override;
+
+    /// Return a sentence if buoyancy does not fit the density of the soil.
+    std::vector<std::string>
+    notes() const override;
 
     const FreeSurface<dim> &
     free_surface() const
@@ -72,8 +75,9 @@ namespace talus
     force_at(unsigned int node) const;
     void
     add_inertia(NodalFields<dim> &nodes) const;
-    void
-    add_drag(NodalFields<dim> &nodes, const Grid<dim> &grid);
+
+    const Materials<dim>    &materials_;
+    const FacetContact<dim> &contact_;
 
     double density_       = 1000.;
     double added_mass_    = 0.;

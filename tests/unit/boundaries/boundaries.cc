@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/observers/reaction_interval.h>
+
 #include "core_setup.h"
 
 namespace
@@ -37,8 +39,8 @@ namespace
       nodes.clear();
       nodes.set_sums(
         node, mass, volume, mass * before, mass * (trial - before) / dt);
-      this->boundaries.prepare(Constants());
-      this->boundaries.locate_nodes(this->grid);
+      this->boundaries.parse(Constants());
+      this->boundaries.prepare(this->grid);
       this->boundaries.set_covered_area(
         [=](const unsigned int, const unsigned int) { return covered_area; });
       this->boundaries.add_tractions(nodes, this->grid, 0., 0.);
@@ -65,9 +67,9 @@ namespace
       EXPECT_LT((work.wall_impulse - wall).norm(), 1e-13) << work.wall_impulse;
     }
 
-    unsigned int node;
-    double       kinetic_energy_before, force_work;
-    Works<dim>   work;
+    unsigned int      node;
+    double            kinetic_energy_before, force_work;
+    BoundaryWork<dim> work;
   };
 
   const std::string bottom = "set Bottom = seabed";
@@ -249,9 +251,15 @@ namespace
                  2.,
                  before,
                  trial);
-    n.boundaries.reactions().finish_step(dt, MPI_COMM_SELF);
+    n.boundaries.reactions().finish_step(MPI_COMM_SELF);
     Quantities row;
-    n.boundaries.reactions().list_quantities(row);
+    for (unsigned int k = 0; k < 2; ++k)
+      {
+        const StepReaction<2> &last = n.boundaries.reactions().all()[k].last;
+        ReactionInterval<2>    interval;
+        interval.add(last, dt, 0.);
+        interval.list_quantities(n.boundaries.reactions().name(k), last, row);
+      }
     const auto value = [&](const std::string &name) {
       for (const Quantity &quantity : row)
         if (quantity.name == name)
@@ -340,8 +348,8 @@ namespace
         while (places_of_nodes(core.grid)[node].distance(on_bottom) > 1e-12)
           ++node;
         nodes.set_sums(node, 2., 1., 2. * before, 2. * (trial - before) / dt);
-        core.boundaries.prepare(Constants());
-        core.boundaries.locate_nodes(core.grid);
+        core.boundaries.parse(Constants());
+        core.boundaries.prepare(core.grid);
         core.boundaries.set_gap(
           [=](const unsigned int, const unsigned int) { return gap; });
         nodes.update_momentum(dt, 0.);
@@ -399,7 +407,7 @@ namespace
     dealii::ParameterAcceptor::prm.parse_input_from_string(
       in_section("Boundaries", "set Bottom = fixed"));
     dealii::ParameterAcceptor::parse_all_parameters();
-    n.boundaries.prepare(Constants());
+    n.boundaries.parse(Constants());
     n.boundaries.apply(n.nodes, n.grid, 0., dt, 2.1);
     n.expect_velocity(trial);
     n.boundaries.apply(n.nodes, n.grid, 0., dt, 1.9);
@@ -482,7 +490,7 @@ namespace
     const auto error = [](const std::string &conditions) {
       return message_of<ExcUser>([&]() {
         Core<2> core(cube<2>() + in_section("Boundaries", conditions));
-        core.boundaries.prepare(Constants());
+        core.boundaries.parse(Constants());
       });
     };
     EXPECT_EQ(error("set Top = velocity\nset Top velocity = free; -t"), "");

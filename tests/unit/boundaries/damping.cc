@@ -18,8 +18,8 @@ namespace
       prm.parse_input_from_string(
         in_section("Damping", text("set Local damping = ", alpha)));
       dealii::ParameterAcceptor::parse_all_parameters();
-      boundaries.prepare(Constants());
-      boundaries.locate_nodes(grid);
+      boundaries.parse(Constants());
+      boundaries.prepare(grid);
       std::vector<unsigned int> all(grid.cells().size());
       for (unsigned int c = 0; c < all.size(); ++c)
         all[c] = c;
@@ -40,10 +40,11 @@ namespace
     apply()
     {
       nodes.update_momentum(step_length, 0.);
-      return damping.apply(nodes, grid, boundaries, {}, 0.);
+      return damping.apply(nodes, grid, 0.);
     }
 
-    Damping<2> damping;
+    const std::vector<unsigned char> feels_obstacle;
+    Damping<2>                       damping{boundaries, feels_obstacle};
   };
 
 
@@ -161,8 +162,8 @@ namespace
         make_mesh(core, kind, 1);
         auto &grid  = core.grid;
         auto &nodes = core.nodes;
-        core.boundaries.prepare(Constants());
-        core.boundaries.locate_nodes(grid);
+        core.boundaries.parse(Constants());
+        core.boundaries.prepare(grid);
         std::vector<unsigned int> all(grid.n_owned_cells());
         for (unsigned int c = 0; c < all.size(); ++c)
           all[c] = c;

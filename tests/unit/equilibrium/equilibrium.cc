@@ -62,7 +62,7 @@ namespace
       double free = 0., weight = 0., internal = 0.;
       for (const unsigned int node : this->nodes.active_nodes())
         if (const double mass = this->nodes.mass(node);
-            mass > this->mass_cutoff)
+            mass > this->constants.mass_cutoff)
           {
             const Tensor<1, dim> force = this->force(node);
             const Tensor<1, dim> loads = mass * down<dim>();

@@ -29,7 +29,7 @@ namespace
       gravity[0] = 2.;
       gravity[1] = -9.81;
       this->load(gravity);
-      parts.emplace(*this, StrainMeasure::small, this->mass_cutoff);
+      parts.emplace(*this, StrainMeasure::small, this->constants.mass_cutoff);
       auto                      &unknowns = parts->unknowns;
       std::vector<unsigned char> held;
       for (const unsigned int node : unknowns.active_nodes())

@@ -57,9 +57,10 @@ namespace
       const auto              places = places_of_nodes(grid);
       std::map<double, Force> result;
       for (const unsigned int node : nodes.active_nodes())
-        if (nodes.mass(node) > mass_cutoff && places[node][1] == 0.)
+        if (nodes.mass(node) > constants.mass_cutoff && places[node][1] == 0.)
           result[places[node][0]] = -force(node);
-        else if (nodes.mass(node) > mass_cutoff && places[node][0] > 0.)
+        else if (nodes.mass(node) > constants.mass_cutoff &&
+                 places[node][0] > 0.)
           {
             EXPECT_LT(force(node).norm(), 1e-8 * weight.norm());
           }
@@ -220,7 +221,7 @@ TEST(StaticContactTest, FrictionIsWithinItsLimitAtEachLoadStep)
           unsigned int n_limited = 0;
           for (const unsigned int node : block.nodes.active_nodes())
             {
-              if (block.nodes.mass(node) <= block.mass_cutoff)
+              if (block.nodes.mass(node) <= block.constants.mass_cutoff)
                 continue;
               const Force  weight   = block.nodes.mass(node) * Point<2>(0., -g);
               const Force  reaction = (1. - load) * weight - block.force(node);
@@ -271,7 +272,7 @@ namespace
   {
     NodeOnSeabed()
       : BlockOnSeabed(seabed(0.5, 150.), Point<2>(0., -g))
-      , parts(*this, StrainMeasure::small, mass_cutoff)
+      , parts(*this, StrainMeasure::small, constants.mass_cutoff)
     {
       const auto places = places_of_nodes(grid);
       for (unsigned int k = 0; k < parts.unknowns.active_nodes().size(); ++k)

@@ -229,7 +229,7 @@ namespace
   {
     Scene<2> s("0, 0", "8, 4");
     add_points(s);
-    s.box_shape.rule = BoxRule::convected_domain;
+    s.constants.box_shape.rule = BoxRule::convected_domain;
     const Matrix<2, double> F{{{{{0.25, -1.5}}, {{1., 0.5}}}}};
     for (unsigned int p = 0; p < 2; ++p)
       store_matrix(s.points, s.points.deformation_gradient, p, F);

@@ -110,11 +110,11 @@ namespace
     statistics.start(s);
     statistics.observe(s);
 
-    s.time                 = 0.5;
-    s.step                 = 7;
-    s.time_step            = 0.125;
-    s.works.seabed_impulse = dealii::Tensor<1, 2>({-6., 9.});
-    auto row               = evaluate(statistics, s);
+    s.time                               = 0.5;
+    s.step                               = 7;
+    s.time_step                          = 0.125;
+    s.accounts.impulse("seabed impulse") = dealii::Tensor<1, 2>({-6., 9.});
+    auto row                             = evaluate(statistics, s);
     EXPECT_EQ(row["time [s]"], 0.5);
     EXPECT_EQ(row["step"], 7);
     EXPECT_EQ(row["time step [s]"], 0.125);
@@ -141,9 +141,9 @@ namespace
 
     // The force is the mean since the row before; the impulse goes on.
     statistics.observe(s);
-    s.time                    = 1.;
-    s.works.seabed_impulse[0] = -7.;
-    row                       = evaluate(statistics, s);
+    s.time                                  = 1.;
+    s.accounts.impulse("seabed impulse")[0] = -7.;
+    row                                     = evaluate(statistics, s);
     EXPECT_EQ(row["seabed force x [N]"], -2.);
     EXPECT_EQ(row["seabed impulse x [N s]"], -7.);
     EXPECT_EQ(lines("statistics.csv").size(), 3u);
@@ -165,10 +165,10 @@ namespace
     s.points.data(s.points.velocity, 1)[0]    = 4.; // 25 J
     s.points.data(s.points.elastic_energy)[0] = 6.;
     s.points.data(s.points.plastic_work)[0]   = 10.;
-    s.works.friction                          = 20.;
-    s.works.contact                           = 0.5;
-    s.works.damping                           = 4.;
-    s.works.gravity                           = 50.;
+    s.accounts.energy("friction work")        = 20.;
+    s.accounts.energy("contact work")         = 0.5;
+    s.accounts.energy("damping work")         = 4.;
+    s.accounts.energy("gravity work")         = 50.;
     // A node with 2 kg at 3 m/s: (momentum + dt force) / mass.
     s.nodes.activate(s.grid, {0});
     s.nodes.clear();
@@ -275,11 +275,11 @@ namespace
     EXPECT_EQ(file[3], "0.5,4.5,0,0.5,0.25,-1");
 
     // Boxes that do not follow the deformation keep their reference length.
-    s.box_shape.rule = BoxRule::fixed;
+    s.constants.box_shape.rule = BoxRule::fixed;
     EXPECT_EQ(find_profile(s, on_bottom(s)).at(2).highest, 0.375);
 
     // After a quarter of a turn what was along x, 0.5 m, is along y.
-    s.box_shape.rule = BoxRule::convected_domain;
+    s.constants.box_shape.rule = BoxRule::convected_domain;
     const Matrix<2, double> quarter_turn{{{{{0., -1.}}, {{1., 0.}}}}};
     store_matrix(s.points, s.points.deformation_gradient, 2, quarter_turn);
     EXPECT_EQ(find_profile(s, on_bottom(s)).at(2).highest, 0.5);

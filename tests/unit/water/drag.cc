@@ -39,7 +39,7 @@ namespace
                 const Sections<dim> &sections = {})
       : Core<dim>(parameters)
       , with(sections)
-      , contact(with.obstacles)
+      , contact(with.obstacles, this->boundaries)
     {
       contact.prepare(this->grid);
       surface.prepare(this->grid);

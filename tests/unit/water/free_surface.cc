@@ -26,7 +26,7 @@ namespace
            &sections = {})
       : Core<dim>(parameters)
       , with(sections)
-      , contact(with.obstacles)
+      , contact(with.obstacles, this->boundaries)
       , is_soil_(is_soil)
     {
       contact.prepare(this->grid);
@@ -261,14 +261,16 @@ expect_drag()
 {
   const double area = (dim == 2 ? 6. : 12.);
   Soil<dim>    soil(slab<dim>(), [](const Point<dim> &x) { return x[1] < 2.; });
-  Water<dim>   water;
-  auto        &prm = dealii::ParameterAcceptor::prm;
+  const Materials<dim> materials({});
+  Water<dim>           water(materials, soil.contact);
+  auto                &prm = dealii::ParameterAcceptor::prm;
   dealii::ParameterAcceptor::declare_all_parameters();
   prm.parse_input_from_string(
     "subsection Water\nset Added mass coefficient = 0.2\n"
     "set Skin friction coefficient = 0.01\n"
     "set Pressure drag coefficient = 0.5\nend\n");
   dealii::ParameterAcceptor::parse_all_parameters();
+  water.open_accounts(soil.accounts);
   water.prepare(soil.grid);
   soil.velocity[0] = 3.;
   soil.velocity[1] = 2.;
@@ -277,9 +279,10 @@ expect_drag()
   Tensor<1, dim> before, after, impulse;
   for (const unsigned int node : soil.nodes.active_nodes())
     before += soil.nodes.momentum(node);
-  water.apply(soil, soil.contact);
+  water.begin_step(soil);
+  water.add_forces(soil);
   soil.nodes.update_momentum(soil.time_step, 0.);
-  water.book(soil);
+  water.record(soil);
   double mass = 0;
   for (const unsigned int node : soil.nodes.active_nodes())
     {
@@ -296,11 +299,12 @@ expect_drag()
   exact[1] = -0.5 * 1000. * 0.5 * area * 4. * soil.time_step;
   EXPECT_LT((impulse - exact).norm(), 1e-9 * exact.norm());
   const Tensor<1, dim> booked =
-    Utilities::MPI::sum(soil.works.drag_impulse, comm);
+    Utilities::MPI::sum(soil.accounts.impulse("drag impulse"), comm);
   EXPECT_LT((booked - exact).norm(), 1e-9 * exact.norm());
   // Less than the power at the start times the step, by what it slows down.
   const double power = -(exact * soil.velocity);
-  const double work  = Utilities::MPI::sum(soil.works.drag, comm);
+  const double work =
+    Utilities::MPI::sum(soil.accounts.energy("drag work"), comm);
   EXPECT_LT(work, power);
   EXPECT_GT(work, 0.8 * power);
 }

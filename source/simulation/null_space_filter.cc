@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/transfer/null_space_filter.h>
+#include <talus/simulation/null_space_filter.h>
 
 #include <algorithm>
 #include <array>
@@ -74,36 +74,34 @@ namespace talus
     /// interpolated to them: one pass of XPIC, identical to PIC.
     template <int dim>
     void
-    pass_to_grid_and_back(Points<dim>         &points,
-                          StepWorkspace<dim>  &workspace,
-                          const Grid<dim>     &grid,
-                          NodalFields<dim>    &nodes,
-                          const Transfer<dim> &transfer,
-                          const double         mass_cutoff)
+    pass_to_grid_and_back(State<dim> &state, const Transfer<dim> &transfer)
     {
       // Forces are summed, too, but have no effect in a time step of length
       // zero.
       const double time_step = 0., flip_fraction = 0.;
       Loads<dim>   none;
       none.acceleration_of_body.resize(transfer.n_bodies());
-      nodes.clear();
-      points.for_each_batch([&](const Batch &batch) {
-        workspace.reinit(batch.begin, batch.end);
-        std::fill_n(workspace.mean_stress_shift(), batch.end - batch.begin, 0.);
-        transfer.scatter(points, workspace, batch, grid, none, nodes);
+      state.nodes.clear();
+      state.points.for_each_batch([&](const Batch &batch) {
+        state.workspace.reinit(batch.begin, batch.end);
+        std::fill_n(state.workspace.mean_stress_shift(),
+                    batch.end - batch.begin,
+                    0.);
+        transfer.scatter(
+          state.points, state.workspace, batch, state.grid, none, state.nodes);
       });
-      nodes.sum_over_ranks(grid);
-      nodes.update_momentum(time_step, mass_cutoff);
-      nodes.share_with_ghosts(grid);
+      state.nodes.sum_over_ranks(state.grid);
+      state.nodes.update_momentum(time_step, state.constants.mass_cutoff);
+      state.nodes.share_with_ghosts(state.grid);
       // With zero time step and zero FLIP fraction only the velocities of the
       // points change: they become the velocity of the grid.
-      points.for_each_batch([&](const Batch &batch) {
-        workspace.reinit(batch.begin, batch.end);
-        transfer.gather(nodes,
-                        grid,
+      state.points.for_each_batch([&](const Batch &batch) {
+        state.workspace.reinit(batch.begin, batch.end);
+        transfer.gather(state.nodes,
+                        state.grid,
                         none,
-                        points,
-                        workspace,
+                        state.points,
+                        state.workspace,
                         batch,
                         time_step,
                         flip_fraction);
@@ -125,14 +123,11 @@ namespace talus
   // momentum.
   template <int dim>
   void
-  NullSpaceFilter<dim>::apply(Points<dim>         &points,
-                              StepWorkspace<dim>  &workspace,
-                              const Grid<dim>     &grid,
-                              NodalFields<dim>    &nodes,
-                              const Transfer<dim> &transfer,
-                              const double         mass_cutoff) const
+  NullSpaceFilter<dim>::apply(State<dim>          &state,
+                              const Transfer<dim> &transfer) const
   {
-    filter_mean_stress(points, workspace, transfer);
+    Points<dim> &points = state.points;
+    filter_mean_stress(points, state.workspace, transfer);
     const unsigned int                   n = points.size();
     std::array<std::vector<double>, dim> unseen, seen;
     for (unsigned int d = 0; d < dim; ++d)
@@ -143,8 +138,7 @@ namespace talus
       }
     for (unsigned int pass = 0; pass < order_; ++pass)
       {
-        pass_to_grid_and_back(
-          points, workspace, grid, nodes, transfer, mass_cutoff);
+        pass_to_grid_and_back(state, transfer);
         for (unsigned int d = 0; d < dim; ++d)
           {
             double *const v = points.data(points.velocity, d);
@@ -162,7 +156,7 @@ namespace talus
                 points.data(points.velocity, d));
     // No point has moved; points resting outside of their cell were listed
     // again.
-    workspace.points_out_of_cell().clear();
+    state.workspace.points_out_of_cell().clear();
   }
 
 

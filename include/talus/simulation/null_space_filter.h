@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef talus_transfer_null_space_filter_h
-#define talus_transfer_null_space_filter_h
+#ifndef talus_simulation_null_space_filter_h
+#define talus_simulation_null_space_filter_h
 
+#include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
 
 #include <deal.II/base/parameter_acceptor.h>
@@ -49,12 +50,7 @@ namespace talus
     /// @param transfer transfer scheme of the run
     /// @param mass_cutoff see Transfer::mass_cutoff(), kg
     void
-    apply(Points<dim>         &points,
-          StepWorkspace<dim>  &workspace,
-          const Grid<dim>     &grid,
-          NodalFields<dim>    &nodes,
-          const Transfer<dim> &transfer,
-          double               mass_cutoff) const;
+    apply(State<dim> &state, const Transfer<dim> &transfer) const;
 
   private:
     std::string  scheme_   = "FLIP";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/equilibrium/shape_function_cache.h>
-#include <talus/transfer/null_space_filter.h>
+#include <talus/simulation/null_space_filter.h>
 
 #include "transfer_setup.h"
 
@@ -76,8 +76,7 @@ namespace
         scale += m * core.get(core.points.velocity, p).norm();
       }
     const NullSpaceFilter<dim> filter;
-    filter.apply(
-      core.points, core.workspace, core.grid, core.nodes, core.transfer, 0.);
+    filter.apply(core, core.transfer);
     double most_taken = 0.;
     for (unsigned int p = 0; p < n; ++p)
       {
@@ -110,8 +109,7 @@ namespace
     for (unsigned int p = 0; p < n; ++p)
       old[p] = stress(p);
     const NullSpaceFilter<dim> filter;
-    filter.apply(
-      core.points, core.workspace, core.grid, core.nodes, core.transfer, 0.);
+    filter.apply(core, core.transfer);
     double largest_change = 0.;
     for (unsigned int p = 0; p < n; ++p)
       {

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_interaction_nodal_interactions_h
+#define talus_interaction_nodal_interactions_h
+
+#include <talus/interaction/nodal_interaction.h>
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace talus
+{
+  /// The nodal interactions of a run in their order of precedence.
+  ///
+  /// Velocities are corrected and energies recorded from the last interaction to
+  /// the first, so that the first one decides: nothing passes a wall, whatever
+  /// obstacles and damping did before. All other members go from the first to
+  /// the last. Forces add up in any order.
+  template <int dim>
+  class NodalInteractions
+  {
+  public:
+    /// Append an interaction of type @p Interaction made from @p arguments, and
+    /// return a reference that stays valid.
+    template <typename Interaction, typename... Arguments>
+    Interaction &
+    add(Arguments &&...arguments)
+    {
+      auto interaction =
+        std::make_unique<Interaction>(std::forward<Arguments>(arguments)...);
+      Interaction &result = *interaction;
+      list_.push_back(std::move(interaction));
+      return result;
+    }
+
+    void
+    open_accounts(Accounts<dim> &accounts);
+    void
+    prepare(const Grid<dim> &grid);
+    void
+    begin_step(State<dim> &state);
+    void
+    add_forces(State<dim> &state);
+    void
+    correct_velocities(State<dim> &state);
+    void
+    record(State<dim> &state);
+    void
+    list_quantities(const State<dim> &state, Quantities &list) const;
+    void
+    list_state(StateList &list);
+    std::vector<std::string>
+    notes() const;
+
+  private:
+    std::vector<std::unique_ptr<NodalInteraction<dim>>> list_;
+  };
+} // namespace talus
+
+#endif

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_problem_surface_weakening_h
+#define talus_problem_surface_weakening_h
+
+#include <talus/boundaries/boundaries.h>
+#include <talus/contact/obstacles.h>
+#include <talus/interaction/nodal_interaction.h>
+#include <talus/problem/trigger.h>
+
+namespace talus
+{
+  /// Lets the trigger weaken seabeds and the surfaces of obstacles: multiplies
+  /// their maximum shear stresses by the factor of the end of the step, as the
+  /// trigger does with the strength of the points.
+  template <int dim>
+  class SurfaceWeakening : public NodalInteraction<dim>
+  {
+  public:
+    SurfaceWeakening(const Trigger<dim> &trigger,
+                     Boundaries<dim>    &boundaries,
+                     Obstacles<dim>     &obstacles)
+      : trigger_(trigger)
+      , boundaries_(boundaries)
+      , obstacles_(obstacles)
+    {}
+
+    void
+    begin_step(State<dim> &state) override
+    {
+      const double factor =
+        trigger_.seabed_factor(state.time + state.time_step);
+      boundaries_.scale_seabed_shear_stress(factor);
+      obstacles_.scale_maximum_shear_stress(factor);
+    }
+
+  private:
+    const Trigger<dim> &trigger_;
+    Boundaries<dim>    &boundaries_;
+    Obstacles<dim>     &obstacles_;
+  };
+} // namespace talus
+
+#endif
