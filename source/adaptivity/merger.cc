@@ -64,13 +64,13 @@ namespace talus
   void
   Merger<dim>::check(const Splitter<dim> &splitter) const
   {
-    const double most = splitter.least_split_length() / margin;
+    const double most = splitter.min_split_length() / margin;
     AssertThrow(!enabled_ || length_ <= (1. + 1e-9) * most,
                 ExcUser(text("'Splitting/Merge length' is ",
                              length_,
                              " cells, but points longer than 'Splitting/"
                              "Minimum length' = ",
-                             splitter.least_split_length(),
+                             splitter.min_split_length(),
                              " cells may be split: soil would be merged and "
                              "split in turn. Give a 'Merge length' of at most ",
                              most,
@@ -188,7 +188,7 @@ namespace talus
         reordering_.merge(points.segments(), none, removed_);
         reordering_.apply(points);
       }
-    Assert(ledger() <= 1e-12, ExcInternalError());
+    Assert(conservation_error() <= 1e-12, ExcInternalError());
     return loss;
   }
 
@@ -255,8 +255,8 @@ namespace talus
                           const unsigned int   q,
                           const JointBox<dim> &joint)
   {
-    ledger_.enter(points, p, +1.);
-    ledger_.enter(points, q, +1.);
+    conservation_.add(points, p, +1.);
+    conservation_.add(points, q, +1.);
     const double loss = kinetic_energy_lost(points, p, q);
     const double id =
       std::min(points.data(points.id)[p], points.data(points.id)[q]);
@@ -279,8 +279,8 @@ namespace talus
         points.data(points.creation_stretch, d)[p] = stretch;
         points.data(points.reference_length, d)[p] = joint.length(d) / stretch;
       }
-    ledger_.enter(points, p, -1.);
-    ledger_.book_kinetic_energy(loss);
+    conservation_.add(points, p, -1.);
+    conservation_.exclude_kinetic_energy(loss);
     return loss;
   }
 
@@ -359,8 +359,9 @@ namespace talus
     const MPI_Comm communicator = state.communicator();
     list.push_back(
       {"merges", "", 1. * Utilities::MPI::sum(n_merges_, communicator)});
-    list.push_back(
-      {"merge ledger", "-", Utilities::MPI::max(ledger(), communicator)});
+    list.push_back({"merge conservation error",
+                    "-",
+                    Utilities::MPI::max(conservation_error(), communicator)});
   }
 
 
@@ -372,7 +373,7 @@ namespace talus
     if (!enabled_)
       return;
     list.add("merges", "-", n_merges_, Reduction::sum);
-    ledger_.list_state(list, "merge ledger");
+    conservation_.list_state(list, "merge conservation error");
   }
 
 

@@ -364,14 +364,14 @@ namespace talus
       return;
     // Smallest cell that may contain a point of the segment: a neighbour may
     // have half the size.
-    const auto least_size = [&](const Segment &segment) {
+    const auto min_size = [&](const Segment &segment) {
       const Cell<dim> &cell = grid.cells()[segment.cell];
       return cell.size * (cell.uniform ? 1. : 0.5);
     };
     double least = std::numeric_limits<double>::max(), most = 0;
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
-        const double size = least_size(points.segments()[s]);
+        const double size = min_size(points.segments()[s]);
         least             = std::min(least, size);
         most              = std::max(most, size);
       }
@@ -380,8 +380,7 @@ namespace talus
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       {
         const Segment &segment = points.segments()[s];
-        if (!may_exceed(
-              points, segment.begin, segment.end, least_size(segment)))
+        if (!may_exceed(points, segment.begin, segment.end, min_size(segment)))
           continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           {
@@ -412,18 +411,18 @@ namespace talus
     if (marked_.empty())
       return false;
     std::size_t n_children = 0;
-    for (const Violation &violation : marked_)
+    for (const SplitMark &violation : marked_)
       n_children += 1u << __builtin_popcount(violation.axes);
     check_budget(points, points.size() - marked_.size() + n_children);
-    for (const Violation &violation : marked_)
+    for (const SplitMark &violation : marked_)
       {
         points_out_of_cell.push_back(violation.point);
         split(points, rule, violation.point, violation.axes);
       }
     statistics_.n_splits += marked_.size();
-    statistics_.ledger = ledger_.relative_error();
+    statistics_.conservation_error = conservation_.relative_error();
     // The round-off of several thousand splits stays below 1e-12.
-    Assert(statistics_.ledger <= 1e-12, ExcInternalError());
+    Assert(statistics_.conservation_error <= 1e-12, ExcInternalError());
     marked_.clear();
     return true;
   }
@@ -530,7 +529,7 @@ namespace talus
                        const unsigned int p,
                        const unsigned int axes)
   {
-    ledger_.enter(points, p, +1.);
+    conservation_.add(points, p, +1.);
     const unsigned int n_children = 1u << __builtin_popcount(axes);
     const Offset<dim>  offset(points, rule, p, axes);
 
@@ -563,7 +562,7 @@ namespace talus
       {
         const unsigned int q = (i == 0 ? p : first + i - 1);
         offset.move(points, q, i);
-        ledger_.enter(points, q, -1.);
+        conservation_.add(points, q, -1.);
       }
   }
 
@@ -593,9 +592,10 @@ namespace talus
     add("points at generation limit", unsplit.at_generation_limit);
     add("points at mesh limit", unsplit.at_mesh_limit);
     add("points at length limit", unsplit.at_length_limit);
-    list.push_back({"split ledger",
-                    "-",
-                    Utilities::MPI::max(statistics_.ledger, communicator)});
+    list.push_back(
+      {"split conservation error",
+       "-",
+       Utilities::MPI::max(statistics_.conservation_error, communicator)});
   }
 
 
@@ -612,8 +612,11 @@ namespace talus
              "-",
              statistics_.largest_generation,
              Reduction::maximum);
-    list.add("split ledger", "-", statistics_.ledger, Reduction::maximum);
-    ledger_.list_state(list, "split ledger");
+    list.add("split conservation error",
+             "-",
+             statistics_.conservation_error,
+             Reduction::maximum);
+    conservation_.list_state(list, "split conservation error");
   }
 
 

@@ -81,13 +81,14 @@ namespace talus
 
 
 
-  double
-  InterfaceFriction::limit_of_stress(const double maximum_shear_stress,
-                                     const double area) const
+  CoulombLimit
+  InterfaceFriction::limit(const double maximum_shear_stress,
+                           const double area) const
   {
-    return std::isinf(maximum_shear_stress)
-             ? std::numeric_limits<double>::infinity()
-             : shear_stress_factor_ * maximum_shear_stress * area;
+    return {coefficient(),
+            std::isinf(maximum_shear_stress)
+              ? std::numeric_limits<double>::infinity()
+              : shear_stress_factor_ * maximum_shear_stress * area};
   }
 
 

@@ -126,7 +126,7 @@ namespace talus
     const double friction =
       friction_.impulse(mass * speed,
                         mass,
-                        largest_friction(node, mean_normal_force, area),
+                        max_friction(node, mean_normal_force, area),
                         mean_normal_force > 0 ? area : 0.,
                         dt);
 

@@ -243,10 +243,10 @@ namespace talus
                                         const double       dt) const
   {
     const ContactFacet<dim> &at = facets_.owned()[facet];
-    return dt * obstacles_[at.obstacle].friction().largest_force(
-                  normal_impulse / dt,
-                  at.maximum_shear_stress,
-                  constraints_[facet].area);
+    return dt * obstacles_[at.obstacle]
+                  .friction()
+                  .limit(at.maximum_shear_stress, constraints_[facet].area)
+                  .force(normal_impulse / dt);
   }
 
 

@@ -56,7 +56,7 @@ namespace talus
                      const double        share,
                      const Observer     &observe)
   {
-    equations_.take_share(share);
+    equations_.set_load_fraction(share);
     u_                               = equations_.unknowns().field();
     const StaticContact<dim> before  = contact();
     const Outcome            outcome = solve_with_contact(problem, observe);
@@ -117,7 +117,7 @@ namespace talus
   typename Newton<dim>::Outcome
   Newton<dim>::newton_loop(StaticProblem<dim> &problem, const Observer &observe)
   {
-    if (!equations_.find_residual(problem, u_, residual_))
+    if (!equations_.compute_residual(problem, u_, residual_))
       return failure("A point would be turned inside out");
     const Outcome stopped{false, "The search was stopped", true};
     for (unsigned int i = 0;; ++i)
@@ -218,7 +218,7 @@ namespace talus
       {
         for (std::size_t i = 0; i < u.size(); ++i)
           u[i] = u_[i] + length * direction[i];
-        if (!equations_.find_residual(problem, u, residual_))
+        if (!equations_.compute_residual(problem, u, residual_))
           {
             // A point would be inverted, so there is no work to interpolate.
             length *= 0.5;

@@ -200,9 +200,9 @@ namespace talus
     const unsigned int axis         = contact.face / 2;
     const double       outwards     = (contact.face % 2 == 0 ? -1. : 1.);
     const double       normal_force = -outwards * contact.reaction[axis];
-    const double       limit        = seabed.largest_friction(contact.node,
-                                                 std::max(normal_force, 0.),
-                                                 contact.area);
+    const double       limit        = seabed.max_friction(contact.node,
+                                             std::max(normal_force, 0.),
+                                             contact.area);
     Tensor<1, dim>    &force =
       (contact.state == State::slips ? contact.friction : contact.reaction);
     Tensor<1, dim> tangential = force;
@@ -250,9 +250,9 @@ namespace talus
         contact.state = State::open;
         return true;
       }
-    const double   limit = seabed.largest_friction(contact.node,
-                                                 std::max(normal_force, 0.),
-                                                 contact.area);
+    const double   limit = seabed.max_friction(contact.node,
+                                             std::max(normal_force, 0.),
+                                             contact.area);
     Tensor<1, dim> tangential;
     for (unsigned int d = 0; d < dim; ++d)
       if (d != axis && !(contact.walls & (1u << d)))

@@ -272,7 +272,7 @@ namespace talus
   /// s = 1 the target is f_ext for any c.
   template <int dim>
   void
-  StaticEquations<dim>::take_share(const double share)
+  StaticEquations<dim>::set_load_fraction(const double share)
   {
     target_ = internal_;
     for (std::size_t i = 0; i < target_.size(); ++i)
@@ -318,9 +318,9 @@ namespace talus
   /// a rank that continued alone would wait for messages for ever.
   template <int dim>
   bool
-  StaticEquations<dim>::find_residual(StaticProblem<dim>        &problem,
-                                      const std::vector<double> &u,
-                                      std::vector<double>       &residual)
+  StaticEquations<dim>::compute_residual(StaticProblem<dim>        &problem,
+                                         const std::vector<double> &u,
+                                         std::vector<double>       &residual)
   {
     std::vector<double> forces = unknowns_.field();
     const bool sound = internal_forces_.evaluate(problem, weights_, u, forces);

@@ -27,8 +27,8 @@ namespace talus
     // by the error left after the largest number of loops. Forces that
     // alternate from facet to facet hardly move the soil: they converge slowly
     // and need not converge.
-    constexpr double       tolerance  = 1e-5;
-    constexpr unsigned int most_loops = 5;
+    constexpr double       tolerance = 1e-5;
+    constexpr unsigned int max_loops = 5;
 
     // Slack for the round-off of forces cut to the friction.
     constexpr double slack = 1. + 1e-12;
@@ -132,9 +132,9 @@ namespace talus
                               problem.state.grid.cells()[facets[k].cell].size;
             const Obstacle<dim> &obstacle =
               problem.contact.obstacles()[facets[k].obstacle];
-            point.coefficient      = obstacle.friction().coefficient();
-            point.largest_friction = obstacle.friction().limit_of_stress(
-              facets[k].maximum_shear_stress, constraint.area);
+            point.limit =
+              obstacle.friction().limit(facets[k].maximum_shear_stress,
+                                        constraint.area);
             point.given = {impulse.normal, impulse.tangential};
             if (const auto memory = before.find(point.name);
                 memory != before.end())
@@ -230,10 +230,9 @@ namespace talus
     point.found.normal = normal;
     const Tensor<1, dim> tangential =
       point.given.tangential - point.stiffness * (d - d_n * point.normal);
-    const double length = tangential.norm();
-    const double friction =
-      std::min(point.coefficient * normal, point.largest_friction);
-    point.slips = (friction == 0 || length > friction * slack);
+    const double length   = tangential.norm();
+    const double friction = point.limit.force(normal);
+    point.slips           = (friction == 0 || length > friction * slack);
     if (point.slips && length > 0)
       point.direction = tangential / length;
     point.cut = (point.slips && length > 0 ? friction / length : 0.);
@@ -261,9 +260,9 @@ namespace talus
       along_normal +
       point.cut * (identity - along_normal -
                    outer_product(point.direction, point.direction));
-    if (point.coefficient * point.found.normal < point.largest_friction)
+    if (point.limit.increases_at(point.found.normal))
       result +=
-        point.coefficient * outer_product(point.direction, point.normal);
+        point.limit.coefficient * outer_product(point.direction, point.normal);
     return point.stiffness * result;
   }
 
@@ -416,7 +415,7 @@ namespace talus
     for (const double x : u)
       largest = std::max(largest, std::abs(x));
     largest = Utilities::MPI::max(largest, communicator);
-    return ++n_loops_ >= most_loops ||
+    return ++n_loops_ >= max_loops ||
            std::sqrt(sums[1]) <= tolerance * largest * std::sqrt(sums[0]) ||
            sums[2] <= 1e-9 * sums[3];
   }

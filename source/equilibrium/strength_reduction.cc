@@ -103,7 +103,7 @@ namespace talus
   /// Strengths may not be raised beyond the limit of the law: softening soil
   /// would soften faster than it can unload (doc/method.md, section 12).
   double
-  StrengthReduction::least_factor() const
+  StrengthReduction::min_factor() const
   {
     return std::max(smallest_, 1. / largest_strength_);
   }
@@ -129,7 +129,7 @@ namespace talus
     if (upper_ == 0.)
       return lower_ >= largest_;
     if (lower_ == 0.)
-      return upper_ <= least_factor();
+      return upper_ <= min_factor();
     return is_narrow() &&
            upper_ - upper_from_ <= (1. + 1e-9) * tolerance_ * lower_;
   }
@@ -144,7 +144,7 @@ namespace talus
   StrengthReduction::next() const
   {
     if (lower_ == 0. && upper_ == 0.)
-      return std::max(first_, least_factor());
+      return std::max(first_, min_factor());
     if (upper_ == 0.)
       // If the soil stands with less than the first factor, try the first
       // factor next. After an upper end was withdrawn, continue in small steps.
@@ -152,7 +152,7 @@ namespace talus
                                growth_ == fastest_growth ? first_ : 0.),
                       std::max(largest_, lower_));
     if (lower_ == 0.)
-      return std::max(upper_ / (1. + fastest_growth), least_factor());
+      return std::max(upper_ / (1. + fastest_growth), min_factor());
     return is_narrow() ? upper_ : 0.5 * (lower_ + upper_);
   }
 
@@ -228,7 +228,7 @@ namespace talus
         std::setprecision(6),
         "The factor of safety is less than ",
         upper_,
-        smallest_ >= least_factor()
+        smallest_ >= min_factor()
           ? ", where 'Strength reduction/Smallest factor' ends the "
             "search."
           : "; with more strength the soil would soften faster than it "

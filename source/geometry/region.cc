@@ -13,7 +13,7 @@ namespace talus
   namespace
   {
     // How often a box is halved.
-    constexpr unsigned int least_depth = 2;
+    constexpr unsigned int min_depth = 2;
 
     template <int dim>
     constexpr unsigned int largest_depth = (dim == 2 ? 6 : 4);
@@ -230,7 +230,7 @@ namespace talus
     if (limits.empty())
       sum.add(box);
     else if (depth == largest_depth<dim> ||
-             (depth >= least_depth && are_linear(box, limits, sum.tolerance)))
+             (depth >= min_depth && are_linear(box, limits, sum.tolerance)))
       {
         for (const Simplex<dim> &simplex : simplices_of(box))
           for (const auto &part : clip(simplex, limits, 1e-6 * sum.tolerance))

@@ -16,7 +16,7 @@ namespace talus
                 const Boundaries<dim>   &boundaries,
                 ColumnSums<dim>         &sums)
   {
-    if (const double dt = contact.duration_of_impulses();
+    if (const double dt = contact.previous_time_step();
         dt > 0 && !contact.obstacles().empty())
       {
         const Ground<dim> ground(state.grid.domain(), &contact.obstacles());

@@ -19,7 +19,7 @@ namespace talus
     peaks_of(History &history)
     {
       using PeakPointer = decltype(&history.speed);
-      return std::array<PeakPointer, 5>{{&history.most_thickness,
+      return std::array<PeakPointer, 5>{{&history.max_thickness,
                                          &history.speed,
                                          &history.momentum_flux,
                                          &history.bed_shear_stress,
@@ -57,7 +57,7 @@ namespace talus
     for (const unsigned int column : sums.with_soil())
       {
         ColumnHistory &history = histories_[column];
-        if (std::isnan(history.most_thickness.time))
+        if (std::isnan(history.max_thickness.time))
           {
             reached_.push_back(column);
             history.arrival.assign(settings_.arrival_thresholds.size(),
@@ -65,7 +65,7 @@ namespace talus
           }
         history.thickness = sums.thickness(column);
         history.mass      = sums.mass(column);
-        history.most_thickness.add(history.thickness, t);
+        history.max_thickness.add(history.thickness, t);
         for (unsigned int i = 0; i < history.arrival.size(); ++i)
           if (std::isnan(history.arrival[i]) &&
               history.thickness >= settings_.arrival_thresholds[i])
@@ -180,7 +180,7 @@ namespace talus
            return (history.*peak).time;
          }});
     };
-    add_peak("thickness", "m", &History::most_thickness);
+    add_peak("thickness", "m", &History::max_thickness);
     add_peak("speed", "m/s", &History::speed);
     add_peak("momentum flux", "N/m", &History::momentum_flux);
     add_peak("bed shear", "Pa", &History::bed_shear_stress);

@@ -31,7 +31,7 @@ namespace talus
   double
   PlanPath::chainage(const Point<2> &x) const
   {
-    double result = 0, least_distance = std::numeric_limits<double>::max();
+    double result = 0, min_distance = std::numeric_limits<double>::max();
     for (const Segment &segment : segments_)
       {
         double along = (x - segment.start) * segment.direction;
@@ -41,10 +41,10 @@ namespace talus
           along = std::min(along, segment.length);
         const double distance =
           x.distance(segment.start + along * segment.direction);
-        if (distance < least_distance)
+        if (distance < min_distance)
           {
-            least_distance = distance;
-            result         = segment.chainage + along;
+            min_distance = distance;
+            result       = segment.chainage + along;
           }
       }
     return result;

@@ -148,7 +148,7 @@ namespace talus
       const auto       &facets      = contact.facets().owned();
       const auto       &impulses    = contact.impulses();
       const auto       &constraints = contact.constraints();
-      const double      dt          = contact.duration_of_impulses();
+      const double      dt          = contact.previous_time_step();
       const std::string area        = (dim == 2 ? "m" : "m^2");
       const auto        stress      = [&facets, dt](const unsigned int c,
                                         const auto        &impulse) {
@@ -222,7 +222,7 @@ namespace talus
   void
   FacetsOutput<dim>::observe(const State<dim> &state)
   {
-    if (contact_.duration_of_impulses() == 0)
+    if (contact_.previous_time_step() == 0)
       return;
     OutputCells cells =
       state_cells(state,

@@ -198,12 +198,12 @@ namespace talus
                  const FacetContact<dim> &contact,
                  const Ground<dim>       &ground)
     {
-      const double least_vertical = std::sqrt(0.5);
-      double       area           = boundaries.seabed().area_in_contact();
+      const double min_vertical = std::sqrt(0.5);
+      double       area         = boundaries.seabed().area_in_contact();
       for (const unsigned int f : contact.constraints().loaded())
         if (const ContactFacet<dim> &facet = contact.facets().owned()[f];
             contact.impulses()[f].acts() && ground.contains(facet.obstacle) &&
-            facet.normal[1] >= least_vertical)
+            facet.normal[1] >= min_vertical)
           area += contact.constraints()[f].area;
       return Utilities::MPI::sum(area, state.communicator());
     }

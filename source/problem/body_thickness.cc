@@ -94,6 +94,28 @@ namespace talus
 
 
 
+  std::string
+  sentence_on_thinnest(const std::vector<BodyThickness> &bodies)
+  {
+    const auto thinnest = std::min_element(bodies.begin(),
+                                           bodies.end(),
+                                           [](const auto &a, const auto &b) {
+                                             return a.n_cells < b.n_cells;
+                                           });
+    if (thinnest == bodies.end())
+      return "";
+    return text(std::setprecision(3),
+                "The thinnest body, '",
+                thinnest->body,
+                "', is ",
+                thinnest->n_cells,
+                " cells of ",
+                thinnest->cell_size,
+                " m thick where it is thickest.");
+  }
+
+
+
   std::vector<std::string>
   notes_on_thickness(const std::vector<BodyThickness> &bodies)
   {

@@ -17,7 +17,7 @@ namespace talus
   {
     /// Points that are much lighter than their neighbours become unstable: what
     /// is less than this of a box is no point of its own.
-    constexpr double least_fraction = 0.2;
+    constexpr double min_fraction = 0.2;
 
     /// What is less than this of a box is not soil but round-off, far below the
     /// error of the parts: where a layer ends its two surfaces go on as one, and
@@ -142,7 +142,7 @@ namespace talus
     /// centroid and variance. Sorted, they are in the same order for any number
     /// of ranks.
     template <int dim>
-    using Gift =
+    using SliverTransfer =
       std::pair<std::array<unsigned long, 4>, std::array<double, 1 + 2 * dim>>;
 
 
@@ -181,10 +181,10 @@ namespace talus
       largest_neighbour(unsigned int cell, unsigned int box) const;
       std::vector<unsigned int>
       cells_around(unsigned int cell) const;
-      std::map<unsigned int, std::vector<Gift<dim>>>
+      std::map<unsigned int, std::vector<SliverTransfer<dim>>>
       take_slivers();
       void
-      receive(const std::vector<Gift<dim>> &gifts);
+      receive(const std::vector<SliverTransfer<dim>> &sliver_transfers);
       Parts &
       changing_parts(unsigned int cell);
 
@@ -268,7 +268,7 @@ namespace talus
     ClippedBoxes<dim>::is_kept(const PartInside<dim> &part,
                                const unsigned int     cell) const
     {
-      return part.volume >= least_fraction * volume_of_box(cell);
+      return part.volume >= min_fraction * volume_of_box(cell);
     }
 
 
@@ -345,7 +345,7 @@ namespace talus
                                          const unsigned int box) const
     {
       using Rank = std::tuple<double, unsigned long, unsigned int>;
-      Rank largest(parts_.at(cell)[box].volume / least_fraction, 0, 0);
+      Rank largest(parts_.at(cell)[box].volume / min_fraction, 0, 0);
       std::pair<unsigned int, unsigned int> result{
         numbers::invalid_unsigned_int, 0};
       for (const unsigned int c : cells_around(cell))
@@ -380,10 +380,10 @@ namespace talus
     /// one, from where they may go on. They only go to boxes that had more at
     /// first, and so come to an end. Soil that is thin everywhere stays.
     template <int dim>
-    std::map<unsigned int, std::vector<Gift<dim>>>
+    std::map<unsigned int, std::vector<SliverTransfer<dim>>>
     ClippedBoxes<dim>::take_slivers()
     {
-      std::map<unsigned int, std::vector<Gift<dim>>> gifts;
+      std::map<unsigned int, std::vector<SliverTransfer<dim>>> sliver_transfers;
       for (const auto &[cell, first] : parts_)
         for (unsigned int i = 0; i < first.size(); ++i)
           {
@@ -398,19 +398,20 @@ namespace talus
               std::tie(to_cell, to_box) = largest_neighbour(cell, i);
             if (to_cell == numbers::invalid_unsigned_int)
               continue;
-            Gift<dim> gift;
-            gift.first = {
+            SliverTransfer<dim> transfer_of_sliver;
+            transfer_of_sliver.first = {
               {grid_.key_of_cell(to_cell), to_box, grid_.key_of_cell(cell), i}};
-            gift.second = {{part.volume}};
+            transfer_of_sliver.second = {{part.volume}};
             for (unsigned int d = 0; d < dim; ++d)
               {
-                gift.second[1 + d]       = part.centroid[d];
-                gift.second[1 + dim + d] = part.variance[d];
+                transfer_of_sliver.second[1 + d]       = part.centroid[d];
+                transfer_of_sliver.second[1 + dim + d] = part.variance[d];
               }
-            gifts[grid_.owner_of_cell(to_cell)].push_back(gift);
+            sliver_transfers[grid_.owner_of_cell(to_cell)].push_back(
+              transfer_of_sliver);
             part.volume = 0.;
           }
-      return gifts;
+      return sliver_transfers;
     }
 
 
@@ -423,11 +424,13 @@ namespace talus
     {
       for (bool are_all_at_home = false; !are_all_at_home;)
         {
-          std::vector<Gift<dim>> received;
-          for (const auto &[rank, gifts] :
+          std::vector<SliverTransfer<dim>> received;
+          for (const auto &[rank, sliver_transfers] :
                Utilities::MPI::some_to_some(grid_.communicator(),
                                             take_slivers()))
-            received.insert(received.end(), gifts.begin(), gifts.end());
+            received.insert(received.end(),
+                            sliver_transfers.begin(),
+                            sliver_transfers.end());
           std::sort(received.begin(), received.end());
           receive(received);
           are_all_at_home = !Utilities::MPI::logical_or(!received.empty(),
@@ -439,9 +442,10 @@ namespace talus
 
     template <int dim>
     void
-    ClippedBoxes<dim>::receive(const std::vector<Gift<dim>> &gifts)
+    ClippedBoxes<dim>::receive(
+      const std::vector<SliverTransfer<dim>> &sliver_transfers)
     {
-      for (const auto &[names, numbers] : gifts)
+      for (const auto &[names, numbers] : sliver_transfers)
         {
           PartInside<dim> &part =
             changing_parts(grid_.cell_of_key(names[0]))[names[1]];

@@ -13,7 +13,7 @@ namespace talus
   {
     /// A displacement that brings soil to less of its volume, or to its inverse
     /// times as much, is a mistake: the time step or the soil would be gone.
-    constexpr double least_volume_ratio = 0.01;
+    constexpr double min_volume_ratio = 0.01;
 
     /// Derivative of component @p i along @p axis at t = 0, by central
     /// differences over three steps of @p delta on each side.
@@ -158,8 +158,8 @@ namespace talus
                                  "gradient is ",
                                  determinant(F),
                                  " there. Make the displacement smaller.")));
-        AssertThrow(determinant(F) >= least_volume_ratio &&
-                      determinant(F) <= 1. / least_volume_ratio,
+        AssertThrow(determinant(F) >= min_volume_ratio &&
+                      determinant(F) <= 1. / min_volume_ratio,
                     ExcUser(text(path("Initial displacement"),
                                  " = '",
                                  displacement_,
@@ -168,9 +168,9 @@ namespace talus
                                  ") m to ",
                                  determinant(F),
                                  " times its volume, where something between ",
-                                 least_volume_ratio,
+                                 min_volume_ratio,
                                  " and ",
-                                 1. / least_volume_ratio,
+                                 1. / min_volume_ratio,
                                  " was expected. Make the displacement "
                                  "smaller.")));
         store_matrix(points, points.deformation_gradient, p, F);

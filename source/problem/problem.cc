@@ -284,7 +284,7 @@ namespace talus
   /// From this the mass follows below which a node carries nothing.
   template <int dim>
   double
-  Problem<dim>::least_density() const
+  Problem<dim>::min_density() const
   {
     double result = materials.of_body(0).density();
     for (unsigned int b = 1; b < bodies_.size(); ++b)

@@ -47,7 +47,7 @@ namespace talus
                              p,
                              weights);
           }
-      return state.constants.box_shape.most_half <= 0.5;
+      return state.constants.box_shape.max_half <= 0.5;
     }
   } // namespace
 
@@ -212,8 +212,7 @@ namespace talus
     activate_nodes();
     // Uses the smallest cell, so that the same nodes carry motion at any level.
     state_.constants.mass_cutoff =
-      transfer_.mass_cutoff(problem_.least_density(),
-                            state_.grid.finest_size());
+      transfer_.mass_cutoff(problem_.min_density(), state_.grid.finest_size());
   }
 
 

@@ -159,7 +159,7 @@ namespace talus
     state_.time_step = std::min(plan.time_step, end_time - state_.time);
     // All ranks have the same step, so that all or none of them ask for what
     // limits it.
-    check_time_goes_on(state_.time, state_.time_step, [this]() {
+    check_time_advances(state_.time, state_.time_step, [this]() {
       return time_step_.limited_by(state_.points,
                                    state_.grid,
                                    problem_.materials,
@@ -288,6 +288,41 @@ namespace talus
                                                  problem_.materials,
                                                  transfer_.box_shape()),
                                state_.communicator());
+  }
+
+
+
+  // A run that cannot end in months is a mistake in some unit. The splitter would
+  // complain of the points in the first step, when the results of an earlier run
+  // are gone.
+  template <int dim>
+  void
+  ExplicitScheme<dim>::check_effort(const double end_time)
+  {
+    const double dt      = stable_time_step();
+    const double n_steps = (end_time - state_.time) / dt;
+    AssertThrow(n_steps <= 1e12,
+                ExcUser(text(std::setprecision(6),
+                             "The run would take ",
+                             n_steps,
+                             " time steps of ",
+                             dt,
+                             " s to 'End time' = ",
+                             end_time,
+                             " s, which cannot end. Check the units of "
+                             "stiffness, density, cell size, velocities and "
+                             "'End time', and 'Time step/Maximum'.")));
+    const double n_points =
+      Utilities::MPI::sum(1. * state_.points.size(), state_.communicator());
+    const double max_points = splitter_.maximum_number_of_points();
+    AssertThrow(n_points <= max_points,
+                ExcUser(text("There are ",
+                             n_points,
+                             " points, more than 'Splitting/Maximum number of "
+                             "points' = ",
+                             max_points,
+                             ". Allow more points, or make fewer: by larger "
+                             "cells or fewer points per cell.")));
   }
 
 

@@ -10,6 +10,7 @@
 #include <talus/observers/footprint.h>
 #include <talus/observers/obstacle_forces.h>
 #include <talus/observers/obstacles_output.h>
+#include <talus/simulation/contact_area_remark.h>
 #include <talus/simulation/pace.h>
 #include <talus/simulation/simulation.h>
 #include <talus/simulation/split_limit_remark.h>
@@ -56,6 +57,8 @@ namespace talus
       std::make_unique<BoundaryForces<dim>>(problem_.boundaries.reactions()));
     output_.add_row_observer(
       std::make_unique<SplitLimitRemark<dim>>(scheme_.splitter(), log_));
+    output_.add_row_observer(std::make_unique<ContactAreaRemark<dim>>(
+      problem_.boundaries, problem_.contact, log_));
     output_.add_field_observer(
       std::make_unique<ObstaclesOutput<dim>>(problem_.obstacles));
     output_.add_field_observer(
@@ -63,47 +66,12 @@ namespace talus
     add_map_observers(problem_, output_);
     output_.add_quantities([this](const State<dim> &state, Quantities &list) {
       list_contact_area(state, problem_.boundaries, problem_.contact, list);
-      note_contact_area(list);
       scheme_.splitter().list_quantities(state, list);
       scheme_.merger().list_quantities(state, list);
       rest_.list_quantities(list);
       state.outflow.list_quantities(state.communicator(), list);
       problem_.interactions.list_quantities(state, list);
     });
-  }
-
-
-
-  /// Tell once that soil does not touch the ground that lies under it. @p list
-  /// ends with contact area and footprint; a contact area of 0 is that of a
-  /// run before its first step.
-  template <int dim>
-  void
-  Simulation<dim>::note_contact_area(const Quantities &list)
-  {
-    const Quantity &footprint = list.back(), &area = list[list.size() - 2];
-    const double    ratio = area.value / footprint.value;
-    if (has_noted_contact_area_ || area.value == 0 || footprint.value == 0 ||
-        (ratio >= 0.95 && ratio <= 1.05))
-      return;
-    has_noted_contact_area_ = true;
-    log_.remark(
-      text(std::setprecision(4),
-           "At t = ",
-           state_.time,
-           " s soil touches ",
-           area.value,
-           ' ',
-           area.unit,
-           " of the ",
-           footprint.value,
-           ' ',
-           footprint.unit,
-           " of ground under it, a ratio of ",
-           ratio,
-           " where 0.95 to 1.05 was expected. Soil is in the air there, "
-           "or friction acts on a wrong area: look at the fields, and "
-           "compare with smaller cells."));
   }
 
 
@@ -121,56 +89,9 @@ namespace talus
     // What would stop the first step stops here, where nothing is written yet.
     problem_.loading.update(state_.points, state_.time);
     problem_.boundaries.check_values(state_.grid, state_.time);
-    check_number_of_steps();
-    check_number_of_points();
+    if (static_stages_.stages().contain(Stage::dynamics))
+      scheme_.check_effort(end_time_);
     output_.check_observers(state_);
-  }
-
-
-
-  /// A run that cannot end in months is a mistake in some unit, and would write
-  /// one row in all that time. Collective.
-  template <int dim>
-  void
-  Simulation<dim>::check_number_of_steps()
-  {
-    if (!static_stages_.stages().contain(Stage::dynamics))
-      return;
-    const double dt      = scheme_.stable_time_step();
-    const double n_steps = (end_time_ - state_.time) / dt;
-    AssertThrow(n_steps <= 1e12,
-                ExcUser(text(std::setprecision(6),
-                             "The run would take ",
-                             n_steps,
-                             " time steps of ",
-                             dt,
-                             " s to 'End time' = ",
-                             end_time_,
-                             " s, which cannot end. Check the units of "
-                             "stiffness, density, cell size, velocities and "
-                             "'End time', and 'Time step/Maximum'.")));
-  }
-
-
-
-  /// The splitter would say so in the first step, when the results of an earlier
-  /// run are gone. Collective.
-  template <int dim>
-  void
-  Simulation<dim>::check_number_of_points() const
-  {
-    const double n_points =
-      Utilities::MPI::sum(1. * state_.points.size(), state_.communicator());
-    const double most = scheme_.splitter().maximum_number_of_points();
-    AssertThrow(!static_stages_.stages().contain(Stage::dynamics) ||
-                  n_points <= most,
-                ExcUser(text("There are ",
-                             n_points,
-                             " points, more than 'Splitting/Maximum number of "
-                             "points' = ",
-                             most,
-                             ". Allow more points, or make fewer: by larger "
-                             "cells or fewer points per cell.")));
   }
 
 
@@ -261,9 +182,8 @@ namespace talus
     load_state(file, list_state());
     const unsigned int n_ranks = Utilities::MPI::n_mpi_processes(communicator);
     const unsigned int n_ranks_then = resumed_from_.head.n_ranks;
-    scheme_.splitter().number_on(Utilities::MPI::this_mpi_process(communicator),
-                                 n_ranks,
-                                 n_ranks_then);
+    scheme_.splitter().renumber_after_resume(
+      Utilities::MPI::this_mpi_process(communicator), n_ranks, n_ranks_then);
     if (n_ranks != n_ranks_then)
       mesh_.repartition();
     AssertThrow(end_time_ >= state_.time,
@@ -275,8 +195,8 @@ namespace talus
                              state_.time,
                              " s. Give a later 'End time'.")));
     // The end and the limit may be others than those of the run before.
-    check_number_of_steps();
-    check_number_of_points();
+    if (static_stages_.stages().contain(Stage::dynamics))
+      scheme_.check_effort(end_time_);
     output_.check_observers(state_);
     output_.check_resumable(state_);
     static_stages_.check_resumable(output_.folder());
@@ -498,23 +418,10 @@ namespace talus
       note_resume();
     else
       note_start(LogLevel::result);
-    const std::vector<BodyThickness> &bodies = problem_.thickness_of_bodies();
-    if (const auto thinnest =
-          std::min_element(bodies.begin(),
-                           bodies.end(),
-                           [](const auto &a, const auto &b) {
-                             return a.n_cells < b.n_cells;
-                           });
-        thinnest != bodies.end())
-      log_.say(LogLevel::result,
-               text(std::setprecision(3),
-                    "The thinnest body, '",
-                    thinnest->body,
-                    "', is ",
-                    thinnest->n_cells,
-                    " cells of ",
-                    thinnest->cell_size,
-                    " m thick where it is thickest."));
+    if (const std::string sentence =
+          sentence_on_thinnest(problem_.thickness_of_bodies());
+        !sentence.empty())
+      log_.say(LogLevel::result, sentence);
     if (!static_stages_.stages().contain(Stage::dynamics) ||
         state_.time >= end_time_)
       return;
@@ -584,10 +491,6 @@ namespace talus
   {
     StateList list;
     log_.list_state(list);
-    list.add("contact area remark",
-             "-",
-             has_noted_contact_area_,
-             Reduction::equal);
     state_.list_state(list);
     problem_.list_state(list);
     mesh_.list_state(list);

@@ -5,66 +5,29 @@
 namespace talus
 {
   template <int dim>
-  SplitLimitRemark<dim>::SplitLimitRemark(const Splitter<dim> &splitter,
-                                          Log                 &log)
-    : splitter_(splitter)
-    , log_(log)
-  {}
-
-
-
-  template <int dim>
-  void
-  SplitLimitRemark<dim>::begin(const OutputSettings & /*settings*/,
-                               const State<dim> & /*state*/,
-                               const Beginning /*beginning*/)
-  {}
-
-
-
-  template <int dim>
-  void
-  SplitLimitRemark<dim>::observe(const State<dim> &state)
+  std::string
+  SplitLimitRemark<dim>::remark(const State<dim> &state) const
   {
-    if (is_written_)
-      return;
     const UnsplitPoints unsplit =
       splitter_.count_unsplit(state.points,
                               state.grid,
                               state.constants.box_shape.rule);
     if (unsplit.at_generation_limit + unsplit.at_mesh_limit == 0)
-      return;
-    is_written_ = true;
-    log_.remark(
-      text("At t = ",
-           state.time,
-           " s points are stretched too far and cannot be split, so "
-           "that the soil may tear: ",
-           unsplit.at_generation_limit,
-           " points have reached 'Splitting/Maximum generation' (raise the "
-           "limit, unless the points lie on a base without slip); the children "
-           "of ",
-           unsplit.at_mesh_limit,
-           " points would lie more than half a cell outside the mesh (use a "
-           "larger mesh or smaller cells). The columns 'points at ... limit' "
-           "of statistics.csv continue the count."));
+      return "";
+    return text(
+      "At t = ",
+      state.time,
+      " s points are stretched too far and cannot be split, so "
+      "that the soil may tear: ",
+      unsplit.at_generation_limit,
+      " points have reached 'Splitting/Maximum generation' (raise the "
+      "limit, unless the points lie on a base without slip); the children "
+      "of ",
+      unsplit.at_mesh_limit,
+      " points would lie more than half a cell outside the mesh (use a "
+      "larger mesh or smaller cells). The columns 'points at ... limit' "
+      "of statistics.csv continue the count.");
   }
-
-
-
-  template <int dim>
-  void
-  SplitLimitRemark<dim>::list_state(StateList &list)
-  {
-    list.add("split limit remark", "-", is_written_, Reduction::equal);
-  }
-
-
-
-  template <int dim>
-  void
-  SplitLimitRemark<dim>::sync()
-  {}
 
 
 

@@ -89,7 +89,7 @@ namespace talus
   StaticSolver<dim>::find(const StrainMeasure measure, const Label &label)
   {
     equilibrium_.begin(measure);
-    while (!equilibrium_.is_found())
+    while (!equilibrium_.is_balanced())
       {
         StepNote note;
         if (!take_load_step(label, note))
@@ -143,7 +143,7 @@ namespace talus
   bool
   StaticSolver<dim>::take_all_steps(const Label &label)
   {
-    while (!equilibrium_.is_found())
+    while (!equilibrium_.is_balanced())
       {
         StepNote note;
         if (!take_load_step(label, note))
@@ -277,7 +277,7 @@ namespace talus
   /// Collective.
   template <int dim>
   void
-  StaticSolver<dim>::bring_back(const Saved &saved)
+  StaticSolver<dim>::restore_and_relocate(const Saved &saved)
   {
     state_.points.clear();
     state_.points.append(saved.columns[0].size());
@@ -296,7 +296,7 @@ namespace talus
   StaticSolver<dim>::undo_stage(const Saved &saved)
   {
     if (equilibrium_.measure() == StrainMeasure::large)
-      bring_back(saved);
+      restore_and_relocate(saved);
     else
       restore(saved);
     if (is_first_rank(state_.communicator()))

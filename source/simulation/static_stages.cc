@@ -30,7 +30,7 @@ namespace talus
   StaticStages<dim>::begin(const std::filesystem::path &folder,
                            const Beginning              beginning)
   {
-    if (stages_.have_static())
+    if (stages_.has_static())
       solver_.begin(folder, beginning);
   }
 
@@ -40,7 +40,7 @@ namespace talus
   void
   StaticStages<dim>::check_resumable(const std::filesystem::path &folder) const
   {
-    if (!stages_.have_static())
+    if (!stages_.has_static())
       return;
     const std::string sentence =
       first_sentence(solver_.cannot_resume(folder), state_.communicator());
@@ -67,7 +67,7 @@ namespace talus
     if (solver_.is_stopped())
       undo_stage(before);
     else
-      stages_.count_one();
+      stages_.mark_done();
   }
 
 
@@ -110,7 +110,7 @@ namespace talus
     const std::vector<std::string> names_of_bodies = problem_.names_of_bodies();
     if (stages_.contain(Stage::equilibrium))
       equilibrium().check(problem_.materials, names_of_bodies);
-    AssertThrow(!stages_.have_static() ||
+    AssertThrow(!stages_.has_static() ||
                   problem_.loading.share_of_gravity(0.) > 0.,
                 ExcUser("Stages lists a stage before 'dynamics', computed with "
                         "the loads of t = 0, but there is no gravity at t = 0. "
@@ -317,7 +317,7 @@ namespace talus
                                "either. " +
                                strength_reduction_.result());
         const double factor = strength_reduction_.next();
-        solver_.bring_back(before);
+        solver_.restore_and_relocate(before);
         divide_strength(factor);
         const bool stands =
           solver_.find(measure_of_stronger_soil(), label(factor));
@@ -379,7 +379,7 @@ namespace talus
     while (!solver_.is_stopped() && !strength_reduction_.is_done())
       {
         const double factor = strength_reduction_.next();
-        const bool   stands = stands_with(factor);
+        const bool   stands = is_stable_with(factor);
         if (solver_.is_stopped())
           return;
         strength_reduction_.record(factor, stands);
@@ -414,7 +414,7 @@ namespace talus
   {
     strength_reduction_.record(standing_factor_, true);
     AssertThrow(
-      stands_with(standing_factor_) || solver_.is_stopped(),
+      is_stable_with(standing_factor_) || solver_.is_stopped(),
       ExcUser(text(
         "The stage 'strength reduction' starts from soil that is out of "
         "balance in small strain, so that no factor of safety exists. ",
@@ -430,7 +430,7 @@ namespace talus
   /// Search for balance with all strengths divided by @p factor [-].
   template <int dim>
   bool
-  StaticStages<dim>::stands_with(const double factor)
+  StaticStages<dim>::is_stable_with(const double factor)
   {
     divide_strength(factor);
     return solver_.find_again(

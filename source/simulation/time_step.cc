@@ -53,8 +53,8 @@ namespace talus
           const Number L0 =
             load<Number>(points.data(points.reference_length, d) + p);
           half[d] = clamp(0.5 * L0 / sqrt(square) * inverse_cell_size,
-                          shape.least_half,
-                          shape.most_half);
+                          shape.min_half,
+                          shape.max_half);
         }
       return half;
     }
@@ -354,9 +354,9 @@ namespace talus
 
 
   void
-  check_time_goes_on(const double                        time,
-                     const double                        dt,
-                     const std::function<std::string()> &limited_by)
+  check_time_advances(const double                        time,
+                      const double                        dt,
+                      const std::function<std::string()> &limited_by)
   {
     AssertThrow(time + dt > time,
                 ExcPoint(text("At t = ",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/transfer/block.h>
+#include <talus/transfer/block_walk.h>
 #include <talus/transfer/weights_kernel.h>
 
 #include <algorithm>
@@ -32,28 +32,28 @@ namespace talus
 
 
     /// Move the points that reach into a cell of another size from @p these to
-    /// the outsiders of the block; the cell is not uniform. Return the patch
+    /// the irregular points of the block; the cell is not uniform. Return the patch
     /// for the remaining points.
     template <int dim>
     const unsigned int *
-    part_from_outsiders(Block<dim>                       &block,
-                        const typename Block<dim>::Piece &piece,
-                        const Reach (&reach)[dim],
-                        PointsOfBlock &these)
+    split_off_irregular_points(Block<dim>                           &block,
+                               const typename Block<dim>::CellRange &range,
+                               const Reach (&reach)[dim],
+                               PointsOfBlock &these)
     {
-      const Cell<dim> &cell = *piece.cell_data;
-      PointsOfBlock    outsiders{};
+      const Cell<dim> &cell = *range.cell_data;
+      PointsOfBlock    irregular_points{};
       for (unsigned int d = 0; d < dim; ++d)
         {
           if (!((cell.sides_of_same_size >> (2 * d)) & 1))
-            outsiders |= reach[d].below;
+            irregular_points |= reach[d].below;
           if (!((cell.sides_of_same_size >> (2 * d + 1)) & 1))
-            outsiders |= ~reach[d].inside_above;
+            irregular_points |= ~reach[d].inside_above;
         }
-      outsiders &= these;
-      these &= ~outsiders;
-      for_each_bit(outsiders, [&](const unsigned int k) {
-        block.outsiders[block.n_outsiders++] = {k, piece.cell};
+      irregular_points &= these;
+      these &= ~irregular_points;
+      for_each_bit(irregular_points, [&](const unsigned int k) {
+        block.irregular_points[block.n_irregular_points++] = {k, range.cell};
       });
       constexpr unsigned int own   = (power(4, dim) - 1) / 3; // (1, 1, 1)
       auto                  &patch = block.patches[block.n_patches++];
@@ -68,38 +68,38 @@ namespace talus
 
 
 
-    /// Add a run of @p points, unless empty. Along axis d the nodes begin at
+    /// Add a group of @p points, unless empty. Along axis d the nodes begin at
     /// the lower face of the cell if bit d of @p above is set, otherwise one
     /// node below.
     template <int dim>
     void
-    add_run(Block<dim>         &block,
-            const unsigned int *patch,
-            const PointsOfBlock points,
-            const unsigned int  above)
+    add_group(Block<dim>         &block,
+              const unsigned int *patch,
+              const PointsOfBlock points,
+              const unsigned int  above)
     {
       if (points == 0)
         return;
-      auto &run  = block.runs[block.n_runs++];
-      run.points = points;
-      run.patch  = patch;
+      auto &group  = block.groups[block.n_groups++];
+      group.points = points;
+      group.patch  = patch;
       for (unsigned int d = 0; d < dim; ++d)
         {
           const unsigned int i = (above >> d) & 1;
-          run.patch += i * power(4, d);
-          run.weights[d] = &block.weights[d][i * Block<dim>::n_points];
+          group.patch += i * power(4, d);
+          group.weights[d] = &block.weights[d][i * Block<dim>::n_points];
         }
     }
 
 
 
-    /// Split the points @p these of a cell into runs.
+    /// Split the points @p these of a cell into groups.
     template <int dim>
     TALUS_ALWAYS_INLINE void
-    add_runs(Block<dim>         &block,
-             const unsigned int *patch,
-             const Reach (&reach)[dim],
-             const PointsOfBlock these)
+    add_groups(Block<dim>         &block,
+               const unsigned int *patch,
+               const Reach (&reach)[dim],
+               const PointsOfBlock these)
     {
       PointsOfBlock below[dim];
       bool          is_one_run = true;
@@ -111,64 +111,66 @@ namespace talus
           above |= (below[d] == 0) << d;
         }
       if (is_one_run)
-        add_run(block, patch, these, above);
+        add_group(block, patch, these, above);
       else
         for (unsigned int corner = 0; corner < power(2, dim); ++corner)
           {
             PointsOfBlock points = these;
             for (unsigned int d = 0; d < dim; ++d)
               points &= ((corner >> d) & 1 ? ~below[d] : below[d]);
-            add_run(block, patch, points, corner);
+            add_group(block, patch, points, corner);
           }
     }
 
 
 
-    /// Split the points of each cell into runs and outsiders. Runs make the
+    /// Split the points of each cell into groups and irregular points. Groups make the
     /// transfer fast: most points of a cell have weights at the same 3^dim
-    /// nodes. The contributions of a run, four to six points on average, are
+    /// nodes. The contributions of a group, four to six points on average, are
     /// summed in registers and written to memory once, whereas a single point
-    /// would load and store 3^dim records (doc/performance.md). Runs are found
+    /// would load and store 3^dim records (doc/performance.md). Groups are found
     /// by bit operations, a bit per point and face, without a branch per point
     /// that the processor would have to predict.
     template <int dim>
     void
-    find_runs(Block<dim> &block, const Reach (&reach)[dim])
+    find_groups(Block<dim> &block, const Reach (&reach)[dim])
     {
-      block.n_runs = block.n_outsiders = block.n_patches = 0;
-      for (unsigned int i = 0; i < block.n_pieces; ++i)
+      block.n_groups = block.n_irregular_points = block.n_patches = 0;
+      for (unsigned int i = 0; i < block.n_cell_ranges; ++i)
         {
-          const auto   &piece = block.pieces[i];
+          const auto   &range = block.cell_ranges[i];
           PointsOfBlock these =
-            (~PointsOfBlock(0) >> (64 - (piece.end - piece.begin)))
-            << piece.begin;
-          const unsigned int *patch = piece.cell_data->patch.data();
-          if (!piece.cell_data->uniform)
-            patch = part_from_outsiders(block, piece, reach, these);
-          add_runs(block, patch, reach, these);
+            (~PointsOfBlock(0) >> (64 - (range.end - range.begin)))
+            << range.begin;
+          const unsigned int *patch = range.patch;
+          if (!range.cell_data->uniform)
+            patch = split_off_irregular_points(block, range, reach, these);
+          add_groups(block, patch, reach, these);
         }
     }
 
 
 
-    /// Make every point of the block an outsider: a run requires weights that
+    /// Make every point of the block irregular: a group requires weights that
     /// are products of factors along the axes, which convected domains do not
     /// have.
     template <int dim>
     void
-    make_all_outsiders(Block<dim> &block)
+    make_all_irregular(Block<dim> &block)
     {
-      block.n_runs = block.n_outsiders = block.n_patches = 0;
-      for (unsigned int i = 0; i < block.n_pieces; ++i)
-        for (unsigned int k = block.pieces[i].begin; k < block.pieces[i].end;
+      block.n_groups = block.n_irregular_points = block.n_patches = 0;
+      for (unsigned int i = 0; i < block.n_cell_ranges; ++i)
+        for (unsigned int k = block.cell_ranges[i].begin;
+             k < block.cell_ranges[i].end;
              ++k)
-          block.outsiders[block.n_outsiders++] = {k, block.pieces[i].cell};
+          block.irregular_points[block.n_irregular_points++] = {
+            k, block.cell_ranges[i].cell};
     }
   } // namespace
 
 
 
-  // Along each axis a box has weights at four nodes around its cell; a run uses
+  // Along each axis a box has weights at four nodes around its cell; a group uses
   // three. All four are computed for all points without a branch, from two
   // integrals (axis_weights()). The signs of the distances of the box from the
   // faces later select the three nodes. Weights are computed in both sweeps of
@@ -204,7 +206,7 @@ namespace talus
           reach[d].below |= PointsOfBlock(w.lower_end.sign_bits()) << k;
           reach[d].inside_above |= PointsOfBlock(w.upper_end.sign_bits()) << k;
         }
-    find_runs(block, reach);
+    find_groups(block, reach);
   }
 
 
@@ -236,13 +238,13 @@ namespace talus
   {
     const std::vector<Segment> &segments = points_.segments();
     const Cell<dim> *const      cells    = grid_.cells().data();
-    unsigned int                size = 0, n_pieces = 0;
+    unsigned int                size = 0, n_cell_ranges = 0;
     for (; segment_ < last_segment_; ++segment_)
       {
         const Segment   &segment = segments[segment_];
         const Cell<dim> &cell    = cells[segment.cell];
         // The previous block may have ended within this segment.
-        if (n_pieces == 0)
+        if (n_cell_ranges == 0)
           {
             point_          = std::max(point_, segment.begin);
             block.begin     = point_;
@@ -259,9 +261,10 @@ namespace talus
 
         const unsigned int end =
           std::min(size + (segment.end - point_), Block<dim>::n_points);
-        block.pieces[n_pieces++] = {size, end, segment.cell, &cell};
+        block.cell_ranges[n_cell_ranges++] = {
+          size, end, segment.cell, &cell, cell.patch.data()};
         // Whole registers: values beyond the end are overwritten by the next
-        // piece. One register is mostly enough.
+        // range. One register is mostly enough.
 #pragma GCC unroll 1
         for (unsigned int k = size; k < end; k += simd_width)
           for (unsigned int d = 0; d < dim; ++d)
@@ -274,12 +277,12 @@ namespace talus
             break;
           }
       }
-    block.size     = size;
-    block.n_pieces = n_pieces;
+    block.size          = size;
+    block.n_cell_ranges = n_cell_ranges;
     if (size == 0)
       return false;
     if (shape_.rule == BoxRule::convected_domain)
-      make_all_outsiders(block);
+      make_all_irregular(block);
     else
       compute_weights(block);
     return true;

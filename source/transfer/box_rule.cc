@@ -262,7 +262,7 @@ namespace talus
           double half = 0.5 * points.data(points.reference_length, d)[p];
           if (shape.rule != BoxRule::fixed)
             half *= points.data(points.stretch, d)[p];
-          if (half < shape.least_half * size || half > shape.most_half * size)
+          if (half < shape.min_half * size || half > shape.max_half * size)
             ++n_clipped;
         }
       return n_clipped;

@@ -2,7 +2,8 @@
 // Grid to points.
 
 #include <talus/base/ordered_sum.h>
-#include <talus/transfer/convected_kernel.h>
+#include <talus/transfer/block_walk.h>
+#include <talus/transfer/convected_transfer.h>
 #include <talus/transfer/gather_kernel.h>
 #include <talus/transfer/reference.h>
 #include <talus/transfer/transfer.h>
@@ -13,40 +14,45 @@ namespace talus
 
   namespace
   {
-    /// Compute the row of an outsider from its weights by definition. The row
+    /// Compute the row of an irregular_point from its weights by definition. The row
     /// has the layout of the kernel, with the gradient per cell size, so that
     /// move_points() treats all points alike.
     template <int dim>
     void
-    interpolate_outsider(const Block<dim>                    &block,
-                         const typename Block<dim>::Outsider &outsider,
-                         const Points<dim>                   &points,
-                         const Grid<dim>                     &grid,
-                         const BoxShape                      &shape,
-                         const NodalFields<dim>              &fields,
-                         NodeWeights<dim>                    &room,
-                         InterpolatedMotion<dim>             &motion)
+    interpolate_irregular_point(
+      const Block<dim>                          &block,
+      const typename Block<dim>::IrregularPoint &irregular_point,
+      const Points<dim>                         &points,
+      const Grid<dim>                           &grid,
+      const BoxShape                            &shape,
+      const NodalFields<dim>                    &fields,
+      NodeWeights<dim>                          &room,
+      InterpolatedMotion<dim>                   &motion)
     {
       if (shape.rule == BoxRule::convected_domain)
         {
-          interpolate_corners<dim>(
-            ConvectedDomain<dim>(
-              points, grid, shape, outsider.cell, block.begin + outsider.k),
-            grid,
-            outsider.cell,
-            fields.motion(0),
-            motion.row[outsider.k]);
+          interpolate_corners<dim>(ConvectedDomain<dim>(points,
+                                                        grid,
+                                                        shape,
+                                                        irregular_point.cell,
+                                                        block.begin +
+                                                          irregular_point.k),
+                                   grid,
+                                   irregular_point.cell,
+                                   fields.motion(0),
+                                   motion.row[irregular_point.k]);
           return;
         }
-      using Motion        = NodalMotion<dim>;
-      const auto    there = interpolate_by_definition(points,
-                                                   outsider.cell,
-                                                   block.begin + outsider.k,
-                                                   grid,
-                                                   shape,
-                                                   fields,
-                                                   room);
-      double *const row   = motion.row[outsider.k];
+      using Motion = NodalMotion<dim>;
+      const auto there =
+        interpolate_by_definition(points,
+                                  irregular_point.cell,
+                                  block.begin + irregular_point.k,
+                                  grid,
+                                  shape,
+                                  fields,
+                                  room);
+      double *const row = motion.row[irregular_point.k];
       for (unsigned int i = 0; i < dim; ++i)
         {
           row[Motion::velocity + i]  = there.velocity[i];
@@ -60,7 +66,7 @@ namespace talus
 
 
     /// Interpolate the motion of the nodes to all points of the block. Node
-    /// addresses are computed once per run. Meanwhile the columns of the next
+    /// addresses are computed once per group. Meanwhile the columns of the next
     /// batch are prefetched: the second sweep reads the common columns up to
     /// the initial position.
     template <int dim>
@@ -77,17 +83,23 @@ namespace talus
       points.fetch_ahead(block.begin,
                          block.begin + block.size,
                          points.initial_position);
-      for (unsigned int r = 0; r < block.n_runs; ++r)
+      for (unsigned int r = 0; r < block.n_groups; ++r)
         {
           const double *nodes[power(3, dim)];
-          find_nodes<dim>(block.runs[r], motions, nodes);
-          for_each_bit(block.runs[r].points, [&](const unsigned int k) {
-            interpolate<dim>(block.runs[r], k, nodes, motion.row[k]);
+          find_nodes<dim>(block.groups[r], motions, nodes);
+          for_each_bit(block.groups[r].points, [&](const unsigned int k) {
+            interpolate<dim>(block.groups[r], k, nodes, motion.row[k]);
           });
         }
-      for (unsigned int i = 0; i < block.n_outsiders; ++i)
-        interpolate_outsider(
-          block, block.outsiders[i], points, grid, shape, fields, room, motion);
+      for (unsigned int i = 0; i < block.n_irregular_points; ++i)
+        interpolate_irregular_point(block,
+                                    block.irregular_points[i],
+                                    points,
+                                    grid,
+                                    shape,
+                                    fields,
+                                    room,
+                                    motion);
     }
 
 
@@ -114,8 +126,8 @@ namespace talus
 
 
   // Each block is processed in two parts with different layouts. Interpolation
-  // runs point by point, with the entries of a node side by side in a register.
-  // The update of the points runs entry by entry, with several points side by
+  // groups point by point, with the entries of a node side by side in a register.
+  // The update of the points groups entry by entry, with several points side by
   // side. MotionEntries transposes in between, within the first-level cache.
   // Positions move with the velocity of the grid, because the noise in the
   // velocities of the points would let points pass through one another.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Points to grid.
 
-#include <talus/transfer/convected_kernel.h>
+#include <talus/transfer/block_walk.h>
+#include <talus/transfer/convected_transfer.h>
 #include <talus/transfer/reference.h>
 #include <talus/transfer/scatter_kernel.h>
 #include <talus/transfer/transfer.h>
@@ -13,8 +14,8 @@ namespace talus
   // A block takes three steps. The contributions of the points (mass, momentum,
   // forces; NodalSum) are computed entry by entry for several points at once,
   // and transposed to rows, one per point. Then they are multiplied by the
-  // weights and added to the nodes, run by run, a register of entries at a
-  // time. Outsiders are added last, node by node.
+  // weights and added to the nodes, group by group, a register of entries at a
+  // time. Irregular_points are added last, node by node.
   //
   // Points add to nodes in the order of the points. The sum is sequential: it
   // needs no locks and is bit-identical in every run.
@@ -44,29 +45,33 @@ namespace talus
         points.fetch_ahead(block.begin,
                            block.begin + block.size,
                            points.elastic_energy);
-        for (unsigned int r = 0; r < block.n_runs; ++r)
-          add_run<dim>(contributions, block.runs[r], sums);
-        for (unsigned int i = 0; i < block.n_outsiders; ++i)
+        for (unsigned int r = 0; r < block.n_groups; ++r)
+          add_group<dim>(contributions, block.groups[r], sums);
+        for (unsigned int i = 0; i < block.n_irregular_points; ++i)
           {
-            const auto        &outsider = block.outsiders[i];
-            const unsigned int p        = block.begin + outsider.k;
+            const auto        &irregular_point = block.irregular_points[i];
+            const unsigned int p = block.begin + irregular_point.k;
             if (box_shape_.rule == BoxRule::convected_domain)
               add_corners<dim>(contributions,
-                               ConvectedDomain<dim>(
-                                 points, grid, box_shape_, outsider.cell, p),
+                               ConvectedDomain<dim>(points,
+                                                    grid,
+                                                    box_shape_,
+                                                    irregular_point.cell,
+                                                    p),
                                grid,
-                               outsider.cell,
-                               outsider.k,
+                               irregular_point.cell,
+                               irregular_point.k,
                                sums);
             else
-              scatter_by_definition(points,
-                                    work,
-                                    {outsider.cell, block.body, p, p + 1},
-                                    grid,
-                                    loads,
-                                    box_shape_,
-                                    nodes,
-                                    room);
+              scatter_by_definition(
+                points,
+                work,
+                {irregular_point.cell, block.body, p, p + 1},
+                grid,
+                loads,
+                box_shape_,
+                nodes,
+                room);
           }
       }
   }

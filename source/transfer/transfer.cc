@@ -37,14 +37,14 @@ namespace talus
                     "convected domain"));
     add_parameter(
       "Minimum half-size",
-      box_shape_.least_half,
+      box_shape_.min_half,
       "Lower limit of the half length of a box in the weights, in cell sizes "
       "[-]; thinner boxes would lower the stable time step. For a convected "
       "domain: lower limit of half the distance between opposite sides.",
       this->prm,
       Patterns::Double(1e-3, 0.5));
     add_parameter("Maximum half-size",
-                  box_shape_.most_half,
+                  box_shape_.max_half,
                   "Upper limit of the half length of a box in the weights, in "
                   "cell sizes [-]; a longer box would reach beyond the "
                   "touching cells. A convected domain may reach twice as far "
@@ -75,11 +75,11 @@ namespace talus
   void
   Transfer<dim>::check() const
   {
-    AssertThrow(box_shape_.least_half <= box_shape_.most_half,
+    AssertThrow(box_shape_.min_half <= box_shape_.max_half,
                 ExcUser(text("Transfer/Minimum half-size = ",
-                             box_shape_.least_half,
+                             box_shape_.min_half,
                              " must not exceed Transfer/Maximum half-size = ",
-                             box_shape_.most_half,
+                             box_shape_.max_half,
                              ".")));
   }
 
@@ -98,7 +98,7 @@ namespace talus
   // Batches without B-bar skip the averaging.
   template <int dim>
   bool
-  Transfer<dim>::takes_bbar(const Points<dim> &points, const Batch &batch) const
+  Transfer<dim>::uses_bbar(const Points<dim> &points, const Batch &batch) const
   {
     for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
       if (uses_bbar(points.segments()[s].body))
@@ -227,7 +227,7 @@ namespace talus
                                       StepWorkspace<dim> &workspace,
                                       const Batch        &batch) const
   {
-    if (!takes_bbar(points, batch))
+    if (!uses_bbar(points, batch))
       {
         std::fill_n(workspace.mean_stress_shift(), batch.end - batch.begin, 0.);
         return;
@@ -259,7 +259,7 @@ namespace talus
                                           StepWorkspace<dim> &workspace,
                                           const Batch        &batch) const
   {
-    if (!takes_bbar(points, batch))
+    if (!uses_bbar(points, batch))
       return;
     const auto work = workspace.view(batch.begin, batch.end);
     shift_to_cell_means(

@@ -80,7 +80,7 @@ namespace
   {
     const Table table = run<2>("bar.prm", "bar-" + name, overrides);
     EXPECT_GE(table["time [s]"].back(), 10. * period - 1e-3);
-    EXPECT_LE(table["split ledger [-]"].back(), 1e-12) << name;
+    EXPECT_LE(table["split conservation error [-]"].back(), 1e-12) << name;
     return {table, largest(deviation(table, 0.1)), energy_drift(table)};
   }
 

@@ -69,7 +69,9 @@ TEST(LandslideMerged, ReturnsToThePointsOfTheStart)
                 merged["splits"].back() / without["splits"].back(),
                 1.);
   EXPECT_GT(merged["merges"].back(), 1000);
-  gates.at_most("merge ledger", merged["merge ledger [-]"].back(), 1e-12);
+  gates.at_most("merge conservation error",
+                merged["merge conservation error [-]"].back(),
+                1e-12);
   gates.at_most("merging work / gravity work",
                 merged["merging work [J]"].back() /
                   merged["gravity work [J]"].back(),

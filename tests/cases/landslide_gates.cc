@@ -159,7 +159,9 @@ namespace talus::cases
                 rest >= 24. && rest <= 27.5);
     expect_rest(gates, table);
     EXPECT_GT(table["splits"].back(), 1000);
-    gates.at_most("split ledger", largest(table["split ledger [-]"]), 1e-12);
+    gates.at_most("split conservation error",
+                  largest(table["split conservation error [-]"]),
+                  1e-12);
   }
 
 

@@ -64,7 +64,7 @@ class Runs(Case):
         for name, values in expected.items():
             self.assertEqual(len(found[name]), len(values))
             scale = largest(values)
-            if name.endswith(" ledger [-]"):
+            if name.endswith(" conservation error [-]"):
                 self.assertLess(largest(found[name]), 1e-12)
                 continue
             if name == "energy remainder [J]":

@@ -128,7 +128,7 @@ namespace
     {
       runs.clear();
       equilibrium.begin(measure);
-      while (!equilibrium.is_found())
+      while (!equilibrium.is_balanced())
         {
           StaticProblem<dim> all = problem();
           if (!equilibrium.advance(all,

@@ -49,7 +49,7 @@ LEVELS = {
 TOLERANCE = 1e-11
 # A remainder of large numbers, and a number that is round-off itself.
 REMAINDER, OF_REMAINDER = "energy remainder [J]", "gravity work [J]"
-LEDGER, MOST_OF_LEDGER = "split ledger [-]", 1e-12
+LEDGER, MOST_OF_LEDGER = "split conservation error [-]", 1e-12
 
 
 def build(folder, base, definitions):

@@ -2,7 +2,7 @@
 #ifndef talus_adaptivity_load_balance_h
 #define talus_adaptivity_load_balance_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
 

@@ -2,8 +2,8 @@
 #ifndef talus_adaptivity_merger_h
 #define talus_adaptivity_merger_h
 
+#include <talus/adaptivity/conservation_check.h>
 #include <talus/adaptivity/joint_box.h>
-#include <talus/adaptivity/ledger.h>
 #include <talus/adaptivity/splitter.h>
 #include <talus/base/quantity.h>
 #include <talus/grid/grid.h>
@@ -91,11 +91,11 @@ namespace talus
       return n_merges_;
     }
 
-    /// Largest relative error of the conserved quantities [-]; see Ledger.
+    /// Largest relative error of the conserved quantities [-]; see ConservationCheck.
     double
-    ledger() const
+    conservation_error() const
     {
-      return ledger_.relative_error();
+      return conservation_.relative_error();
     }
 
     /// Append the number of merges and the error of conservation to @p list, if
@@ -135,7 +135,7 @@ namespace talus
     std::vector<unsigned int> members_; ///< points of the current segment
     std::vector<unsigned int> removed_;
     Reordering                reordering_;
-    Ledger<dim>               ledger_;
+    ConservationCheck<dim>    conservation_;
     unsigned long             n_merges_ = 0;
   };
 } // namespace talus

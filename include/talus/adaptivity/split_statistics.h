@@ -11,7 +11,7 @@ namespace talus
     unsigned int  largest_generation = 0;
     /// Largest relative error [-] of mass, momentum, kinetic and elastic energy
     /// and centre of mass, summed over all splits.
-    double ledger = 0;
+    double conservation_error = 0;
   };
 
 

@@ -2,7 +2,7 @@
 #ifndef talus_adaptivity_splitter_h
 #define talus_adaptivity_splitter_h
 
-#include <talus/adaptivity/ledger.h>
+#include <talus/adaptivity/conservation_check.h>
 #include <talus/adaptivity/split_statistics.h>
 #include <talus/base/quantity.h>
 #include <talus/grid/grid.h>
@@ -74,7 +74,7 @@ namespace talus
 
     /// Length up to which no point is split, in cells.
     double
-    least_split_length() const
+    min_split_length() const
     {
       return enabled_ ? std::min(minimum_length_, 1.) : 1.;
     }
@@ -121,9 +121,9 @@ namespace talus
     /// all ranks have loaded the same, largest next id, and each adds its
     /// @p rank.
     void
-    number_on(const unsigned int rank,
-              const unsigned int n_ranks,
-              const unsigned int n_ranks_then)
+    renumber_after_resume(const unsigned int rank,
+                          const unsigned int n_ranks,
+                          const unsigned int n_ranks_then)
     {
       if (n_ranks != n_ranks_then)
         next_id_ += rank;
@@ -205,15 +205,15 @@ namespace talus
     unsigned int maximum_generation_ = 8;
     unsigned int maximum_points_     = 10000000;
 
-    struct Violation
+    struct SplitMark
     {
       unsigned int point;
       unsigned int axes;
     };
-    std::vector<Violation> marked_;
+    std::vector<SplitMark> marked_;
     double                 next_id_   = 0;
     double                 id_stride_ = 1;
-    Ledger<dim>            ledger_;
+    ConservationCheck<dim> conservation_;
     SplitStatistics        statistics_;
   };
 } // namespace talus

@@ -19,7 +19,7 @@ namespace talus
     {
     public:
       Scope(PhaseTimer &timer, const std::string &phase)
-        : booked_(timer.times_[phase])
+        : time_of_phase_(timer.times_[phase])
         , begin_(Clock::now())
       {}
 
@@ -27,11 +27,11 @@ namespace talus
 
       ~Scope()
       {
-        booked_ += Clock::now() - begin_;
+        time_of_phase_ += Clock::now() - begin_;
       }
 
     private:
-      std::chrono::steady_clock::duration  &booked_;
+      std::chrono::steady_clock::duration  &time_of_phase_;
       std::chrono::steady_clock::time_point begin_;
     };
 

@@ -9,6 +9,30 @@
 
 namespace talus
 {
+  /// Maximum friction force of soil at rest on a surface: proportional to the
+  /// normal force up to a cap.
+  struct CoulombLimit
+  {
+    double coefficient = 0; ///< of friction [-]
+    double cap         = 0; ///< maximum shear stress times area, N
+
+    /// Return the maximum friction force, N, for a normal force, N.
+    double
+    force(const double normal_force) const
+    {
+      return std::min(coefficient * normal_force, cap);
+    }
+
+    /// Whether the maximum friction force increases with the normal force, N.
+    bool
+    increases_at(const double normal_force) const
+    {
+      return coefficient * normal_force < cap;
+    }
+  };
+
+
+
   /// Friction law of a rigid surface: Coulomb friction, with a maximum shear
   /// stress on the area in contact, since soft soil cannot pass more than its
   /// remoulded strength (@cite dong2017); plus, if defined, the stress of a
@@ -51,24 +75,10 @@ namespace talus
       shear_stress_factor_ = coefficient_factor_ = factor;
     }
 
-    /// Return the maximum friction force on soil at rest, N.
-    /// @param normal_force in N
-    /// @param maximum_shear_stress in Pa, may be infinite
-    /// @param area area in contact, m^(dim-1)
-    double
-    largest_force(const double normal_force,
-                  const double maximum_shear_stress,
-                  const double area) const
-    {
-      return std::min(coefficient() * normal_force,
-                      limit_of_stress(maximum_shear_stress, area));
-    }
-
-    /// Return the maximum friction force for any normal force, N: multiplier
-    /// times maximum shear stress, Pa, times area in contact, m^(dim-1);
-    /// infinite for an infinite stress.
-    double
-    limit_of_stress(double maximum_shear_stress, double area) const;
+    /// Return the friction of soil at rest on @p area, m^(dim-1), in contact
+    /// with a surface of @p maximum_shear_stress, Pa, which may be infinite.
+    CoulombLimit
+    limit(double maximum_shear_stress, double area) const;
 
     /// Force of the film, N, at a slip velocity, m/s, on an area in contact,
     /// m^(dim-1).

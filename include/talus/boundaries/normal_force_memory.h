@@ -2,7 +2,7 @@
 #ifndef talus_boundaries_normal_force_memory_h
 #define talus_boundaries_normal_force_memory_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/grid/grid.h>
 
 #include <array>

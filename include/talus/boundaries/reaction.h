@@ -2,7 +2,7 @@
 #ifndef talus_boundaries_reaction_h
 #define talus_boundaries_reaction_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 
 #include <deal.II/base/tensor.h>
 

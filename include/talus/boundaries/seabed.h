@@ -117,13 +117,12 @@ namespace talus
     /// Maximum friction force, N, on soil at rest at @p node, for a normal
     /// force, N, and an area in contact, m^(dim-1).
     double
-    largest_friction(const unsigned int node,
-                     const double       normal_force,
-                     const double       area) const
+    max_friction(const unsigned int node,
+                 const double       normal_force,
+                 const double       area) const
     {
-      return friction_.largest_force(normal_force,
-                                     maximum_shear_stress(node),
-                                     area);
+      return friction_.limit(maximum_shear_stress(node), area)
+        .force(normal_force);
     }
 
     InterfaceFriction &

@@ -2,7 +2,7 @@
 #ifndef talus_checkpoint_checkpoint_h
 #define talus_checkpoint_checkpoint_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/checkpoint/checkpoint_folder.h>
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>

@@ -2,7 +2,7 @@
 #ifndef talus_checkpoint_checkpoint_content_h
 #define talus_checkpoint_checkpoint_content_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/io/hdf5_input_file.h>
 #include <talus/io/hdf5_output_file.h>
 #include <talus/points/points.h>

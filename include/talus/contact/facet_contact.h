@@ -90,7 +90,7 @@ namespace talus
 
     /// In which the facets passed their impulses, s; 0 before the first step.
     double
-    duration_of_impulses() const
+    previous_time_step() const
     {
       return previous_time_step_;
     }

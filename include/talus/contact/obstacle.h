@@ -4,7 +4,7 @@
 
 #include <talus/base/expression.h>
 #include <talus/base/shear_stress_cap.h>
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/boundaries/interface_friction.h>
 #include <talus/geometry/shape.h>
 #include <talus/geometry/shape_parameters.h>

@@ -105,7 +105,7 @@ namespace talus
     /// Return whether all load is applied and the imbalance is within
     /// tolerance.
     bool
-    is_found() const
+    is_balanced() const
     {
       return is_found_;
     }

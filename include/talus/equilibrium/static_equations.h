@@ -71,7 +71,7 @@ namespace talus
     /// Set the fraction @p share of the imbalance to be removed in the step
     /// [-].
     void
-    take_share(double share);
+    set_load_fraction(double share);
 
     /// Hold the unknowns that walls and contact hold in their current state.
     void
@@ -83,9 +83,9 @@ namespace talus
     /// @param residual Residual, N; unchanged on failure.
     /// @return False if a point on any rank would be inverted.
     bool
-    find_residual(StaticProblem<dim>        &problem,
-                  const std::vector<double> &u,
-                  std::vector<double>       &residual);
+    compute_residual(StaticProblem<dim>        &problem,
+                     const std::vector<double> &u,
+                     std::vector<double>       &residual);
 
     /// Result of solve_tangent().
     struct Correction

@@ -123,13 +123,12 @@ namespace talus
       dealii::Point<dim>                place; ///< centroid, m
       dealii::Tensor<1, dim>            normal;
       double                            area = 0; ///< in contact, m^(dim-1)
-      double stiffness        = 0; ///< of the spring, N/m; 0: no soil
-      double gap              = 0; ///< at the start of the step, m
-      double opened           = 0; ///< see Memory, m
-      double coefficient      = 0; ///< of friction [-]
-      double largest_friction = 0; ///< upper bound for all normal forces, N
-      Force  given, found;
-      bool   is_closed = false, slips = false;
+      double                 stiffness = 0; ///< of the spring, N/m; 0: no soil
+      double                 gap       = 0; ///< at the start of the step, m
+      double                 opened    = 0; ///< see Memory, m
+      CoulombLimit           limit;         ///< of friction
+      Force                  given, found;
+      bool                   is_closed = false, slips = false;
       dealii::Tensor<1, dim> direction;   ///< of friction while slipping
       double                 cut = 0;     ///< friction over spring force [-]
       bool sticks_first          = false; ///< next tangent as if it stuck

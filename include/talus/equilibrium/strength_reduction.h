@@ -87,7 +87,7 @@ namespace talus
 
   private:
     double
-    least_factor() const;
+    min_factor() const;
     bool
     is_narrow() const;
 

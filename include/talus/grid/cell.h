@@ -4,6 +4,7 @@
 
 #include <talus/base/box.h>
 #include <talus/base/large_pages.h>
+#include <talus/grid/patch.h>
 
 #include <deal.II/base/point.h>
 
@@ -11,25 +12,6 @@
 
 namespace talus
 {
-  constexpr unsigned int
-  power(const unsigned int base, const unsigned int exponent)
-  {
-    return exponent == 0 ? 1 : base * power(base, exponent - 1);
-  }
-
-  /// Index in a patch of the node of the cell at vertex @p v.
-  template <int dim>
-  constexpr unsigned int
-  patch_of_vertex(const unsigned int v)
-  {
-    unsigned int k = 0;
-    for (unsigned int d = 0; d < dim; ++d)
-      k += (1 + ((v >> d) & 1)) * power(4, d);
-    return k;
-  }
-
-
-
   /// Data of a cell of the background grid for the transfer. In 2-D two cache
   /// lines: first the data for locating points, then the patch.
   template <int dim>

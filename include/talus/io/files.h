@@ -2,7 +2,7 @@
 #ifndef talus_io_files_h
 #define talus_io_files_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 
 #include <filesystem>
 #include <fstream>

@@ -2,7 +2,7 @@
 #ifndef talus_io_input_file_h
 #define talus_io_input_file_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 
 #include <filesystem>
 #include <string>

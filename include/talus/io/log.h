@@ -2,7 +2,7 @@
 #ifndef talus_io_log_h
 #define talus_io_log_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/io/files.h>
 
 #include <filesystem>

@@ -2,7 +2,7 @@
 #ifndef talus_maps_envelope_h
 #define talus_maps_envelope_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/maps/column_sums.h>
 #include <talus/maps/impact.h>
 
@@ -38,7 +38,7 @@ namespace talus
     double thickness          = 0; ///< current, m
     double mass               = 0; ///< current, per plan area, kg/m^2
     double thickness_at_start = 0; ///< m
-    Peak   most_thickness;         ///< m
+    Peak   max_thickness;          ///< m
     Peak   speed;                  ///< of the depth-mean velocity, m/s
     Peak   momentum_flux;          ///< N/m
     Peak   bed_shear_stress;       ///< Pa
@@ -116,9 +116,8 @@ namespace talus
   /// Quantity derived from the history of a column, for maps and tables.
   struct HistoryField
   {
-    std::string name, unit;
-    std::function<double(const ColumnHistory &)>
-      value; ///< NaN: undefined
+    std::string                                  name, unit;
+    std::function<double(const ColumnHistory &)> value; ///< NaN: undefined
   };
 
   /// Return all fields except the impact pressure.

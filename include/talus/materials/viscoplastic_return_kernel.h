@@ -90,10 +90,10 @@ namespace talus
   /// function is above its tangent at zero and above its asymptote.
   template <typename Number, typename Linear>
   TALUS_ALWAYS_INLINE Number
-  most_shear(const Number excess,
-             const Number loss,
-             const Linear linear,
-             const double decay)
+  max_shear(const Number excess,
+            const Number loss,
+            const Linear linear,
+            const double decay)
   {
     return min(excess / (linear - decay * loss),
                (excess + loss) * (1. / linear));
@@ -112,7 +112,7 @@ namespace talus
                   const ShearResistanceOf<Modulus> &r)
   {
     const bool is_power = (r.exponent > 1. && r.consistency > 0.);
-    Number     start    = most_shear(excess, loss, linear, r.decay);
+    Number     start    = max_shear(excess, loss, linear, r.decay);
     if (is_power)
       start =
         min(start, r.dt * power_of(excess / r.consistency, 1. / r.exponent));
@@ -142,7 +142,7 @@ namespace talus
     const auto shear = [&](const Number y) {
       return r.dt * power_of(y * (1. / r.consistency), 1. / r.exponent);
     };
-    const Number most = most_shear(excess, loss, r.modulus, r.decay);
+    const Number most = max_shear(excess, loss, r.modulus, r.decay);
     const Number start =
       min(excess, r.consistency * power_of(most * (1. / r.dt), r.exponent));
     return shear(newton_from_above(start, yields, [&](const Number y) {

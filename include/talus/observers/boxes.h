@@ -17,7 +17,7 @@ namespace talus
   inline double
   longest_box(const State<dim> &state, const double cell_size)
   {
-    return 2. * state.constants.box_shape.most_half * cell_size;
+    return 2. * state.constants.box_shape.max_half * cell_size;
   }
 
 

@@ -2,7 +2,7 @@
 #ifndef talus_observers_observer_h
 #define talus_observers_observer_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/io/files.h>
 #include <talus/state/state.h>
 

@@ -79,7 +79,7 @@ namespace talus
   class Points : public PointColumns<dim>
   {
   public:
-    static constexpr unsigned int n_spare = 8;
+    static constexpr unsigned int n_spare = n_spare_entries;
 
     Points();
 

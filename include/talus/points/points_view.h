@@ -8,6 +8,12 @@
 
 namespace talus
 {
+  /// Entries behind the last point of every column, so that whole registers may
+  /// be loaded and stored there.
+  constexpr unsigned int n_spare_entries = 8;
+
+
+
   /// Columns of every point: index of the first scalar array of each column.
   /// Tensors are stored row by row. The order is: columns read by both sweeps
   /// of a step, columns read by the second sweep, columns read rarely.

@@ -29,6 +29,11 @@ namespace talus
                     const std::vector<std::unique_ptr<Body<dim>>> &bodies,
                     const Grid<dim>                               &grid);
 
+  /// Return a sentence with the thickness of the thinnest body in cells; empty
+  /// without bodies.
+  std::string
+  sentence_on_thinnest(const std::vector<BodyThickness> &bodies);
+
   /// Return a remark for each body thinner than two cells.
   std::vector<std::string>
   notes_on_thickness(const std::vector<BodyThickness> &bodies);

@@ -2,7 +2,7 @@
 #ifndef talus_problem_ground_motion_h
 #define talus_problem_ground_motion_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/problem/time_table.h>
 
 #include <deal.II/base/parameter_acceptor.h>

@@ -73,7 +73,7 @@ namespace talus
 
     /// The least of the bodies, kg/m^3.
     double
-    least_density() const;
+    min_density() const;
 
     std::vector<std::string>
     names_of_bodies() const;

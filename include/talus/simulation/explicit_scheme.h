@@ -40,6 +40,12 @@ namespace talus
     double
     stable_time_step();
 
+    /// Throw ExcUser if a run to @p end_time, s, would take so many steps that it
+    /// cannot end, or if there are more points than the splitter allows.
+    /// Collective.
+    void
+    check_effort(double end_time);
+
     /// Sentence with that step and what limits it. Collective.
     std::string
     description();

@@ -118,15 +118,9 @@ namespace talus
 
   private:
     void
-    note_contact_area(const Quantities &list);
-    void
     prepare();
     void
     create_points();
-    void
-    check_number_of_steps();
-    void
-    check_number_of_points() const;
     Beginning
     beginning() const;
     void
@@ -172,7 +166,6 @@ namespace talus
     RestDetector<dim>   rest_;
     Checkpoint<dim>     checkpoint_;
     FoundCheckpoint     resumed_from_; ///< no path in a run from the start
-    bool                has_noted_contact_area_ = false;
   };
 } // namespace talus
 

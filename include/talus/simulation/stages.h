@@ -2,7 +2,7 @@
 #ifndef talus_simulation_stages_h
 #define talus_simulation_stages_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -36,7 +36,7 @@ namespace talus
     contain(Stage stage) const;
 
     bool
-    have_static() const
+    has_static() const
     {
       return stages_.front() != Stage::dynamics;
     }
@@ -71,7 +71,7 @@ namespace talus
     }
 
     void
-    count_one()
+    mark_done()
     {
       ++n_done_;
     }

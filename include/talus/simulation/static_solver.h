@@ -97,7 +97,7 @@ namespace talus
     /// Restore a state after points have moved, possibly to different ranks,
     /// with changes of the mesh. Collective.
     void
-    bring_back(const Saved &saved);
+    restore_and_relocate(const Saved &saved);
 
     /// Undo a stage, including newton.csv. @p saved is the state at
     /// begin_stage(). Collective.

@@ -110,7 +110,7 @@ namespace talus
     void
     undo_stage(const typename StaticSolver<dim>::Saved &before);
     bool
-    stands_with(double factor);
+    is_stable_with(double factor);
     void
     write_mechanism(const std::string &name) const;
 

@@ -109,9 +109,9 @@ namespace talus
   /// lost in round-off would continue the run for ever. @p limited_by is called
   /// only in case of error.
   void
-  check_time_goes_on(double                              time,
-                     double                              dt,
-                     const std::function<std::string()> &limited_by);
+  check_time_advances(double                              time,
+                      double                              dt,
+                      const std::function<std::string()> &limited_by);
 } // namespace talus
 
 #endif

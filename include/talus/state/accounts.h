@@ -2,7 +2,7 @@
 #ifndef talus_state_accounts_h
 #define talus_state_accounts_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/points/points.h>
 
 #include <deal.II/base/tensor.h>

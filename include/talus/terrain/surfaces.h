@@ -3,7 +3,7 @@
 #define talus_terrain_surfaces_h
 
 #include <talus/base/raster.h>
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/io/input_file.h>
 #include <talus/terrain/named_surface.h>
 

@@ -2,15 +2,20 @@
 #ifndef talus_transfer_block_h
 #define talus_transfer_block_h
 
-#include <talus/grid/grid.h>
-#include <talus/points/points.h>
-#include <talus/transfer/box_shape.h>
+#include <talus/base/always_inline.h>
+#include <talus/grid/patch.h>
+#include <talus/points/points_view.h>
 
 #include <array>
 #include <cstdint>
 
 namespace talus
 {
+  template <int dim>
+  struct Cell;
+
+
+
   /// Set of points of a block: bit k stands for point k.
   using PointsOfBlock = std::uint64_t;
 
@@ -25,8 +30,7 @@ namespace talus
   {
     static constexpr unsigned int n_points = 64; ///< bits of PointsOfBlock
     /// Length of arrays written a register at a time, beyond the last point.
-    static constexpr unsigned int n_with_spare =
-      n_points + Points<dim>::n_spare;
+    static constexpr unsigned int n_with_spare = n_points + n_spare_entries;
 
     /// Weights along an axis in eight rows, a column per point: values at the
     /// nodes -1, 0, 1 and 2 of the cell [-], then derivatives per cell size.
@@ -34,7 +38,7 @@ namespace talus
     using Weights = std::array<double, 8 * n_points>;
 
     /// Points of one cell with weights at the same 3^dim nodes.
-    struct Run
+    struct SameNodesGroup
     {
       PointsOfBlock points;
       /// First of the 3^dim nodes in the patch of the cell, see Cell::patch. A
@@ -63,16 +67,17 @@ namespace talus
     };
 
     /// Consecutive points of the block in one cell.
-    struct Piece
+    struct CellRange
     {
-      unsigned int     begin, end; ///< indices in the block
-      unsigned int     cell;
-      const Cell<dim> *cell_data;
+      unsigned int        begin, end; ///< indices in the block
+      unsigned int        cell;
+      const Cell<dim>    *cell_data;
+      const unsigned int *patch; ///< nodes around the cell, see Cell::patch
     };
 
-    /// A point that no run contains: it reaches into a cell of another size, or
+    /// A point that no group contains: it reaches into a cell of another size, or
     /// its domain is not a box. Its weights are computed by weights_of_point().
-    struct Outsider
+    struct IrregularPoint
     {
       unsigned int k; ///< index in the block
       unsigned int cell;
@@ -83,14 +88,14 @@ namespace talus
     unsigned int body  = 0;
     double       cell_size;
 
-    unsigned int                   n_pieces = 0;
-    std::array<Piece, n_points>    pieces;
-    unsigned int                   n_runs = 0;
-    std::array<Run, n_points>      runs;
-    unsigned int                   n_outsiders = 0;
-    std::array<Outsider, n_points> outsiders;
+    unsigned int                         n_cell_ranges = 0;
+    std::array<CellRange, n_points>      cell_ranges;
+    unsigned int                         n_groups = 0;
+    std::array<SameNodesGroup, n_points> groups;
+    unsigned int                         n_irregular_points = 0;
+    std::array<IrregularPoint, n_points> irregular_points;
     /// Patches of the cells that are not uniform. An invalid node is replaced
-    /// by a node of the cell, since no run has a weight at an invalid node.
+    /// by a node of the cell, since no group has a weight at an invalid node.
     unsigned int                                                  n_patches = 0;
     std::array<std::array<unsigned int, power(4, dim)>, n_points> patches;
 
@@ -98,42 +103,6 @@ namespace talus
     alignas(64) std::array<std::array<double, n_with_spare>, dim> cell_lower;
 
     alignas(64) std::array<Weights, dim> weights;
-  };
-
-
-
-  /// Splits the points of a batch into blocks.
-  template <int dim>
-  class BlockWalk
-  {
-  public:
-    BlockWalk(const Points<dim> &points,
-              const Batch       &batch,
-              const Grid<dim>   &grid,
-              const BoxShape    &shape)
-      : points_(points)
-      , grid_(grid)
-      , shape_(shape)
-      , segment_(batch.first_segment)
-      , last_segment_(batch.last_segment)
-      , n_segments_(batch.last_segment - batch.first_segment)
-    {}
-
-    /// Fill @p block with the next points. Return false if no point is left.
-    bool
-    next(Block<dim> &block);
-
-  private:
-    void
-    compute_weights(Block<dim> &block) const;
-
-    const Points<dim> &points_;
-    const Grid<dim>   &grid_;
-    const BoxShape    &shape_;
-    unsigned int       segment_;
-    unsigned int       last_segment_;
-    unsigned int       n_segments_; ///< number of segments in the batch
-    unsigned int       point_ = 0;  ///< next point
   };
 
 
@@ -147,10 +116,10 @@ namespace talus
   prefetch_nodes(const Block<dim> &block, const Address &address)
   {
     constexpr unsigned int n = power(4, dim);
-    for (unsigned int c = 0; c < block.n_pieces; ++c)
+    for (unsigned int c = 0; c < block.n_cell_ranges; ++c)
       for (unsigned int i = 0; i < n; ++i)
         if (i % 4 == 3 || i / (n / 4) == 3 || i / 4 % 4 == 3)
-          __builtin_prefetch(address(block.pieces[c].cell_data->patch[i]));
+          __builtin_prefetch(address(block.cell_ranges[c].patch[i]));
   }
 
 

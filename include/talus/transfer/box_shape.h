@@ -24,8 +24,8 @@ namespace talus
     /// Limits of the half length of a box in sizes of its cell [-]. The lower
     /// limit keeps the step stable, the upper limit keeps the box within the
     /// touching cells.
-    double least_half = 0.1;
-    double most_half  = 0.5;
+    double min_half = 0.1;
+    double max_half = 0.5;
   };
 } // namespace talus
 

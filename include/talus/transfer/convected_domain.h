@@ -61,9 +61,9 @@ namespace talus
     void
     set_edges(const PointsView<dim, const double> &points, unsigned int p);
     void
-    widen(double least_half_width);
+    widen(double min_half_width);
     void
-    shrink(double most_half_extent);
+    shrink(double max_half_extent);
 
     dealii::Point<dim>                      centre_;
     std::array<dealii::Tensor<1, dim>, dim> half_edge_; ///< m
@@ -103,7 +103,7 @@ namespace talus
 
 
 
-  // The bodies below are inline: the functions run twice per step for each
+  // The bodies below are inline: the functions group twice per step for each
   // corner of each point.
 
   template <int dim>
@@ -116,8 +116,8 @@ namespace talus
   {
     const Cell<dim> &own = grid.cells()[cell];
     set_edges(points.view(), p);
-    widen(shape.least_half * own.size);
-    shrink(2. * shape.most_half *
+    widen(shape.min_half * own.size);
+    shrink(2. * shape.max_half *
            (own.uniform ? own.size : smallest_size_around(grid, cell)));
   }
 
@@ -151,21 +151,20 @@ namespace talus
   // formula of Sherman and Morrison.
   template <int dim>
   TALUS_ALWAYS_INLINE void
-  ConvectedDomain<dim>::widen(const double least_half_width)
+  ConvectedDomain<dim>::widen(const double min_half_width)
   {
-    const double most_square = 1. / (least_half_width * least_half_width);
+    const double max_square = 1. / (min_half_width * min_half_width);
     for (unsigned int d = 0; d < dim; ++d)
       {
         const double square = dual_[d].norm_square();
-        if (square <= most_square)
+        if (square <= max_square)
           continue;
         ++n_clipped_;
         const double                 width = 1. / std::sqrt(square);
         const dealii::Tensor<1, dim> more =
-          (least_half_width - width) * width * dual_[d];
+          (min_half_width - width) * width * dual_[d];
         half_edge_[d] += more;
-        const dealii::Tensor<1, dim> row =
-          (width / least_half_width) * dual_[d];
+        const dealii::Tensor<1, dim> row = (width / min_half_width) * dual_[d];
         for (unsigned int e = 0; e < dim; ++e)
           if (e != d)
             dual_[e] -= (dual_[e] * more) * row;
@@ -177,20 +176,20 @@ namespace talus
 
   template <int dim>
   TALUS_ALWAYS_INLINE void
-  ConvectedDomain<dim>::shrink(const double most_half_extent)
+  ConvectedDomain<dim>::shrink(const double max_half_extent)
   {
     for (unsigned int i = 0; i < dim; ++i)
       {
         double extent = 0;
         for (unsigned int d = 0; d < dim; ++d)
           extent += std::abs(half_edge_[d][i]);
-        if (extent <= most_half_extent)
+        if (extent <= max_half_extent)
           continue;
         ++n_clipped_;
         for (unsigned int d = 0; d < dim; ++d)
           {
-            half_edge_[d][i] *= most_half_extent / extent;
-            dual_[d][i] *= extent / most_half_extent;
+            half_edge_[d][i] *= max_half_extent / extent;
+            dual_[d][i] *= extent / max_half_extent;
           }
       }
   }

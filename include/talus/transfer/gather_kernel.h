@@ -35,8 +35,7 @@ namespace talus
         return gradient + half * d + i;
       }
 
-      alignas(
-        64) double row[Block<dim>::n_points + Points<dim>::n_spare][n_entries];
+      alignas(64) double row[Block<dim>::n_points + n_spare_entries][n_entries];
     };
 
 
@@ -52,13 +51,13 @@ namespace talus
 
 
     /// Interpolate entries [at, at + width) of the motion of 3^dim nodes to
-    /// point @p k of the run, with or without derivatives.
+    /// point @p k of the group, with or without derivatives.
     template <int dim, unsigned int width, bool with_gradient>
     TALUS_ALWAYS_INLINE MotionAtPoint<dim, width>
-                        interpolate(const typename Block<dim>::Run &run,
-                                    const unsigned int              k,
-                                    const double *const            *nodes,
-                                    const unsigned int              at)
+    interpolate(const typename Block<dim>::SameNodesGroup &group,
+                const unsigned int                         k,
+                const double *const                       *nodes,
+                const unsigned int                         at)
     {
       using Number                = Simd<width>;
       MotionAtPoint<dim, width> p = {};
@@ -71,15 +70,15 @@ namespace talus
               for (unsigned int i = 0; i < 3; ++i)
                 {
                   const auto node = load<Number>(nodes[9 * l + 3 * j + i] + at);
-                  row += Number(run.value(0, i, k)) * node;
+                  row += Number(group.value(0, i, k)) * node;
                   if constexpr (with_gradient)
-                    slope += Number(run.gradient(0, i, k)) * node;
+                    slope += Number(group.gradient(0, i, k)) * node;
                 }
-              value += Number(run.value(1, j, k)) * row;
+              value += Number(group.value(1, j, k)) * row;
               if constexpr (with_gradient)
                 {
-                  slope_x += Number(run.value(1, j, k)) * slope;
-                  slope_y += Number(run.gradient(1, j, k)) * row;
+                  slope_x += Number(group.value(1, j, k)) * slope;
+                  slope_y += Number(group.gradient(1, j, k)) * row;
                 }
             }
           if constexpr (dim == 2)
@@ -90,13 +89,13 @@ namespace talus
             }
           else
             {
-              const Number z(run.value(2, l, k));
+              const Number z(group.value(2, l, k));
               p.value += z * value;
               if constexpr (with_gradient)
                 {
                   p.slope[0] += z * slope_x;
                   p.slope[1] += z * slope_y;
-                  p.slope[2] += Number(run.gradient(2, l, k)) * value;
+                  p.slope[2] += Number(group.gradient(2, l, k)) * value;
                 }
             }
         }
@@ -105,14 +104,14 @@ namespace talus
 
 
 
-    /// Interpolate the motion to point @p k of the run and store the row of the
+    /// Interpolate the motion to point @p k of the group and store the row of the
     /// point.
     template <int dim>
     TALUS_ALWAYS_INLINE void
-    interpolate(const typename Block<dim>::Run &run,
-                const unsigned int              k,
-                const double *const            *nodes,
-                double                         *row)
+    interpolate(const typename Block<dim>::SameNodesGroup &group,
+                const unsigned int                         k,
+                const double *const                       *nodes,
+                double                                    *row)
     {
       using I                     = InterpolatedMotion<dim>;
       constexpr unsigned int half = I::half;
@@ -121,7 +120,7 @@ namespace talus
           // One register holds velocity and increment; only the derivatives of
           // the velocity are kept.
           constexpr unsigned int width = 2 * half;
-          const auto p = interpolate<dim, width, true>(run, k, nodes, 0);
+          const auto p = interpolate<dim, width, true>(group, k, nodes, 0);
           store(row, p.value);
           store(row + I::gradient, first_halves(p.slope[0], p.slope[1]));
           if constexpr (dim == 3)
@@ -132,32 +131,32 @@ namespace talus
         for (unsigned int at = 0; at < half; at += simd_width)
           {
             const auto v =
-              interpolate<dim, simd_width, true>(run, k, nodes, at);
+              interpolate<dim, simd_width, true>(group, k, nodes, at);
             store(row + at, v.value);
             for (unsigned int d = 0; d < dim; ++d)
               store(row + I::gradient + half * d + at, v.slope[d]);
             const auto dv =
-              interpolate<dim, simd_width, false>(run, k, nodes, half + at);
+              interpolate<dim, simd_width, false>(group, k, nodes, half + at);
             store(row + half + at, dv.value);
           }
     }
 
 
 
-    /// Compute the addresses of the nodes at which the points of a run have
+    /// Compute the addresses of the nodes at which the points of a group have
     /// weights.
     template <int dim>
     TALUS_ALWAYS_INLINE void
-    find_nodes(const typename Block<dim>::Run &run,
-               const double                   *motions,
-               const double                  **nodes)
+    find_nodes(const typename Block<dim>::SameNodesGroup &group,
+               const double                              *motions,
+               const double                             **nodes)
     {
       for (unsigned int l = 0; l < (dim == 3 ? 3 : 1); ++l)
         for (unsigned int j = 0; j < 3; ++j)
           for (unsigned int i = 0; i < 3; ++i)
             nodes[9 * l + 3 * j + i] =
               motions + NodalMotion<dim>::width *
-                          std::size_t(run.patch[16 * l + 4 * j + i]);
+                          std::size_t(group.patch[16 * l + 4 * j + i]);
     }
 
 

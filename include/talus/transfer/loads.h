@@ -2,6 +2,8 @@
 #ifndef talus_transfer_loads_h
 #define talus_transfer_loads_h
 
+#include <talus/transfer/loads_view.h>
+
 #include <deal.II/base/aligned_vector.h>
 #include <deal.II/base/tensor.h>
 
@@ -10,16 +12,6 @@
 
 namespace talus
 {
-  /// Loads on the points of one body, for functions of one point.
-  template <int dim>
-  struct LoadsView
-  {
-    /// Weight per mass, m/s^2.
-    std::array<double, dim> weight;
-    /// Additional acceleration of each point, m/s^2, by axis; null if none.
-    std::array<const double *, dim> of_point;
-  };
-
   /// Forces on the points that do not come from stress, as
   /// accelerations, m/s^2.
   template <int dim>

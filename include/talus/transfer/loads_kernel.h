@@ -3,7 +3,7 @@
 #define talus_transfer_loads_kernel_h
 
 #include <talus/base/simd.h>
-#include <talus/transfer/loads.h>
+#include <talus/transfer/loads_view.h>
 
 namespace talus
 {

@@ -4,7 +4,7 @@
 
 #include <talus/base/box.h>
 #include <talus/base/quantity.h>
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/points/points.h>
 
 #include <deal.II/base/mpi.h>

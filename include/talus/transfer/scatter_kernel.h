@@ -171,13 +171,13 @@ namespace talus
 
 
 
-    /// Add register @p part of the contributions of the points of a run to the
+    /// Add register @p part of the contributions of the points of a group to the
     /// nodal sums.
     template <int dim, unsigned int part>
     TALUS_ALWAYS_INLINE void
-    add_register(const Contributions<dim>       &contributions,
-                 const typename Block<dim>::Run &run,
-                 double                         *sums)
+    add_register(const Contributions<dim>                  &contributions,
+                 const typename Block<dim>::SameNodesGroup &group,
+                 double                                    *sums)
     {
       using C                   = Contributions<dim>;
       using Number              = Simd<simd_width>;
@@ -191,38 +191,38 @@ namespace talus
       for (unsigned int plane = 0; plane < (dim == 3 ? 3 : 1); ++plane)
         {
           Number sum[9] = {};
-          for_each_bit(run.points, [&](const unsigned int k) {
+          for_each_bit(group.points, [&](const unsigned int k) {
             Number record = load<Number>(&contributions.record[k][at]);
             Number flux_y;
             if constexpr (has_flux)
               flux_y = load<Number>(&contributions.flux[0][k][in_flux]);
             if constexpr (dim == 3)
               {
-                const double z = run.value(dim - 1, plane, k);
+                const double z = group.value(dim - 1, plane, k);
                 record *= z;
                 if constexpr (has_flux)
                   {
                     record +=
-                      Number(run.gradient(dim - 1, plane, k)) *
+                      Number(group.gradient(dim - 1, plane, k)) *
                       load<Number>(&contributions.flux[dim - 2][k][in_flux]);
                     flux_y *= z;
                   }
               }
             Number x[3];
             for (unsigned int i = 0; i < 3; ++i)
-              x[i] = factor_along_x<dim, part>(run.value(0, i, k),
-                                               run.gradient(0, i, k),
+              x[i] = factor_along_x<dim, part>(group.value(0, i, k),
+                                               group.gradient(0, i, k),
                                                entries);
             for (unsigned int j = 0; j < 3; ++j)
               {
-                Number row = Number(run.value(1, j, k)) * record;
+                Number row = Number(group.value(1, j, k)) * record;
                 if constexpr (has_flux)
-                  row += Number(run.gradient(1, j, k)) * flux_y;
+                  row += Number(group.gradient(1, j, k)) * flux_y;
                 for (unsigned int i = 0; i < 3; ++i)
                   sum[3 * j + i] += x[i] * row;
               }
           });
-          const unsigned int *patch = run.patch + 16 * plane;
+          const unsigned int *patch = group.patch + 16 * plane;
           for (unsigned int j = 0; j < 3; ++j)
             for (unsigned int i = 0; i < 3; ++i)
               {
@@ -236,17 +236,17 @@ namespace talus
 
 
 
-    /// Add the contributions of the points of a run to the nodal sums.
+    /// Add the contributions of the points of a group to the nodal sums.
     template <int dim, unsigned int part = 0>
     TALUS_ALWAYS_INLINE void
-    add_run(const Contributions<dim>       &contributions,
-            const typename Block<dim>::Run &run,
-            double                         *sums)
+    add_group(const Contributions<dim>                  &contributions,
+              const typename Block<dim>::SameNodesGroup &group,
+              double                                    *sums)
     {
       if constexpr (part * simd_width < NodalSum<dim>::n_entries)
         {
-          add_register<dim, part>(contributions, run, sums);
-          add_run<dim, part + 1>(contributions, run, sums);
+          add_register<dim, part>(contributions, group, sums);
+          add_group<dim, part + 1>(contributions, group, sums);
         }
     }
   } // namespace TALUS_SIMD_NAMESPACE

@@ -120,7 +120,7 @@ namespace talus
   private:
     /// Whether any body in the batch uses B-bar.
     bool
-    takes_bbar(const Points<dim> &points, const Batch &batch) const;
+    uses_bbar(const Points<dim> &points, const Batch &batch) const;
 
     void
     set_cell_means(const Points<dim> &points,

@@ -23,7 +23,7 @@ namespace talus
       0.5 * load<Number>(points.data(points.reference_length, d) + p);
     if (shape.rule != BoxRule::fixed)
       half *= load<Number>(points.data(points.stretch, d) + p);
-    return clamp(half * inverse_cell_size, shape.least_half, shape.most_half);
+    return clamp(half * inverse_cell_size, shape.min_half, shape.max_half);
   }
 
 

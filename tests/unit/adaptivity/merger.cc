@@ -261,7 +261,7 @@ namespace
                       1e-14 * std::max(1., std::abs(parent[expected])))
             << column.name << ' ' << c;
         }
-    EXPECT_LT(core.merger.ledger(), 1e-15);
+    EXPECT_LT(core.merger.conservation_error(), 1e-15);
   }
 
 
@@ -380,7 +380,7 @@ namespace
               tolerance * 100. * before.volume);
     EXPECT_GT(loss, 0.1 * before.kinetic);
     EXPECT_NEAR((before.kinetic - after.kinetic) / loss, 1., tolerance);
-    EXPECT_LT(core.merger.ledger(), 1e-15);
+    EXPECT_LT(core.merger.conservation_error(), 1e-15);
   }
 
 

@@ -113,7 +113,7 @@ namespace
     core.sort();
     expect_boxes_fit(core);
     EXPECT_LT(change<dim>(before, core.scatter()), 1e-12);
-    EXPECT_LE(core.splitter.statistics().ledger, 1e-12);
+    EXPECT_LE(core.splitter.statistics().conservation_error, 1e-12);
     EXPECT_FALSE(core.split()) << "at once";
   }
 
@@ -179,7 +179,7 @@ namespace
     EXPECT_LT(change<dim>(before, core.scatter()), 1e-12)
       << "at " << x << " with " << lengths;
     expect_boxes_fit(core);
-    EXPECT_LE(core.splitter.statistics().ledger, 1e-12);
+    EXPECT_LE(core.splitter.statistics().conservation_error, 1e-12);
   }
 
 

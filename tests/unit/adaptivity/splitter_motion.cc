@@ -130,7 +130,7 @@ namespace
 
 
 
-  // ------------------------------------------------------------------ ledger
+  // ---------------------------------------------------------------- conservation
 
   template <int dim>
   struct Totals
@@ -159,10 +159,10 @@ namespace
 
 
   /// Hundreds of splits of points in random states; sums that are counted here
-  /// agree with the ledger.
+  /// agree with the check.
   template <int dim>
   void
-  expect_closed_ledger(const std::string &directions)
+  expect_conservation(const std::string &directions)
   {
     // Without a bound there would be a million points.
     Core<dim> core(cube<dim>() + splitting_along(directions) +
@@ -181,8 +181,8 @@ namespace
       }
     const Totals<dim> after(core);
     EXPECT_GT(core.splitter.statistics().n_splits, 300u);
-    EXPECT_GT(core.splitter.statistics().ledger, 0.);
-    EXPECT_LE(core.splitter.statistics().ledger, 1e-12);
+    EXPECT_GT(core.splitter.statistics().conservation_error, 0.);
+    EXPECT_LE(core.splitter.statistics().conservation_error, 1e-12);
     EXPECT_NEAR(after.mass / before.mass, 1., 1e-12);
     EXPECT_NEAR(after.volume / before.volume, 1., 1e-12);
     EXPECT_NEAR(after.kinetic / before.kinetic, 1., 1e-12);
@@ -198,26 +198,26 @@ namespace
 
 
 
-  TEST(SplitInvariance, Ledger)
+  TEST(SplitInvariance, Conservation)
   {
-    expect_closed_ledger<2>("all");
-    expect_closed_ledger<2>("stretched");
-    expect_closed_ledger<3>("stretched");
+    expect_conservation<2>("all");
+    expect_conservation<2>("stretched");
+    expect_conservation<3>("stretched");
   }
 
 
 
-  /// The ledger must see what is lost.
-  TEST(SplitInvariance, LedgerSeesLosses)
+  /// The check must see what is lost.
+  TEST(SplitInvariance, LossesAreSeen)
   {
     const auto error = [](const auto &spoil) {
       Core<2> core(cube<2>());
       core.randomize(core.add({1.5, 1.5}, Point<2>(0.5, 0.5)));
-      Ledger<2> ledger;
-      ledger.enter(core.points, 0, +1.);
+      ConservationCheck<2> check;
+      check.add(core.points, 0, +1.);
       spoil(core.points);
-      ledger.enter(core.points, 0, -1.);
-      return ledger.relative_error();
+      check.add(core.points, 0, -1.);
+      return check.relative_error();
     };
     EXPECT_EQ(error([](Points<2> &) {}), 0.);
     // The kinetic energy does not change with the sign of the velocity.

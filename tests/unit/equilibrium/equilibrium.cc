@@ -256,7 +256,7 @@ TEST(EquilibriumTest, LoadStepsOfElasticSoilAddUp)
                               text("set Load steps = ", n_steps)));
       std::vector<double> loads;
       bank.equilibrium.begin(StrainMeasure::small);
-      while (!bank.equilibrium.is_found())
+      while (!bank.equilibrium.is_balanced())
         {
           StaticProblem<2> problem = bank.problem();
           ASSERT_TRUE(bank.equilibrium.advance(problem, [](const auto &) {
@@ -288,7 +288,7 @@ TEST(EquilibriumTest, SoilThatCannotStand)
   bank.transfer.use_bbar({true});
   const auto before = bank.columns();
   EXPECT_FALSE(bank.find());
-  EXPECT_FALSE(bank.equilibrium.is_found());
+  EXPECT_FALSE(bank.equilibrium.is_balanced());
   EXPECT_EQ(bank.equilibrium.load(), 0.);
   EXPECT_TRUE(contains(bank.equilibrium.failure(), "Newton's method has"))
     << bank.equilibrium.failure();

@@ -137,7 +137,7 @@ namespace
     EXPECT_EQ(row["largest generation"], 0);
     // 0.1 to 0.5 cells are allowed to either side of the centre.
     EXPECT_EQ(row["clipped boxes"], 1);
-    EXPECT_EQ(row["split ledger [-]"], 0);
+    EXPECT_EQ(row["split conservation error [-]"], 0);
 
     // The force is the mean since the row before; the impulse goes on.
     statistics.observe(s);

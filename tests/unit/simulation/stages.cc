@@ -34,13 +34,13 @@ namespace
   TEST(StagesTest, RunOneAfterTheOther)
   {
     ListedStages stages("equilibrium, strength reduction, dynamics");
-    EXPECT_TRUE(stages.have_static());
+    EXPECT_TRUE(stages.has_static());
     EXPECT_EQ(stages.number(), 1u);
     EXPECT_EQ(stages.next(), Stage::equilibrium);
-    stages.count_one();
+    stages.mark_done();
     EXPECT_TRUE(stages.next_is_static());
     EXPECT_EQ(stages.next(), Stage::strength_reduction);
-    stages.count_one();
+    stages.mark_done();
     EXPECT_FALSE(stages.next_is_static());
     EXPECT_TRUE(stages.contain(Stage::dynamics));
   }
@@ -52,7 +52,7 @@ namespace
     ListedStages stages("strength reduction");
     EXPECT_FALSE(stages.contain(Stage::dynamics));
     EXPECT_FALSE(stages.contain(Stage::equilibrium));
-    stages.count_one();
+    stages.mark_done();
     EXPECT_FALSE(stages.next_is_static());
   }
 
@@ -60,7 +60,7 @@ namespace
 
   TEST(StagesTest, WrongListsAreRefused)
   {
-    EXPECT_FALSE(ListedStages("dynamics").have_static());
+    EXPECT_FALSE(ListedStages("dynamics").has_static());
     EXPECT_TRUE(contains(complaint_about("equilibrium, rest"),
                          "Stages lists 'rest', but the stages are "
                          "'equilibrium', 'strength reduction' and "

@@ -195,9 +195,9 @@ namespace
   TEST(TimeStep, LostInRoundOffIsNamed)
   {
     const auto reason = []() { return "'Time step/Maximum'"; };
-    EXPECT_NO_THROW(check_time_goes_on(1e3, 1e-12, reason));
+    EXPECT_NO_THROW(check_time_advances(1e3, 1e-12, reason));
     EXPECT_TRUE(contains(message_of<ExcPoint>(
-                           [&] { check_time_goes_on(1e3, 1e-14, reason); }),
+                           [&] { check_time_advances(1e3, 1e-14, reason); }),
                          "limited by 'Time step/Maximum', so that time stands "
                          "still"));
   }

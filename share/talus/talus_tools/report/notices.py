@@ -132,9 +132,9 @@ def split_limits(run):
     return result
 
 
-def ledger(run):
+def conservation(run):
     """Splits that did not conserve."""
-    worst = numpy.abs(run.statistics["split ledger [-]"]).max()
+    worst = numpy.abs(run.statistics["split conservation error [-]"]).max()
     return [] if worst <= LEDGER else [
         f"Splitting points changed mass, momentum or energy by {plain(worst)} of their sums "
         "(expected: round-off)."]
@@ -207,6 +207,6 @@ def remarks(run):
 
 def notices(run):
     """All of them, the gravest first."""
-    checks = (unfinished, mass, left, energy, fracture, split_limits, ledger, below_surface,
+    checks = (unfinished, mass, left, energy, fracture, split_limits, conservation, below_surface,
               contact_area, moving, cut_off, empty_tables, without_h5py, remarks)
     return [sentence for check in checks for sentence in check(run)]

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef talus_base_state_h
-#define talus_base_state_h
+#ifndef talus_base_state_list_h
+#define talus_base_state_list_h
 
 #include <talus/base/errors.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/adaptivity/ledger.h>
+#include <talus/adaptivity/conservation_check.h>
 
 #include <algorithm>
 #include <cmath>
@@ -12,9 +12,9 @@ namespace talus
   // and runs always.
   template <int dim>
   void
-  Ledger<dim>::enter(const Points<dim> &points,
-                     const unsigned int p,
-                     const double       sign)
+  ConservationCheck<dim>::add(const Points<dim> &points,
+                              const unsigned int p,
+                              const double       sign)
   {
     const double mass         = points.data(points.mass)[p];
     double       speed_square = 0, distance_square = 0;
@@ -54,7 +54,7 @@ namespace talus
   // Relative to the sum of absolute values, as the plain sum may vanish.
   template <int dim>
   double
-  Ledger<dim>::relative_error() const
+  ConservationCheck<dim>::relative_error() const
   {
     double error = 0;
     for (unsigned int i = 0; i < n_entries; ++i)
@@ -68,7 +68,7 @@ namespace talus
   // The unit is left empty: the entries have different units.
   template <int dim>
   void
-  Ledger<dim>::list_state(StateList &list, const std::string &name)
+  ConservationCheck<dim>::list_state(StateList &list, const std::string &name)
   {
     list.add_components(
       name + " difference", "", difference_, n_entries, Reduction::sum);
@@ -77,6 +77,6 @@ namespace talus
 
 
 
-  template class Ledger<2>;
-  template class Ledger<3>;
+  template class ConservationCheck<2>;
+  template class ConservationCheck<3>;
 } // namespace talus

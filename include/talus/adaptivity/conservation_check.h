@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef talus_adaptivity_ledger_h
-#define talus_adaptivity_ledger_h
+#ifndef talus_adaptivity_conservation_check_h
+#define talus_adaptivity_conservation_check_h
 
-#include <talus/base/state.h>
+#include <talus/base/state_list.h>
 #include <talus/points/points.h>
 
 #include <array>
@@ -14,13 +14,13 @@ namespace talus
   /// elastic energy, and mass times position: sums over all splits or merges of
   /// a run.
   template <int dim>
-  class Ledger
+  class ConservationCheck
   {
   public:
     /// Add the quantities of point @p p with the factor @p sign: +1 for a point
     /// before the change, -1 for a point after the change.
     void
-    enter(const Points<dim> &points, unsigned int p, double sign);
+    add(const Points<dim> &points, unsigned int p, double sign);
 
     /// Largest error of the sums, each relative to the sum of absolute values
     /// [-].
@@ -30,7 +30,7 @@ namespace talus
     /// Exclude from the check the kinetic energy @p energy, J, that the points
     /// lose and that the caller accounts for.
     void
-    book_kinetic_energy(const double energy)
+    exclude_kinetic_energy(const double energy)
     {
       difference_[kinetic_energy] -= energy;
     }

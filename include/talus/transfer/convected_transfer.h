@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef talus_transfer_convected_kernel_h
-#define talus_transfer_convected_kernel_h
+#ifndef talus_transfer_convected_transfer_h
+#define talus_transfer_convected_transfer_h
 
 #include <talus/transfer/convected_domain.h>
 #include <talus/transfer/gather_kernel.h>
@@ -10,7 +10,7 @@
 
 // Kernels for points with a convected domain, corner by corner, on the rows of
 // scatter_kernel.h and gather_kernel.h. The data of a corner are computed once
-// for all nodes of the cell around the corner. Registers run over the entries
+// for all nodes of the cell around the corner. Registers group over the entries
 // of a node. The formulas are those of scatter_by_definition() in reference.h.
 
 namespace talus

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_simulation_contact_area_remark_h
+#define talus_simulation_contact_area_remark_h
+
+#include <talus/boundaries/boundaries.h>
+#include <talus/contact/facet_contact.h>
+#include <talus/simulation/remark_observer.h>
+
+namespace talus
+{
+  /// Remark that the soil does not touch the ground under it: the contact area
+  /// differs from the footprint (see list_contact_area()) by more than a
+  /// twentieth.
+  template <int dim>
+  class ContactAreaRemark : public RemarkObserver<dim>
+  {
+  public:
+    ContactAreaRemark(const Boundaries<dim>   &boundaries,
+                      const FacetContact<dim> &contact,
+                      Log                     &log)
+      : RemarkObserver<dim>("contact area remark", log)
+      , boundaries_(boundaries)
+      , contact_(contact)
+    {}
+
+  private:
+    std::string
+    remark(const State<dim> &state) const override;
+
+    const Boundaries<dim>   &boundaries_;
+    const FacetContact<dim> &contact_;
+  };
+} // namespace talus
+
+#endif

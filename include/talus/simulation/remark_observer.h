@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_simulation_remark_observer_h
+#define talus_simulation_remark_observer_h
+
+#include <talus/io/log.h>
+#include <talus/observers/observer.h>
+
+#include <string>
+
+namespace talus
+{
+  /// Writes one remark to the log, the first time in a run that there is a reason
+  /// for it. Looks when a row of statistics is due. A derived class knows the
+  /// reason and the sentence.
+  template <int dim>
+  class RemarkObserver : public Observer<dim>
+  {
+  public:
+    /// @p name of the remark in checkpoints.
+    RemarkObserver(const std::string &name, Log &log)
+      : name_(name)
+      , log_(log)
+    {}
+
+    /// Do nothing: the log is open.
+    void
+    begin(const OutputSettings & /*settings*/,
+          const State<dim> & /*state*/,
+          const Beginning /*beginning*/) override
+    {}
+
+    void
+    observe(const State<dim> &state) override
+    {
+      if (is_written_)
+        return;
+      const std::string sentence = remark(state);
+      is_written_                = !sentence.empty();
+      if (is_written_)
+        log_.remark(sentence);
+    }
+
+    /// Add whether the remark was written: a resumed run does not repeat it.
+    void
+    list_state(StateList &list) override
+    {
+      list.add(name_, "-", is_written_, Reduction::equal);
+    }
+
+    /// Do nothing: the log is no result.
+    void
+    sync() override
+    {}
+
+  private:
+    /// Return the remark, empty on all ranks if there is no reason for it.
+    /// Collective.
+    virtual std::string
+    remark(const State<dim> &state) const = 0;
+
+    std::string name_;
+    Log        &log_;
+    bool        is_written_ = false;
+  };
+} // namespace talus
+
+#endif

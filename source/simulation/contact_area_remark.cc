@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/observers/footprint.h>
+#include <talus/simulation/contact_area_remark.h>
+
+namespace talus
+{
+  // The contact area is 0 before the first step of a run, and there is no
+  // footprint without ground.
+  template <int dim>
+  std::string
+  ContactAreaRemark<dim>::remark(const State<dim> &state) const
+  {
+    Quantities list;
+    list_contact_area(state, boundaries_, contact_, list);
+    const Quantity &area = list[0], &footprint = list[1];
+    const double    ratio = area.value / footprint.value;
+    if (area.value == 0 || footprint.value == 0 ||
+        (ratio >= 0.95 && ratio <= 1.05))
+      return "";
+    return text(std::setprecision(4),
+                "At t = ",
+                state.time,
+                " s soil touches ",
+                area.value,
+                ' ',
+                area.unit,
+                " of the ",
+                footprint.value,
+                ' ',
+                footprint.unit,
+                " of ground under it, a ratio of ",
+                ratio,
+                "; expected 0.95 to 1.05. Soil is in the air there, "
+                "or friction acts on a wrong area: look at the fields, and "
+                "compare with smaller cells.");
+  }
+
+
+
+  template class ContactAreaRemark<2>;
+  template class ContactAreaRemark<3>;
+} // namespace talus
