@@ -43,7 +43,7 @@ namespace talus
 
 
 
-  /// Records of nodes without soil are zero and are not touched.
+  /// Records of nodes without soil stay zero.
   template <int dim>
   void
   ContactNodes<dim>::load(const State<dim> &state)

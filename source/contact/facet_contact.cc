@@ -11,17 +11,17 @@ namespace talus
 
   namespace
   {
-    // Sweeps of a run's first step, which has no impulses to start from.
+    // Sweeps in the first step of a run, which has no impulses to start from.
     constexpr unsigned int n_first_sweeps = 50;
 
-    // Of other steps. Facets of an obstacle that moves through the mesh come to
-    // lie in cells where there was none before and begin without an impulse: the
-    // force on a pipe that is dragged would be 3 to 5 % too small with one
-    // sweep, and does not change with more than four.
+    // Sweeps in all later steps. Facets of an obstacle that moves through the
+    // mesh enter new cells and begin without an impulse there: with one sweep
+    // the force on a dragged pipe would be 3 to 5 % too small. More than four
+    // sweeps do not change the force.
     constexpr unsigned int n_sweeps_at_rest = 1, n_sweeps_moving = 4;
 
-    /// Running mean of the normal impulse including @p newest, the impulse of this
-    /// step, N s.
+    /// Running mean of the normal impulse including @p newest, the normal
+    /// impulse of the current step, N s.
     template <int dim>
     double
     mean_normal(const FacetImpulse<dim>    &impulse,
@@ -34,7 +34,7 @@ namespace talus
 
 
 
-    /// @p v, cut to the length @p limit.
+    /// Return @p v, shortened to the length @p limit if longer.
     template <int dim>
     Tensor<1, dim>
     cut_to_length(const Tensor<1, dim> &v, const double limit)
@@ -56,10 +56,10 @@ namespace talus
 
 
 
-  // Numbers of cells, facets and nodes have changed, and who owns them, but not
-  // the key of a cell. Each rank takes what it needs from the impulses of all:
-  // they are as many as the facets that soil touches, and the mesh changes
-  // seldom.
+  // A change of the mesh changes numbers and owners of cells, facets and nodes,
+  // but not the key of a cell. Each rank selects rows from the impulses of all
+  // ranks. There are only as many rows as facets with soil, and the mesh
+  // changes seldom.
   template <int dim>
   void
   FacetContact<dim>::prepare(const Grid<dim> &grid)
@@ -79,11 +79,11 @@ namespace talus
 
 
   // Jacobi's iteration with mass splitting: all facets see the same velocities,
-  // and a node's mass is shared by its facets, so that together they cannot push
-  // it farther than one alone. One sweep per step is enough since it starts from
-  // the impulses of the step before, and the order of the facets, and with it
-  // the number of ranks, does not matter. What it needs of walls comes first: a
-  // component that a wall holds is one that no facet can change.
+  // and the facets of a node share the mass of the node. So all facets together
+  // cannot push a node farther than a single facet. One sweep per step is
+  // enough, because the iteration starts from the previous impulses. Neither
+  // the order of the facets nor the number of ranks matters. Walls come first:
+  // no facet can change a component held by a wall.
   template <int dim>
   void
   FacetContact<dim>::correct_velocities(State<dim> &state)
@@ -121,8 +121,8 @@ namespace talus
 
 
 
-  // A force is an impulse of one second, which the first step scales to its own
-  // length as it does with that of a step before.
+  // A force is an impulse of 1 s; the first step scales the impulse to the time
+  // step, as warm_start() does in every step.
   template <int dim>
   void
   FacetContact<dim>::set_forces(const std::vector<FacetImpulse<dim>> &forces)
@@ -134,7 +134,7 @@ namespace talus
 
 
 
-  /// What a checkpoint held, once there are facets to give it to.
+  /// Give the impulses of a checkpoint to the facets, as soon as facets exist.
   template <int dim>
   void
   FacetContact<dim>::take_restored(const State<dim> &state)
@@ -148,7 +148,7 @@ namespace talus
 
 
 
-  /// To where they are at the end of the step. Impulses stay with their cells.
+  /// Impulses stay with their cells when obstacles move.
   template <int dim>
   void
   FacetContact<dim>::begin_step(State<dim> &state)
@@ -166,7 +166,7 @@ namespace talus
 
 
 
-  /// To the nodes, in shares.
+  /// Distribute the impulse of a facet, N s, to the nodes of the facet.
   template <int dim>
   void
   FacetContact<dim>::add_impulse(const unsigned int    facet,
@@ -179,9 +179,9 @@ namespace talus
 
 
 
-  // The impulses of the step before, and not more of them than the mass that is
-  // still there warrants: where soil becomes thin, they would throw the light
-  // nodes that are left.
+  // Start from the previous impulses, reduced in proportion where the effective
+  // mass has decreased: where soil becomes thin, full impulses would throw the
+  // remaining light nodes.
   template <int dim>
   void
   FacetContact<dim>::warm_start(const State<dim> &state)
@@ -219,9 +219,9 @@ namespace talus
 
 
 
-  // Projections: the normal impulse pushes only, and friction is at most what
-  // the surface passes. A facet with a gap lets the soil come as near in this
-  // step as the gap allows.
+  // Project each impulse: a normal impulse only pushes, and friction is at most
+  // the limit of the surface. A facet with a gap lets the soil approach by the
+  // gap in this step.
   template <int dim>
   void
   FacetContact<dim>::sweep(const State<dim> &state)
@@ -262,9 +262,9 @@ namespace talus
 
 
 
-  // Soil that dips below the surface reaches nodes that no facet touches. They
-  // carry less than a thousandth of the force, and without a rule they would
-  // fall. Their area in contact is zero, so they pass no friction.
+  // Soil that dips below the surface reaches nodes that touch no facet. These
+  // nodes carry less than a thousandth of the force, but would fall without a
+  // rule. The nodes have no area in contact, hence no friction.
   template <int dim>
   void
   FacetContact<dim>::hold_nodes_inside(State<dim> &state)
@@ -293,7 +293,8 @@ namespace talus
 
 
 
-  /// This rank's shares.
+  /// Add the impulses and works of the facets of this rank to @p steps, one
+  /// entry per obstacle.
   template <int dim>
   void
   FacetContact<dim>::record_facets(const State<dim>               &state,
@@ -332,9 +333,9 @@ namespace talus
 
 
 
-  // Works are taken with the mean of the velocities before and after the step,
-  // when the last condition has acted: only so do they add up to nothing with
-  // the kinetic energy.
+  // The work of an impulse is the product with the mean of the velocities
+  // before and after the step, when all conditions have acted: only these works
+  // balance the change of kinetic energy.
   template <int dim>
   void
   FacetContact<dim>::record(State<dim> &state)

@@ -33,8 +33,8 @@ namespace talus
         1e5);
     add("Added mass coefficient",
         added_mass_,
-        "Mass of water that is accelerated with the soil, divided by the mass "
-        "of the water that the soil displaces [-]; 0: none.",
+        "Mass of water accelerated with the soil, divided by the mass of the "
+        "water displaced by the soil [-]; 0: none.",
         0.,
         1e3);
     add("Skin friction coefficient",
@@ -86,8 +86,8 @@ namespace talus
                        submerged,
                        " kg/m^3, differ by ",
                        whole - submerged,
-                       " kg/m^3: saturated soil loses the weight of the water "
-                       "that it displaces.")};
+                       " kg/m^3: saturated soil loses the weight of the "
+                       "displaced water.")};
       }
     return {};
   }
@@ -141,9 +141,10 @@ namespace talus
 
 
 
-  /// At the nodes only: points carry the momentum of the soil. With the volume
-  /// of the soil at a node, so that impulses change the momentum of soil and
-  /// water together by what they are, whatever the bodies' densities.
+  /// Add the inertia at the nodes only, since points carry the momentum of the
+  /// soil. The added mass follows from the volume of soil at a node: an impulse
+  /// then changes the momentum of soil and water together by exactly the
+  /// impulse, whatever the densities of the bodies.
   template <int dim>
   void
   Water<dim>::add_inertia(NodalFields<dim> &nodes) const
@@ -158,10 +159,9 @@ namespace talus
 
 
 
-  // The pressure acts on the vector area, so that it is in balance on a surface
-  // that is closed.
-  /// Force on a facet, N: friction along it, and pressure where it moves into
-  /// the water.
+  /// Force of the water on a facet, N: friction along the facet, and pressure
+  /// where the facet moves into the water. The pressure acts on the vector
+  /// area, so that the pressures on a closed surface balance.
   template <int dim>
   Tensor<1, dim>
   Water<dim>::drag(const SurfaceFacet<dim> &facet) const
@@ -241,8 +241,8 @@ namespace talus
 
 
 
-  // The Froude number is that of the slide as a whole: its mean velocity, and
-  // its volume over the area that the free surface covers, seen along gravity.
+  // The Froude number of the whole slide: mean velocity of the soil, and volume
+  // divided by the area of the free surface projected along gravity.
   template <int dim>
   void
   Water<dim>::list_quantities(const State<dim> &state, Quantities &list) const

@@ -10,8 +10,8 @@
 
 namespace talus
 {
-  /// The nodes that touch facets, while the impulses of these are sought: their
-  /// velocities, and what facets and walls do to them in a step.
+  /// Nodes that touch facets, during the iteration for the impulses:
+  /// velocities, and impulses of facets and walls in a step.
   template <int dim>
   class ContactNodes
   {
@@ -20,36 +20,37 @@ namespace talus
       : facets_(facets)
     {}
 
-    /// After each change of the mesh or its partition.
+    /// Call after each change of the mesh or its partition.
     void
     prepare(const Grid<dim> &grid);
 
-    /// Give nodes that walls hold or drive their velocity; remember which
-    /// components, which no facet can change.
+    /// Apply walls: give the nodes the velocities prescribed by walls, and
+    /// store which components are held. Facets cannot change held components.
     void
     hold_walls(State<dim> &state, Boundaries<dim> &boundaries);
 
-    /// Take the velocities after the momentum update, and how much of the room
-    /// at a node the soil fills. Collective.
+    /// Read the velocities after the momentum update, and compute volume
+    /// fractions and masses at the nodes. Collective.
     void
     load(const State<dim> &state);
 
-    /// Share of the room that obstacles leave at a node which soil fills, ghosts
-    /// too.
+    /// Volume of the soil at a node divided by the open volume outside of
+    /// obstacles [-], at most 1; also for ghosts.
     double
     fill(const unsigned int node) const
     {
       return records_[std::size_t(width) * node + filling];
     }
 
-    /// One over the mass that each of its facets may take, 1/kg, ghosts too.
+    /// Number of facets at a node divided by the mass of the node, 1/kg; also
+    /// for ghosts. Each facet gets an equal part of the mass.
     double
     inverse_mass(const unsigned int node) const
     {
       return records_[std::size_t(width) * node + splitting];
     }
 
-    /// m/s, ghosts too.
+    /// Velocity of a node in the iteration, m/s; also for ghosts.
     dealii::Tensor<1, dim>
     velocity(const unsigned int node) const
     {
@@ -65,7 +66,7 @@ namespace talus
       return held_[node] & (1u << component);
     }
 
-    /// To act with the next update_velocities(), N s.
+    /// Add an impulse, N s, which acts in the next update_velocities().
     void
     add_impulse(const unsigned int node, const dealii::Tensor<1, dim> &impulse)
     {
@@ -73,22 +74,22 @@ namespace talus
         impulses_[std::size_t(dim) * node + d] += impulse[d];
     }
 
-    /// Components that walls hold do not move: the wall takes the impulse up.
-    /// Collective.
+    /// Apply the added impulses to the velocities. Components held by walls do
+    /// not change: the wall bears the impulse. Collective.
     void
     update_velocities(const State<dim> &state);
 
-    /// Give the velocities to the nodes of @p state.
+    /// Copy the velocities to the nodes of @p state.
     void
     write(State<dim> &state) const;
 
-    /// Walls take up what facets did to the components that they hold.
+    /// Record the reactions of walls to facet impulses on held components.
     void
     record_walls(State<dim> &state, Boundaries<dim> &boundaries) const;
 
   private:
-    // By node, for exchange: degree of filling [-], number of facets over mass
-    // [1/kg], and velocity [m/s].
+    // Record of a node, for messages: volume fraction [-], number of facets per
+    // mass [1/kg], velocity [m/s].
     enum Record
     {
       filling,
@@ -98,10 +99,10 @@ namespace talus
     };
 
     const Facets<dim>         &facets_;
-    std::vector<unsigned int>  active_;   ///< owned ones with soil
+    std::vector<unsigned int>  active_;   ///< owned nodes with soil
     std::vector<double>        records_;  ///< see Record
-    std::vector<double>        impulses_; ///< of a sweep, N s
-    std::vector<double>        totals_;   ///< of the step, N s
+    std::vector<double>        impulses_; ///< in a sweep, N s
+    std::vector<double>        totals_;   ///< in the step, N s
     std::vector<unsigned char> held_;     ///< components, by node
     NodalExchange<dim>         exchange_of_records_, exchange_of_impulses_;
   };

@@ -18,17 +18,18 @@ namespace talus
   /// One-sided contact with friction between soil and obstacles whose surfaces
   /// lie anywhere in the mesh.
   ///
-  /// Each facet is a constraint on the mean velocity of the soil at its contact
-  /// point: it must not enter the obstacle. The impulses of all facets are found
-  /// by Jacobi's iteration with projection, one sweep per step, which starts
-  /// from the impulses of the step before: where soil rests or slides these are
-  /// nearly right. A facet is closed only while the boxes of the points come
-  /// nearer than a twentieth of a cell. doc/method.md, section "Obstacles".
+  /// Each facet is a constraint: the mean velocity of the soil at the contact
+  /// point must not lead into the obstacle. Jacobi's iteration with projection
+  /// computes the impulses of all facets, with one sweep per step. The
+  /// iteration starts from the impulses of the previous step, which are nearly
+  /// right where soil rests or slides. A facet acts only while the boxes of the
+  /// points are nearer than a twentieth of a cell. doc/method.md, section
+  /// "Obstacles".
   template <int dim>
   class FacetContact : public NodalInteraction<dim>
   {
   public:
-    /// Walls among @p boundaries hold nodes that touch obstacles.
+    /// Walls of @p boundaries hold nodes that also touch obstacles.
     FacetContact(Obstacles<dim> &obstacles, Boundaries<dim> &boundaries);
 
     const Obstacles<dim> &
@@ -43,8 +44,8 @@ namespace talus
       boundaries_.open_accounts(accounts);
     }
 
-    /// Find facets and nodes. Facets that were there before keep their impulses.
-    /// Collective.
+    /// Cut the cells by the obstacles: facets and nodes in contact. A facet
+    /// that existed before keeps the impulse. Collective.
     void
     prepare(const Grid<dim> &grid) override;
 
@@ -52,8 +53,8 @@ namespace talus
     void
     begin_step(State<dim> &state) override;
 
-    /// Solve for the impulses of the facets and change the velocities of the
-    /// nodes by them. Collective.
+    /// Compute the impulses of the facets and apply the impulses to the
+    /// velocities of the nodes. Collective.
     void
     correct_velocities(State<dim> &state) override;
 
@@ -68,7 +69,8 @@ namespace talus
       return reactions_;
     }
 
-    /// By node, whether soil there feels an obstacle; empty without obstacles.
+    /// Whether an obstacle acts on soil at a node, 1 or 0, by node; empty
+    /// without obstacles.
     const std::vector<unsigned char> &
     feels_obstacle() const
     {
@@ -81,39 +83,41 @@ namespace talus
       return facets_;
     }
 
-    /// Those of the last step, of facets().owned().
+    /// Return the impulses of the last step, one per facet of facets().owned().
     const std::vector<FacetImpulse<dim>> &
     impulses() const
     {
       return impulses_.all();
     }
 
-    /// In which the facets passed their impulses, s; 0 before the first step.
+    /// Length of the step in which impulses() acted, s; 0 before the first
+    /// step.
     double
     previous_time_step() const
     {
       return previous_time_step_;
     }
 
-    /// Find the constraints of facets().owned() for soil whose masses and
-    /// volumes at the nodes are known. Collective.
+    /// Compute the constraints of facets().owned() from masses and volumes of
+    /// the soil at the nodes. Collective.
     void
     find_constraints(const State<dim> &state);
 
-    /// As find_constraints() or the last step found them; none since
-    /// prepare().
+    /// Return the constraints of the last find_constraints() or the last step;
+    /// empty after prepare().
     const FacetConstraints<dim> &
     constraints() const
     {
       return constraints_;
     }
 
-    /// For soil at rest: what facets().owned() pass to it, as impulses of one
-    /// second. The first step takes its share of them.
+    /// Set the impulses from the forces of soil at rest: one impulse per facet
+    /// of facets().owned(), each for a duration of 1 s. The first step scales
+    /// the impulses to the time step.
     void
     set_forces(const std::vector<FacetImpulse<dim>> &forces);
 
-    /// The impulses, to be kept, and back to them.
+    /// Return the impulses as rows, to undo later steps by restore().
     std::vector<double>
     save() const
     {
@@ -145,7 +149,7 @@ namespace talus
     record_facets(const State<dim>               &state,
                   std::vector<StepReaction<dim>> &steps) const;
 
-    /// At a node that touches no facet.
+    /// Impulse on a node inside an obstacle that touches no facet.
     struct ImpulseInside
     {
       unsigned int           node;
@@ -162,7 +166,7 @@ namespace talus
     bool                       has_begun_          = false;
     double                     previous_time_step_ = 0; ///< s
 
-    // Of one step
+    // Data of one step
     ContactNodes<dim>          nodes_{facets_};
     FacetConstraints<dim>      constraints_{obstacles_, facets_, nodes_};
     std::vector<ImpulseInside> impulses_inside_;

@@ -11,23 +11,24 @@
 
 namespace talus
 {
-  /// Area of the seabed faces of the mesh that soil covers: the sections of the
-  /// boxes near a face, shared among its nodes by the mean shape functions of the
-  /// boxes along the face. Unlike the volume fraction of the cells at the face it
-  /// does not shrink with the thickness of a layer thinner than a cell.
+  /// Area of soil on the seabed faces of the mesh: the cross-sections of the
+  /// boxes near a face, distributed to the nodes of the face by the mean shape
+  /// functions of the boxes along the face. In contrast to an area from the
+  /// volume fraction of the cells, the area does not shrink with the thickness
+  /// of a layer thinner than a cell.
   template <int dim>
   class SeabedCoverage : public NodalInteraction<dim>
   {
   public:
-    /// @p boundaries gets the areas for its friction.
+    /// The friction of @p boundaries will use the areas.
     explicit SeabedCoverage(Boundaries<dim> &boundaries);
 
-    /// Find cells and nodes at the seabed, after each change of the mesh or its
-    /// partition.
+    /// Collect cells and nodes at the seabed. Call after each change of the
+    /// mesh or its partition.
     void
     prepare(const Grid<dim> &grid) override;
 
-    /// Find the areas, when the volumes at the nodes are known. Collective.
+    /// Compute the areas from points and volumes at the nodes. Collective.
     void
     find(const State<dim> &state);
 
@@ -42,7 +43,7 @@ namespace talus
     {
       unsigned int cell;
       unsigned int face;
-      unsigned int row; ///< of the patch, across the face, that lies on it
+      unsigned int row; ///< of the patch: nodes that lie on the face
     };
 
     bool
@@ -71,14 +72,14 @@ namespace talus
     }
 
     Boundaries<dim>                  &boundaries_;
-    unsigned int                      n_faces_ = 0; ///< that are a seabed
-    std::array<unsigned int, 2 * dim> slot_{};      ///< of a face among them
+    unsigned int                      n_faces_ = 0; ///< number of seabeds
+    std::array<unsigned int, 2 * dim> slot_{};      ///< index of a seabed
     std::vector<CellAtFace>           cells_;       ///< sorted by cell
     std::vector<unsigned int>         nodes_;       ///< at seabeds, owned
     std::vector<unsigned char>        is_full_; ///< bit f for face f, by node
     std::vector<double>               areas_;   ///< by node and slot
     NodalExchange<dim>                exchange_;
-    std::vector<NodeWeight<dim>>      weights_; ///< of a point
+    std::vector<NodeWeight<dim>>      weights_; ///< weights of a point
   };
 } // namespace talus
 

@@ -10,19 +10,20 @@
 
 namespace talus
 {
-  /// How far soil is from those faces of the mesh that are a seabed with a gap.
+  /// Clearance between soil and the seabed faces of the mesh, for seabeds with
+  /// a gap.
   template <int dim>
   class SeabedGaps : public NodalInteraction<dim>
   {
   public:
-    /// @p boundaries will ask here.
+    /// @p boundaries will use the clearances.
     explicit SeabedGaps(Boundaries<dim> &boundaries);
 
-    /// To be called after each change of the mesh or its partition.
+    /// Call after each change of the mesh or its partition.
     void
     prepare(const Grid<dim> &grid) override;
 
-    /// Find the gaps of this step. Collective.
+    /// Compute the clearances in this step. Collective.
     void
     find(const State<dim> &state);
 
@@ -36,9 +37,9 @@ namespace talus
     Boundaries<dim>            &boundaries_;
     NodalGaps<dim>              gaps_;
     std::vector<unsigned int>   surface_of_face_;
-    std::vector<NodeAndSurface> pairs_;         ///< ghosts, too
+    std::vector<NodeAndSurface> pairs_;         ///< with ghosts
     std::vector<unsigned char>  nearness_;      ///< by cell
-    double                      cell_size_ = 0; ///< of the smallest, m
+    double                      cell_size_ = 0; ///< minimum, m
   };
 } // namespace talus
 

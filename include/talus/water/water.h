@@ -13,15 +13,14 @@
 
 namespace talus
 {
-  /// What ambient water at rest does to soil that moves, beyond taking off its
-  /// weight: it must be accelerated with the soil (added mass), and drags at
-  /// its free surface. doc/method.md, section "Water".
+  /// Ambient water at rest that acts on moving soil, in addition to buoyancy:
+  /// water is accelerated with the soil (added mass) and drags at the free
+  /// surface. doc/method.md, section "Water".
   template <int dim>
   class Water : public dealii::ParameterAcceptor, public NodalInteraction<dim>
   {
   public:
-    /// Obstacles of @p contact bound the soil, the densities are those of
-    /// @p materials.
+    /// Obstacles of @p contact bound the soil; @p materials give the densities.
     Water(const Materials<dim> &materials, const FacetContact<dim> &contact);
 
     /// Whether any effect of water is switched on.
