@@ -33,17 +33,17 @@ namespace talus
     struct ConditionKind
     {
       std::string name; ///< in the parameter file
-      /// Null if such a face does nothing to the nodes.
+      /// Null if faces of this kind do nothing to the nodes.
       ConditionPtr<dim> (*make)(const FaceDescription<dim> &);
     };
 
 
 
-    /// All kinds, in the order in which they act at a node: what comes later
-    /// overrides. Velocities first; then rollers, since nothing may pass a wall,
-    /// whatever another face prescribes; then `fixed`, which holds all
-    /// (doc/method.md, section 5). The seabed is last: what a wall holds must not
-    /// use up the friction.
+    /// All kinds of conditions, in the order of action at a node: later
+    /// conditions override earlier ones. Velocities come first. Rollers follow,
+    /// since nothing may pass a wall, whatever another face prescribes. `fixed`
+    /// then holds all components (doc/method.md, section 5). The seabed is
+    /// last: components held by a wall must not use up the friction.
     template <int dim>
     const std::vector<ConditionKind<dim>> &
     condition_kinds()
@@ -62,7 +62,7 @@ namespace talus
 
 
 
-    /// As the pattern of a selection.
+    /// Names of all kinds as the pattern of a selection.
     template <int dim>
     std::string
     all_condition_names()
@@ -76,8 +76,8 @@ namespace talus
 
 
 
-  // Without one, a trigger or a strength reduction that is to weaken it has
-  // nothing to act on.
+  // Without a seabed, a trigger or a strength reduction of the seabed has no
+  // effect.
   template <int dim>
   bool
   Boundaries<dim>::has_seabed() const
@@ -87,8 +87,7 @@ namespace talus
 
 
 
-  // A pass over all owned cells, and a place per node: left out where it is not
-  // needed.
+  // Positions cost a loop over all owned cells, and memory for each node.
   template <int dim>
   void
   Boundaries<dim>::prepare(const Grid<dim> &grid)
@@ -125,8 +124,8 @@ namespace talus
 
 
 
-  // By the condition alone, whatever the soil does: for the static stages,
-  // whose unknowns these components are not.
+  // The condition alone decides, whatever the soil does. The static stages have
+  // no unknowns for these components.
   template <int dim>
   unsigned char
   Boundaries<dim>::components_constrained_by_walls(
@@ -143,8 +142,8 @@ namespace talus
 
 
 
-  // The seabed may hold all components or none, as the soil pushes: so all count
-  // as held here.
+  // The seabed may hold all components or none, as the soil pushes: all
+  // components count as held.
   template <int dim>
   unsigned char
   Boundaries<dim>::constrained_components(const unsigned char faces) const
@@ -167,7 +166,7 @@ namespace talus
 
 
 
-  /// What walls prescribe for a node on these faces at time @p t.
+  /// Constraints of walls on a node on @p faces at time @p t, s.
   template <int dim>
   VelocityConstraints<dim>
   Boundaries<dim>::constraints_at(const unsigned char faces,
@@ -183,7 +182,8 @@ namespace talus
 
 
 
-  /// Each constraint bears the part of the impulse along its normal.
+  /// Record for each constraint the part of the impulse along the normal of the
+  /// constraint.
   template <int dim>
   void
   Boundaries<dim>::add_wall_reactions(
@@ -213,7 +213,7 @@ namespace talus
   {
     work.contact -= impulse * nodes.mean_velocity(node);
     work.wall_impulse += impulse;
-    // Whose constraint it is does not depend on the time.
+    // The owner of a constraint does not depend on the time.
     add_wall_reactions(constraints_at(faces, node, 0.), nodes, node, impulse);
   }
 
@@ -251,10 +251,10 @@ namespace talus
 
 
 
-  // A traction is a force, so it goes into the momentum update and not into
-  // what changes velocities after it: on a node that a wall holds it is then
-  // simply borne by the wall. Its work is known only when all conditions have
-  // acted, in apply(), hence the list.
+  // A traction is a force and enters the momentum update: a wall that holds the
+  // node then simply bears the traction. The work is known only when all
+  // conditions have acted: apply() computes the work from the list of loaded
+  // nodes.
   template <int dim>
   void
   Boundaries<dim>::add_tractions(NodalFields<dim> &nodes,
@@ -288,11 +288,11 @@ namespace talus
 
 
 
-  /// Each condition changes the velocity, which takes an impulse; all works are
-  /// impulse times the mean velocity of the step, after the last change. Only
-  /// so do they add up, with the kinetic energy, to nothing: a work booked when
-  /// the impulse acts would be taken with a velocity that the next condition
-  /// changes.
+  /// Apply all conditions to the velocity of a node and record impulses and
+  /// works. The work of an impulse is the product with the mean velocity of the
+  /// step, after the last change. Only these works balance the change of
+  /// kinetic energy: a work recorded when the impulse acts would use a velocity
+  /// that the next condition changes.
   template <int dim>
   void
   Boundaries<dim>::apply_to_node(NodalFields<dim>  &nodes,
@@ -306,7 +306,8 @@ namespace talus
     using Impulses            = std::pair<Tensor<1, dim>, Tensor<1, dim>>;
     std::array<Impulses, 2 * dim> of_condition;
 
-    // Walls before the seabed: what a wall holds must not use up the friction.
+    // Walls before the seabed: components held by a wall must not use up the
+    // friction.
     const VelocityConstraints<dim> constraints =
       constraints_at(faces, node, t + 0.5 * dt);
     Tensor<1, dim> wall = constraints.impose(nodes, node);
@@ -324,7 +325,8 @@ namespace talus
             bed_friction_.emplace_back(place_of(node),
                                        of_condition[c].second / dt);
         }
-    // Nor does friction brake what a wall drives: the wall takes it up.
+    // Friction does not brake components driven by a wall: the wall bears the
+    // impulse.
     wall += constraints.impose(nodes, node);
 
     const Tensor<1, dim> v = nodes.mean_velocity(node);
@@ -347,8 +349,8 @@ namespace talus
 
 
 
-  // Node by node: with the lumped mass none of them feels its neighbours, and
-  // the order of the nodes does not matter but for the round-off in the sums.
+  // With the lumped mass no node depends on the neighbours: the order of the
+  // nodes matters only for round-off in the sums.
   template <int dim>
   BoundaryWork<dim>
   Boundaries<dim>::apply(NodalFields<dim> &nodes,
@@ -381,29 +383,28 @@ namespace talus
 
 
 
-  // The expressions of a face are parameters of their own, and not a part of
-  // the condition's text, so that an error names the parameter it is in, and
-  // conditions can be a selection.
+  // Expressions are separate parameters, not part of the text of a condition:
+  // errors name the parameter, and conditions can be a selection.
   template <int dim>
   Boundaries<dim>::Boundaries()
     : ParameterAcceptor("/Boundaries")
   {
-    // A face that the file does not name is free: a point that crosses it ends
-    // the run, so that a wall which was forgotten does not go unnoticed.
+    // A face not named in the file is free: a point that crosses the face ends
+    // the run, so that a forgotten wall is noticed.
     names_.fill("free");
     for (unsigned int face = 0; face < 2 * dim; ++face)
       {
         add_parameter(
           face_names[face],
           names_[face],
-          "Condition on this face of the mesh: 'free' (a point that crosses it "
-          "has left, which is an error), 'outflow' (the same, but the point is "
-          "taken out of the run, and counted), 'roller' (no motion along the "
-          "normal), 'fixed' (no motion), 'seabed' (contact with friction, see "
-          "the section Seabed), 'periodic' (what leaves here enters through "
-          "the opposite face, which must be periodic, too), 'velocity' or "
-          "'traction' (by the expressions of this face). In 3-D there are Back "
-          "(lower z) and Front (upper z), too.",
+          "Condition on this face of the mesh: 'free' (a point that crosses "
+          "the face ends the run with an error), 'outflow' (a point that "
+          "crosses the face is removed from the run and counted), 'roller' (no "
+          "motion along the normal), 'fixed' (no motion), 'seabed' (contact "
+          "with friction, see section Seabed), 'periodic' (soil that leaves "
+          "here enters through the opposite face; both faces must be "
+          "periodic), 'velocity' or 'traction' (by the expressions of this "
+          "face). 3-D adds the faces Back (lower z) and Front (upper z).",
           this->prm,
           Patterns::Selection(all_condition_names<dim>()));
         add_parameter(
@@ -428,7 +429,7 @@ namespace talus
 
 
 
-  // Asked of both faces, so that the message names the one that is periodic.
+  // Both faces are checked, so that the message names the periodic face.
   template <int dim>
   std::array<bool, dim>
   Boundaries<dim>::periodic_axes() const
@@ -440,7 +441,7 @@ namespace talus
         axes[face / 2]              = (names_[face] == "periodic");
         AssertThrow(!axes[face / 2] || names_[opposite] == "periodic",
                     ExcUser("The face '" + face_names[face] +
-                            "' is periodic, but the opposite one is not: "
+                            "' is periodic, but the opposite face is not: "
                             "'Boundaries/" +
                             face_names[opposite] + "' is '" + names_[opposite] +
                             "'. Make both faces periodic or neither."));
@@ -450,9 +451,9 @@ namespace talus
 
 
 
-  /// The expression is there if, and only if, the condition needs it.
-  /// An expression that is given in vain is an error, too: whoever wrote it
-  /// believes that it acts.
+  /// Throw ExcUser unless expressions are given exactly if the condition needs
+  /// expressions. An unused expression is an error, too: the user believes that
+  /// the expression acts.
   template <int dim>
   void
   Boundaries<dim>::check_expression(const unsigned int face,
@@ -469,9 +470,9 @@ namespace talus
                              parameter,
                              ' ',
                              word,
-                             "' is empty, where one expression for each "
-                             "component was expected, separated by semicolons. "
-                             "Give them.")));
+                             "' is empty; expected one expression for each "
+                             "component, separated by semicolons. Give the "
+                             "expressions.")));
     AssertThrow(names_[face] == word || expressions.empty(),
                 ExcUser(text("'",
                              parameter,
@@ -483,9 +484,9 @@ namespace talus
                              parameter,
                              "' is '",
                              names_[face],
-                             "', where '",
+                             "'; expected '",
                              word,
-                             "' was expected. Set that or remove the "
+                             "'. Set this condition or remove the "
                              "expressions.")));
   }
 
@@ -498,20 +499,21 @@ namespace talus
     check_expression(face, "velocity", velocity_texts_[face]);
     check_expression(face, "traction", traction_texts_[face]);
     const std::string &traction = traction_texts_[face];
-    // The parser of expressions would not know the word, and would not say why.
+    // The parser of expressions does not know the word and would not explain
+    // the error.
     AssertThrow(traction.find("free") == std::string::npos,
                 ExcUser(text("'Boundaries/",
                              face_names[face],
                              " traction = ",
                              traction,
-                             "' contains the word 'free', which only a "
-                             "velocity may be. Give 0 for a component "
-                             "without traction.")));
+                             "' contains the word 'free', allowed only for "
+                             "velocities. Give 0 for a component without "
+                             "traction.")));
   }
 
 
 
-  /// Kind by kind, and among those of a kind in the order of the faces.
+  /// Make the conditions, sorted by kind, then by face.
   template <int dim>
   void
   Boundaries<dim>::make_conditions(const Constants &constants)
@@ -529,8 +531,8 @@ namespace talus
 
 
 
-  // Expressions are parsed here, after all parameters are known: constants may
-  // stand anywhere in the file.
+  // Expressions are parsed after all parameters are known, because constants
+  // may stand anywhere in the file.
   template <int dim>
   void
   Boundaries<dim>::parse(const Constants &constants)

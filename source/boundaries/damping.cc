@@ -18,8 +18,8 @@ namespace talus
     add_parameter("Local damping",
                   coefficient_,
                   "For quasi-static problems: share of the unbalanced force of "
-                  "a node, component by component, that acts against its "
-                  "motion [-]; 0 for none. Common values are 0.1 to 0.8. It "
+                  "a node, by component, that acts against the motion "
+                  "[-]; 0 for none. Common values are 0.1 to 0.8. Damping "
                   "falsifies the runout of a slide and so needs Output/Runout "
                   "= false.",
                   this->prm,
@@ -28,9 +28,10 @@ namespace talus
 
 
 
-  // By impulses, as the boundaries do it, so that the energy budget closes.
-  // The work is taken with the mean velocity after damping, w' = w - change/2,
-  // which the limit 2 |w| keeps from turning around: so it is never negative.
+  // Damping acts by impulses, like boundaries, so that the energy budget
+  // closes. The work uses the mean velocity after damping, w' = w - change/2.
+  // The limit 2 |w| of the change prevents a reversal of w, so the work is
+  // never negative.
   template <int dim>
   double
   Damping<dim>::apply(NodalFields<dim> &nodes,
@@ -50,12 +51,12 @@ namespace talus
           const Tensor<1, dim> mean = nodes.mean_velocity(node);
           Tensor<1, dim>       v    = nodes.velocity(node);
           for (unsigned int d = 0; d < dim; ++d)
-            // Else a boundary bears the force: damped, a slope would have less
-            // friction.
+            // A boundary bears the force on held components: with damping, a
+            // slope would have less friction.
             if (!(held & (1u << d)))
               {
-                // dt f/m = 2 (v - mean); the mean changes by half of what v
-                // does.
+                // dt f/m = 2 (v - mean); the mean changes by half the change of
+                // v.
                 const double change =
                   std::min(coefficient_ * 2. * std::abs(v[d] - mean[d]),
                            2. * std::abs(mean[d]));

@@ -49,7 +49,7 @@ namespace talus
 
 
 
-  // In one message for all of them.
+  // All reactions share one message.
   template <int dim>
   void
   add_to_reactions(std::vector<StepReaction<dim>> &steps,

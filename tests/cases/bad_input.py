@@ -84,12 +84,14 @@ class BadInput(Case):
 
     def test_velocity_without_expression(self):
         self.refuse_set(["Boundaries/Top=velocity"],
-                        "'Boundaries/Top velocity' is empty", "Give them")
+                        "'Boundaries/Top velocity' is empty",
+                        "expected one expression for each",
+                        "Give the expressions")
 
     def test_expression_without_condition(self):
         self.refuse_set(["Boundaries/Top traction=0; -1"],
                         "'Boundaries/Top traction = 0; -1'", "'free'",
-                        "'traction' was expected")
+                        "expected 'traction'")
 
     def test_free_traction(self):
         self.refuse_set(["Boundaries/Top=traction",

@@ -19,18 +19,18 @@
 
 namespace talus
 {
-  /// Energy and impulses that the boundaries exchanged with the soil in one step.
+  /// Energy and impulses exchanged between boundaries and soil in one step.
   template <int dim>
   struct BoundaryWork
   {
     double friction = 0; ///< energy taken by friction on seabeds, J
     /// Energy taken by normal contact, walls and tractions, J; negative where
-    /// these drive the soil.
+    /// the boundaries drive the soil.
     double                 contact = 0;
     dealii::Tensor<1, dim> seabed_impulse; ///< on the soil, N s
-    dealii::Tensor<1, dim> wall_impulse;   ///< of walls and tractions, N s
+    dealii::Tensor<1, dim> wall_impulse;   ///< by walls and tractions, N s
 
-    /// Add to the accounts that Boundaries::open_accounts() opened.
+    /// Add to the accounts opened by Boundaries::open_accounts().
     void
     record(Accounts<dim> &accounts) const
     {
@@ -45,15 +45,16 @@ namespace talus
 
   /// Conditions on the faces of the mesh.
   ///
-  /// A node on several faces: tractions are forces and come first, of all
-  /// faces. `fixed` holds all components. Else a component that several faces
-  /// with `velocity` prescribe is that of the face whose normal it is, or else
-  /// of the first of them; rollers then hold their normals, since nothing may
-  /// pass a wall. The seabed acts last, on what is so prescribed, but moves only
-  /// the other components.
+  /// Conditions act on a node of several faces in a fixed order. Tractions are
+  /// forces and come first, on all faces. Velocities follow: if several faces
+  /// with `velocity` prescribe a component, the face normal to the component
+  /// decides, otherwise the first face. Rollers then hold their normal
+  /// components, because nothing may pass a wall, and `fixed` holds all
+  /// components. The seabed acts last and changes only components that no wall
+  /// prescribes.
   ///
-  /// A new condition is a class that derives from BoundaryCondition and a line
-  /// in the list of source/boundaries/boundaries.cc.
+  /// A new condition is a class derived from BoundaryCondition and a line in
+  /// the list of source/boundaries/boundaries.cc.
   template <int dim>
   class Boundaries : public dealii::ParameterAcceptor,
                      public NodalInteraction<dim>
@@ -61,16 +62,16 @@ namespace talus
   public:
     Boundaries();
 
-    /// Parse the expressions with @p constants. Throws ExcUser if conditions and
-    /// expressions contradict each other.
+    /// Parse the expressions with @p constants. Throws ExcUser if conditions
+    /// and expressions contradict each other.
     void
     parse(const Constants &constants);
 
     void
     open_accounts(Accounts<dim> &accounts) override;
 
-    /// Find the nodes of the seabed, and the places of nodes that expressions
-    /// are needed at. Collective.
+    /// Find the nodes of the seabed, and the positions of the nodes if a
+    /// condition or an output needs positions. Collective.
     void
     prepare(const Grid<dim> &grid) override;
 
@@ -101,15 +102,15 @@ namespace talus
       reactions_.finish_step(state.communicator());
     }
 
-    /// Whether nothing is there: a point that crosses the face has left.
+    /// Whether @p face is open: a point that crosses the face leaves the mesh.
     bool
     is_free(const unsigned int face) const
     {
       return names_[face] == "free" || is_outflow(face);
     }
 
-    /// Whether points that cross the face are taken out of the run and counted;
-    /// at other free faces a point that leaves is an error.
+    /// Whether points that cross the face are removed from the run and counted;
+    /// a point that leaves through any other free face is an error.
     bool
     is_outflow(const unsigned int face) const
     {
@@ -134,34 +135,37 @@ namespace talus
     bool
     has_seabed() const;
 
-    /// To be called before prepare() if the seabed depends on the depth.
+    /// Set the depth for the strength of the seabed. Call before prepare() if
+    /// the strength depends on the depth.
     void
     set_depth(const typename ShearStressCap<dim>::Depth &depth)
     {
       seabed_.set_depth(depth);
     }
 
-    /// Let the seabed pass @p factor times its maximum shear stress [-].
+    /// Set the multiplier @p factor [-] of the maximum shear stress of the
+    /// seabed.
     void
     scale_seabed_shear_stress(const double factor)
     {
       seabed_.friction().scale_shear_stress(factor);
     }
 
-    /// From now on all that resists sliding on the seabed is @p factor times
-    /// its parameter [-].
+    /// Set the multiplier @p factor [-] of the maximum shear stress and the
+    /// friction coefficient of the seabed.
     void
     scale_seabed_strength(const double factor)
     {
       seabed_.friction().scale_strength(factor);
     }
 
-    /// Axes whose two faces are periodic. Throws ExcUser if only one is.
+    /// Whether the two faces of an axis are periodic, by axis. Throws ExcUser
+    /// if only one face is periodic.
     std::array<bool, dim>
     periodic_axes() const;
 
-    /// Bit d is set if walls hold a node on these faces (see
-    /// Grid::faces_of_node) along axis d, or drive it.
+    /// Components held or driven by walls at a node on @p faces (see
+    /// Grid::faces_of_node): bit d stands for axis d.
     unsigned char
     components_constrained_by_walls(unsigned char faces) const;
 
@@ -171,27 +175,33 @@ namespace talus
       return seabed_;
     }
 
-    /// Bit d is set if a node on these faces may be held along axis d, by a
-    /// wall or by the seabed.
+    /// Components that a wall or the seabed may hold at a node on @p faces: bit
+    /// d stands for axis d.
     unsigned char
     constrained_components(unsigned char faces) const;
 
-    /// Throws ExcPoint if an expression has no finite value at a node of its
-    /// face at time @p t, s, whether there is soil or not.
+    /// Throw ExcPoint if an expression has no finite value at a node of the
+    /// face at time @p t, s, even at nodes without soil.
     void
     check_values(const Grid<dim> &grid, double t);
 
     /// Add the tractions at time @p t, s, to the forces of the active nodes on
-    /// the faces, before the momentum update. Nodes with less than
-    /// @p mass_cutoff carry nothing and are left alone, here and in apply().
+    /// the faces, before the momentum update. Nodes with a mass of at most
+    /// @p mass_cutoff, kg, are left out, also in apply().
     void
     add_tractions(NodalFields<dim> &nodes,
                   const Grid<dim>  &grid,
                   double            t,
                   double            mass_cutoff);
 
-    /// Give a node on @p faces the velocity that walls prescribe in a step from
-    /// time @p t over @p dt, s, and record the impulse that this takes.
+    /// Give a node on @p faces the velocity prescribed by walls, and record the
+    /// impulse.
+    /// @param nodes fields of the nodes
+    /// @param faces faces of the node, see Grid::faces_of_node
+    /// @param node index of the node
+    /// @param t time at the beginning of the step, s
+    /// @param dt time step, s
+    /// @param work sum of energies and impulses to add to
     void
     impose_walls(NodalFields<dim>  &nodes,
                  unsigned char      faces,
@@ -200,8 +210,8 @@ namespace talus
                  double             dt,
                  BoundaryWork<dim> &work);
 
-    /// Record an impulse on the soil, N s, that walls took up at a node on @p faces,
-    /// in components that they hold.
+    /// Record the impulse @p impulse, N s, of walls on the soil at a node on
+    /// @p faces, in components held by the walls.
     void
     record_walls(const NodalFields<dim>       &nodes,
                  unsigned char                 faces,
@@ -215,8 +225,8 @@ namespace talus
       seabed_.set_covered_area(covered_area);
     }
 
-    /// For a seabed with a gap: how far soil at a node is from a face, m, beyond
-    /// what counts as contact.
+    /// Clearance between the soil at a node and a seabed with a gap on @p face,
+    /// m: distance in excess of the contact distance.
     using Gap = std::function<double(unsigned int face, unsigned int node)>;
     void
     set_gap(const Gap &gap)
@@ -224,10 +234,15 @@ namespace talus
       gap_ = gap;
     }
 
-    /// Change the velocities of the active nodes on the faces as their
-    /// conditions ask, after the momentum update of a step from time @p t over
-    /// @p dt; velocities are those of the half step, t + dt/2. Returns what the
-    /// boundaries did, the tractions added before included.
+    /// Apply the conditions to the velocities of the active nodes on the faces,
+    /// after the momentum update. Velocities belong to the half step, t + dt/2.
+    /// Return energies and impulses of the boundaries, including the tractions
+    /// of add_tractions().
+    /// @param nodes fields of the nodes
+    /// @param grid background grid
+    /// @param t time at the beginning of the step, s
+    /// @param dt time step, s
+    /// @param mass_cutoff maximum mass of the nodes that are left out, kg
     BoundaryWork<dim>
     apply(NodalFields<dim> &nodes,
           const Grid<dim>  &grid,
@@ -235,15 +250,16 @@ namespace talus
           double            dt,
           double            mass_cutoff);
 
-    /// Places where a seabed at the bottom of the mesh acted in the last step, m,
-    /// at the nodes of this rank, and the force of its friction on the soil, N.
+    /// Friction of a seabed at the bottom of the mesh in the last step, at the
+    /// nodes of this rank: position, m, and friction force on the soil, N.
     const std::vector<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>> &
     bed_friction() const
     {
       return bed_friction_;
     }
 
-    /// Forces on each face that has a condition, if they are asked for.
+    /// Forces on each face with a condition, if the parameter `Write forces` is
+    /// set.
     BoundaryReactions<dim> &
     reactions()
     {
@@ -292,17 +308,17 @@ namespace talus
     bool                             writes_forces_ = false;
 
     Seabed<dim> seabed_;
-    /// In the order in which they act.
+    /// Conditions in the order in which they act.
     std::vector<std::unique_ptr<BoundaryCondition<dim>>> conditions_;
-    BoundaryReactions<dim> reactions_; ///< of these
+    BoundaryReactions<dim> reactions_; ///< by condition
     Gap                    gap_;
     std::vector<std::pair<dealii::Point<dim>, dealii::Tensor<1, dim>>>
       bed_friction_;
 
-    /// Places of the owned nodes, by node, m; empty where nothing needs them.
+    /// Positions of the owned nodes, by node, m; empty unless needed.
     std::vector<dealii::Point<dim>> places_;
 
-    /// What a condition with a traction does to a node in this step.
+    /// Force of a condition with a traction on a node in this step.
     struct LoadedNode
     {
       unsigned int           node;

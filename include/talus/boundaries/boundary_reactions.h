@@ -11,13 +11,14 @@
 
 namespace talus
 {
-  /// Forces of the soil on each face of the mesh that has a condition. Moments
-  /// are about the origin.
+  /// Forces of the soil on each face of the mesh with a condition. Moments are
+  /// about the origin.
   template <int dim>
   class BoundaryReactions
   {
   public:
-    /// Prepare one reaction for each of @p names if @p is_enabled, else none.
+    /// Prepare one reaction for each of @p names if @p is_enabled, otherwise
+    /// none.
     void
     prepare(const std::vector<std::string> &names, bool is_enabled);
 
@@ -27,9 +28,12 @@ namespace talus
       return is_enabled_;
     }
 
-    /// Add impulses on the soil, N s, at @p x, where it moves with @p v, m/s, in
-    /// the mean of the step: those along the normal and by walls, and those by
-    /// friction.
+    /// Add impulses on the soil at one place.
+    /// @param k index of the reaction
+    /// @param x position, m
+    /// @param normal impulse along the normal and by walls, N s
+    /// @param tangential impulse by friction, N s
+    /// @param v mean velocity of the soil in the step, m/s
     void
     add(const unsigned int            k,
         const dealii::Point<dim>     &x,
@@ -51,11 +55,12 @@ namespace talus
       steps_[k].area += area;
     }
 
-    /// Sum what was added in the step over the ranks. Collective.
+    /// Sum the impulses added in the step over the ranks. Collective.
     void
     finish_step(MPI_Comm communicator);
 
-    /// One per face with a condition if forces are asked for, else empty.
+    /// Return one reaction per face with a condition if enabled, otherwise
+    /// none.
     const std::vector<Reaction<dim>> &
     all() const
     {
@@ -75,7 +80,7 @@ namespace talus
   private:
     bool                           is_enabled_ = false;
     std::vector<std::string>       names_;
-    std::vector<StepReaction<dim>> steps_; ///< this rank's share
+    std::vector<StepReaction<dim>> steps_; ///< share of this rank
     std::vector<Reaction<dim>>     reactions_;
   };
 } // namespace talus

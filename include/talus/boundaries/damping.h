@@ -10,23 +10,25 @@
 
 namespace talus
 {
-  /// Local non-viscous damping, with which a quasi-static problem comes to rest
+  /// Local non-viscous damping, which brings a quasi-static problem to rest
   /// (@cite cundall1987): each component of the unbalanced force f of a node is
-  /// changed by alpha |f| against the motion. It vanishes in equilibrium and
-  /// knows no time scale. It falsifies a runout, so it is off by default.
+  /// changed by alpha |f| against the motion. The damping vanishes in
+  /// equilibrium and has no time scale. It falsifies a runout, hence is off by
+  /// default.
   ///
-  /// The motion is the mean velocity of the step, (before + after)/2, since it
-  /// is this that the work of a force is taken with; and damping at most stops
-  /// it. So the work it takes is never negative, whatever the step: with the
-  /// velocity before the step, damping would drive the soil where a step turns
-  /// the motion around.
+  /// The motion is the mean velocity of the step, (before + after)/2, because
+  /// the work of a force is the product with the mean velocity. Damping at most
+  /// stops the motion. So the work taken is never negative, whatever the step:
+  /// with the velocity before the step, damping would drive the soil where a
+  /// step reverses the motion.
   template <int dim>
   class Damping : public dealii::ParameterAcceptor, public NodalInteraction<dim>
   {
   public:
-    /// Components of the velocity that @p boundaries may hold are left alone, as
-    /// the boundary bears the unbalanced force; so are the nodes for which
-    /// @p feels_obstacle is not zero (by node; empty: no such node).
+    /// Two kinds of motion are not damped: components of the velocity that
+    /// @p boundaries may hold, because the boundary bears the unbalanced force;
+    /// and nodes with a nonzero entry in @p feels_obstacle (by node; empty: no
+    /// such node).
     Damping(const Boundaries<dim>            &boundaries,
             const std::vector<unsigned char> &feels_obstacle);
 

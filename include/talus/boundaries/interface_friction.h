@@ -13,7 +13,7 @@ namespace talus
   /// normal force up to a cap.
   struct CoulombLimit
   {
-    double coefficient = 0; ///< of friction [-]
+    double coefficient = 0; ///< Coulomb friction [-]
     double cap         = 0; ///< maximum shear stress times area, N
 
     /// Return the maximum friction force, N, for a normal force, N.

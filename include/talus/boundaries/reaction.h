@@ -14,22 +14,23 @@
 
 namespace talus
 {
-  /// Impulse of the soil on an obstacle or a face of the mesh in one step, summed
-  /// over the surface.
+  /// Impulse of the soil on an obstacle or a face of the mesh in one step,
+  /// summed over the surface.
   template <int dim>
   struct StepReaction
   {
     static constexpr unsigned int n_moments = (dim == 2 ? 1 : 3);
 
-    dealii::Tensor<1, dim>        impulse;    ///< of the soil, N s
-    dealii::Tensor<1, dim>        tangential; ///< its part by friction, N s
+    dealii::Tensor<1, dim>        impulse;    ///< total, N s
+    dealii::Tensor<1, dim>        tangential; ///< part by friction, N s
     std::array<double, n_moments> angular_impulse{}; ///< about the reference
                                                      ///< point, N m s
     double area          = 0;                        ///< in contact, m^(dim-1)
     double friction_work = 0; ///< energy that friction took from the soil, J
     double contact_work  = 0; ///< energy that normal contact took, J
 
-    /// Add an impulse that the soil got at @p arm, m, from the reference point.
+    /// Add an impulse on the soil, N s, that acts at @p arm, m, from the
+    /// reference point.
     void
     add_impulse_on_soil(const dealii::Tensor<1, dim> &arm,
                         const dealii::Tensor<1, dim> &on_soil)
@@ -45,7 +46,7 @@ namespace talus
         }
     }
 
-    /// All of it, to be summed over the ranks.
+    /// Number of values in as_list(), for sums over the ranks.
     static constexpr unsigned int n_values = 2 * dim + n_moments + 3;
 
     std::array<double, n_values>
@@ -86,7 +87,7 @@ namespace talus
   template <int dim>
   struct Reaction
   {
-    StepReaction<dim> last;  ///< of the last step
+    StepReaction<dim> last;  ///< in the last step
     StepReaction<dim> total; ///< since the start; area of the last step
 
     void

@@ -43,7 +43,7 @@ namespace talus
     {
       unsigned int cell;
       unsigned int face;
-      unsigned int row; ///< of the patch: nodes that lie on the face
+      unsigned int row; ///< row of the patch on the face
     };
 
     bool

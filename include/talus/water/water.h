@@ -85,7 +85,7 @@ namespace talus
 
     FreeSurface<dim>    surface_;
     NodalExchange<dim>  exchange_of_forces_;
-    std::vector<double> forces_; ///< of the step, by node, N
+    std::vector<double> forces_; ///< in the step, by node, N
   };
 } // namespace talus
 
