@@ -19,8 +19,8 @@ namespace talus
 
 
 
-  /// What a checkpoint brought is here before the mesh is known, and so before
-  /// there are columns.
+  /// Make columns and envelope. A checkpoint is read before the mesh exists, so
+  /// restored rows wait until columns are known.
   template <int dim>
   void
   EnvelopeObserver<dim>::begin(const OutputSettings &settings,
@@ -63,7 +63,7 @@ namespace talus
 
 
 
-  /// Collective.
+  /// Add the soil of @p state to the envelope. Collective.
   template <int dim>
   void
   EnvelopeObserver<dim>::sample(const State<dim> &state)
@@ -78,7 +78,7 @@ namespace talus
 
 
 
-  /// What is called final must be of now.
+  /// The last files must show the final state.
   template <int dim>
   void
   EnvelopeObserver<dim>::observe(const State<dim> &state)

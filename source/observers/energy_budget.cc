@@ -46,7 +46,7 @@ namespace talus
     struct Term
     {
       std::string name;
-      int         sign; ///< in the remainder; 0: no part of the budget
+      int         sign; ///< in the remainder; 0: not in the budget
       double      value;
     };
 
@@ -77,8 +77,8 @@ namespace talus
 
 
 
-  /// The run may begin with energy: of an initial velocity, of K0 stress, or
-  /// left by the static stages. Only changes since then can balance.
+  /// A run may begin with energy from an initial velocity, K0 stress or the
+  /// static stages. Only changes after the beginning can balance.
   template <int dim>
   void
   EnergyBudget<dim>::begin(const State<dim> &state)
@@ -116,8 +116,8 @@ namespace talus
 
 
 
-  /// All ranks have the same sums, so the first rank saves them, and a checkpoint
-  /// may be read by another number of ranks.
+  /// The first rank saves the sums, which are identical on all ranks: a
+  /// checkpoint may be read by another number of ranks.
   template <int dim>
   void
   EnergyBudget<dim>::list_state(StateList &list)

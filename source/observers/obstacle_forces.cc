@@ -43,16 +43,17 @@ namespace talus
 
   namespace
   {
-    constexpr double smallest_depth = 0.1; ///< that counts as below, cells
+    constexpr double smallest_depth = 0.1; ///< below the surface [cells]
   }
 
 
 
-  // Nothing pushes points out that have come below a surface; so the user must
-  // see how much soil has, and how deep. Points are held at the surface, and
-  // their centres come to lie a hundredth of a cell below it: the volume of a
-  // point counts where its centre is deeper than a tenth of a cell, as far as it
-  // is below the surface, in full when its whole box is.
+  // Nothing pushes points back that have come below a surface, so the user must
+  // see how much soil is below, and how deep. Points held at the surface have
+  // centres a hundredth of a cell below it. Therefore the volume of a point
+  // counts only if the centre is deeper than a tenth of a cell. The counted
+  // share of the volume grows with the depth, and is full when the whole box is
+  // below the surface.
   template <int dim>
   std::vector<typename ObstacleForces<dim>::Penetration>
   ObstacleForces<dim>::penetrations(const State<dim> &state) const
@@ -63,7 +64,7 @@ namespace talus
     std::vector<Penetration> result(obstacles.size());
     for (const Segment &segment : points.segments())
       {
-        // Others are far from the surface.
+        // All other cells are far from the surface.
         if (!facets.is_near(segment.cell) &&
             facets.containing(segment.cell).empty())
           continue;
@@ -94,7 +95,8 @@ namespace talus
 
 
 
-  /// @p own is that of this rank. Collective.
+  /// List the soil below the surface of obstacle @p k, over all ranks. @p own
+  /// is the soil on this rank. Collective.
   template <int dim>
   void
   ObstacleForces<dim>::list_penetration(const unsigned int k,

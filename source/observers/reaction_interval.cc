@@ -25,8 +25,8 @@ namespace talus
 
 
 
-  // The mean decays exactly while the force of a step acts: it does not depend on
-  // how a time with a constant force is divided into steps.
+  // The mean decays exactly while the force of a step acts: the division of a
+  // time with constant force into steps has no influence.
   template <int dim>
   void
   ReactionInterval<dim>::update_extremes(const Tensor<1, dim> &force,

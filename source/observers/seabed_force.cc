@@ -7,7 +7,8 @@ namespace talus
 {
   namespace
   {
-    /// Since the start of the run, N s.
+    /// Impulse of the seabed on the soil along x since the start of the run, N
+    /// s. Collective.
     template <int dim>
     double
     impulse(const State<dim> &state)
@@ -29,8 +30,9 @@ namespace talus
 
 
 
-  /// The impulse over the interval: the force of a single step jumps with every
-  /// node that touches the seabed or leaves it, its integral does not.
+  /// The mean force is the impulse divided by the interval: the force of a
+  /// single step jumps with every node that touches the seabed or leaves it,
+  /// the impulse does not.
   template <int dim>
   void
   SeabedForce<dim>::list_quantities(const State<dim> &state,
@@ -46,7 +48,7 @@ namespace talus
 
 
 
-  /// The mean of the first row after a restart is then that of the whole
+  /// With these values, the first row after a restart has the mean of the whole
   /// interval.
   template <int dim>
   void

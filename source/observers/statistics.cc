@@ -22,8 +22,8 @@ namespace talus
 
 
 
-  /// Names and values come from one list, so that header and rows cannot
-  /// differ. The columns are described in doc/output.md.
+  /// Names and values come from the same list, so header and rows cannot
+  /// differ. doc/output.md describes the columns.
   template <int dim>
   Quantities
   Statistics<dim>::evaluate(const State<dim> &state,
@@ -57,7 +57,7 @@ namespace talus
 
 
 
-  /// After the static stages, whose energies do not count.
+  /// Called after the static stages, whose energies do not count.
   template <int dim>
   void
   Statistics<dim>::start(const State<dim> &state)
@@ -68,7 +68,7 @@ namespace talus
 
 
 
-  /// The next mean of the seabed's force begins here.
+  /// The next mean of the seabed force begins at each row.
   template <int dim>
   void
   Statistics<dim>::observe(const State<dim> &state)
@@ -82,7 +82,7 @@ namespace talus
 
 
 
-  /// Values of the evaluation are dropped; this is asked for once per run.
+  /// Drop the values of the evaluation: the headings are needed once per run.
   template <int dim>
   std::vector<std::string>
   Statistics<dim>::names(const State<dim> &state, const bool with_runout) const

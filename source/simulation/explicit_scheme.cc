@@ -15,8 +15,8 @@ namespace talus
 
   namespace
   {
-    /// Coverage and reach: the weights of every point sum to one. (Used in
-    /// Debug only.)
+    /// Whether the nodes carry the mass of all points: the weights of every
+    /// point sum to one. (Used in Debug only.)
     template <int dim>
     [[maybe_unused]] bool
     nodes_carry_all_mass(const State<dim> &state)
@@ -54,11 +54,10 @@ namespace talus
 
   /// One step of the update-stress-last scheme; formulas in doc/method.md,
   /// section 2. Positions and stresses go from t to t + dt, velocities from t -
-  /// dt/2 to t + dt/2. What the order rests on: the mesh changes first, while
-  /// all points are in their cells; the time step is agreed on before a point
-  /// moves; points split after they have moved and before they are relocated,
-  /// so that children find their cells in the same pass as all others.
-  /// Collective.
+  /// dt/2 to t + dt/2. Reasons for the order: the mesh changes first, while all
+  /// points are in their cells. The ranks agree on the time step before a point
+  /// moves. Points split after they have moved and before they are relocated,
+  /// so that children find their cells together with all other points.
   template <int dim>
   RunRequest
   ExplicitScheme<dim>::advance(const double end_time, const RunRequest own)
@@ -71,7 +70,7 @@ namespace talus
     update_nodes();
     grid_to_points();
     split();
-    mesh_.relocate(); // children, too: they may lie in other cells
+    mesh_.relocate(); // with children, which may lie in other cells
     state_.time += state_.time_step;
     ++state_.step;
     return request;
@@ -103,12 +102,11 @@ namespace talus
 
 
 
-  // The step goes over the points twice, here and in grid_to_points(), batch by
-  // batch: what it needs of a point comes from memory once each time.
-  /// The time step is found here, too, since its columns are at hand: a sweep
-  /// of its own would read the points a third time. What a phase computes for
-  /// the next one is in the workspace, as large as a batch, which stays in the
-  /// cache.
+  /// A step has two sweeps over the points, here and in grid_to_points(), batch
+  /// by batch, so that the data of a point come from memory once per sweep. The
+  /// first sweep also computes the time step: a separate sweep would read the
+  /// points a third time. The workspace holds the results of a phase for the
+  /// next phase; it is as large as a batch and stays in the cache.
   template <int dim>
   void
   ExplicitScheme<dim>::points_to_grid()
@@ -139,10 +137,10 @@ namespace talus
 
 
 
-  /// One message of all ranks per step: it carries the time step, what the
-  /// ranks want to happen after it (checkpoint, stop) and how many points there
-  /// are, which would else be a second one. The last step is shortened to end at
-  /// the end time.
+  /// Agree with all ranks, in one message per step, on the time step and on the
+  /// request for the time after the step (checkpoint, stop). The message also
+  /// counts the points, which would otherwise need a second message. The last
+  /// step is shortened to end at the end time.
   template <int dim>
   RunRequest
   ExplicitScheme<dim>::agree_on_step(const double     end_time,
@@ -157,8 +155,8 @@ namespace talus
                        state_.communicator());
     splitter_.check_total(plan.n_points);
     state_.time_step = std::min(plan.time_step, end_time - state_.time);
-    // All ranks have the same step, so that all or none of them ask for what
-    // limits it.
+    // All ranks have the same step: all or none of them ask for the limiting
+    // condition.
     check_time_advances(state_.time, state_.time_step, [this]() {
       return time_step_.limited_by(state_.points,
                                    state_.grid,
@@ -170,8 +168,8 @@ namespace talus
 
 
 
-  /// Sums at the nodes are complete after the first message, the motion of
-  /// ghosts is right after the second one.
+  /// Update the nodes. Sums at the nodes are complete after the first message,
+  /// velocities of ghosts after the second.
   template <int dim>
   void
   ExplicitScheme<dim>::update_nodes()
@@ -199,8 +197,8 @@ namespace talus
 
 
 
-  /// Second sweep: a batch is moved, strained, stressed and looked at for
-  /// splitting while it is in the cache. B-bar needs all points of a cell, so
+  /// Second sweep: a batch in the cache is moved and strained, gets new
+  /// stresses, and is examined for splits. B-bar needs all points of a cell, so
   /// batches end between cells.
   template <int dim>
   void
@@ -208,7 +206,7 @@ namespace talus
   {
     timer_.start_laps();
     const double dt = state_.time_step;
-    // In front of the sweep, since nearly always there is nothing to do.
+    // Before the sweep, because there is nearly always nothing to do.
     problem_.trigger.update(state_.points,
                             problem_.materials.strength_factor(),
                             state_.time,
@@ -245,7 +243,8 @@ namespace talus
 
 
 
-  /// Hyperelastic laws need the whole deformation.
+  /// Renew large deformations, except under hyperelastic laws, which need the
+  /// whole deformation.
   template <int dim>
   void
   ExplicitScheme<dim>::renew_large_deformations(const Batch  &batch,
@@ -278,7 +277,8 @@ namespace talus
 
 
 
-  /// For the start and the log, outside of a step. Collective.
+  /// Stable time step of the present state, for set-up and log only.
+  /// Collective.
   template <int dim>
   double
   ExplicitScheme<dim>::stable_time_step()
@@ -292,9 +292,9 @@ namespace talus
 
 
 
-  // A run that cannot end in months is a mistake in some unit. The splitter would
-  // complain of the points in the first step, when the results of an earlier run
-  // are gone.
+  // A run that cannot end in months has a wrong unit somewhere. The splitter
+  // would report too many points only in the first step, when the results of an
+  // earlier run are gone.
   template <int dim>
   void
   ExplicitScheme<dim>::check_effort(const double end_time)
@@ -327,7 +327,6 @@ namespace talus
 
 
 
-  /// A sentence for the log. Collective.
   template <int dim>
   std::string
   ExplicitScheme<dim>::description()

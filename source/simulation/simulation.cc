@@ -24,8 +24,9 @@ namespace talus
 {
   using namespace dealii;
 
-  /// Each member declares its own parameters; those here are the run's. Output
-  /// does not know the splitter, so its columns are added by a function.
+  /// Each member declares its own parameters; the parameters here belong to the
+  /// run. Output does not know the splitter: a function adds the columns of the
+  /// splitter.
   template <int dim>
   Simulation<dim>::Simulation(const ParameterPreview &preview)
     : ParameterAcceptor("/")
@@ -76,8 +77,8 @@ namespace talus
 
 
 
-  /// The mesh before the points, which are made cell by cell; then cells are
-  /// shared out by the points that they have. Collective.
+  /// The mesh comes before the points, which are made cell by cell. Then cells
+  /// are distributed by their numbers of points.
   template <int dim>
   void
   Simulation<dim>::set_up()
@@ -86,7 +87,7 @@ namespace talus
     mesh_.create(log_);
     create_points();
     mesh_.repartition();
-    // What would stop the first step stops here, where nothing is written yet.
+    // Errors of the first step stop the run here, where nothing is written yet.
     problem_.loading.update(state_.points, state_.time);
     problem_.boundaries.check_values(state_.grid, state_.time);
     if (static_stages_.stages().contain(Stage::dynamics))
@@ -96,10 +97,9 @@ namespace talus
 
 
 
-  /// All that depends on the parameters only.
-  /// What can be wrong with the parameters by themselves is found here, before
-  /// a mesh is made or a file touched. A resumed run comes through here, too,
-  /// so columns are the same.
+  /// Prepare everything that depends on the parameters only. Errors in the
+  /// parameters are found here, before a mesh is made or a file touched. A
+  /// resumed run passes here, too, so columns are the same.
   template <int dim>
   void
   Simulation<dim>::prepare()
@@ -125,9 +125,9 @@ namespace talus
 
 
 
-  /// Ids are unique over all ranks, now and after splits.
-  /// Rank after rank as the points are; children get numbers from beyond, each
-  /// rank every n-th one, so that no message is needed when points split.
+  /// Make the points. Ids are unique over all ranks, now and after splits:
+  /// points are numbered rank after rank. Children get later numbers, each rank
+  /// every n-th number, so that splits need no message.
   template <int dim>
   void
   Simulation<dim>::create_points()
@@ -149,7 +149,7 @@ namespace talus
     scheme_.splitter().number_from(n_points + rank, counts.size());
 
     mesh_.insert_points();
-    // The first time step is known only now, with the points in their cells.
+    // The first time step is known only when the points are in their cells.
     if (problem_.has_velocity_of_half_step())
       problem_.set_velocity(points,
                             -0.5 * std::min(scheme_.stable_time_step(),
@@ -158,12 +158,12 @@ namespace talus
 
 
 
-  /// The mirror image of write_checkpoint(): mesh, then points, then the
-  /// numbers of list_state(). Parameters are compared before anything is
-  /// loaded. On another number of ranks the run goes on, but not bitwise; cells
-  /// are then shared out anew, as p4est has shared them evenly. What output
-  /// needs is checked last, when the state says how long the files were.
-  /// Collective.
+  /// Inverse of write_checkpoint(): loads mesh, points, and the numbers of
+  /// list_state(). Parameters are compared before anything is loaded. On
+  /// another number of ranks the run continues, but not bit-identically. Cells
+  /// are then distributed again, since p4est has distributed them evenly. The
+  /// needs of output are checked last, when the state tells the previous length
+  /// of the files.
   template <int dim>
   void
   Simulation<dim>::resume()
@@ -194,7 +194,7 @@ namespace talus
                              "' is at t = ",
                              state_.time,
                              " s. Give a later 'End time'.")));
-    // The end and the limit may be others than those of the run before.
+    // End time and limit may differ from the previous run.
     if (static_stages_.stages().contain(Stage::dynamics))
       scheme_.check_effort(end_time_);
     output_.check_observers(state_);
@@ -204,8 +204,8 @@ namespace talus
 
 
 
-  /// Returns false if the run was stopped and can be resumed. Steps know
-  /// nothing of output and checkpoints: all that happens between them is here.
+  /// Steps know nothing of output and checkpoints: both happen here, between
+  /// the steps.
   template <int dim>
   bool
   Simulation<dim>::run()
@@ -234,9 +234,9 @@ namespace talus
 
 
 
-  /// After each stage a checkpoint, as a stage may have taken hours and cannot
-  /// be resumed in the middle. Ranks agree on whether to stop by a maximum,
-  /// since the requests are numbered by how much they ask for.
+  /// A checkpoint follows each stage: a stage may have taken hours and cannot
+  /// be resumed in the middle. The ranks agree on a stop by the maximum of the
+  /// requests, which are numbered by priority.
   template <int dim>
   bool
   Simulation<dim>::run_static_stages()
@@ -248,8 +248,8 @@ namespace talus
           PhaseTimer::Scope scope(timer_, "static stages");
           static_stages_.run_next();
         }
-        // Before the checkpoint, so that a resumed run does not write the first
-        // row again.
+        // Before the checkpoint: a resumed run must not write the first row
+        // again.
         if (!stages.next_is_static())
           output_.start(state_);
         const auto request = static_cast<RunRequest>(
@@ -274,7 +274,7 @@ namespace talus
 
 
 
-  /// To the log, how the dynamics ended.
+  /// Log how the dynamics ended.
   template <int dim>
   void
   Simulation<dim>::note_end()
@@ -290,7 +290,8 @@ namespace talus
 
 
 
-  /// A run without dynamics ends where it begins, s.
+  /// Return the time at which the run ends, s. A run without dynamics ends at
+  /// 0.
   template <int dim>
   double
   Simulation<dim>::end_of_run() const
@@ -304,9 +305,9 @@ namespace talus
 
 
 
-  /// Three kinds of beginning: a run that is already at its end does nothing,
-  /// and leaves its files as they are; a resumed one goes on with its files; a
-  /// new one starts them. Collective.
+  /// Begin the run in one of three ways. A run already at its end does nothing
+  /// and leaves the files unchanged. A resumed run continues the files, a new
+  /// run starts files. Collective.
   template <int dim>
   void
   Simulation<dim>::begin_run()
@@ -315,7 +316,7 @@ namespace talus
     output_.lock_folder(state_.communicator());
     if (is_resumed && is_finished())
       {
-        // It may have been killed after its last step.
+        // The run may have been killed after the last step.
         checkpoint_.begin(output_.folder(),
                           state_.communicator(),
                           resumed_from_.path);
@@ -333,7 +334,7 @@ namespace talus
       note_resume();
     else
       note_start(LogLevel::info);
-    // The checkpoint of a run that was finished must not look finished now.
+    // The checkpoint of a finished run must not look finished now.
     if (is_resumed && resumed_from_.head.time >= resumed_from_.head.end_time)
       write_checkpoint();
   }
@@ -353,7 +354,7 @@ namespace talus
   void
   Simulation<dim>::check_output_folder() const
   {
-    // Which is left as it is.
+    // A finished run leaves the folder unchanged.
     if (beginning() == Beginning::resumed && is_finished())
       {
         output_.check_complete(state_.communicator());
@@ -367,9 +368,9 @@ namespace talus
 
 
 
-  /// The question whether results would be lost comes before the first file is
-  /// opened. Checkpoints of an earlier run go last, when the new files are
-  /// there.
+  /// Begin all files. Whether results would be lost is checked before the first
+  /// file is opened. Checkpoints of an earlier run are removed last, when the
+  /// new files exist.
   template <int dim>
   void
   Simulation<dim>::begin_files()
@@ -384,7 +385,7 @@ namespace talus
 
 
 
-  /// Title, mesh, what follows from the parameters, remarks, time step.
+  /// Log title, mesh, consequences of the parameters, remarks, and time step.
   template <int dim>
   void
   Simulation<dim>::note_start(const LogLevel level)
@@ -441,9 +442,9 @@ namespace talus
 
 
 
-  /// Which checkpoints were passed over since they are damaged, where the run
-  /// goes on, which results are missing, and whether another program wrote it:
-  /// then the result may differ.
+  /// Log skipped damaged checkpoints, missing results, the time of the
+  /// checkpoint, and whether another version of the program wrote the
+  /// checkpoint: results may then differ.
   template <int dim>
   void
   Simulation<dim>::note_resume()
@@ -482,9 +483,9 @@ namespace talus
 
 
 
-  /// All state besides points, mesh and parameters. What follows from these is
-  /// computed anew; nodes hold nothing between the steps.
-  /// The order does not matter, the names do: numbers are found by them.
+  /// List all state besides points, mesh and parameters. Derived data are
+  /// computed anew; nodes hold nothing between the steps. The order of the list
+  /// does not matter, because numbers are found by name.
   template <int dim>
   StateList
   Simulation<dim>::list_state()
@@ -504,9 +505,9 @@ namespace talus
 
 
 
-  /// What this rank wants to happen after the step that begins.
-  /// By signals, which only some ranks may get, and by the clock of the first
-  /// rank: ranks may differ here, and agree in the step.
+  /// Return the request of this rank for the time after the present step. Only
+  /// some ranks may get a signal, and only the first rank reads the clock:
+  /// ranks may differ here, and agree in the step.
   template <int dim>
   RunRequest
   Simulation<dim>::local_request() const
@@ -519,9 +520,8 @@ namespace talus
 
 
 
-  /// Do what the ranks agreed on. Returns whether the run is to stop here.
-  /// Of a run at its end the parameter decides whether it gets a checkpoint,
-  /// not what was asked for.
+  /// Do what the ranks agreed on. Return whether the run stops here. At the end
+  /// of a run a parameter, not the request, decides about a checkpoint.
   template <int dim>
   bool
   Simulation<dim>::handle_request(const RunRequest request)
@@ -556,8 +556,9 @@ namespace talus
 
 
 
-  /// Output goes to the disk first: a checkpoint whose rows and fields were
-  /// lost with the machine could not be resumed from. Collective.
+  /// Write a checkpoint after all output is on the disk: if the machine lost
+  /// rows and fields, the run could not be resumed from the checkpoint.
+  /// Collective.
   template <int dim>
   std::filesystem::path
   Simulation<dim>::write_checkpoint()

@@ -8,9 +8,9 @@ namespace talus
 {
   namespace
   {
-    /// Points of a block by the extent of their boxes along an axis: `below` is
-    /// set if the box reaches beyond the lower face of the cell, `inside_above`
-    /// if it does not reach the upper face.
+    /// Points of a block by the extent of their boxes along an axis: bit
+    /// `below` is set if the box reaches beyond the lower face of the cell, bit
+    /// `inside_above` if the box does not reach the upper face.
     struct Reach
     {
       PointsOfBlock below = 0, inside_above = 0;
@@ -32,8 +32,8 @@ namespace talus
 
 
     /// Move the points that reach into a cell of another size from @p these to
-    /// the irregular points of the block; the cell is not uniform. Return the patch
-    /// for the remaining points.
+    /// the irregular points of the block; the cell is not uniform. Return the
+    /// patch for the remaining points.
     template <int dim>
     const unsigned int *
     split_off_irregular_points(Block<dim>                           &block,
@@ -124,13 +124,13 @@ namespace talus
 
 
 
-    /// Split the points of each cell into groups and irregular points. Groups make the
-    /// transfer fast: most points of a cell have weights at the same 3^dim
-    /// nodes. The contributions of a group, four to six points on average, are
-    /// summed in registers and written to memory once, whereas a single point
-    /// would load and store 3^dim records (doc/performance.md). Groups are found
-    /// by bit operations, a bit per point and face, without a branch per point
-    /// that the processor would have to predict.
+    /// Split the points of each cell into groups and irregular points. Groups
+    /// make the transfer fast: most points of a cell have weights at the same
+    /// 3^dim nodes. The contributions of a group, four to six points on
+    /// average, are summed in registers and written to memory once, whereas a
+    /// single point would load and store 3^dim records (doc/performance.md).
+    /// Groups are found by bit operations, a bit per point and face, without a
+    /// branch per point that the processor would have to predict.
     template <int dim>
     void
     find_groups(Block<dim> &block, const Reach (&reach)[dim])
@@ -152,8 +152,8 @@ namespace talus
 
 
     /// Make every point of the block irregular: a group requires weights that
-    /// are products of factors along the axes, which convected domains do not
-    /// have.
+    /// are products of factors along the axes. Convected domains have no such
+    /// factors.
     template <int dim>
     void
     make_all_irregular(Block<dim> &block)
@@ -170,8 +170,8 @@ namespace talus
 
 
 
-  // Along each axis a box has weights at four nodes around its cell; a group uses
-  // three. All four are computed for all points without a branch, from two
+  // Along each axis a box has weights at four nodes around its cell; a group
+  // uses three. All four are computed for all points without a branch, from two
   // integrals (axis_weights()). The signs of the distances of the box from the
   // faces later select the three nodes. Weights are computed in both sweeps of
   // a step, because storing 16 doubles per point (24 in 3-D) would cost more

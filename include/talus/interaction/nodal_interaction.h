@@ -10,33 +10,34 @@
 
 namespace talus
 {
-  /// Effect of the surroundings on the soil that acts at the nodes of the
-  /// background grid: boundaries, obstacles, water, damping.
+  /// Effect of the surroundings on the soil at the nodes of the background
+  /// grid: boundaries, obstacles, water, damping.
   ///
-  /// A step calls the members below in the order in which they stand here, each
-  /// for all interactions of the run (NodalInteractions), between the transfer
-  /// from the points to the grid and the transfer back. All members are
-  /// collective and do nothing by default. A new effect is a class derived from
-  /// this one and a line in the constructor of Problem.
+  /// A step calls the members below in the order of declaration, each for all
+  /// interactions of the run (NodalInteractions), between the transfer from the
+  /// points to the grid and the transfer back. All members are collective and
+  /// do nothing by default. A new effect is a class derived from
+  /// NodalInteraction and a line in the constructor of Problem.
   template <int dim>
   class NodalInteraction
   {
   public:
     virtual ~NodalInteraction() = default;
 
-    /// Open the accounts of energy and impulse that record() adds to. Called
-    /// once, before the run starts or is resumed.
+    /// Open the accounts of energy and impulse for record(). Called once,
+    /// before the run starts or is resumed.
     virtual void
     open_accounts(Accounts<dim> & /*accounts*/)
     {}
 
-    /// Find cells and nodes after each change of the mesh or its partition.
+    /// Prepare for the cells and nodes of @p grid. Called after each change of
+    /// the mesh or its partition.
     virtual void
     prepare(const Grid<dim> & /*grid*/)
     {}
 
     /// Begin a step of state.time_step, s: masses, momenta and forces at the
-    /// nodes that this rank owns are complete.
+    /// nodes owned by this rank are complete.
     virtual void
     begin_step(State<dim> & /*state*/)
     {}
@@ -51,9 +52,9 @@ namespace talus
     correct_velocities(State<dim> & /*state*/)
     {}
 
-    /// Record energies and impulses of the step: the velocities of all nodes are
-    /// final. The work of an impulse is the product with the mean of the
-    /// velocities before and after the step (NodalFields::mean_velocity()).
+    /// Record energies and impulses of the step, when the velocities of all
+    /// nodes are final. The work of an impulse is the product with the mean of
+    /// the velocities before and after the step (NodalFields::mean_velocity()).
     virtual void
     record(State<dim> & /*state*/)
     {}
@@ -63,12 +64,13 @@ namespace talus
     list_quantities(const State<dim> & /*state*/, Quantities & /*list*/) const
     {}
 
-    /// Add whatever a resumed run needs to continue bit by bit.
+    /// Add the data that a resumed run needs to continue with bit-identical
+    /// results.
     virtual void
     list_state(StateList & /*list*/)
     {}
 
-    /// Return sentences on what the user may not have meant.
+    /// Return sentences on settings that the user may not have meant.
     virtual std::vector<std::string>
     notes() const
     {

@@ -10,18 +10,18 @@
 
 namespace talus
 {
-  /// The nodal interactions of a run in their order of precedence.
+  /// Nodal interactions of a run in their order of precedence.
   ///
-  /// Velocities are corrected and energies recorded from the last interaction to
-  /// the first, so that the first one decides: nothing passes a wall, whatever
-  /// obstacles and damping did before. All other members go from the first to
-  /// the last. Forces add up in any order.
+  /// Velocities are corrected and energies recorded from the last interaction
+  /// to the first. The first interaction decides: nothing passes a wall,
+  /// whatever obstacles and damping did before. All other members go from the
+  /// first to the last. Forces add up in any order.
   template <int dim>
   class NodalInteractions
   {
   public:
-    /// Append an interaction of type @p Interaction made from @p arguments, and
-    /// return a reference that stays valid.
+    /// Append an interaction of type @p Interaction made from @p arguments.
+    /// Return a reference, valid for the lifetime of the list.
     template <typename Interaction, typename... Arguments>
     Interaction &
     add(Arguments &&...arguments)

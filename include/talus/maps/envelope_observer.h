@@ -13,14 +13,14 @@
 
 namespace talus
 {
-  /// An observer that looks at the columns of a plan in every step, and writes
-  /// their envelope whenever fields are due. Whoever derives from it says which
-  /// columns these are, and writes the files.
+  /// Observer that samples the columns of a plan during the run and writes
+  /// their envelope whenever fields are due. A derived class defines the
+  /// columns and writes the files.
   template <int dim>
   class EnvelopeObserver : public Observer<dim>
   {
   public:
-    /// @p name of the state in checkpoints.
+    /// @p name identifies the envelope in checkpoints.
     EnvelopeObserver(const std::string           &name,
                      Problem<dim>                &problem,
                      std::shared_ptr<MapSettings> settings);
@@ -39,7 +39,7 @@ namespace talus
     void
     observe(const State<dim> &state) override;
 
-    /// Nothing if it is switched off.
+    /// Add the envelope to the state of the run if the observer is enabled.
     void
     list_state(StateList &list) override;
 
@@ -65,8 +65,8 @@ namespace talus
       return *settings_;
     }
 
-    /// Path of a file of this name in the folder of the run, which whoever
-    /// asks writes now.
+    /// Return the path of file @p name in the output folder, and remember the
+    /// file for sync(). The caller writes the file now.
     std::filesystem::path
     path_of_output(const std::filesystem::path &name);
 
@@ -80,7 +80,7 @@ namespace talus
       return {};
     }
 
-    /// The envelope, on the first rank.
+    /// Write the envelope to files. Called on the first rank only.
     virtual void
     write_files(const State<dim> &state) = 0;
 

@@ -7,7 +7,7 @@
 
 namespace talus
 {
-  /// boundaries.csv: forces of the soil on each face of the mesh that has a
+  /// boundaries.csv: force of the soil on each face of the mesh with a
   /// condition.
   template <int dim>
   class BoundaryForces : public ReactionTable<dim>
@@ -15,7 +15,7 @@ namespace talus
   public:
     explicit BoundaryForces(const BoundaryReactions<dim> &reactions);
 
-    /// If the parameters of the boundaries ask for it.
+    /// Whether the parameter `Boundaries/Write forces` is set.
     bool
     is_enabled(const OutputSettings &settings) const override;
 

@@ -9,23 +9,23 @@
 
 namespace talus
 {
-  /// Energy budget of the run, over all ranks; J, in 2-D J per metre width:
-  ///   remainder = energies supplied - energies taken - change of energies stored,
-  /// every term counted from the start of the motion. The points store kinetic
-  /// energy, elastic energy and plastic work; all other terms are those of
-  /// State::accounts, the work of gravity among them. The kinetic energy of the
-  /// points enters the budget, so the remainder holds the energy that the
-  /// transfer dissipates. A negative remainder is energy made from nothing.
+  /// Energy budget of the run over all ranks, J; in 2-D J per metre width:
+  ///   remainder = energies supplied - energies taken - change of stored energies.
+  /// Every term counts from the start of the motion. The points store kinetic
+  /// energy, elastic energy and plastic work; State::accounts has all other
+  /// terms, such as the work of gravity. The budget uses the kinetic energy of
+  /// the points, so the remainder contains the dissipation of the transfer. A
+  /// negative remainder is energy made from nothing.
   template <int dim>
   class EnergyBudget
   {
   public:
-    /// Count from the present state. Collective.
+    /// Begin the budget at @p state. Collective.
     void
     begin(const State<dim> &state);
 
-    /// Return the terms, the kinetic energy of the background grid, which is no
-    /// part of the budget, and the remainder. Collective.
+    /// Return the terms, the kinetic energy of the background grid (no part of
+    /// the budget), and the remainder. Collective.
     Quantities
     evaluate(const State<dim> &state) const;
 

@@ -9,15 +9,15 @@
 
 namespace talus
 {
-  /// obstacles.csv: forces of the soil on each obstacle, and how much soil is
-  /// below its surface. doc/output.md lists the columns.
+  /// obstacles.csv: force of the soil on each obstacle, and volume and depth of
+  /// soil below the surface. doc/output.md lists the columns.
   template <int dim>
   class ObstacleForces : public ReactionTable<dim>
   {
   public:
     explicit ObstacleForces(const FacetContact<dim> &contact);
 
-    /// Where there are obstacles.
+    /// Whether obstacles exist.
     bool
     is_enabled(const OutputSettings &settings) const override;
 
@@ -49,8 +49,8 @@ namespace talus
     struct Penetration
     {
       double volume   = 0; ///< m^dim
-      double deepest  = 0; ///< m
-      double in_cells = 0; ///< the same in cells
+      double deepest  = 0; ///< maximum depth, m
+      double in_cells = 0; ///< maximum depth [cells]
     };
 
     std::vector<Penetration>

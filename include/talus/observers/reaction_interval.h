@@ -9,19 +9,19 @@
 
 namespace talus
 {
-  /// Means and extremes of the force of the soil on a surface since the previous
-  /// row of a table.
+  /// Means and extremes of the force of the soil on a surface since the
+  /// previous row of a table.
   template <int dim>
   class ReactionInterval
   {
   public:
     /// Add a step of @p dt, s. The running mean of the force forgets past steps
-    /// as exp(-t/T) with T = @p averaging_time, s, so that impacts of single
-    /// steps do not count; without memory if T is 0.
+    /// as exp(-t/T) with T = @p averaging_time, s: impacts of single steps do
+    /// not count. If T is 0, the running mean is the force of the step.
     void
     add(const StepReaction<dim> &step, double dt, double averaging_time);
 
-    /// Begin a new interval. The running mean goes on.
+    /// Begin a new interval. The running mean continues.
     void
     restart();
 
@@ -36,15 +36,15 @@ namespace talus
     void
     list_state(const std::string &name, StateList &list);
 
-    /// Largest components of the force of a step in the interval, N.
+    /// Maximum of each component of the force in a step of the interval, N.
     const dealii::Tensor<1, dim> &
     max() const
     {
       return max_;
     }
 
-    /// Running mean of the force, and its smallest and largest components in the
-    /// interval, N.
+    /// Running mean of the force, and minimum and maximum of each component in
+    /// the interval, N.
     const dealii::Tensor<1, dim> &
     running_mean() const
     {

@@ -11,9 +11,8 @@
 namespace talus
 {
   /// Table of the forces of the soil on surfaces, one row per interval of the
-  /// statistics: means over all steps since the previous row, extremes of these
-  /// steps, impulses and works since the start. A derived class names the
-  /// surfaces.
+  /// statistics: means and extremes over all steps since the previous row;
+  /// impulses and works since the start. A derived class names the surfaces.
   template <int dim>
   class ReactionTable : public QuantityTable<dim>
   {
@@ -31,7 +30,7 @@ namespace talus
     void
     observe(const State<dim> &state) override;
 
-    /// Nothing if there are no surfaces.
+    /// Add the intervals to the state of the run, unless there are no surfaces.
     void
     list_state(StateList &list) override;
 
@@ -41,11 +40,12 @@ namespace talus
     list_reaction(unsigned int k, Quantities &row) const;
 
   private:
-    /// One per surface; none if there is no such table.
+    /// Return one reaction per surface, none if the table is disabled.
     virtual const std::vector<Reaction<dim>> &
     reactions() const = 0;
 
-    /// Name of surface @p k, and the word before it in checkpoints.
+    /// Name of surface @p k, and kind of surface: both in the names of
+    /// checkpoint entries.
     virtual const std::string &
     name(unsigned int k) const = 0;
     virtual std::string

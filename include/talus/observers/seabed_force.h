@@ -7,16 +7,17 @@
 
 namespace talus
 {
-  /// The force of the seabed on the soil along x: its mean since the time
-  /// before, since that of a single step tells little.
+  /// Force of the seabed on the soil along x, N: mean since the last restart().
+  /// The force of a single step tells little.
   template <int dim>
   class SeabedForce
   {
   public:
-    /// The time from which the next mean is taken. Collective.
+    /// Begin a new mean at the time of @p state. Collective.
     void
     restart(const State<dim> &state);
 
+    /// Append the mean force, N, and the impulse since the start, N s.
     /// Collective.
     void
     list_quantities(const State<dim> &state, Quantities &list) const;

@@ -16,32 +16,33 @@
 namespace talus
 {
   /// statistics.csv: one row of global quantities per output time, for plots
-  /// and tests. Places and speeds are those of the points' centres; quantities
-  /// of 2-D runs are per metre width.
+  /// and tests. Positions and speeds belong to the centres of the points;
+  /// quantities of 2-D runs are per metre width.
   ///
-  /// - `height [m]` is the largest one of a centre above the ground below it.
+  /// - `height [m]` is the maximum height of a centre above the ground.
   /// - `seabed force x [N]` is the mean force of the seabed on the soil since
-  ///   the row before (0 in the first one); `seabed impulse x [N s]` is the
-  ///   impulse since the start. Both are negative while friction brakes a
-  ///   slide that moves towards positive x.
-  /// - `kinetic energy [J]` is that of the points, `grid kinetic energy [J]`
-  ///   that of the background grid, without the points' FLIP noise: what tells
-  ///   whether the slide has come to rest. It is 0 before the first step.
+  ///   the previous row (0 in the first row); `seabed impulse x [N s]` is the
+  ///   impulse since the start. Both are negative while friction brakes a slide
+  ///   towards positive x.
+  /// - `kinetic energy [J]` belongs to the points. `grid kinetic energy [J]`
+  ///   belongs to the background grid, without the FLIP noise of the points,
+  ///   and shows whether the slide has come to rest; 0 before the first step.
   /// - `clipped boxes` counts axes of boxes that the weights clip now.
-  /// - The energy terms are those of EnergyBudget; the columns from `empty
-  ///   interior cells` on are those of FractureCounts, of the splitter and
-  ///   of the merger.
+  /// - EnergyBudget gives the energy terms; FractureCounts, the splitter and
+  ///   the merger give the columns from `empty interior cells` on.
   template <int dim>
   class Statistics : public TableObserver<dim>
   {
   public:
-    /// @p obstacles that belong to the ground, null for none, must outlive it.
+    /// @p obstacles may belong to the ground; null for none. They must outlive
+    /// the statistics.
     explicit Statistics(const Obstacles<dim> *obstacles = nullptr);
 
-    /// Appends the quantities of somebody; collective.
+    /// Function that appends further quantities. Collective.
     using Source = std::function<void(const State<dim> &, Quantities &)>;
 
-    /// Add columns behind those of motion, seabed, energies and fractures.
+    /// Add columns behind the columns of motion, seabed, energies and
+    /// fractures.
     void
     add_source(const Source &source);
 
@@ -50,7 +51,7 @@ namespace talus
           const State<dim>     &state,
           Beginning             beginning = Beginning::fresh) override;
 
-    /// Count energies from here.
+    /// Begin the energy budget and the mean of the seabed force at @p state.
     void
     start(const State<dim> &state) override;
 
@@ -58,12 +59,12 @@ namespace talus
     void
     observe(const State<dim> &state) override;
 
-    /// What a row holds, in the order of the columns; right on the first rank.
-    /// Collective.
+    /// Return the quantities of a row in the order of the columns, complete on
+    /// the first rank. Collective.
     Quantities
     evaluate(const State<dim> &state, bool with_runout = true) const;
 
-    /// Names of the columns; collective.
+    /// Return the headings of the columns. Collective.
     std::vector<std::string>
     names(const State<dim> &state, bool with_runout) const;
 

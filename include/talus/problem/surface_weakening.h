@@ -9,9 +9,9 @@
 
 namespace talus
 {
-  /// Lets the trigger weaken seabeds and the surfaces of obstacles: multiplies
-  /// their maximum shear stresses by the factor of the end of the step, as the
-  /// trigger does with the strength of the points.
+  /// Lets the trigger weaken seabeds and surfaces of obstacles: multiplies the
+  /// maximum shear stresses by the trigger's factor at the end of the step, as
+  /// the trigger does with the strength of the points.
   template <int dim>
   class SurfaceWeakening : public NodalInteraction<dim>
   {

@@ -8,9 +8,8 @@
 
 namespace talus
 {
-  /// Remark that the soil does not touch the ground under it: the contact area
-  /// differs from the footprint (see list_contact_area()) by more than a
-  /// twentieth.
+  /// Remark that soil does not touch the ground below: the contact area differs
+  /// from the footprint (see list_contact_area()) by more than a twentieth.
   template <int dim>
   class ContactAreaRemark : public RemarkObserver<dim>
   {

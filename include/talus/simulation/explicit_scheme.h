@@ -18,9 +18,9 @@
 
 namespace talus
 {
-  /// The material point method: explicit in time, with generalized
-  /// interpolation, stress updated last, and points split where they were
-  /// stretched too far. @cite bardenhagen2002, @cite esub
+  /// Explicit material point method: generalized interpolation,
+  /// update-stress-last scheme, and split of points stretched too far.
+  /// @cite bardenhagen2002, @cite esub
   template <int dim>
   class ExplicitScheme
   {
@@ -31,22 +31,24 @@ namespace talus
                    BackgroundMesh<dim> &mesh,
                    PhaseTimer          &timer);
 
-    /// One step, not beyond @p end_time, s. Returns the greatest of the requests
-    /// of all ranks for after the step; @p own is that of this one. Collective.
+    /// Advance by one step, at most to @p end_time, s. @p own is the request of
+    /// this rank for the time after the step; return the maximum over all
+    /// ranks. Collective.
     RunRequest
     advance(double end_time, RunRequest own);
 
-    /// What the points of all ranks allow in this state, s. Collective.
+    /// Return the stable time step of the present state, s, minimum over the
+    /// points of all ranks. Collective.
     double
     stable_time_step();
 
-    /// Throw ExcUser if a run to @p end_time, s, would take so many steps that it
-    /// cannot end, or if there are more points than the splitter allows.
-    /// Collective.
+    /// Throw ExcUser if a run to @p end_time, s, would take too many steps to
+    /// end, or if there are more points than the splitter allows. Collective.
     void
     check_effort(double end_time);
 
-    /// Sentence with that step and what limits it. Collective.
+    /// Return a sentence with time, stable time step, and limiting condition.
+    /// Collective.
     std::string
     description();
 

@@ -9,14 +9,14 @@
 
 namespace talus
 {
-  /// Writes one remark to the log, the first time in a run that there is a reason
-  /// for it. Looks when a row of statistics is due. A derived class knows the
-  /// reason and the sentence.
+  /// Writes a remark to the log, once per run, as soon as there is a reason.
+  /// Checked when a row of statistics is due. A derived class knows reason and
+  /// sentence.
   template <int dim>
   class RemarkObserver : public Observer<dim>
   {
   public:
-    /// @p name of the remark in checkpoints.
+    /// @p name identifies the remark in checkpoints.
     RemarkObserver(const std::string &name, Log &log)
       : name_(name)
       , log_(log)
@@ -47,14 +47,13 @@ namespace talus
       list.add(name_, "-", is_written_, Reduction::equal);
     }
 
-    /// Do nothing: the log is no result.
+    /// Do nothing: the log is not a result.
     void
     sync() override
     {}
 
   private:
-    /// Return the remark, empty on all ranks if there is no reason for it.
-    /// Collective.
+    /// Return the remark, empty on all ranks if there is no reason. Collective.
     virtual std::string
     remark(const State<dim> &state) const = 0;
 

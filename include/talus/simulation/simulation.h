@@ -20,45 +20,46 @@
 
 namespace talus
 {
-  /// A submarine landslide, or any other motion of soft bodies on a mesh: sets
-  /// up or resumes a run, leads it through its stages to the end time, and looks
-  /// after output and checkpoints. The work is done by the parts.
+  /// Simulation of a submarine landslide, or of another motion of soft bodies
+  /// on a mesh: sets up or resumes a run, leads the run through its stages to
+  /// the end time, and directs output and checkpoints. The parts do the work.
   template <int dim>
   class Simulation : public dealii::ParameterAcceptor
   {
   public:
     explicit Simulation(const ParameterPreview &preview);
 
-    /// Throw ExcUser if the parameters, which have been parsed, contradict each
-    /// other. Makes mesh and points, but writes nothing.
+    /// Make mesh and points from the parsed parameters. Throws ExcUser if
+    /// parameters contradict each other. Writes nothing. Collective.
     void
     set_up();
 
-    /// In place of set_up(): go on from the newest checkpoint in the output
-    /// folder. Throws ExcUser if there is none that fits. Writes nothing.
+    /// Load the newest checkpoint in the output folder; replaces set_up().
+    /// Throws ExcUser if no checkpoint fits. Writes nothing. Collective.
     void
     resume();
 
-    /// Let run() start anew over the checkpoints of an unfinished run.
+    /// Let run() overwrite the checkpoints of an unfinished run.
     void
     allow_overwriting()
     {
       checkpoint_.allow_overwriting();
     }
 
-    /// Throw ExcUser if run() would refuse to write into the output folder as it
-    /// is, unless another run is under way there. Writes nothing. Collective.
+    /// Throw ExcUser if run() would refuse the present output folder, except
+    /// because of another active run in the folder. Writes nothing. Collective.
     void
     check_output_folder() const;
 
-    /// Say what run() will do, with all remarks: mesh, points, cells across the
-    /// thinnest body, time step, and an estimate of the wall time by some steps,
-    /// after which the state is no longer that of the start. Writes nothing.
+    /// Log what run() will do, with all remarks: mesh, points, cells across the
+    /// thinnest body, time step, and an estimate of the wall time from some
+    /// steps. The state then is later than the start. Writes no files.
     /// Collective.
     void
     forecast();
 
-    /// Return "1 remark" or the like; empty if none was made. For the first rank.
+    /// Return the number of remarks as text, for example "1 remark"; empty
+    /// without remarks. Call on the first rank only.
     std::string
     count_of_remarks() const
     {
@@ -66,26 +67,26 @@ namespace talus
     }
 
     /// Compute from the start, or the checkpoint, to the end of the run, with
-    /// output: to the end time, or until the soil is at rest or has left the
-    /// mesh. Returns false if the run was stopped before that, by a signal or by
-    /// its limit of wall time; then resume() can go on.
+    /// output. A run ends at the end time, or when the soil is at rest or has
+    /// left the mesh. Return false if a signal or the limit of wall time
+    /// stopped the run earlier; resume() can then continue.
     bool
     run();
 
-    /// The stages before the dynamics. run() does this; to be called once
-    /// before advance() by who does not call run(). Returns false if the run
-    /// was stopped between two of them.
+    /// Run the stages before the dynamics. Part of run(); without run(), call
+    /// once before advance(). Return false if the run was stopped between two
+    /// stages.
     bool
     run_static_stages();
 
-    /// One step of the scheme, without output.
+    /// Advance by one step without output.
     void
     advance()
     {
       scheme_.advance(end_time_, RunRequest::none);
     }
 
-    /// Emergency output after an error. Returns the path of the file.
+    /// Write the state after an error. Return the path of the file.
     std::string
     write_last_state()
     {
@@ -165,7 +166,7 @@ namespace talus
     StaticStages<dim>   static_stages_;
     RestDetector<dim>   rest_;
     Checkpoint<dim>     checkpoint_;
-    FoundCheckpoint     resumed_from_; ///< no path in a run from the start
+    FoundCheckpoint     resumed_from_; ///< empty path in a new run
   };
 } // namespace talus
 

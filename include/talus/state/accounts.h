@@ -13,11 +13,11 @@
 
 namespace talus
 {
-  /// Terms of the energy budget and impulses on the soil, by name. The part of
-  /// the program that exchanges energy or momentum with the soil opens an account
-  /// before the run and records the amounts of every step. Tables, energy budget
-  /// and checkpoints list whatever accounts are open. All amounts are the share
-  /// of this rank since the start of the run.
+  /// Terms of the energy budget and impulses on the soil, by name. A part of
+  /// the program that exchanges energy or momentum with the soil opens an
+  /// account before the run and records the amounts of every step. Tables,
+  /// energy budget and checkpoints list all open accounts. All amounts are the
+  /// share of this rank since the start of the run.
   template <int dim>
   class Accounts
   {
@@ -34,7 +34,7 @@ namespace talus
       /// Energy stored by the points of this rank, J.
       using Stored = std::function<double(const Points<dim> &)>;
 
-      std::string name; ///< of the column, without unit
+      std::string name; ///< heading of the column, without unit
       EnergyKind  kind;
       double      value = 0; ///< J; 0 for a stored energy
       Stored      stored;    ///< for a stored energy only
@@ -46,8 +46,8 @@ namespace talus
       dealii::Tensor<1, dim> value; ///< on the soil, N s
     };
 
-    /// Open the account @p name at zero. An account that is open already is
-    /// shared by all who open it.
+    /// Open the account @p name at zero. All who open the same name share the
+    /// account.
     void
     open_energy(const std::string &name, EnergyKind kind = EnergyKind::taken);
     void
@@ -66,7 +66,7 @@ namespace talus
     const dealii::Tensor<1, dim> &
     impulse(const std::string &name) const;
 
-    /// Terms of the energy budget in the order in which they were opened.
+    /// Terms of the energy budget in the order of opening.
     const std::deque<Energy> &
     energies() const
     {

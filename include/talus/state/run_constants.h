@@ -10,13 +10,12 @@
 
 namespace talus
 {
-  /// Numbers that follow from parameters and initial mesh and stay as they are
-  /// for the whole run.
+  /// Constants of a run, which follow from parameters and initial mesh.
   template <int dim>
   struct RunConstants
   {
     BoxShape box_shape; ///< how the boxes of the points deform
-    /// Mass of a node below which the node carries no momentum, kg.
+    /// Maximum mass of a node without momentum, kg.
     double mass_cutoff = 0;
     /// Mass of water that moves with the soil divided by the mass of the soil
     /// [-], by body; empty without added mass.

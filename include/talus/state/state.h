@@ -11,10 +11,11 @@
 
 namespace talus
 {
-  /// State of a simulation: everything that a step changes. Points, accounts and
-  /// counts are the share of this rank; observers sum over the ranks. Between two
-  /// steps the points are sorted by cell, and the nodal fields are left over from
-  /// the previous step (none at the start); no result depends on them.
+  /// State of a simulation: everything that a step changes. Points, accounts
+  /// and counts are the share of this rank; observers sum over the ranks.
+  /// Between two steps the points are sorted by cell. The nodal fields are left
+  /// over from the previous step (none at the start), and no result depends on
+  /// them.
   template <int dim>
   struct State
   {
@@ -28,8 +29,8 @@ namespace talus
       return grid.communicator();
     }
 
-    /// Add all but points and mesh, which a checkpoint holds by itself, to the
-    /// list.
+    /// Add everything except points and mesh, which a checkpoint stores
+    /// separately.
     void
     list_state(StateList &list)
     {
@@ -41,11 +42,11 @@ namespace talus
     }
 
     Points<dim>        points;
-    StepWorkspace<dim> workspace; ///< of the phases of a step
+    StepWorkspace<dim> workspace; ///< data between phases of a step
     Grid<dim>          grid;
     NodalFields<dim>   nodes;
     RunConstants<dim>  constants;     ///< set before the first step
-    Accounts<dim>      accounts;      ///< of energy and impulses
+    Accounts<dim>      accounts;      ///< energies and impulses
     Outflow<dim>       outflow;       ///< soil that left the mesh so far
     double             time      = 0; ///< s
     double             time_step = 0; ///< length of the last step, s

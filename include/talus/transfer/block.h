@@ -75,8 +75,9 @@ namespace talus
       const unsigned int *patch; ///< nodes around the cell, see Cell::patch
     };
 
-    /// A point that no group contains: it reaches into a cell of another size, or
-    /// its domain is not a box. Its weights are computed by weights_of_point().
+    /// A point without a group: the box of the point reaches into a cell of
+    /// another size, or the domain of the point is not a box.
+    /// weights_of_point() computes the weights.
     struct IrregularPoint
     {
       unsigned int k; ///< index in the block
