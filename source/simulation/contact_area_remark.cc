@@ -21,7 +21,7 @@ namespace talus
     return text(std::setprecision(4),
                 "At t = ",
                 state.time,
-                " s soil touches ",
+                " s the soil touches ",
                 area.value,
                 ' ',
                 area.unit,
@@ -29,10 +29,10 @@ namespace talus
                 footprint.value,
                 ' ',
                 footprint.unit,
-                " of ground under it, a ratio of ",
+                " of ground below, a ratio of ",
                 ratio,
-                "; expected 0.95 to 1.05. Soil is in the air there, "
-                "or friction acts on a wrong area: look at the fields, and "
+                "; expected 0.95 to 1.05. Either soil is in the air, or "
+                "friction acts on a wrong area: look at the fields, and "
                 "compare with smaller cells.");
   }
 

@@ -309,7 +309,7 @@ namespace talus
                              dt,
                              " s to 'End time' = ",
                              end_time,
-                             " s, which cannot end. Check the units of "
+                             " s and cannot end. Check the units of "
                              "stiffness, density, cell size, velocities and "
                              "'End time', and 'Time step/Maximum'.")));
     const double n_points =
@@ -321,8 +321,8 @@ namespace talus
                              " points, more than 'Splitting/Maximum number of "
                              "points' = ",
                              max_points,
-                             ". Allow more points, or make fewer: by larger "
-                             "cells or fewer points per cell.")));
+                             ". Allow more points, or use larger cells or "
+                             "fewer points per cell.")));
   }
 
 

@@ -50,8 +50,8 @@ namespace talus
                   Patterns::Double(0.));
     add_parameter("End when at rest",
                   ends_at_rest_,
-                  "Whether a slide that has come to rest ends the run before "
-                  "the end time; the section Rest says what rest is.");
+                  "Whether the run ends before the end time when the slide is "
+                  "at rest; the section Rest defines rest.");
     output_.add_row_observer(
       std::make_unique<ObstacleForces<dim>>(problem_.contact));
     output_.add_row_observer(
@@ -451,7 +451,7 @@ namespace talus
   {
     const CheckpointHead &head = resumed_from_.head;
     for (const std::string &error : resumed_from_.errors)
-      log_.remark(error + " The run goes on from the one before.");
+      log_.remark(error + " The run continues from the previous checkpoint.");
     if (const std::string missing =
           output_.missing_files(state_.communicator());
         !missing.empty())
@@ -460,10 +460,9 @@ namespace talus
              output_.folder(),
              "' lacks ",
              missing,
-             ", which the run wrote before and somebody has removed or "
-             "cut short. The run goes on, and ends with an error unless what "
-             "is missing "
-             "is put back."));
+             ", written by the run and since then removed or cut short. The "
+             "run continues, and ends with an error unless the missing files "
+             "are restored."));
     std::string sentence = text("Resumed at t = ",
                                 state_.time,
                                 " s, step ",
@@ -472,11 +471,11 @@ namespace talus
                                 resumed_from_.path.string(),
                                 "'.");
     if (head.version != TALUS_VERSION || head.revision != TALUS_GIT_REVISION)
-      sentence += text(" That was written by talus ",
+      sentence += text(" The checkpoint was written by talus ",
                        head.version,
                        ", revision '",
                        head.revision,
-                       "', another one than this.");
+                       "', which is not the present program.");
     log_.say(LogLevel::info, sentence);
     note_time_step(state_.step == 0 ? LogLevel::info : LogLevel::detail);
   }
@@ -547,7 +546,7 @@ namespace talus
                     : ", after a signal to another rank",
                   "; the state is in '",
                   path.string(),
-                  "'. Go on with the same command and --resume.",
+                  "'. Continue with the same command and --resume.",
                   log_.count_of_remarks().empty()
                     ? ""
                     : " (" + log_.count_of_remarks() + ")"));

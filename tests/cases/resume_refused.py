@@ -81,7 +81,7 @@ class ResumeRefused(Case):
         log = (self.folder / "run" / "log.txt").read_text()
         for text in (result.stdout, log):
             self.assertIn(sentence, text)
-            self.assertIn("The run goes on from the one before.", text)
+            self.assertIn("The run continues from the previous checkpoint.", text)
         self.assertIn(f", from '{previous}'", log)
         # It made way for one that is whole.
         self.assertNotIn(newest, self.checkpoints("run"))

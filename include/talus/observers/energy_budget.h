@@ -10,7 +10,7 @@
 namespace talus
 {
   /// Energy budget of the run over all ranks, J; in 2-D J per metre width:
-  ///   remainder = energies supplied - energies taken - change of stored energies.
+  ///   remainder = energy supplied - energy taken - change of energy stored.
   /// Every term counts from the start of the motion. The points store kinetic
   /// energy, elastic energy and plastic work; State::accounts has all other
   /// terms, such as the work of gravity. The budget uses the kinetic energy of

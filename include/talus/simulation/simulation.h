@@ -53,8 +53,8 @@ namespace talus
 
     /// Log what run() will do, with all remarks: mesh, points, cells across the
     /// thinnest body, time step, and an estimate of the wall time from some
-    /// steps. The state then is later than the start. Writes no files.
-    /// Collective.
+    /// steps. Afterwards the state is no longer the initial state. Writes no
+    /// files. Collective.
     void
     forecast();
 
