@@ -141,8 +141,8 @@ namespace talus
   ///
   /// The transfer treats the two kinds of cells differently: points in uniform
   /// cells find their nodes in the patch. In other cells, points that reach
-  /// across need weights by definition (see split_off_irregular_points()). A graded
-  /// mesh therefore has extra cost only where sizes meet.
+  /// across need weights by definition (see split_off_irregular_points()). A
+  /// graded mesh therefore has extra cost only where sizes meet.
   template <int dim>
   void
   CellCache<dim>::link_cell(const unsigned int c)

@@ -14,9 +14,9 @@ namespace talus
 
   namespace
   {
-    /// Compute the row of an irregular_point from its weights by definition. The row
-    /// has the layout of the kernel, with the gradient per cell size, so that
-    /// move_points() treats all points alike.
+    /// Compute the row of an irregular point from its weights by definition.
+    /// The row has the layout of the kernel, with the gradient per cell size,
+    /// so that move_points() treats all points alike.
     template <int dim>
     void
     interpolate_irregular_point(
@@ -126,11 +126,12 @@ namespace talus
 
 
   // Each block is processed in two parts with different layouts. Interpolation
-  // groups point by point, with the entries of a node side by side in a register.
-  // The update of the points groups entry by entry, with several points side by
-  // side. MotionEntries transposes in between, within the first-level cache.
-  // Positions move with the velocity of the grid, because the noise in the
-  // velocities of the points would let points pass through one another.
+  // groups point by point, with the entries of a node side by side in a
+  // register. The update of the points groups entry by entry, with several
+  // points side by side. MotionEntries transposes in between, within the
+  // first-level cache. Positions move with the velocity of the grid, because
+  // the noise in the velocities of the points would let points pass through one
+  // another.
   //
   // OrderedSum makes the power independent of the width of the registers.
   template <int dim>

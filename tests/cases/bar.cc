@@ -22,8 +22,8 @@ namespace
 
   const Overrides unsplit = {"Splitting/Enabled=false"};
 
-  /// (v_cm - exact)/v0 at each row. A velocity lives half a step before the time
-  /// of its row: @p at is its place within the step.
+  /// (v_cm - exact)/v0 at each row. A velocity lives half a step before the
+  /// time of its row: @p at is its place within the step.
   std::vector<double>
   deviation(const Table &table, const double v0, const double at = 0.5)
   {
@@ -141,8 +141,9 @@ TEST(Bar, SplittingDoesNotShowInTheVelocity)
 
 
 
-// The strain v0/c cos(b x) sin(w t) passes beta - 1 where cos(b x) > 0.025 c/v0:
-// x < 0.4196 L, first beside the fixed end at t = 4.59 s.
+// The strain v0/c cos(b x) sin(w t) passes beta - 1 where
+// cos(b x) > 0.025 c/v0: x < 0.4196 L, first beside the fixed end at
+// t = 4.59 s.
 TEST(Bar, SplitsWhereAndWhenTheStrainSaysSo)
 {
   Case<2> bar("bar.prm", {});
@@ -176,8 +177,8 @@ TEST(Bar, SplitsWhereAndWhenTheStrainSaysSo)
 
 
 
-// Boxes that follow the bar give the same, whatever the rule. Fixed boxes tile no
-// children and do not follow the bar: all errors are up to 0.2 % larger.
+// Boxes that follow the bar give the same, whatever the rule. Fixed boxes tile
+// no children and do not follow the bar: all errors are up to 0.2 % larger.
 TEST(Bar, OtherBoxRules)
 {
   Verification gates("Bar of the paper",
@@ -231,8 +232,8 @@ TEST(Bar, EndOnAFaceOfTheCells)
 
 
 // In the linear range the error is that of the method: second order. At the
-// times of the rows, dt/2 after those of the velocities, an error of first order
-// in dt adds up: that column is there for comparison.
+// times of the rows, dt/2 after those of the velocities, an error of first
+// order in dt adds up: that column is there for comparison.
 TEST(BarConvergence, SecondOrderInTheCellSize)
 {
   Refinement refinement("linear-bar"), at_rows("linear-bar-at-rows");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A stiff block on a plane of 30 degrees, prm/verification/block-on-incline.prm.
+// A stiff block on a plane of 30 degrees,
+// prm/verification/block-on-incline.prm.
 
 #include "case.h"
 #include "verification.h"
@@ -55,9 +56,9 @@ TEST(Block, CoulombFriction)
 
 
 
-// At rest under its own weight: with gravity switched on at once the block rings
-// and, as any elastic body on Coulomb friction, slips whenever its base is
-// unloaded.
+// At rest under its own weight: with gravity switched on at once the block
+// rings and, as any elastic body on Coulomb friction, slips whenever its base
+// is unloaded.
 TEST(Block, SticksBelowTheAngleOfFriction)
 {
   const std::string weight = "2000*9.81*(1-y)";

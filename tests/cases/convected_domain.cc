@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // Large rotation and large stretch with domains that go with the material,
-// prm/verification/cantilever.prm and hanging-cube*.prm, against finite elements.
+// prm/verification/cantilever.prm and hanging-cube*.prm, against finite
+// elements.
 
 #include "case.h"
 #include "elastic_block.h"
@@ -235,7 +236,7 @@ TEST(Cantilever, BoxesTear)
 
 
 
-// ---------------------------------------------------------------- hanging block
+// --------------------------------------------------------------- hanging block
 
 namespace
 {

@@ -491,8 +491,8 @@ namespace
 
 
 
-// Elastic soil, since it does not fail: its shear stress near the mudline is that
-// of the slope, 0.04 of the weight of a cell at the depth h/2.
+// Elastic soil, since it does not fail: its shear stress near the mudline is
+// that of the slope, 0.04 of the weight of a cell at the depth h/2.
 TEST(ClaySlope, ShearStressInCutCells)
 {
   Verification    gates("Slope of elastic soil between two flats",

@@ -99,8 +99,9 @@ TEST(Geostatic, LayersInSpace)
 
 
 
-// Side by side, boxes of two sizes take the product of s_xx and dN/dx, both linear
-// in y, at their centres; the errors do not cancel, so equilibrium is not exact.
+// Side by side, boxes of two sizes take the product of s_xx and dN/dx, both
+// linear in y, at their centres; the errors do not cancel, so equilibrium is
+// not exact.
 TEST(Geostatic, LayersOnCellsOfTwoSizes)
 {
   expect_layers_at_rest<2>("cells of two sizes",

@@ -36,8 +36,9 @@ namespace
 
 
 // Seen from the ground, what flies has the acceleration g(t) - a(t), which is
-// uniform; velocities live at half steps, so that they are sums of dt g(t^n). So
-// soft that the nodes which carry next to nothing, and are skipped, hardly matter.
+// uniform; velocities live at half steps, so that they are sums of dt g(t^n).
+// So soft that the nodes which carry next to nothing, and are skipped, hardly
+// matter.
 TEST(GroundMotion, SeenFromTheGround)
 {
   Case<2>    block(block_file,

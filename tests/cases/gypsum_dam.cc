@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// A Bingham fluid runs out on a base that holds it, gypsum-dam.prm, and comes to
-// rest. Its soil is sheared by the thousand: with a deformation gradient that only
-// grows, det F of a point is round-off after 55 s (h = 1 m) and the run ends.
+// A Bingham fluid runs out on a base that holds it, gypsum-dam.prm, and comes
+// to rest. Its soil is sheared by the thousand: with a deformation gradient
+// that only grows, det F of a point is round-off after 55 s (h = 1 m) and the
+// run ends.
 
 #include "case.h"
 
@@ -14,9 +15,10 @@ using namespace talus::cases;
 
 namespace
 {
-  /// Length of the deposit whose weight the yield stress of 1 kPa just holds, m.
-  /// Balance h dh/dx = tau_y / (rho g) gives a parabola; its area is that of the
-  /// dam, 11 m x 110 m. Inertia carries the soil farther, so it cannot be shorter.
+  /// Length of the deposit whose weight the yield stress of 1 kPa just holds,
+  /// m. Balance h dh/dx = tau_y / (rho g) gives a parabola; its area is that of
+  /// the dam, 11 m x 110 m. Inertia carries the soil farther, so it cannot be
+  /// shorter.
   double
   length_in_balance()
   {

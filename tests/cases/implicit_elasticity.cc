@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The column under its own weight and the cantilever of the dynamics, brought to
-// equilibrium in load steps.
+// The column under its own weight and the cantilever of the dynamics, brought
+// to equilibrium in load steps.
 
 #include "column.h"
 #include "static_case.h"

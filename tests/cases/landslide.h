@@ -40,7 +40,8 @@ namespace talus::cases
   void
   expect_rest(Verification &gates, const Table &table);
 
-  /// All of the above, as it holds with splitting, and the conservation of splits.
+  /// All of the above, as it holds with splitting, and the conservation of
+  /// splits.
   void
   expect_split_landslide(Verification &gates, const Table &table, double share);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 // The landslide of the paper with vertical gravity on a seabed that is inclined
-// through the mesh, prm/landslide-inclined.prm, against the same slide on a seabed
-// that is a face of the mesh.
+// through the mesh, prm/landslide-inclined.prm, against the same slide on a
+// seabed that is a face of the mesh.
 
 #include "case.h"
 #include "landslide.h"
@@ -67,9 +67,9 @@ namespace
 
 
 
-  /// The largest part of the momentum along x and y that neither gravity brought,
-  /// along the slope that the axes of the mesh have, nor @p obstacles took, over
-  /// M g t.
+  /// The largest part of the momentum along x and y that neither gravity
+  /// brought, along the slope that the axes of the mesh have, nor @p obstacles
+  /// took, over M g t.
   double
   unexplained_momentum(const Table                    &table,
                        const Table                    &forces,
@@ -176,8 +176,8 @@ TEST(LandslideInclined, RunsAsOnTheFaceOfTheMesh)
 
 
 
-// A pipe on the bed, so that two obstacles share nodes, near enough to the toe to
-// be hit. Nodes with less mass than the cut-off lose theirs: here none do.
+// A pipe on the bed, so that two obstacles share nodes, near enough to the toe
+// to be hit. Nodes with less mass than the cut-off lose theirs: here none do.
 TEST(LandslideInclined, MomentumOfAllObstaclesCloses)
 {
   const Table table  = run<2>(inclined_file,

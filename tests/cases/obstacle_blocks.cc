@@ -242,8 +242,8 @@ TEST(BlockOnPlane, SticksBelowTheAngleOfFriction)
 
 
 
-// Gravity at once, and friction that would do at rest: the ringing must not wear
-// the block loose.
+// Gravity at once, and friction that would do at rest: the ringing must not
+// wear the block loose.
 TEST(BlockOnPlane, SticksAlthoughItRings)
 {
   Verification gates(
@@ -508,8 +508,8 @@ namespace
     }
 
     /// Square of the angular velocity at the bottom, by Runge and Kutta's
-    /// method: I y'/2 = -M g r_c sin - (mu N + tau L) R with y = phi'^2, and the
-    /// normal force N = M (g cos + r_c y) of a block that is short.
+    /// method: I y'/2 = -M g r_c sin - (mu N + tau L) R with y = phi'^2, and
+    /// the normal force N = M (g cos + r_c y) of a block that is short.
     double
     y_at_bottom() const
     {
@@ -570,8 +570,8 @@ TEST(Arc, CoulombFriction)
 
 
 
-// With E = 1e7 Pa the block rests on some of its facets only, and they pass 69 % of
-// the cap.
+// With E = 1e7 Pa the block rests on some of its facets only, and they pass
+// 69 % of the cap.
 TEST(Arc, CappedInterface)
 {
   const std::string file = "verification/arc.prm";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// One point of soil, driven by velocities on the faces of a mesh of one cell, as in
-// a test in the laboratory.
+// One point of soil, driven by velocities on the faces of a mesh of one cell,
+// as in a test in the laboratory.
 
 #include "case.h"
 #include "driven.h"

@@ -100,7 +100,8 @@ namespace runout_test
            "runout-path",
            {"Runout/Path=0, 0; -2, 0; -2, -1", "End time=0.2"});
     const Table table = runout_of("runout-path");
-    // The columns of the block reach from x = 1 m to -1 m, in front of the bend.
+    // The columns of the block reach from x = 1 m to -1 m, in front of the
+    // bend.
     EXPECT_DOUBLE_EQ(table["rear along path [m]"].front(), -1.);
     EXPECT_DOUBLE_EQ(table["front along path [m]"].front(), 1.);
     EXPECT_EQ(table["runout [m]"].front(), 0.);

@@ -104,8 +104,8 @@ TEST(StrengthWithDepth, MovesWithTheSoil)
 
 
 
-// Least of s_u/(gamma z sin) over the depth z, by an expression, by a table, and
-// with a stiffness that follows.
+// Least of s_u/(gamma z sin) over the depth z, by an expression, by a table,
+// and with a stiffness that follows.
 TEST(StrengthWithDepth, FactorOfSafetyOfInfiniteSlopes)
 {
   const double      gamma = 1e4 * std::sin(20. * M_PI / 180.); // N/m^3

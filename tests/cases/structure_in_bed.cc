@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Soil that runs against a structure which stands in the bed: box-in-bed.prm. The
-// surfaces of bed and structure end where they meet; soil must not get below the
-// bed there. With facets that were dropped whole 12 to 14 % of it did, 2.7 cells
-// deep.
+// Soil that runs against a structure which stands in the bed: box-in-bed.prm.
+// The surfaces of bed and structure end where they meet; soil must not get
+// below the bed there. With facets that were dropped whole 12 to 14 % of it
+// did, 2.7 cells deep.
 
 #include "case.h"
 
@@ -14,7 +14,8 @@ namespace
 {
   const double end_time = 20.; // s
 
-  /// Run the jet against the box with the bed at the height @p y, m, at its face.
+  /// Run the jet against the box with the bed at the height @p y, m, at its
+  /// face.
   void
   expect_no_leak(const std::string &name,
                  const std::string &y,

@@ -25,8 +25,8 @@ namespace
 
 
 
-  /// Write a raster of 90 x 80 cells of 4 m around the map's place (4e5, 6.5e6),
-  /// and return the path of its file.
+  /// Write a raster of 90 x 80 cells of 4 m around the map's place (4e5,
+  /// 6.5e6), and return the path of its file.
   std::string
   write(const std::string                           &name,
         const std::function<double(double, double)> &height)
@@ -130,8 +130,8 @@ TEST(Terrain, LayersInThreeDimensions)
 
 
 
-// Outside of the release area slip surface and mudline are one, and curved: what
-// their errors leave between them is no soil. A box is 12.5 m wide.
+// Outside of the release area slip surface and mudline are one, and curved:
+// what their errors leave between them is no soil. A box is 12.5 m wide.
 TEST(Terrain, NoSoilBetweenSurfacesThatGoOnAsOne)
 {
   if (!MapProjection::is_available())

@@ -27,8 +27,8 @@ namespace thin_layers
     constexpr double density = 2000.;                     // kg/m^3
     const double     drive   = g * std::sin(17 * degree); // m/s^2
 
-    /// A bed turned by an angle, degrees, through the mesh and lifted by a height,
-    /// m: places and directions along it.
+    /// A bed turned by an angle, degrees, through the mesh and lifted by a
+    /// height, m: places and directions along it.
     struct Bed
     {
       Bed(const double angle, const double height = 0)
@@ -70,8 +70,8 @@ namespace thin_layers
 
 
 
-    /// A slab 20 cells long and @p thickness m thick on a plane through the mesh,
-    /// with its friction coefficient and maximum shear stress.
+    /// A slab 20 cells long and @p thickness m thick on a plane through the
+    /// mesh, with its friction coefficient and maximum shear stress.
     Overrides
     slab_on_plane(const Bed         &bed,
                   const double       thickness,
@@ -333,8 +333,9 @@ namespace thin_layers
         return dt;
       }
 
-      /// Force of a slice along the sheet, N/m, tension positive: weight, strength
-      /// (2 s_u against stretching or shortening), and a viscosity for bores.
+      /// Force of a slice along the sheet, N/m, tension positive: weight,
+      /// strength (2 s_u against stretching or shortening), and a viscosity for
+      /// bores.
       double
       normal_force(const unsigned int i, const double dt) const
       {
@@ -401,8 +402,9 @@ namespace thin_layers
 
 
 
-  // Friction, whatever brakes beyond gravity, is what the thickness in cells must
-  // not change: the sheet thins from 2.5 or 5 cells to a tenth of one at its ends.
+  // Friction, whatever brakes beyond gravity, is what the thickness in cells
+  // must not change: the sheet thins from 2.5 or 5 cells to a tenth of one at
+  // its ends.
   TEST(ThinLayers, SheetThatThinsOut)
   {
     Verification gates("Sheet of clay that thins out, 3 degrees",
@@ -444,8 +446,8 @@ namespace thin_layers
 
 
 
-  // Mud that sticks to its base: cells too coarse for the sheared layer need the
-  // film.
+  // Mud that sticks to its base: cells too coarse for the sheared layer need
+  // the film.
   TEST(ThinLayers, SheetOnAFilm)
   {
     Verification gates(

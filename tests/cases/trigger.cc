@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Strength that falls in time: soil that yields with it, an interface that lets go
-// of a layer, and points that split.
+// Strength that falls in time: soil that yields with it, an interface that lets
+// go of a layer, and points that split.
 
 #include "case.h"
 #include "driven.h"
@@ -89,8 +89,8 @@ TEST(Trigger, YieldStressFollowsInTime)
 
 
 // At rest until the interface bears less than the weight drives the layer with;
-// from then on the momentum is the integral of what is in excess, whatever waves
-// there are in the layer.
+// from then on the momentum is the integral of what is in excess, whatever
+// waves there are in the layer.
 TEST(Trigger, InterfaceLetsGo)
 {
   for (const double duration : {0., 2.})
@@ -129,9 +129,9 @@ TEST(Trigger, InterfaceLetsGo)
 
 
 // A slope at rest by K0 whose lowest row of cells becomes weak. There all shear
-// takes place, so that the nodes above, which carry the soil from h/2 upwards, go
-// together; the points between them and the bottom follow half as fast. That is
-// so but for an error of first order: points beside a base without slip keep
+// takes place, so that the nodes above, which carry the soil from h/2 upwards,
+// go together; the points between them and the bottom follow half as fast. That
+// is so but for an error of first order: points beside a base without slip keep
 // what the node at the base is not allowed to take.
 namespace
 {

@@ -12,14 +12,15 @@
 #include <string>
 #include <vector>
 
-// Runs the program as often as it is asked to, each time in a process of its own,
-// but loads its libraries only once. deal.II brings two hundred of them, which
-// takes longer than most of what the tests of bad input ask for.
+// Runs the program as often as it is asked to, each time in a process of its
+// own, but loads its libraries only once. deal.II brings two hundred of them,
+// which takes longer than most of what the tests of bad input ask for.
 //
-// A request comes on standard input: how many arguments there are, the time limit
-// in seconds, the folder to run in, files for standard output and standard error,
-// and the arguments, each ended by a zero byte. The answer is a line with the exit
-// status or, as a negative number, the signal that ended the run.
+// A request comes on standard input: how many arguments there are, the time
+// limit in seconds, the folder to run in, files for standard output and
+// standard error, and the arguments, each ended by a zero byte. The answer is a
+// line with the exit status or, as a negative number, the signal that ended the
+// run.
 
 namespace
 {

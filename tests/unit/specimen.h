@@ -19,8 +19,8 @@ namespace talus
 
 
   /// For a section of its own: several laws may be alive in one test,
-  /// ParameterAcceptor::clear() must not meet living objects, and what is parsed
-  /// is written to those that died, too.
+  /// ParameterAcceptor::clear() must not meet living objects, and what is
+  /// parsed is written to those that died, too.
   inline std::string
   name_of_new_soil()
   {

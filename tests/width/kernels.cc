@@ -53,8 +53,8 @@ namespace
 
 
 
-  /// Points with a column for the law and one for the factor of the strength, in
-  /// plain memory.
+  /// Points with a column for the law and one for the factor of the strength,
+  /// in plain memory.
   template <int dim>
   struct State
   {

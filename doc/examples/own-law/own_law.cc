@@ -5,7 +5,8 @@
 
 using namespace talus;
 
-// W = lambda/2 (J - 1)^2 + mu/2 (tr(F F^T) - 3 - 2 ln J), for one point or many.
+// W = lambda/2 (J - 1)^2 + mu/2 (tr(F F^T) - 3 - 2 ln J), for one point or
+// many.
 struct Energy
 {
   Moduli moduli;

@@ -91,7 +91,8 @@ namespace talus
       return n_merges_;
     }
 
-    /// Largest relative error of the conserved quantities [-]; see ConservationCheck.
+    /// Largest relative error of the conserved quantities [-]; see
+    /// ConservationCheck.
     double
     conservation_error() const
     {

@@ -104,8 +104,8 @@ namespace talus
 
 
 
-    /// Interpolate the motion to point @p k of the group and store the row of the
-    /// point.
+    /// Interpolate the motion to point @p k of the group and store the row of
+    /// the point.
     template <int dim>
     TALUS_ALWAYS_INLINE void
     interpolate(const typename Block<dim>::SameNodesGroup &group,

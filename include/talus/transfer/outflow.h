@@ -36,8 +36,9 @@ namespace talus
     bool
     is_beyond(const dealii::Point<dim> &x, const Box<dim> &domain) const;
 
-    /// Add point @p p to the account. @p added_mass is RunConstants::added_mass: added
-    /// mass divided by mass [-] of each body, or empty.
+    /// Add point @p p to the account. @p added_mass is
+    /// RunConstants::added_mass: added mass divided by mass [-] of each body,
+    /// or empty.
     void
     record(const Points<dim>         &points,
            unsigned int               p,

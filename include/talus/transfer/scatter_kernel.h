@@ -171,8 +171,8 @@ namespace talus
 
 
 
-    /// Add register @p part of the contributions of the points of a group to the
-    /// nodal sums.
+    /// Add register @p part of the contributions of the points of a group to
+    /// the nodal sums.
     template <int dim, unsigned int part>
     TALUS_ALWAYS_INLINE void
     add_register(const Contributions<dim>                  &contributions,

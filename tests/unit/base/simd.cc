@@ -352,8 +352,8 @@ namespace
 
 
 
-  /// The error is at most @p ulp(x) times that of rounding, and the bits are the
-  /// same however many are computed side by side.
+  /// The error is at most @p ulp(x) times that of rounding, and the bits are
+  /// the same however many are computed side by side.
   template <typename Function, typename Exact, typename Tolerance>
   void
   expect_exact(const std::vector<double> &x,

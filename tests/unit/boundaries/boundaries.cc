@@ -329,7 +329,8 @@ namespace
 
 
 
-  /// Soil that has not come to the seabed by more than the gap is let fall to it.
+  /// Soil that has not come to the seabed by more than the gap is let fall to
+  /// it.
   TEST(Seabed, GapLeavesRoomToFall)
   {
     Core<2> core(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Checkpoints that no run has written: whatever is in the newest, it is noticed,
-// without a crash and without memory for what is not there, and the one before it
-// is used. Preset `sanitize` runs this under AddressSanitizer.
+// Checkpoints that no run has written: whatever is in the newest, it is
+// noticed, without a crash and without memory for what is not there, and the
+// one before it is used. Preset `sanitize` runs this under AddressSanitizer.
 
 #include <talus/checkpoint/checkpoint.h>
 #include <talus/checkpoint/checkpoint_folder.h>
@@ -22,8 +22,8 @@ namespace
   namespace fs = std::filesystem;
   using Bytes  = std::vector<char>;
 
-  /// Put an attribute of this type and extent (0: one value) in the place of the
-  /// one that is there.
+  /// Put an attribute of this type and extent (0: one value) in the place of
+  /// the one that is there.
   void
   replace_attribute(const hid_t        file,
                     const std::string &object,
@@ -60,8 +60,8 @@ namespace
 
 
 
-  /// Put an array of any type and extents in the place of the one that is there;
-  /// without values nothing of it is in the file.
+  /// Put an array of any type and extents in the place of the one that is
+  /// there; without values nothing of it is in the file.
   void
   replace_array(const hid_t                 file,
                 const std::string          &name,
@@ -378,8 +378,8 @@ namespace
 
 
 
-  // One to four bits anywhere, and files that end early. Where nothing is noticed,
-  // all that is loaded is as it was.
+  // One to four bits anywhere, and files that end early. Where nothing is
+  // noticed, all that is loaded is as it was.
   TEST_F(CraftedCheckpoint, FlippedBits)
   {
     std::mt19937 random(7);

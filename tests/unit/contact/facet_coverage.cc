@@ -29,8 +29,8 @@ namespace
       obstacles.prepare(Constants());
     }
 
-    /// A box 0.3 m high, @p gap m above the bed, from @p lower to @p upper along
-    /// x, and in 3-D along all of z in boxes of 0.5 m.
+    /// A box 0.3 m high, @p gap m above the bed, from @p lower to @p upper
+    /// along x, and in 3-D along all of z in boxes of 0.5 m.
     void
     add_box(const double lower, const double upper, const double gap)
     {

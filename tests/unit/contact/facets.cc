@@ -93,8 +93,8 @@ TEST(Facets, SurfaceOfABallIsClosed)
 
 
 
-// On a plane the facets have the plane's normal, and their contact points lie on
-// it.
+// On a plane the facets have the plane's normal, and their contact points lie
+// on it.
 TEST(Facets, OfAPlaneLieOnIt)
 {
   const double       angle = 17 * M_PI / 180;
@@ -155,9 +155,9 @@ TEST(Facets, SumsAtNodesOfAllRanks)
 
 
 
-// Where two obstacles overlap, no contact point of one lies inside of the other,
-// and each surface ends where it enters the other: the outline of the union. An
-// arc ends in the plane under the angle asin(0.2 / 1.3).
+// Where two obstacles overlap, no contact point of one lies inside of the
+// other, and each surface ends where it enters the other: the outline of the
+// union. An arc ends in the plane under the angle asin(0.2 / 1.3).
 TEST(Facets, OfABallInAPlane)
 {
   const Cut<2> cut({"ball", "plane"},
@@ -236,8 +236,8 @@ TEST(Facets, OfABoxInABed3d)
 
 
 
-// The foot of a box that stands on the bed is no surface, and neither is the bed
-// under it.
+// The foot of a box that stands on the bed is no surface, and neither is the
+// bed under it.
 TEST(Facets, OfABoxOnTheBed)
 {
   for (const double y : {2., 2.25, 2.5})

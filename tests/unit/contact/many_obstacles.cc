@@ -5,8 +5,8 @@
 
 namespace many_obstacles_test
 {
-  /// A row of balls of 0.8 m, one each 10 m (20 cells), on a bed, and soil around
-  /// the ball at x = @p centre.
+  /// A row of balls of 0.8 m, one each 10 m (20 cells), on a bed, and soil
+  /// around the ball at x = @p centre.
   struct Row : Statics<2>
   {
     Row(const std::vector<double> &centres, const double centre)

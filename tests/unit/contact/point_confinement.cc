@@ -120,8 +120,8 @@ TEST(PointConfinement, ObstacleThatMoves)
 
 
 
-// Where a wall meets the bed, the centroid of the bed in that cell lies inside of
-// the wall: it bears nothing, but points must not slip through it.
+// Where a wall meets the bed, the centroid of the bed in that cell lies inside
+// of the wall: it bears nothing, but points must not slip through it.
 TEST(PointConfinement, CornerOfTwoObstacles)
 {
   SoilOnObstacles soil(

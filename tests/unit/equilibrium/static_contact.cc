@@ -193,8 +193,8 @@ TEST(StaticContactTest, FrictionIsWithinItsLimit)
 
 
 
-// Also while the load comes on, step by step: what the seabed bears belongs to the
-// load that is on, R = f_int - load f_ext.
+// Also while the load comes on, step by step: what the seabed bears belongs to
+// the load that is on, R = f_int - load f_ext.
 TEST(StaticContactTest, FrictionIsWithinItsLimitAtEachLoadStep)
 {
   for (const auto &[friction, cap] :

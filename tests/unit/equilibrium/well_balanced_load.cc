@@ -44,8 +44,8 @@ namespace well_balanced_load_test
 
 
 
-    /// Level ground of elastic soil from @p bottom to @p top in a mesh of 6 m x 4 m
-    /// (x 2 m) with cells of 1 m, under the pressure of its weight.
+    /// Level ground of elastic soil from @p bottom to @p top in a mesh of 6 m x
+    /// 4 m (x 2 m) with cells of 1 m, under the pressure of its weight.
     template <int dim>
     struct LevelGround : Statics<dim>
     {
@@ -148,9 +148,9 @@ namespace well_balanced_load_test
 
 
 
-  // The bed bears the pressure of the weight to begin with: then this is in balance
-  // with the weight wherever mudline and bed cut their cells, and no point changes
-  // its stress. The weight as it is leaves shear stresses.
+  // The bed bears the pressure of the weight to begin with: then this is in
+  // balance with the weight wherever mudline and bed cut their cells, and no
+  // point changes its stress. The weight as it is leaves shear stresses.
   TEST(WellBalancedLoad, LevelGroundIsAtRest)
   {
     for (const double top : {2.95, 2.62, 2.31})

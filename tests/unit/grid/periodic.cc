@@ -21,8 +21,9 @@ namespace
 
 
 
-  /// Sums at the nodes of the copy in the middle of a mesh that is not periodic;
-  /// @p scale becomes the largest of that mesh (on a single node forces cancel).
+  /// Sums at the nodes of the copy in the middle of a mesh that is not
+  /// periodic; @p scale becomes the largest of that mesh (on a single node
+  /// forces cancel).
   template <int dim>
   SumsByPlace<dim>
   sums_in_the_middle(const Periodic<dim> &periodic, NodeSums<dim> &scale)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The strength factor of the points, a column, in the laws that have a strength.
+// The strength factor of the points, a column, in the laws that have a
+// strength.
 
 #include <talus/base/errors.h>
 
@@ -148,8 +149,8 @@ TEST(StrengthFactor, OfSoilThatSoftensIsLimited)
 
 
 // The strength falls and nothing moves: the stress outside the yield surface
-// comes back to it, and what the shear had stored, V s:s/(4 mu), becomes plastic
-// work. The trapezoidal rule is exact here.
+// comes back to it, and what the shear had stored, V s:s/(4 mu), becomes
+// plastic work. The trapezoidal rule is exact here.
 TEST(StrengthFactor, SuddenDropReleasesWhatWasStored)
 {
   for (const std::string name : {"von Mises", "Herschel-Bulkley"})
@@ -193,7 +194,8 @@ TEST(StrengthFactor, SuddenDropReleasesWhatWasStored)
 
 
 // The strength falls while the soil is sheared, at constant volume and without
-// rotation: stored is V s:s/(4 mu) at any time, the rest of the work is plastic.
+// rotation: stored is V s:s/(4 mu) at any time, the rest of the work is
+// plastic.
 TEST(StrengthFactor, WorkIsStoredOrDissipatedWhileItFalls)
 {
   for (const std::string &name : laws_with_strength)

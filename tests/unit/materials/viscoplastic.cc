@@ -87,11 +87,11 @@ TEST(Viscoplastic, NoTimeNoFlow)
 
 
 
-// In steps of dgamma the stress ends at (sxx, sxy) = R (cos(t), sin(t)). With the
-// half rotation a of rate_laws.cc, what a step adds and the return removes are
-// i mu dgamma = (R + mu D) exp(i (t + a)) - R exp(i (t - a)), so the plastic
-// shear is D = dgamma sin(t)/cos(a): backward Euler is exact where nothing
-// changes. In small steps sxy is s_u + K rate^n.
+// In steps of dgamma the stress ends at (sxx, sxy) = R (cos(t), sin(t)). With
+// the half rotation a of rate_laws.cc, what a step adds and the return removes
+// are i mu dgamma = (R + mu D) exp(i (t + a)) - R exp(i (t - a)), so the
+// plastic shear is D = dgamma sin(t)/cos(a): backward Euler is exact where
+// nothing changes. In small steps sxy is s_u + K rate^n.
 TEST(Viscoplastic, SteadySimpleShear)
 {
   const auto check =

@@ -38,8 +38,8 @@ TEST(ReactionInterval, MeanOfAConstantForce)
 
 
 
-// After a force F ends, its mean falls as F exp(-t/T), however the time is divided
-// into steps.
+// After a force F ends, its mean falls as F exp(-t/T), however the time is
+// divided into steps.
 TEST(ReactionInterval, MeanDecays)
 {
   for (const unsigned int n : {1u, 10u, 1000u})

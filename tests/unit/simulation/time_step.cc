@@ -204,8 +204,8 @@ namespace
 
 
 
-  /// The step that one point allows, box of 0.3 m in cells of 1 m, over the time
-  /// in which a wave crosses a cell.
+  /// The step that one point allows, box of 0.3 m in cells of 1 m, over the
+  /// time in which a wave crosses a cell.
   double
   relative_time_step(const Tensor<2, 3> &F)
   {

@@ -86,7 +86,8 @@ namespace
             continue;
           }
         EXPECT_NEAR(now.norm(), 500., 1.);
-        // The volume that F was made with, but for the round-off of its entries.
+        // The volume that F was made with, but for the round-off of its
+        // entries.
         EXPECT_NEAR(determinant(now), 0.9, 4e-15 * F[p].norm_square());
         // M = now F^-1 is symmetric: it does not turn the material.
         const Tensor<2, dim> M = now * invert(F[p]);

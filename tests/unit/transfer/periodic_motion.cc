@@ -217,8 +217,8 @@ namespace
 
 
 
-  /// The same blob in a wide mesh with faces and across the seams of a mesh that
-  /// repeats: all that differs is round-off.
+  /// The same blob in a wide mesh with faces and across the seams of a mesh
+  /// that repeats: all that differs is round-off.
   template <int dim>
   void
   expect_same_flight(const unsigned int width)

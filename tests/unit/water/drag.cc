@@ -120,8 +120,8 @@ namespace
 
   constexpr double length_of_layer = 60.; // m, or cells
 
-  /// Friction on a layer of @p thickness cells and 60 cells in length, on a plane
-  /// through (0, @p height) that rises by @p angle, compared to its top.
+  /// Friction on a layer of @p thickness cells and 60 cells in length, on a
+  /// plane through (0, @p height) that rises by @p angle, compared to its top.
   double
   friction_on_layer(const double thickness,
                     const double angle,
@@ -184,8 +184,8 @@ namespace
 
 
 
-// The sharp edges of the layer are cut off: at its ends friction misses less than a
-// cell, of 60, as soon as the layer is as thick as a cell.
+// The sharp edges of the layer are cut off: at its ends friction misses less
+// than a cell, of 60, as soon as the layer is as thick as a cell.
 TEST(WaterDrag, LayersOfAnyThickness)
 {
   for (const double thickness : {0.125, 0.25, 0.5, 0.75, 1., 2.})
@@ -246,8 +246,8 @@ TEST(WaterDrag, NosesInSpace)
 
 
 
-// Soil on a plane through the cells, from wall to wall: the free surface lies above
-// the ground of the mesh, and goes along the plane.
+// Soil on a plane through the cells, from wall to wall: the free surface lies
+// above the ground of the mesh, and goes along the plane.
 TEST(WaterDrag, SurfaceAlongAPlane)
 {
   const Tensor<1, 2> along  = direction<2>(0, std::atan(0.2));

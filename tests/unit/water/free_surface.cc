@@ -135,9 +135,9 @@ namespace
 
 
 
-// The front and the rear of the paper's trapezoid are sqrt(8.66^2 + 5^2) m long,
-// its crest is 31.34 m. Its outline is closed: what the free surface lacks is
-// the base.
+// The front and the rear of the paper's trapezoid are sqrt(8.66^2 + 5^2) m
+// long, its crest is 31.34 m. Its outline is closed: what the free surface
+// lacks is the base.
 TEST(FreeSurfaceOfSoil, PapersTrapezoid)
 {
   Soil<2> soil(paper_mesh, is_in_trapezoid);
