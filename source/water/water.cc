@@ -241,8 +241,9 @@ namespace talus
 
 
 
-  // The Froude number of the whole slide: mean velocity of the soil, and volume
-  // divided by the area of the free surface projected along gravity.
+  // The Froude number belongs to the whole slide: mean velocity, and volume of
+  // the soil divided by the area of the free surface projected along y, with
+  // the component of gravity along -y.
   template <int dim>
   void
   Water<dim>::list_quantities(const State<dim> &state, Quantities &list) const

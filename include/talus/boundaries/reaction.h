@@ -21,8 +21,8 @@ namespace talus
   {
     static constexpr unsigned int n_moments = (dim == 2 ? 1 : 3);
 
-    dealii::Tensor<1, dim>        impulse;    ///< total, N s
-    dealii::Tensor<1, dim>        tangential; ///< part by friction, N s
+    dealii::Tensor<1, dim>        impulse;           ///< total, N s
+    dealii::Tensor<1, dim>        tangential;        ///< part by friction, N s
     std::array<double, n_moments> angular_impulse{}; ///< about the reference
                                                      ///< point, N m s
     double area          = 0;                        ///< in contact, m^(dim-1)
