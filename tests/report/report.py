@@ -30,6 +30,9 @@ from talus_tools.parameters import Defaults
 from talus_tools.report.film import entries, painted, palette_image, rasters
 from talus_tools.report.places import routes_of, stations_of
 from talus_tools.report.run import Run
+from talus_tools.report.sections.cut import cut_points, cut_surface
+from talus_tools.report.sections.thalweg import columns_of
+from talus_tools.report.way import Way, way_of
 from talus_tools.report.write import write_report
 
 ALWAYS = ["notices", "what-was-run", "runout", "thalweg", "mass", "momentum", "energy", "fracture",
@@ -217,7 +220,7 @@ class Report(ReportCase):
                             "End time=0.1", file="landslide-3d.prm")
         page = self.report(folder)
         self.assert_has(page, "soil", "motion")
-        self.assertIn("Section at z =", page.said("soil"))
+        self.assertIn("Upright section along the", page.said("soil"))
         self.assertEqual(page.said("what-was-run").count("not known"), 0)
 
 
@@ -420,6 +423,80 @@ class Places(unittest.TestCase):
                 "Stations/Points": f"A: {place} | B 2: {place}"})
             self.assertEqual({name: tuple(at) for name, at in stations_of(run).items()},
                              {"A": (1200, 1950), "B 2": (1200, 1950)})
+
+
+class Ways(ReportCase):
+    """Lengthwise sections follow the way of the slide in plan."""
+
+    def bent(self):
+        """3 m along x, then along z."""
+        return Way(numpy.array([[0.0, 0.0], [3.0, 0.0], [3.0, 5.0]]), "", "")
+
+    def test_project(self):
+        places = numpy.array([[-2.0, 1.0], [1.0, -1.0], [4.0, 2.0], [3.0, 9.0]])
+        along, away, direction = self.bent().project(places)
+        self.assertEqual(along.tolist(), [-2, 1, 5, 12])
+        self.assertEqual(away.tolist(), [1, 1, 1, 0])
+        self.assertEqual(direction.tolist(), [[1, 0], [1, 0], [0, 1], [0, 1]])
+
+    def test_cut(self):
+        """A plane y = x + 2 z is met along the way with its own slopes, without gaps."""
+        corners = numpy.array([[[x, x + 2 * z, z] for x, z in triangle] for triangle in
+                               ([[-9.1, -9.2], [9.3, -9.4], [-9.5, 9.6]],
+                                [[9.3, -9.4], [-9.5, 9.6], [9.7, 9.8]])])
+        lines = cut_surface(corners, self.bent())
+        for s, y in lines.reshape(-1, 2):
+            self.assertAlmostEqual(y, s if s < 3 else 3 + 2 * (s - 3), places=12)
+        ends = lines[lines[:, :, 0].min(axis=1).argsort()][:, :, 0]
+        self.assertAlmostEqual(numpy.abs(numpy.diff(ends, axis=1)).sum(), numpy.ptp(ends))
+        self.assertGreater(numpy.ptp(ends), 20)
+
+    def downhill(self, name, *settings):
+        """A block that slides to the west-north-west on a plane of 20 degrees."""
+        return self.slide(name, "Output/Boxes as cells=false", "Grid/Cell size=0.5", "End time=2",
+                          *settings, file="../tests/cases/block-downhill-3d.prm")
+
+    def test_west_north_west(self):
+        folder = self.downhill("downhill")
+        run = Run(str(folder))
+        way = way_of(run)
+        columns = columns_of(run, way)
+        # The bed falls along the way as the plane does, tan(20 degrees); along x it is 0.336.
+        places, bed = columns.bed()
+        self.assertAlmostEqual(numpy.polyfit(places, bed, 1)[0], -math.tan(math.pi / 9),
+                               delta=0.003)
+        # Front and rear are those of runout.csv, where the way is computed in the program.
+        last = read_csv(folder / "runout.csv")[-1]
+        table = run.tables["profile"]
+        thick = (table["time [s]"] == 2) & (table["thickness [m]"] >= 0.05)
+        along, _, _ = way.project(numpy.stack([table["x [m]"], table["z [m]"]], axis=-1)[thick])
+        self.assertAlmostEqual(along.max() + 0.25, float(last["front along path [m]"]))
+        self.assertAlmostEqual(along.min() - 0.25, float(last["rear along path [m]"]))
+        # The section goes through the block: it is as long there as its sides of 2 m, which the
+        # way crosses at 22.5 degrees, and 1 m high, less what the plane is inclined.
+        outlines, _ = cut_points(*run.series("points").read(2), way)
+        self.assertAlmostEqual(numpy.ptp(outlines[..., 0]), 2 / math.cos(math.pi / 8), delta=0.3)
+        page = self.report(folder)
+        for section in ("thalweg", "soil"):
+            self.assertIn("along the way of the centre of mass", page.said(section))
+
+    def test_path_of_the_user(self):
+        """In coordinates of the map, from east to west."""
+        folder = self.downhill("path", "Grid/Origin=1000, 2000, 0", "Runout/Coordinates=map",
+                               "Runout/Path=1002, 1999; 998, 1999", "End time=0.3")
+        run = Run(str(folder))
+        self.assertEqual(way_of(run).corners.tolist(), [[2, 1], [-2, 1]])
+        self.assertIn("along the path of the section Runout", self.report(folder).said("soil"))
+
+    def test_compare(self):
+        """The deposit of two 3-D runs over the bed along the way of the first."""
+        a, b = self.downhill("a"), self.downhill("b", "Obstacles/ground/Friction coefficient=0.2")
+        page = self.folder / "compare.html"
+        result = self.tool("talus-compare", a, b, "--output", page)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        page = Page(self.folder, page.name)
+        self.assertIn("Along the way of the centre of mass of A", page.said("deposit"))
+        self.assertEqual(len(page.pictures("deposit")), 1)
 
 
 class Compare(Case):
