@@ -45,7 +45,8 @@ namespace talus
   /// of the way, a row whenever one of the statistics is due.
   ///
   /// The way is a polyline of the user, or that of the centre of mass so far,
-  /// from its place at the start. Front and rear are the outermost of the
+  /// from its place at the start until more than 1 % of the soil has left the
+  /// mesh. Front and rear are the outermost of the
   /// columns, as wide as a cell, in which soil is thicker than `Runout/Smallest
   /// thickness`; runout is how far the front is beyond that of the start, both
   /// measured along the way of now.
@@ -85,6 +86,7 @@ namespace talus
     {
       dealii::Point<2> place; ///< in plan, m
       double           speed; ///< in plan, m/s
+      double           mass;  ///< kg
     };
 
     std::vector<std::string>
@@ -94,10 +96,12 @@ namespace talus
     in_plan(const dealii::Point<dim> &x) const;
     Centre
     centre_of_mass(const State<dim> &state) const;
+    bool
+    has_way_ended(const Centre &centre) const;
     void
-    extend_way(const dealii::Point<2> &centre, double h);
+    extend_way(const Centre &centre, double h);
     std::vector<dealii::Point<2>>
-    way_until(const dealii::Point<2> &centre, double h) const;
+    way_until(const Centre &centre, double h) const;
     std::vector<double>
     row(const State<dim> &state, const Centre &centre) const;
 
@@ -107,6 +111,7 @@ namespace talus
     std::vector<dealii::Point<2>>    user_path_; ///< m; may be empty
     std::vector<dealii::Point<2>>    way_; ///< of the centre of mass so far, m
     std::vector<unsigned int>        release_; ///< columns; of the first rank
+    double                           mass_at_start_ = 0; ///< kg
   };
 } // namespace talus
 

@@ -9,6 +9,7 @@ from talus_tools.parameters import numbers
 from talus_tools.report.on_map import origin
 
 CORNER_DISTANCE = 4  # cells, between corners of the way of the centre of mass
+SHARE_OF_MASS = 0.99  # of the start, down to which that way goes on
 
 
 @dataclasses.dataclass
@@ -78,13 +79,20 @@ def user_corners(run):
 
 
 def corners_of_centre(run):
-    """Way of the centre of mass by statistics.csv: corners every four cells, as in runout.csv."""
-    centres = numpy.stack([run.statistics[f"centre {axis} [m]"] for axis in "xz"], axis=-1)
+    """Way of the centre of mass by statistics.csv: corners every four cells, and no further
+    once more than 1 % of the soil has left the mesh, as in runout.csv."""
+    table = run.statistics
+    centres = numpy.stack([table[f"centre {axis} [m]"] for axis in "xz"], axis=-1)
+    is_whole = table["mass [kg]"] >= SHARE_OF_MASS * table["mass [kg]"][0]
     distance = CORNER_DISTANCE * float(run.entries.get("Grid/Cell size", "0"))
     corners = [centres[0]]
-    for centre in centres[:-1]:
+    for centre, may_go_on in zip(centres[:-1], is_whole):
+        if len(corners) > 1 and not may_go_on:
+            break
         if numpy.linalg.norm(centre - corners[-1]) >= distance:
             corners.append(centre)
+    if len(corners) > 1 and not is_whole[-1]:
+        return numpy.array(corners)
     while len(corners) > 1 and numpy.linalg.norm(centres[-1] - corners[-1]) < distance / 2:
         corners.pop()
     if numpy.linalg.norm(centres[-1] - corners[-1]) > 0:
