@@ -343,10 +343,17 @@ class Maps(ReportCase):
             "time [s],A thickness [m],A speed [m/s],A 2 thickness [m],A 2 speed [m/s]\n"
             "0,0,0,0,0\n1,0.5,1.5,0,0\n2,0.25,3.5,0,0\n")
         (folder / "lines.csv").write_text(
-            "line,distance [m],maximum thickness [m]\n"
-            "cable,0,0.5\ncable,10,0.75\npipe,0,nan\n")
+            "line,distance [m],thickness at start [m],maximum bed shear [Pa],"
+            "maximum thickness [m]\n"
+            "cable,0,0,0,0.5\ncable,10,0,3,0.75\npipe,0,0,0,nan\npipe,5,0,0,0\n")
         page = self.report(folder)
         self.assertIn("cable maximum thickness 0.75 m 10 m", page.said("lines"))
+        # What is zero everywhere is not drawn, and what is looked for first comes first.
+        self.assertNotIn("thickness at start", page.said("lines"))
+        self.assertIn("No soil reached the line pipe.", page.said("lines"))
+        self.assertEqual(len(page.pictures("lines")), 2)
+        folded = [i for d in page.sections["lines"].iter("details") for i in d.iter("img")]
+        self.assertEqual(len(folded), 1)
         self.assertIn("maximum thickness 2.5 m x = 1 m", page.said("maps"))
         self.assertEqual(page.values["A speed [m/s]"], "3.5")
         self.assertNotIn("A 2 thickness", page.said("stations"))
@@ -479,6 +486,16 @@ class Ways(ReportCase):
         page = self.report(folder)
         for section in ("thalweg", "soil"):
             self.assertIn("along the way of the centre of mass", page.said(section))
+
+    def test_way_ends_where_soil_leaves(self):
+        """The centre of mass of the rest goes back up the slope."""
+        centre = numpy.array([0.0, 5, 9, 14, 12, 3, -4])
+        run = types.SimpleNamespace(dimension=3, entries={"Grid/Cell size": "1"}, statistics={
+            "centre x [m]": -centre, "centre z [m]": numpy.full(7, 2.0),
+            "mass [kg]": numpy.array([100, 100, 100, 99.5, 80, 50, 20])})
+        self.assertEqual(way_of(run).corners.tolist(), [[0, 2], [-5, 2], [-9, 2], [-14, 2]])
+        run.statistics["mass [kg]"] = numpy.full(7, 100.0)
+        self.assertEqual(len(way_of(run).corners), 6)
 
     def test_path_of_the_user(self):
         """In coordinates of the map, from east to west."""
