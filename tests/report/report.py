@@ -335,6 +335,11 @@ class Maps(ReportCase):
         self.assertEqual((maps / "ground.qml").read_text(), own)
         self.assertTrue((maps / "erosion.qml").exists())
 
+    def test_smallest_thickness(self):
+        run = Run(str(self.slide("thin", "Maps/Smallest thickness=0.25")))
+        self.assertEqual([run.smallest_thickness(section) for section in ("Maps", "Runout")],
+                         [0.25, 0.1])
+
     def test_lines_over_x_and_stations(self):
         folder = self.slide("2d")
         (folder / "maps.csv").write_text(
@@ -348,6 +353,9 @@ class Maps(ReportCase):
             "cable,0,0,0,0.5\ncable,10,0,3,0.75\npipe,0,0,0,nan\npipe,5,0,0,0\n")
         page = self.report(folder)
         self.assertIn("cable maximum thickness 0.75 m 10 m", page.said("lines"))
+        # A tenth of a cell of 1 m, or what the user says.
+        for section in ("lines", "maps"):
+            self.assertIn("0 where soil is thinner than 0.1 m", page.said(section))
         # What is zero everywhere is not drawn, and what is looked for first comes first.
         self.assertNotIn("thickness at start", page.said("lines"))
         self.assertIn("No soil reached the line pipe.", page.said("lines"))

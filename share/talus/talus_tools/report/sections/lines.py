@@ -5,6 +5,7 @@ import numpy
 
 from talus_tools.errors import UserError
 from talus_tools.report.page import COLORS, Cell, Folded, Lines, Rows, Section, embed, subplots
+from talus_tools.report.sections.maps import note_on_thin_soil
 from talus_tools.tables import read_lines
 from talus_tools.units import plain, show
 
@@ -80,4 +81,4 @@ def lines(run):
     missed = [name or "line" for name, columns in groups.items()
               if not any(has_soil(columns, quantity) for quantity in quantities)]
     return Section("lines", "Along lines", "Cables, pipelines and other lines on the ground, from "
-                   "their first corner on.", parts_of(groups, distances[0], quantities, missed))
+                   "their first corner on. " + note_on_thin_soil(run), parts_of(groups, distances[0], quantities, missed))
