@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cmath>
 #include <iostream>
+#include <regex>
 #include <sstream>
 
 namespace talus
@@ -37,7 +38,12 @@ namespace talus
         {
           std::ostringstream reason;
           exception.print_info(reason);
-          error = Utilities::trim(reason.str());
+          error = std::regex_replace(Utilities::trim(reason.str()),
+                                     std::regex("^Parsing Error at Column "
+                                                "\\d+\\. The parser said: "),
+                                     "");
+          if (!error.empty() && error.back() != '.')
+            error += '.';
         }
       std::cerr.rdbuf(terminal);
       return error;
