@@ -575,6 +575,10 @@ class Compare(Case):
                 (folder / "maps" / f"{name}.asc").write_text(
                     f"ncols 2\nnrows 2\nxllcorner {west}\nyllcorner {south}\ncellsize {size}\n"
                     "NODATA_value -9999\n" + " ".join(map(str, values)))
+        for folder, thickness in ((a, 0.75), (b, 1.75)):
+            (folder / "lines.csv").write_text(
+                "line,distance [m],x [m],z [m],maximum thickness [m]\n"
+                f"cable,0,0,0,0.5\ncable,10,10,0,{thickness}\npipe,0,0,5,0\npipe,9,9,5,0\n")
         # Of the centres of A's cells only the south-eastern one is in a cell of B, the
         # north-western one.
         grids = [read_grid(folder / "maps" / "maximum-thickness.asc") for folder in (a, b)]
@@ -584,6 +588,8 @@ class Compare(Case):
         self.assertIn("The rasters differ", page.said("maps"))
         self.assertIn("maximum thickness 4 m 1.5 m −4 m E 412030, N 6538030 0 %",
                       page.said("maps"))
+        self.assertIn("maximum thickness 1 m 10 m", page.said("lines"))
+        self.assertNotIn("pipe", page.said("lines"))
 
     def test_refused(self):
         plane = self.slide("plane")

@@ -9,11 +9,13 @@ from talus_tools.report.notices import notices
 from talus_tools.report.page import (BLUE, RED, WIDTH, Cell, Folded, Lines, Rows, Section, embed,
                                      subplots)
 from talus_tools.report.places import draw_places, places_of, structure_names
+from talus_tools.report.sections.lines import DISTANCE, FIRST as FIRST_ON_LINES, has_soil
 from talus_tools.report.sections.maps import (FIRST, FIRST_COLUMNS, GROUND, draw, limits, meaning,
                                               title, visible, window)
 from talus_tools.report.sections.stations import THICKNESS, columns_of
 from talus_tools.report.sections.thalweg import columns_of, magnification
 from talus_tools.report.way import way_of
+from talus_tools.tables import read_lines
 from talus_tools.units import plain, scaled, show, unit_of
 
 STYLES = ({"color": BLUE}, {"color": RED, "ls": "--"})
@@ -243,6 +245,22 @@ def stations(pair):
                    curves(pair, tables, names, "time [s]")) if names else None
 
 
+def lines(pair):
+    """What a reader looks for first along the lines that both have."""
+    both = [read_lines(run.path("lines.csv")) if run.has("lines.csv") else {} for run in pair.runs]
+    parts = []
+    for line in (line for line in both[0] if line in both[1]):
+        tables = [groups[line] for groups in both]
+        names = [name for name in tables[0] if name.startswith(FIRST_ON_LINES)
+                 and name in tables[1] and any(has_soil(table, name) for table in tables)]
+        distance = next(name for name in tables[0] if name.startswith(DISTANCE))
+        if names:
+            parts += [Lines([f"Along {line or 'the line'}:"]),
+                      *curves(pair, tables, names, distance)]
+    return Section("lines", "Along lines", "Largest values of the whole run along the lines that "
+                   "both have and soil reached.", parts) if parts else None
+
+
 def told(pair):
     """The notices of both reports."""
     return Section("notices-of-both", "Notices", "What to know of each run before its numbers are "
@@ -251,4 +269,5 @@ def told(pair):
                              for label, run in zip(pair.labels, pair.runs)])
 
 
-SECTIONS = [numbers, differing, maps, deposit, time_histories, forces, stations, told]
+SECTIONS = [numbers, differing, maps, deposit, time_histories, forces, stations, lines,
+            told]
