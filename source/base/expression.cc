@@ -263,6 +263,11 @@ namespace talus
 
   namespace
   {
+    /// Largest magnitude, as of numbers in the parameter file.
+    constexpr double largest_value = 1e30;
+
+
+
     template <int dim>
     std::string
     place_and_time(const std::string &variables,
@@ -296,6 +301,18 @@ namespace talus
                               place_and_time(variables_, x, t),
                               ", where a finite number was expected; correct "
                               "the expression.")));
+    AssertThrow(std::abs(result) <= largest_value,
+                ExcPoint(
+                  text(name_,
+                       " = '",
+                       expressions_,
+                       "' is ",
+                       result,
+                       place_and_time(variables_, x, t),
+                       ", which is larger than any quantity in SI units: "
+                       "at most ",
+                       largest_value,
+                       " was expected. Correct the expression.")));
     return result;
   }
 

@@ -255,6 +255,14 @@ class BadInput(Case):
         self.assert_refused(
             self.run_file(FULL, ["Obstacles/pipe/Centre=3.5,-1.1e30"]),
             "'Obstacles/pipe/Centre'", "-1.1e30", "1e+30")
+        for number in ("1e-320", "-1e-400"):
+            self.assert_refused(
+                self.run_file(FULL, [f"Obstacles/pipe/Centre=3.5,{number}"]),
+                "'Obstacles/pipe/Centre'", f"'{number}'", "closer to zero")
+        self.assert_refused(
+            self.run_file(FULL, ["Materials/clay/Law=von Mises", "Materials/clay/"
+                                 "Undrained shear strength=1e300*x"]),
+            "'Materials/clay/Undrained shear strength' = '1e300*x'", "1e+30")
         self.assert_untouched()
         result = self.run_file(FULL, ["Output/Field interval=1e30",
                                       "Title=at 1e300 m"])
