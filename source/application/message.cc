@@ -74,7 +74,7 @@ namespace talus
         {std::regex(
            "\\[Integer range (\\S+)\\.\\.\\.(\\S+) \\(inclusive\\)\\]"),
          "a whole number from $1 to $2"},
-        {std::regex("\\[Selection (.*?) ?\\]"), "one of $1"},
+        {std::regex("\\[Selection \\|?(.*?) ?\\]"), "one of $1"},
         {std::regex("\\[List of <(.*)> of length (\\S+)\\.\\.\\.(\\S+) "
                     "\\(inclusive\\)\\]"),
          "a list of $2 to $3 values, each $1,"},

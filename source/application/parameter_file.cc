@@ -14,6 +14,7 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -299,8 +300,11 @@ namespace talus
       std::istringstream words(value);
       for (std::string word; words >> word;)
         {
-          char        *end    = nullptr;
+          char *end           = nullptr;
+          errno               = 0;
           const double number = std::strtod(word.c_str(), &end);
+          const bool   is_lost_in_rounding =
+            errno == ERANGE && std::abs(number) < 1.;
           // Allow "inf", which means no limit in some entries.
           const bool is_number =
             *end == '\0' && word.find_first_of("0123456789") != word.npos;
@@ -314,6 +318,15 @@ namespace talus
                                    largest_number,
                                    " was expected. Correct the value, or omit "
                                    "the entry for no limit.")));
+          AssertThrow(!is_number || !is_lost_in_rounding,
+                      ExcUser(
+                        text("'",
+                             path,
+                             "' has '",
+                             word,
+                             "', which is closer to zero than numbers of "
+                             "double precision can be. Give 0, or correct "
+                             "the value.")));
         }
     }
 

@@ -9,6 +9,7 @@
 #include <cctype>
 #include <cmath>
 #include <iostream>
+#include <regex>
 #include <sstream>
 
 namespace talus
@@ -38,7 +39,12 @@ namespace talus
         {
           std::ostringstream reason;
           exception.print_info(reason);
-          error = Utilities::trim(reason.str());
+          error = std::regex_replace(Utilities::trim(reason.str()),
+                                     std::regex("^Parsing Error at Column "
+                                                "\\d+\\. The parser said: "),
+                                     "");
+          if (!error.empty() && error.back() != '.')
+            error += '.';
         }
       std::cerr.rdbuf(terminal);
       return error;
@@ -255,6 +261,11 @@ namespace talus
 
   namespace
   {
+    /// Largest magnitude, as of numbers in the parameter file.
+    constexpr double largest_value = 1e30;
+
+
+
     template <int dim>
     std::string
     place_and_time(const std::string &variables,
@@ -287,6 +298,18 @@ namespace talus
                               place_and_time(variables_, x, t),
                               "; expected a finite number. Correct the "
                               "expression.")));
+    AssertThrow(std::abs(result) <= largest_value,
+                ExcPoint(
+                  text(name_,
+                       " = '",
+                       expressions_,
+                       "' is ",
+                       result,
+                       place_and_time(variables_, x, t),
+                       ", which is larger than any quantity in SI units: "
+                       "at most ",
+                       largest_value,
+                       " was expected. Correct the expression.")));
     return result;
   }
 

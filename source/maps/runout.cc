@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
-#include <talus/terrain/plan_place.h>
 #include <talus/maps/runout.h>
+#include <talus/terrain/plan_place.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
@@ -19,6 +19,9 @@ namespace talus
   {
     /// Distance between corners of the path of the centre of mass, in cells.
     constexpr double distance_of_corners = 4.;
+
+    /// Share of the mass at the start that has to be there for the way to go on.
+    constexpr double least_share_of_mass = 0.99;
   } // namespace
 
 
@@ -171,6 +174,7 @@ namespace talus
       }
     Utilities::MPI::sum(sums, state.communicator(), sums);
     Centre centre;
+    centre.mass  = sums[0];
     centre.place = Point<2>(sums[1], sums[2]) / sums[0];
     centre.speed = std::hypot(sums[3], sums[4]) / sums[0];
     return centre;
@@ -182,7 +186,9 @@ namespace talus
   void
   Runout<dim>::start(const State<dim> &state)
   {
-    way_ = {centre_of_mass(state).place};
+    const Centre centre = centre_of_mass(state);
+    way_                = {centre.place};
+    mass_at_start_      = centre.mass;
     sums_->sum_soil(state);
     sums_->sum_over_ranks(state.communicator());
     release_.clear();
@@ -195,12 +201,25 @@ namespace talus
 
 
 
+  /// Where soil leaves the mesh, the centre of mass of the rest goes back up the
+  /// slope, and a way that followed it would fold.
+  template <int dim>
+  bool
+  Runout<dim>::has_way_ended(const Centre &centre) const
+  {
+    return way_.size() > 1 &&
+           centre.mass < least_share_of_mass * mass_at_start_;
+  }
+
+
+
   template <int dim>
   void
-  Runout<dim>::extend_way(const Point<2> &centre, const double h)
+  Runout<dim>::extend_way(const Centre &centre, const double h)
   {
-    if (centre.distance(way_.back()) >= distance_of_corners * h)
-      way_.push_back(centre);
+    if (!has_way_ended(centre) &&
+        centre.place.distance(way_.back()) >= distance_of_corners * h)
+      way_.push_back(centre.place);
   }
 
 
@@ -210,14 +229,16 @@ namespace talus
   /// direction.
   template <int dim>
   std::vector<Point<2>>
-  Runout<dim>::way_until(const Point<2> &centre, const double h) const
+  Runout<dim>::way_until(const Centre &centre, const double h) const
   {
     std::vector<Point<2>> way = way_;
+    if (has_way_ended(centre))
+      return way;
     while (way.size() > 1 &&
-           centre.distance(way.back()) < 0.5 * distance_of_corners * h)
+           centre.place.distance(way.back()) < 0.5 * distance_of_corners * h)
       way.pop_back();
-    if (centre.distance(way.back()) > 0.)
-      way.push_back(centre);
+    if (centre.place.distance(way.back()) > 0.)
+      way.push_back(centre.place);
     return way;
   }
 
@@ -231,8 +252,7 @@ namespace talus
   {
     const double h     = state.grid.cell_size();
     const double least = settings_.smallest_thickness(h);
-    const auto   way =
-      user_path_.empty() ? way_until(centre.place, h) : user_path_;
+    const auto   way   = user_path_.empty() ? way_until(centre, h) : user_path_;
     std::vector<double> result = {
       state.time, 0., 0., 0., 0., centre.speed, 0., 0.};
     if (way.size() < 2)
@@ -274,7 +294,7 @@ namespace talus
     sums_->sum_over_ranks(state.communicator());
     if (is_first_rank(state.communicator()))
       this->add_rows(state, {row(state, centre)});
-    extend_way(centre.place, state.grid.cell_size());
+    extend_way(centre, state.grid.cell_size());
   }
 
 
@@ -285,6 +305,7 @@ namespace talus
   Runout<dim>::list_state(StateList &list)
   {
     TableObserver<dim>::list_state(list);
+    list.add("mass at the start", "kg", mass_at_start_, Reduction::equal);
     list.add_table({"way of the centre of mass",
                     "x [m], z [m]",
                     2,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/materials/elastic_law.h>
 #include <talus/materials/materials.h>
 
 #include <deal.II/base/mpi.h>
@@ -75,6 +76,30 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Return a remark if the law has an undrained strength but Poisson's ratio
+    /// is typical of drained soil; empty otherwise.
+    template <int dim>
+    std::string
+    note_on_volume(const MaterialModel<dim> &model)
+    {
+      const auto *law = dynamic_cast<const ElasticLaw<dim> *>(&model);
+      if (law == nullptr || !model.has_strength() ||
+          law->poisson_ratio() >= 0.4)
+        return "";
+      return text("Section ",
+                  model.section(),
+                  ": `Poisson's ratio` is ",
+                  law->poisson_ratio(),
+                  ", but its law is one of undrained soil, which keeps its "
+                  "volume: 0.45 to 0.49 is usual. With less, load compresses "
+                  "the soil.");
+    }
+  } // namespace
+
+
+
   // Materials not used by any body are skipped.
   template <int dim>
   std::vector<std::string>
@@ -84,11 +109,10 @@ namespace talus
     const auto              &used = material_of_body_;
     for (unsigned int m = 0; m < models_.size(); ++m)
       if (std::find(used.begin(), used.end(), m) != used.end())
-        {
-          const std::string note = models_[m]->note(cell_size);
+        for (const std::string &note :
+             {models_[m]->note(cell_size), note_on_volume(*models_[m])})
           if (!note.empty())
             result.push_back(note);
-        }
     return result;
   }
 

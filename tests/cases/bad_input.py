@@ -257,6 +257,14 @@ class BadInput(Case):
         self.assert_refused(
             self.run_file(FULL, ["Obstacles/pipe/Centre=3.5,-1.1e30"]),
             "'Obstacles/pipe/Centre'", "-1.1e30", "1e+30")
+        for number in ("1e-320", "-1e-400"):
+            self.assert_refused(
+                self.run_file(FULL, [f"Obstacles/pipe/Centre=3.5,{number}"]),
+                "'Obstacles/pipe/Centre'", f"'{number}'", "closer to zero")
+        self.assert_refused(
+            self.run_file(FULL, ["Materials/clay/Law=von Mises", "Materials/clay/"
+                                 "Undrained shear strength=1e300*x"]),
+            "'Materials/clay/Undrained shear strength' = '1e300*x'", "1e+30")
         self.assert_untouched()
         result = self.run_file(FULL, ["Output/Field interval=1e30",
                                       "Title=at 1e300 m"])
@@ -629,8 +637,8 @@ class CommandLine(Case):
         return [line for line in text.splitlines() if line.startswith("Remark ")]
 
     def test_validate_tells_what_the_run_will_do(self):
-        """With the remarks of the log, on a thin body, soil that softens and an
-        entry that is set twice."""
+        """With the remarks of the log, on a thin body, soil that softens and
+        changes its volume, and an entry that is set twice."""
         (self.folder / "thin.prm").write_text(
             GOOD.replace("3, 2", "3, 1.5").replace("linear elastic", "Bingham")
             .replace("set End time = 0.01", "set End time = 5\nset End time = 1"))
@@ -643,18 +651,19 @@ class CommandLine(Case):
             "about 92 time steps", "million point-steps per second",
             "MB of memory on each rank")
         remarks = self.remarks_in(result.stdout)
-        self.assertEqual(len(remarks), 3, result.stdout)
+        self.assertEqual(len(remarks), 4, result.stdout)
         for number, words in enumerate(
                 ("thin.prm, line 2: 'End time' is set again, after line 1",
-                 "The body 'block' is 1.5 cells", "/Materials/clay softens"), 1):
+                 "The body 'block' is 1.5 cells", "/Materials/clay softens",
+                 "/Materials/clay: `Poisson's ratio` is 0.3"), 1):
             self.assertIn(f"Remark {number}: ", remarks[number - 1])
             self.assertIn(words, remarks[number - 1])
         self.assertTrue(result.stdout.endswith(
-            "thin.prm is valid, with 3 remarks.\n"), result.stdout)
+            "thin.prm is valid, with 4 remarks.\n"), result.stdout)
         run = self.run_talus(*arguments)
         self.assertEqual(run.returncode, 0, run.stderr)
         log = (self.results / "log.txt").read_text()
-        self.assertEqual(self.remarks_in(log)[:3], remarks)
+        self.assertEqual(self.remarks_in(log)[:4], remarks)
         self.assertEqual(self.remarks_in(run.stdout), self.remarks_in(log))
         self.assertTrue(log.endswith(
             f"talus-report results ({len(self.remarks_in(log))} remarks)\n"), log)

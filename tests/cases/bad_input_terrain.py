@@ -82,7 +82,10 @@ class BadInputTerrain(Case):
                 (self.FILE + ["Surfaces/bed/Section=1,0; 1,0"],
                  "twice in a row"),
                 (self.BED + ["Surfaces/bed/Expression=2*q"],
-                 "'Surfaces/bed/Expression' = '2*q' cannot be understood"),
+                 "'Surfaces/bed/Expression' = '2*q' cannot be understood: "
+                 "Unexpected token \"q\""),
+                (self.BED + ["Surfaces/bed/Expression=(2*x"],
+                 "Missing parenthesis. An expression in x"),
                 (layer, "'Bodies/block/Upper surface' is empty",
                  "'Surfaces/Names'"),
                 (layer + ["Bodies/block/Upper surface=mudline"],
@@ -127,8 +130,10 @@ class BadInputTerrain(Case):
         slope = "ncols 2\nnrows 2\nxllcorner -10\nyllcorner -10\ncellsize 20\n"
         (self.folder / "up.asc").write_text(slope + "-1 3\n-1 3\n")
         raster = ["Surfaces/Names=bed", "Surfaces/bed/File=up.asc"]
-        clay = ["Materials/clay/Law=von Mises"]
+        clay = ["Materials/clay/Law=von Mises",
+                "Materials/clay/Poisson's ratio=0.49"]
         for settings, *words in (
+                (clay[:1], "`Poisson's ratio` is 0.3", "0.45 to 0.49"),
                 (self.layer("2-0.5*x", "0.5*x-0.2"), "lies above its upper one",
                  "by up to 0.3 m, at x = 2.5 m"),
                 (self.layer("1.5", "0"), "'block' is 1.5 cells of 1 m thick"),

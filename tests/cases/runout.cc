@@ -93,6 +93,46 @@ namespace runout_test
 
 
 
+  // Of two blocks the lower one leaves the mesh: the centre of mass of the rest is
+  // back up the slope, and the way of the slide does not turn with it.
+  TEST(Runout, DoesNotTurnWhereSoilLeaves)
+  {
+    const std::string file = "verification/block-on-incline.prm";
+    run<2>(file,
+           "runout-outflow",
+           {"Grid/Lower corner=-8, 0",
+            "Grid/Upper corner=8, 2",
+            "Boundaries/Right=outflow",
+            "Bodies/Names=block, lower",
+            "Bodies/block/Lower corner=-7, 0",
+            "Bodies/block/Upper corner=-5, 1",
+            "Bodies/lower/Shape=box",
+            "Bodies/lower/Lower corner=4, 0",
+            "Bodies/lower/Upper corner=6, 1",
+            "Bodies/lower/Material=stiff",
+            "Output/Field interval=10",
+            "End time=1.9"});
+    const Table  table = runout_of("runout-outflow");
+    const double acceleration =
+      9.81 * (std::sin(M_PI / 6.) - 0.3 * std::cos(M_PI / 6.));
+    const double way = 0.5 * acceleration * 1.9 * 1.9, centre_at_start = -0.5;
+    Verification gates("Block that slides on while another one has left",
+                       "prm/" + file,
+                       "a t^2 / 2");
+    gates.at_most("rear - that of a rigid block [cells]",
+                  std::abs(table["rear along path [m]"].back() -
+                           (-7. + way - centre_at_start)) /
+                    0.25,
+                  1.);
+    gates.at_most("front - that of a rigid block [cells]",
+                  std::abs(table["front along path [m]"].back() -
+                           (-5. + way - centre_at_start)) /
+                    0.25,
+                  1.);
+  }
+
+
+
   // Along a path of the user that has a bend.
   TEST(Runout, FollowsAPathOfTheUser)
   {

@@ -30,6 +30,9 @@ from talus_tools.parameters import Defaults
 from talus_tools.report.film import entries, painted, palette_image, rasters
 from talus_tools.report.places import routes_of, stations_of
 from talus_tools.report.run import Run
+from talus_tools.report.sections.cut import cut_points, cut_surface
+from talus_tools.report.sections.thalweg import columns_of
+from talus_tools.report.way import Way, way_of
 from talus_tools.report.write import write_report
 
 ALWAYS = ["notices", "what-was-run", "runout", "thalweg", "mass", "momentum", "energy", "fracture",
@@ -217,7 +220,7 @@ class Report(ReportCase):
                             "End time=0.1", file="landslide-3d.prm")
         page = self.report(folder)
         self.assert_has(page, "soil", "motion")
-        self.assertIn("Section at z =", page.said("soil"))
+        self.assertIn("Upright section along the", page.said("soil"))
         self.assertEqual(page.said("what-was-run").count("not known"), 0)
 
 
@@ -332,6 +335,11 @@ class Maps(ReportCase):
         self.assertEqual((maps / "ground.qml").read_text(), own)
         self.assertTrue((maps / "erosion.qml").exists())
 
+    def test_smallest_thickness(self):
+        run = Run(str(self.slide("thin", "Maps/Smallest thickness=0.25")))
+        self.assertEqual([run.smallest_thickness(section) for section in ("Maps", "Runout")],
+                         [0.25, 0.1])
+
     def test_lines_over_x_and_stations(self):
         folder = self.slide("2d")
         (folder / "maps.csv").write_text(
@@ -340,10 +348,20 @@ class Maps(ReportCase):
             "time [s],A thickness [m],A speed [m/s],A 2 thickness [m],A 2 speed [m/s]\n"
             "0,0,0,0,0\n1,0.5,1.5,0,0\n2,0.25,3.5,0,0\n")
         (folder / "lines.csv").write_text(
-            "line,distance [m],maximum thickness [m]\n"
-            "cable,0,0.5\ncable,10,0.75\npipe,0,nan\n")
+            "line,distance [m],thickness at start [m],maximum bed shear [Pa],"
+            "maximum thickness [m]\n"
+            "cable,0,0,0,0.5\ncable,10,0,3,0.75\npipe,0,0,0,nan\npipe,5,0,0,0\n")
         page = self.report(folder)
         self.assertIn("cable maximum thickness 0.75 m 10 m", page.said("lines"))
+        # A tenth of a cell of 1 m, or what the user says.
+        for section in ("lines", "maps"):
+            self.assertIn("0 where soil is thinner than 0.1 m", page.said(section))
+        # What is zero everywhere is not drawn, and what is looked for first comes first.
+        self.assertNotIn("thickness at start", page.said("lines"))
+        self.assertIn("No soil reached the line pipe.", page.said("lines"))
+        self.assertEqual(len(page.pictures("lines")), 2)
+        folded = [i for d in page.sections["lines"].iter("details") for i in d.iter("img")]
+        self.assertEqual(len(folded), 1)
         self.assertIn("maximum thickness 2.5 m x = 1 m", page.said("maps"))
         self.assertEqual(page.values["A speed [m/s]"], "3.5")
         self.assertNotIn("A 2 thickness", page.said("stations"))
@@ -422,6 +440,90 @@ class Places(unittest.TestCase):
                              {"A": (1200, 1950), "B 2": (1200, 1950)})
 
 
+class Ways(ReportCase):
+    """Lengthwise sections follow the way of the slide in plan."""
+
+    def bent(self):
+        """3 m along x, then along z."""
+        return Way(numpy.array([[0.0, 0.0], [3.0, 0.0], [3.0, 5.0]]), "", "")
+
+    def test_project(self):
+        places = numpy.array([[-2.0, 1.0], [1.0, -1.0], [4.0, 2.0], [3.0, 9.0]])
+        along, away, direction = self.bent().project(places)
+        self.assertEqual(along.tolist(), [-2, 1, 5, 12])
+        self.assertEqual(away.tolist(), [1, 1, 1, 0])
+        self.assertEqual(direction.tolist(), [[1, 0], [1, 0], [0, 1], [0, 1]])
+
+    def test_cut(self):
+        """A plane y = x + 2 z is met along the way with its own slopes, without gaps."""
+        corners = numpy.array([[[x, x + 2 * z, z] for x, z in triangle] for triangle in
+                               ([[-9.1, -9.2], [9.3, -9.4], [-9.5, 9.6]],
+                                [[9.3, -9.4], [-9.5, 9.6], [9.7, 9.8]])])
+        lines = cut_surface(corners, self.bent())
+        for s, y in lines.reshape(-1, 2):
+            self.assertAlmostEqual(y, s if s < 3 else 3 + 2 * (s - 3), places=12)
+        ends = lines[lines[:, :, 0].min(axis=1).argsort()][:, :, 0]
+        self.assertAlmostEqual(numpy.abs(numpy.diff(ends, axis=1)).sum(), numpy.ptp(ends))
+        self.assertGreater(numpy.ptp(ends), 20)
+
+    def downhill(self, name, *settings):
+        """A block that slides to the west-north-west on a plane of 20 degrees."""
+        return self.slide(name, "Output/Boxes as cells=false", "Grid/Cell size=0.5", "End time=2",
+                          *settings, file="../tests/cases/block-downhill-3d.prm")
+
+    def test_west_north_west(self):
+        folder = self.downhill("downhill")
+        run = Run(str(folder))
+        way = way_of(run)
+        columns = columns_of(run, way)
+        # The bed falls along the way as the plane does, tan(20 degrees); along x it is 0.336.
+        places, bed = columns.bed()
+        self.assertAlmostEqual(numpy.polyfit(places, bed, 1)[0], -math.tan(math.pi / 9),
+                               delta=0.003)
+        # Front and rear are those of runout.csv, where the way is computed in the program.
+        last = read_csv(folder / "runout.csv")[-1]
+        table = run.tables["profile"]
+        thick = (table["time [s]"] == 2) & (table["thickness [m]"] >= 0.05)
+        along, _, _ = way.project(numpy.stack([table["x [m]"], table["z [m]"]], axis=-1)[thick])
+        self.assertAlmostEqual(along.max() + 0.25, float(last["front along path [m]"]))
+        self.assertAlmostEqual(along.min() - 0.25, float(last["rear along path [m]"]))
+        # The section goes through the block: it is as long there as its sides of 2 m, which the
+        # way crosses at 22.5 degrees, and 1 m high, less what the plane is inclined.
+        outlines, _ = cut_points(*run.series("points").read(2), way)
+        self.assertAlmostEqual(numpy.ptp(outlines[..., 0]), 2 / math.cos(math.pi / 8), delta=0.3)
+        page = self.report(folder)
+        for section in ("thalweg", "soil"):
+            self.assertIn("along the way of the centre of mass", page.said(section))
+
+    def test_way_ends_where_soil_leaves(self):
+        """The centre of mass of the rest goes back up the slope."""
+        centre = numpy.array([0.0, 5, 9, 14, 12, 3, -4])
+        run = types.SimpleNamespace(dimension=3, entries={"Grid/Cell size": "1"}, statistics={
+            "centre x [m]": -centre, "centre z [m]": numpy.full(7, 2.0),
+            "mass [kg]": numpy.array([100, 100, 100, 99.5, 80, 50, 20])})
+        self.assertEqual(way_of(run).corners.tolist(), [[0, 2], [-5, 2], [-9, 2], [-14, 2]])
+        run.statistics["mass [kg]"] = numpy.full(7, 100.0)
+        self.assertEqual(len(way_of(run).corners), 6)
+
+    def test_path_of_the_user(self):
+        """In coordinates of the map, from east to west."""
+        folder = self.downhill("path", "Grid/Origin=1000, 2000, 0", "Runout/Coordinates=map",
+                               "Runout/Path=1002, 1999; 998, 1999", "End time=0.3")
+        run = Run(str(folder))
+        self.assertEqual(way_of(run).corners.tolist(), [[2, 1], [-2, 1]])
+        self.assertIn("along the path of the section Runout", self.report(folder).said("soil"))
+
+    def test_compare(self):
+        """The deposit of two 3-D runs over the bed along the way of the first."""
+        a, b = self.downhill("a"), self.downhill("b", "Obstacles/ground/Friction coefficient=0.2")
+        page = self.folder / "compare.html"
+        result = self.tool("talus-compare", a, b, "--output", page)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        page = Page(self.folder, page.name)
+        self.assertIn("Along the way of the centre of mass of A", page.said("deposit"))
+        self.assertEqual(len(page.pictures("deposit")), 1)
+
+
 class Compare(Case):
     """talus-compare."""
 
@@ -473,6 +575,10 @@ class Compare(Case):
                 (folder / "maps" / f"{name}.asc").write_text(
                     f"ncols 2\nnrows 2\nxllcorner {west}\nyllcorner {south}\ncellsize {size}\n"
                     "NODATA_value -9999\n" + " ".join(map(str, values)))
+        for folder, thickness in ((a, 0.75), (b, 1.75)):
+            (folder / "lines.csv").write_text(
+                "line,distance [m],x [m],z [m],maximum thickness [m]\n"
+                f"cable,0,0,0,0.5\ncable,10,10,0,{thickness}\npipe,0,0,5,0\npipe,9,9,5,0\n")
         # Of the centres of A's cells only the south-eastern one is in a cell of B, the
         # north-western one.
         grids = [read_grid(folder / "maps" / "maximum-thickness.asc") for folder in (a, b)]
@@ -482,6 +588,8 @@ class Compare(Case):
         self.assertIn("The rasters differ", page.said("maps"))
         self.assertIn("maximum thickness 4 m 1.5 m −4 m E 412030, N 6538030 0 %",
                       page.said("maps"))
+        self.assertIn("maximum thickness 1 m 10 m", page.said("lines"))
+        self.assertNotIn("pipe", page.said("lines"))
 
     def test_refused(self):
         plane = self.slide("plane")

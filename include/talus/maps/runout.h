@@ -49,7 +49,8 @@ namespace talus
   /// whenever a row of the statistics is due.
   ///
   /// The path is a polyline of the user, or the path of the centre of mass so
-  /// far, from the start of the motion. Front and rear are the outermost
+  /// far, from the start of the motion until more than 1 % of the soil has left
+  /// the mesh. Front and rear are the outermost
   /// columns, one cell wide, with soil thicker than `Runout/Smallest
   /// thickness`; runout is the distance of the front from the front at the
   /// start, both measured along the current path.
@@ -89,6 +90,7 @@ namespace talus
     {
       dealii::Point<2> place; ///< in plan, m
       double           speed; ///< in plan, m/s
+      double           mass;  ///< kg
     };
 
     std::vector<std::string>
@@ -98,10 +100,12 @@ namespace talus
     in_plan(const dealii::Point<dim> &x) const;
     Centre
     centre_of_mass(const State<dim> &state) const;
+    bool
+    has_way_ended(const Centre &centre) const;
     void
-    extend_way(const dealii::Point<2> &centre, double h);
+    extend_way(const Centre &centre, double h);
     std::vector<dealii::Point<2>>
-    way_until(const dealii::Point<2> &centre, double h) const;
+    way_until(const Centre &centre, double h) const;
     std::vector<double>
     row(const State<dim> &state, const Centre &centre) const;
 
@@ -111,6 +115,7 @@ namespace talus
     std::vector<dealii::Point<2>>    user_path_; ///< m; may be empty
     std::vector<dealii::Point<2>>    way_; ///< path of the centre of mass, m
     std::vector<unsigned int>        release_; ///< columns, on the first rank
+    double                           mass_at_start_ = 0; ///< kg
   };
 } // namespace talus
 

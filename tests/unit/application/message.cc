@@ -33,6 +33,7 @@ namespace
     prm.declare_entry("Dimension", "2", Patterns::Integer(2, 3));
     prm.declare_entry("Offset", "2", Patterns::Integer());
     prm.declare_entry("Rule", "on", Patterns::Selection("auto|on|off"));
+    prm.declare_entry("Shape", "", Patterns::Selection("|box|ball"));
     prm.declare_entry("Moves", "true", Patterns::Bool());
     prm.declare_entry("Places", "", Patterns::List(Patterns::Double()));
     prm.declare_entry("Names", "1", Patterns::List(Patterns::Double(), 1));
@@ -74,6 +75,7 @@ namespace
       {"Dimension", "a whole number from 2 to 3"},
       {"Offset", "a whole number"},
       {"Rule", "one of auto | on | off"},
+      {"Shape", "one of box | ball"},
       {"Moves", "true or false"},
       {"Places", "a list of values, each a number,"},
       {"Names", "a list of 1 or more values, each a number,"},

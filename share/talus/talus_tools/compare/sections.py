@@ -9,10 +9,13 @@ from talus_tools.report.notices import notices
 from talus_tools.report.page import (BLUE, RED, WIDTH, Cell, Folded, Lines, Rows, Section, embed,
                                      subplots)
 from talus_tools.report.places import draw_places, places_of, structure_names
+from talus_tools.report.sections.lines import DISTANCE, FIRST as FIRST_ON_LINES, has_soil
 from talus_tools.report.sections.maps import (FIRST, FIRST_COLUMNS, GROUND, draw, limits, meaning,
                                               title, visible, window)
 from talus_tools.report.sections.stations import THICKNESS, columns_of
-from talus_tools.report.sections.thalweg import ground_of, magnification, thickness_at
+from talus_tools.report.sections.thalweg import columns_of, magnification
+from talus_tools.report.way import way_of
+from talus_tools.tables import read_lines
 from talus_tools.units import plain, scaled, show, unit_of
 
 STYLES = ({"color": BLUE}, {"color": RED, "ls": "--"})
@@ -194,22 +197,24 @@ def maps(pair):
 
 
 def deposit(pair):
-    """In 2-D the thickness at the end of both, over the bed of A."""
-    tables = pair.tables("profile")
-    if pair.a.dimension == 3 or not tables:
+    """The thickness at the end of both, over the bed; in 3-D along the way of A."""
+    if not pair.tables("profile"):
         return None
-    ends = [table["time [s]"].max() for table in tables]
-    beds = [ground_of(table) for table in tables]
-    layers = [thickness_at(table, end, x) for table, end, (x, _) in zip(tables, ends, beds)]
+    way = way_of(pair.a)
+    both = [columns_of(run, way) for run in pair.runs]
+    ends = [columns.times()[-1] for columns in both]
+    beds = [columns.bed() for columns in both]
+    layers = [columns.thickness_at(end) for columns, end in zip(both, ends)]
     factor = magnification(numpy.concatenate([bed[1] for bed in beds]),
                            max(layer.max() for layer in layers))
     figure, axes = subplots(height=2.9)
     for (x, ground), layer, end, label, style in zip(beds, layers, ends, pair.labels, STYLES):
         axes.plot(x, ground, color="black", lw=1)
         axes.plot(x, ground + factor * layer, label=f"{label}, t = {end:.4g} s", **style)
-    axes.set(xlabel="x [m]", ylabel="height of the bed [m]")
+    axes.set(xlabel=both[0].label, ylabel="height of the bed [m]")
     axes.legend(loc="upper right")
-    return Section("deposit", "Thickness at the end", "Over the bed, which is black.",
+    along = (f" Along {way.name} of A, largest thickness across it." if way else "")
+    return Section("deposit", "Thickness at the end", "Over the bed, which is black." + along,
                    [embed(figure, f"Thickness is drawn {factor:g} times as large as heights of the "
                           "bed." if factor > 1 else "Thickness and heights are to the same "
                           "scale.")])
@@ -240,6 +245,22 @@ def stations(pair):
                    curves(pair, tables, names, "time [s]")) if names else None
 
 
+def lines(pair):
+    """What a reader looks for first along the lines that both have."""
+    both = [read_lines(run.path("lines.csv")) if run.has("lines.csv") else {} for run in pair.runs]
+    parts = []
+    for line in (line for line in both[0] if line in both[1]):
+        tables = [groups[line] for groups in both]
+        names = [name for name in tables[0] if name.startswith(FIRST_ON_LINES)
+                 and name in tables[1] and any(has_soil(table, name) for table in tables)]
+        distance = next(name for name in tables[0] if name.startswith(DISTANCE))
+        if names:
+            parts += [Lines([f"Along {line or 'the line'}:"]),
+                      *curves(pair, tables, names, distance)]
+    return Section("lines", "Along lines", "Largest values of the whole run along the lines that "
+                   "both have and soil reached.", parts) if parts else None
+
+
 def told(pair):
     """The notices of both reports."""
     return Section("notices-of-both", "Notices", "What to know of each run before its numbers are "
@@ -248,4 +269,5 @@ def told(pair):
                              for label, run in zip(pair.labels, pair.runs)])
 
 
-SECTIONS = [numbers, differing, maps, deposit, time_histories, forces, stations, told]
+SECTIONS = [numbers, differing, maps, deposit, time_histories, forces, stations, lines,
+            told]

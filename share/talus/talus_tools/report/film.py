@@ -13,12 +13,13 @@ from PIL import Image, ImageDraw
 
 from talus_tools.esri import Grid
 from talus_tools.report.page import STYLE, WIDTH, plt, saved
-from talus_tools.report.places import draw_places, inside, on_map, places_of
+from talus_tools.report.on_map import on_map
+from talus_tools.report.places import draw_places, inside, places_of
 from talus_tools.report.sections.cut import cut_surface, rectangles
 from talus_tools.report.sections.maps import GROUND, draw_ground, read_maps
 from talus_tools.report.sections.soil import SPEED, exaggeration, frame
-from talus_tools.report.sections.thalweg import (THICKNESS, VELOCITY, ground_of, magnification,
-                                                 places_of as cells_of)
+from talus_tools.report.sections.thalweg import (THICKNESS, VELOCITY, VELOCITY_Z, columns_of,
+                                                 magnification, places_of as cells_of)
 
 # Axes of a picture [inch]: distances from its edges, and the largest extents.
 LEFT, BOTTOM, TOP, RIGHT, LOWEST, HIGHEST = 0.95, 0.5, 0.15, 1.1, 1.7, 4.6
@@ -129,7 +130,7 @@ def rasters(run, times):
     table = run.tables["profile"]
     x, i, dx = cells_of(table["x [m]"])
     z, k, dz = cells_of(table["z [m]"])
-    speed = numpy.hypot(table[VELOCITY], table["depth-mean velocity z [m/s]"])
+    speed = numpy.hypot(table[VELOCITY], table[VELOCITY_Z])
     result = numpy.full((2, len(times), len(z), len(x)), numpy.nan)
     for t, time in enumerate(times):
         now = table["time [s]"] == time
@@ -272,7 +273,7 @@ def columns_film(run, most):
     table = run.tables["profile"]
     if table is None or "ground [m]" not in table:
         return None
-    x, ground = ground_of(table)
+    x, ground = columns_of(run, None).bed()
     factor = magnification(ground, table[THICKNESS].max())
     if factor == 1:
         return None

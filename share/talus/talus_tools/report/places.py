@@ -9,23 +9,13 @@ from matplotlib import patheffects
 from matplotlib.collections import PolyCollection
 
 from talus_tools.parameters import numbers
+from talus_tools.report.on_map import on_map
+from talus_tools.report.way import corners_of
 from talus_tools.tables import read_lines
 
-RELEASE, ROUTE, STRUCTURE = "#c8442b", "#7a1fa2", "#111111"
+RELEASE, ROUTE, STRUCTURE, WAY = "#c8442b", "#7a1fa2", "#111111", "#3c464e"
 # White around letters and lines, so that they can be read on any colour.
 HALO = [patheffects.withStroke(linewidth=2.2, foreground="white")]
-
-
-def origin(run):
-    """Easting and northing of x = z = 0 [m]."""
-    values = numbers(run.entries.get("Grid/Origin", "0, 0")) or [0, 0]
-    return numpy.array(values[:2] if len(values) > 1 else [0, 0], dtype=float)
-
-
-def on_map(run, x, z):
-    """Easting and northing of places [m]; z points to the south."""
-    east, north = origin(run)
-    return numpy.stack([east + numpy.asarray(x), north - numpy.asarray(z)], axis=-1)
 
 
 def stations_of(run):
@@ -69,11 +59,13 @@ def structures_of(run):
 @dataclasses.dataclass
 class Places:
     """Stations, routes and structures by name; `release`: the Grid of the thickness at the
-    start, or None."""
+    start, or None; `way`: corners of the way of the slide, shape (n, 2), along which sections
+    are drawn; one only where the soil has not moved."""
     stations: dict
     routes: dict
     structures: dict
     release: object
+    way: numpy.ndarray
 
     def points(self):
         """Places of stations, routes and structures, shape (n, 2)."""
@@ -87,7 +79,8 @@ class Places:
         def is_seen(places):
             return len(inside(places.reshape(-1, 2), extent)) > 0
         return Places(*({name: places for name, places in some.items() if is_seen(places)}
-                        for some in (self.stations, self.routes, self.structures)), self.release)
+                        for some in (self.stations, self.routes, self.structures)), self.release,
+                      self.way)
 
     def legend(self):
         """What the lines and dots are, in words."""
@@ -95,14 +88,16 @@ class Places:
             (self.release is not None, "red outline: release area"),
             (self.routes, "violet: " + ", ".join(name or "line" for name in self.routes)),
             (self.stations, "triangles: stations"),
-            (self.structures, "black: structures")) if there]
+            (self.structures, "black: structures"),
+            (len(self.way) > 1, "dashed: the way of the slide, along which sections are drawn")
+        ) if there]
         return f" {'; '.join(parts).capitalize()}." if parts else ""
 
 
 def places_of(run, grids):
     """All that is known of a 3-D run; grids: its rasters by name."""
     return Places(stations_of(run), routes_of(run), structures_of(run),
-                  grids.get("thickness-at-start"))
+                  grids.get("thickness-at-start"), on_map(run, *corners_of(run).T))
 
 
 def label(axes, text, place, color):
@@ -134,6 +129,7 @@ def draw_places(axes, places):
     window = axes.get_xlim(), axes.get_ylim()
     if places.release is not None:
         draw_release(axes, places.release)
+    axes.plot(*places.way.T, color=WAY, lw=1.1, ls="--", path_effects=HALO, zorder=4)
     for name, line in places.routes.items():
         axes.plot(*line.T, color=ROUTE, lw=1.6, path_effects=HALO, zorder=5)
         shown = inside(line, (*window[0], *window[1]))

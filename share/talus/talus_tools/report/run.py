@@ -128,6 +128,11 @@ class Run:
             return None
         return self.is_noted_at_rest() or bool(energy[-1] <= REST * energy.max())
 
+    def smallest_thickness(self, section):
+        """Thickness from which soil counts in the tables of the section Runout or Maps [m]."""
+        given = float(self.entries.get(f"{section}/Smallest thickness", "").strip() or 0)
+        return given or 0.1 * float(self.entries.get("Grid/Cell size", "0"))
+
     def outflow(self, name, unit):
         """History of what left through outflow faces; zeros where the run has none."""
         column = f"outflow {name} [{unit}]"

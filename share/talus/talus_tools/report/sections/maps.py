@@ -54,6 +54,12 @@ def title(name):
     return name.replace("-", " ")
 
 
+def note_on_thin_soil(run):
+    """What of thin soil is not counted."""
+    return ("Speed, momentum flux, bed shear and impact pressure are 0 where soil is thinner than "
+            f"{run.smallest_thickness('Maps'):g} m ('Maps/Smallest thickness').")
+
+
 def read_maps(folder):
     """{name: Grid} of all rasters of a folder; the ground must have the same cells."""
     grids = {entry[:-4]: read_grid(os.path.join(folder, entry))
@@ -203,7 +209,7 @@ def plan_maps(run):
     return Section("maps", "Maps",
                    "What happened at each place over the whole run, on the raster of the "
                    "bathymetry. The same rasters are in the folder maps, for any geographic "
-                   "information system.", parts)
+                   "information system. " + note_on_thin_soil(run), parts)
 
 
 def section_rows(table, names):
@@ -232,7 +238,8 @@ def section_maps(run):
     if others:
         parts.append(Folded(f"{len(others)} more quantities", over_x(table, others)))
     return Section("maps", "Largest values and arrival along the slope",
-                   "What happened at each place over the whole run, as in maps.csv.", parts)
+                   "What happened at each place over the whole run, as in maps.csv. "
+                   + note_on_thin_soil(run), parts)
 
 
 def over_x(table, names):

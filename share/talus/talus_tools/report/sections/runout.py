@@ -97,10 +97,8 @@ def runout(run):
     # Before the slide moves it has no way, and all distances are 0.
     moved = numpy.flatnonzero(table["front along path [m]"] != table["rear along path [m]"])
     table = table.since(moved[0] if len(moved) else 0)
-    thickness = run.entries.get("Runout/Smallest thickness", "").strip()
     return Section("runout", "Runout",
                    "Along the way of the slide in plan, from the centre of mass at the start on; "
-                   "soil counts where it is thicker than "
-                   + (f"{thickness} m." if thickness not in ("", "0") else "a tenth of a cell."),
+                   f"soil counts where it is thicker than {run.smallest_thickness('Runout'):g} m.",
                    parts_of(run, table, PATH_CURVES, "distance along the way [m]", ALONG_PATH)
                    + [Folded("Positions and velocities of the points along x", along_x)])

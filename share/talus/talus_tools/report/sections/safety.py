@@ -4,8 +4,9 @@
 import numpy
 
 from talus_tools.report.page import Lines, Section, embed, subplots
-from talus_tools.report.sections.cut import cut_points, middle
+from talus_tools.report.sections.cut import PLAN, cut_points, middle
 from talus_tools.report.sections.soil import boxes, frame
+from talus_tools.report.way import label_of, straight
 
 
 def downhill(run, motion):
@@ -15,27 +16,42 @@ def downhill(run, motion):
     return motion if work >= 0 else -motion
 
 
+def line_of_motion(corners, motion):
+    """Straight way in plan through the middle of what moves, along its mean motion; along x
+    where parts move against each other."""
+    size = numpy.linalg.norm(motion, axis=1)
+    mean = motion[:, PLAN].sum(axis=0)
+    length = numpy.linalg.norm(mean)
+    vector = mean / length if length > 0.05 * size.sum() else numpy.array([1.0, 0.0])
+    return straight(middle(corners, size), vector, "distance along the motion [m]",
+                    "the mean motion, through the middle of what moves")
+
+
 def mechanism(run, name, caption):
     """How the soil moves when it fails, the largest component being 1."""
     series = run.series(name)
     if series is None:
         return []
     corners, values = series.read(series.times[-1])
+    motion, way = downhill(run, values["mechanism [-]"]), None
     if run.dimension == 3:
-        z = middle(corners, numpy.linalg.norm(values["mechanism [-]"], axis=1))
-        corners, values = cut_points(corners, values, z)
-        caption += f" Section at z = {z:.4g} m, through the middle of what moves."
-    motion = downhill(run, values["mechanism [-]"])
+        way = line_of_motion(corners, motion)
+        x, z = way.corners[0]
+        caption += f" Section along {way.name}, x = {x:.4g} m, z = {z:.4g} m."
+        motion = numpy.stack([motion[:, PLAN] @ (way.corners[1] - way.corners[0]), motion[:, 1]],
+                             axis=-1)
+    outlines, values = cut_points(corners, {"motion": motion}, way)
+    motion = values["motion"][:, :2]
     speed = numpy.linalg.norm(motion, axis=1)
-    places = corners.mean(axis=1)
-    window, height = frame([corners], 1)
+    places = outlines.mean(axis=1)
+    window, height = frame([outlines], 1)
     figure, axes = subplots(height=height + 0.5)
-    drawn = axes.add_collection(boxes(corners, values, speed / speed.max(), (0, 1)))
+    drawn = axes.add_collection(boxes(outlines, speed / speed.max(), (0, 1)))
     moving = numpy.flatnonzero(speed > 0.15 * speed.max())
     shown = numpy.random.default_rng(1).choice(moving, min(70, len(moving)), replace=False)
     axes.quiver(places[shown, 0], places[shown, 1], motion[shown, 0], motion[shown, 1],
                 color="black", scale=28, width=0.0014)
-    axes.set(xlim=window[:2], ylim=window[2:], xlabel="x [m]", ylabel="y [m]")
+    axes.set(xlim=window[:2], ylim=window[2:], xlabel=label_of(way), ylabel="y [m]")
     axes.grid(False)
     figure.colorbar(drawn, ax=axes, label="motion [-]", pad=0.01)
     return [embed(figure, caption, "png")]

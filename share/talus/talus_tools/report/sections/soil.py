@@ -1,29 +1,30 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Pictures of the soil; in 3-D of a section along x through its middle."""
+"""Pictures of the soil; in 3-D of a section along the way of the slide."""
 
 import numpy
 from matplotlib.collections import LineCollection, PolyCollection
 
 from talus_tools.report.page import WIDTH, Folded, Section, embed, subplots
-from talus_tools.report.sections.cut import cut_points, cut_surface, middle, rectangles
+from talus_tools.report.sections.cut import cut_points, cut_surface
+from talus_tools.report.way import label_of, way_of
 from talus_tools.vtu import VtuSeries
 
 SPEED = "speed [m/s]"
 N_FRAMES = 5
 
 
-def boxes(corners, values, colors, limits):
-    """The points as boxes with these colours."""
-    drawn = PolyCollection(rectangles(corners, values), linewidths=0.4, edgecolors="face")
+def boxes(outlines, colors, limits):
+    """The points as boxes with these outlines and colours."""
+    drawn = PolyCollection(outlines, linewidths=0.4, edgecolors="face")
     drawn.set_array(colors)
     drawn.set_clim(*limits)
     return drawn
 
 
-def frame(all_corners, n):
-    """Window (x0, x1, y0, y1) of the soil at all times and the height [inch] of n pictures of
-    it, in true proportions if that gives more than a strip."""
-    places = numpy.concatenate([c.reshape(-1, 3)[:, :2] for c in all_corners])
+def frame(all_outlines, n):
+    """Window (x0, x1, y0, y1) of outlines, shape (points, corners, 2 or 3), at all times and the
+    height [inch] of n pictures of it, in true proportions if that gives more than a strip."""
+    places = numpy.concatenate([c[..., :2].reshape(-1, 2) for c in all_outlines])
     low, high = places.min(axis=0), places.max(axis=0)
     margin = 0.02 * (high - low) + 1e-9
     low, high = low - margin, high + margin
@@ -32,41 +33,33 @@ def frame(all_corners, n):
         max(true, 1.0), 3.6)
 
 
-def outlines(run, time, z):
+def surfaces(run, time, way):
     """Surfaces of obstacles nearest to this time."""
     series = run.series("obstacles")
     if series is None:
         return []
     corners, _ = series.read(series.nearest(time))
-    return [LineCollection(cut_surface(corners, z), colors="black", linewidths=1)]
+    return [LineCollection(cut_surface(corners, way), colors="black", linewidths=1)]
 
 
-def plane(run, series):
-    """In 3-D the z through the soil at the last time, in 2-D None."""
-    if run.dimension == 2:
-        return None
-    corners, values = series.read(series.times[-1])
-    return middle(corners, values.get("mass [kg]", numpy.ones(len(corners))))
-
-
-def frames(run, series, z):
+def frames(run, series, way):
     """The speed at up to five times, the first and the last among them."""
     chosen = numpy.unique(numpy.rint(numpy.linspace(
         0, len(series.times) - 1, min(N_FRAMES, len(series.times)))).astype(int))
     times = series.times[chosen]
-    states = [cut_points(*series.read(time), z) for time in times]
+    states = [cut_points(*series.read(time), way) for time in times]
     fastest = max(numpy.percentile(values[SPEED], 99.5) for _, values in states
                   if len(values[SPEED]))
-    window, height = frame([corners for corners, _ in states], len(times))
+    window, height = frame([outlines for outlines, _ in states], len(times))
     figure, rows = subplots(len(times), height=height + 0.5, sharex=True, squeeze=False)
-    for axes, time, (corners, values) in zip(rows[:, 0], times, states):
-        drawn = axes.add_collection(boxes(corners, values, values[SPEED], (0, fastest or 1)))
-        for lines in outlines(run, time, z):
+    for axes, time, (outlines, values) in zip(rows[:, 0], times, states):
+        drawn = axes.add_collection(boxes(outlines, values[SPEED], (0, fastest or 1)))
+        for lines in surfaces(run, time, way):
             axes.add_collection(lines)
         axes.set(xlim=window[:2], ylim=window[2:], ylabel="y [m]")
         axes.set_title(f"t = {time:.4g} s")
         axes.grid(False)
-    rows[-1, 0].set_xlabel("x [m]")
+    rows[-1, 0].set_xlabel(label_of(way))
     figure.colorbar(drawn, ax=rows[:, 0], label="speed [m/s]", pad=0.01, extend="max",
                     aspect=12 * len(times))
     return embed(figure, f"The soil, coloured by speed; the scale ends where 99.5 % of the points "
@@ -82,20 +75,20 @@ def exaggeration(window, height):
     return f"Heights are drawn about {ratio:.2g} times as large as lengths."
 
 
-def sheared(run, series, z):
+def sheared(run, series, way):
     """Where the soil was sheared, at the end."""
-    corners, values = cut_points(*series.read(series.times[-1]), z)
+    outlines, values = cut_points(*series.read(series.times[-1]), way)
     names = [n for n in values if n.startswith(("plastic strain", "plastic shear strain"))]
     if not names or not values[names[0]].max() > 0:
         return []
-    window, height = frame([corners], 1)
+    window, height = frame([outlines], 1)
     figure, axes = subplots(height=height + 0.6)
     limit = numpy.percentile(values[names[0]], 98) or values[names[0]].max()
-    drawn = axes.add_collection(boxes(corners, values, values[names[0]], (0, limit)))
+    drawn = axes.add_collection(boxes(outlines, values[names[0]], (0, limit)))
     drawn.set_cmap("magma")
-    for lines in outlines(run, series.times[-1], z):
+    for lines in surfaces(run, series.times[-1], way):
         axes.add_collection(lines)
-    axes.set(xlim=window[:2], ylim=window[2:], xlabel="x [m]", ylabel="y [m]")
+    axes.set(xlim=window[:2], ylim=window[2:], xlabel=label_of(way), ylabel="y [m]")
     axes.grid(False)
     name = names[0].split(" [")[0]
     figure.colorbar(drawn, ax=axes, label=f"{name} [-]", pad=0.01, extend="max")
@@ -109,10 +102,10 @@ def soil(run):
     series = run.series("points")
     if series is None:
         return None
-    z = plane(run, series)
-    where = "" if z is None else f"Section at z = {z:.4g} m, through the soil's centre of mass. "
+    way = way_of(run)
+    where = "" if way is None else f"Upright section along {way.name}. "
     file = "points.pvd" if isinstance(series, VtuSeries) else "points.xdmf"
     return Section("soil", "The soil in section",
                    f"{where}For all times and fields open {file} in ParaView.",
-                   sheared(run, series, z)
-                   + [Folded("The soil at some times", [frames(run, series, z)])])
+                   sheared(run, series, way)
+                   + [Folded("The soil at some times", [frames(run, series, way)])])

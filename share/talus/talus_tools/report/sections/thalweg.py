@@ -1,13 +1,18 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""What profile.csv tells: thickness and velocity over place and time, and the deposit."""
+"""What profile.csv tells: thickness and velocity over place and time, and the deposit; in 3-D
+along the way of the slide."""
+
+import dataclasses
 
 import numpy
 
 from talus_tools.report.page import BLUE, GREY, Cell, Rows, Section, embed, subplots
+from talus_tools.report.on_map import on_map
+from talus_tools.report.way import label_of, way_of
 from talus_tools.units import show
 
 THICKNESS, VELOCITY = "thickness [m]", "depth-mean velocity [m/s]"
-TABLE_HEAD = ["quantity", "largest", "at x =", "at t =", "what it means"]
+VELOCITY_Z = "depth-mean velocity z [m/s]"
 
 
 def places_of(values):
@@ -18,15 +23,70 @@ def places_of(values):
     return unique[0] + step * numpy.arange(index.max() + 1), index, step
 
 
-def over_time(table, column, choose):
-    """Values of a column by time and place along x; where several (in 3-D across the slope)
-    share a place, the one that choose (a ufunc) takes."""
-    times, t = numpy.unique(table["time [s]"], return_inverse=True)
-    x, i, step = places_of(table["x [m]"])
-    values = numpy.full((len(times), len(x)), numpy.nan)
-    with numpy.errstate(invalid="ignore"):
-        choose.at(values, (t, i), table[column])
-    return times, x, step, values
+@dataclasses.dataclass
+class Columns:
+    """Rows of profile.csv: time [s]; distance along the section and from it [m]; thickness [m],
+    velocity [m/s], in 3-D speed, and height of the ground [m]. `places`: along the section [m],
+    evenly; `index`: which of them a column belongs to."""
+    time: numpy.ndarray
+    index: numpy.ndarray
+    along: numpy.ndarray
+    away: numpy.ndarray
+    thickness: numpy.ndarray
+    velocity: numpy.ndarray
+    ground: numpy.ndarray
+    places: numpy.ndarray
+    label: str
+
+    @property
+    def step(self):
+        """Distance of the places [m]."""
+        return self.places[1] - self.places[0] if len(self.places) > 1 else 1.0
+
+    def times(self):
+        """All times [s], in their order."""
+        return numpy.unique(self.time)
+
+    def over_time(self, values):
+        """Values by time and place, shape (times, places); where several columns share a place,
+        the largest one."""
+        times, t = numpy.unique(self.time, return_inverse=True)
+        result = numpy.full((len(times), len(self.places)), numpy.nan)
+        with numpy.errstate(invalid="ignore"):
+            numpy.fmax.at(result, (t, self.index), values)
+        return result
+
+    def bed(self):
+        """Where soil was at any time, distances along the section and heights of the ground:
+        those of the column that is nearest to the section, for each place."""
+        order = numpy.lexsort((self.ground, self.away, self.index))
+        _, first = numpy.unique(self.index[order], return_index=True)
+        return self.along[order][first], self.ground[order][first]
+
+    def thickness_at(self, time):
+        """Largest thickness at this time at the places of bed(), 0 where there is no soil."""
+        result = numpy.zeros(len(self.places))
+        now = self.time == time
+        numpy.maximum.at(result, self.index[now], self.thickness[now])
+        return result[numpy.unique(self.index)]
+
+
+def columns_of(run, way):
+    """The columns along x, in 3-D along a way; heights of the ground are those of the bottom of
+    the mesh where there is no terrain."""
+    table = run.tables["profile"]
+    x, index, step = places_of(table["x [m]"])
+    along, away, velocity = table["x [m]"], numpy.zeros(len(table)), table[VELOCITY]
+    if way:
+        along, away, _ = way.project(numpy.stack([table["x [m]"], table["z [m]"]], axis=-1))
+        step = way.width(step)
+        index = numpy.rint((along - along.min()) / step).astype(int)
+        x = along.min() + step * numpy.arange(index.max() + 1)
+        velocity = numpy.hypot(velocity, table[VELOCITY_Z])
+    ground = (table["ground [m]"] if "ground [m]" in table else
+              numpy.full(len(table), table["lowest [m]"].min()))
+    return Columns(table["time [s]"], index, along, away, table[THICKNESS], velocity, ground,
+                   x, label_of(way))
 
 
 def edges(values, step=None):
@@ -36,47 +96,29 @@ def edges(values, step=None):
     return numpy.append(values, 2 * values[-1] - values[-2])
 
 
-def diagram(run):
+def diagram(columns, way):
     """Thickness and velocity, place along the page, time upwards."""
-    table = run.tables["profile"]
     figure, both = subplots(1, 2, height=3.4, sharey=True)
-    for axes, column, colors, label in ((both[0], THICKNESS, "viridis", "thickness [m]"),
-                                        (both[1], VELOCITY, "magma", "velocity along x [m/s]")):
-        times, x, step, values = over_time(table, column, numpy.fmax)
+    times = columns.times()
+    velocity = "mean speed over the depth [m/s]" if way else "velocity along x [m/s]"
+    for axes, values, colors, label in (
+            (both[0], columns.thickness, "viridis", "thickness [m]"),
+            (both[1], columns.velocity, "magma", velocity)):
         axes.grid(False)
         # A few columns at the front, with single points in them, must not take the scale.
-        image = axes.pcolormesh(edges(x, step), edges(times), values, cmap=colors,
+        image = axes.pcolormesh(edges(columns.places, columns.step), edges(times),
+                                columns.over_time(values), cmap=colors,
                                 vmin=min(0, numpy.nanpercentile(values, 0.5)),
-                                vmax=numpy.nanpercentile(values, 99.5), rasterized=True)
-        axes.set_xlabel("x [m]")
+                                vmax=max(0, numpy.nanpercentile(values, 99.5)), rasterized=True)
+        axes.set_xlabel(columns.label)
         axes.set_ylim(times[0], edges(times)[-1])
-        figure.colorbar(image, ax=axes, label=label, pad=0.02, extend="max")
+        figure.colorbar(image, ax=axes, label=label, pad=0.02,
+                        extend="max" if values.min() >= 0 else "both")
     both[0].set_ylabel("time [s]")
-    across = "" if run.dimension == 2 else " Largest values across the slope."
-    return embed(figure, "Thalweg–time diagrams: read upwards, the soil spreads along x. The "
-                 "slope of its right edge tells how fast the front is; an edge that runs straight "
-                 "up has stopped. White: no soil." + across, "png")
-
-
-def ground_of(table):
-    """x and lowest ground of the columns; the bottom of the mesh where there is no terrain."""
-    if "ground [m]" not in table:
-        x = numpy.unique(table["x [m]"])
-        return x, numpy.full(len(x), table["lowest [m]"].min())
-    x, i, _ = places_of(table["x [m]"])
-    ground = numpy.full(len(x), numpy.nan)
-    numpy.fmin.at(ground, i, table["ground [m]"])
-    return x[numpy.isfinite(ground)], ground[numpy.isfinite(ground)]
-
-
-def thickness_at(table, time, x):
-    """Thickness at these places and this time, 0 where there is no soil; in 3-D the largest
-    across the slope."""
-    now = table["time [s]"] == time
-    values = numpy.zeros(len(x))
-    numpy.maximum.at(values, numpy.searchsorted(x, table["x [m]"][now] - 1e-9 * numpy.ptp(x)),
-                     table[THICKNESS][now])
-    return values
+    where = "along the way. Largest values across it." if way else "along x."
+    return embed(figure, "Thalweg–time diagrams: read upwards, the soil spreads. The slope of the "
+                 "edge of the soil tells how fast the front is; an edge that runs straight up has "
+                 f"stopped. White: no soil. Places are {where}", "png")
 
 
 def magnification(ground, thickest):
@@ -85,13 +127,12 @@ def magnification(ground, thickest):
     return max(1.0, float(f"{0.35 * numpy.ptp(ground) / max(thickest, 1e-12):.1g}"))
 
 
-def deposit(run):
+def deposit(columns, way):
     """Thickness at the start and at the end over the bed. A layer of some metres on a bed that
     falls by hundreds is seen only if its thickness is drawn larger than the bed."""
-    table = run.tables["profile"]
-    times = numpy.unique(table["time [s]"])
-    x, ground = ground_of(table)
-    start, end = (thickness_at(table, time, x) for time in (times[0], times[-1]))
+    times = columns.times()
+    x, ground = columns.bed()
+    start, end = (columns.thickness_at(time) for time in (times[0], times[-1]))
     thickest = max(start.max(), end.max(), 1e-12)
     factor = magnification(ground, thickest)
     figure, axes = subplots(height=2.9)
@@ -100,14 +141,14 @@ def deposit(run):
     axes.fill_between(x, ground, ground + factor * end, color=BLUE, alpha=0.4, lw=0)
     axes.plot(x, ground + factor * end, color=BLUE, label=f"t = {times[-1]:.4g} s")
     axes.plot(x, ground, color="black", lw=1, label="bed")
-    axes.set(xlabel="x [m]", ylabel="height of the bed [m]", xlim=(x[0], x[-1]))
+    axes.set(xlabel=columns.label, ylabel="height of the bed [m]", xlim=(x[0], x[-1]))
     if factor > 1:
         scale_bar(axes, thickest, factor)
     axes.legend(loc="upper right")
     window = axes.get_window_extent()
     ratio = (numpy.ptp(axes.get_xlim()) / window.width) / (numpy.ptp(axes.get_ylim())
                                                            / window.height)
-    across = "" if run.dimension == 2 else ", the largest across the slope,"
+    across = ", the largest across the way," if way else ""
     drawn = (f"is drawn {factor:g} times as large as heights of the bed" if factor > 1 else
              "and heights are to the same scale")
     return embed(figure, f"Thickness of the soil{across} over the bed at the start (dashed) and "
@@ -126,29 +167,35 @@ def scale_bar(axes, thickest, factor):
               va="center", fontsize=8)
 
 
-def extremes(run):
+def extremes(run, columns, way):
     """Largest thickness and velocity with their places."""
     table, rows = run.tables["profile"], []
-    for column, name, sentence in (
-            (THICKNESS, "thickness of the soil",
+    for column, values, name, sentence in (
+            (THICKNESS, columns.thickness, "thickness of the soil",
              "How deep whatever stands there is buried at most."),
-            (VELOCITY, "mean velocity over the depth",
+            (VELOCITY, columns.velocity, "mean velocity over the depth",
              "With density and thickness, what a drag formula needs.")):
-        at = int(numpy.argmax(table[column]))
-        rows.append([name, Cell(show(table[column][at], column.split("[")[1][:-1]),
-                                repr(float(table[column][at])), column),
-                     show(table["x [m]"][at], "m"), show(table["time [s]"][at], "s"), sentence])
-    return Rows(TABLE_HEAD, rows)
+        at = int(numpy.argmax(numpy.abs(values)))
+        cells = [show(columns.along[at], "m")]
+        if way:
+            east, north = on_map(run, table["x [m]"][at], table["z [m]"][at])
+            cells.append(f"E\xa0{east:.0f}, N\xa0{north:.0f}")
+        rows.append([name, Cell(show(values[at], column.split("[")[1][:-1]),
+                                repr(float(values[at])), column),
+                     *cells, show(table["time [s]"][at], "s"), sentence])
+    where = ["along the way", "on the map"] if way else ["at x ="]
+    return Rows(["quantity", "largest", *where, "at t =", "what it means"], rows)
 
 
 def thalweg(run):
     """Where profile.csv is; the diagrams need two times."""
-    table = run.tables["profile"]
-    if table is None:
+    if run.tables["profile"] is None:
         return None
-    parts = [diagram(run)] if len(numpy.unique(table["time [s]"])) > 1 else []
-    parts.append(deposit(run))
-    parts.append(extremes(run))
+    way = way_of(run)
+    columns = columns_of(run, way)
+    parts = [diagram(columns, way)] if len(columns.times()) > 1 else []
+    parts += [deposit(columns, way), extremes(run, columns, way)]
+    along = f", along {way.name}" if way else ""
     return Section("thalweg", "Thickness and velocity along the slope",
-                   "Sums over the columns of the mesh, by profile.csv: thickness is the volume of "
+                   f"Of the columns of the mesh, by profile.csv{along}: thickness is the volume of "
                    "the soil in a column over its area.", parts)

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Places of the mesh on the map."""
+
+import numpy
+
+from talus_tools.parameters import numbers
+
+
+def origin(run):
+    """Easting and northing of x = z = 0 [m]."""
+    values = numbers(run.entries.get("Grid/Origin", "0, 0")) or [0, 0]
+    return numpy.array(values[:2] if len(values) > 1 else [0, 0], dtype=float)
+
+
+def on_map(run, x, z):
+    """Easting and northing of places [m]; z points to the south."""
+    east, north = origin(run)
+    return numpy.stack([east + numpy.asarray(x), north - numpy.asarray(z)], axis=-1)
