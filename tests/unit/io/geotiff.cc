@@ -4,7 +4,7 @@
 // we write comes back by bit, with its map.
 
 #include <talus/base/errors.h>
-#include <talus/io/geotiff_raster.h>
+#include <talus/io/gdal_raster.h>
 #include <talus/io/raster_file.h>
 #include <talus/version.h>
 
@@ -199,11 +199,12 @@ namespace geotiff_test
       }
 
       Raster
-      read(const std::string &content,
-           const RasterUnits  units = RasterUnits::guess)
+      read(const std::string &content)
       {
         std::ofstream(path, std::ios::binary) << content;
-        return read_raster(path, units);
+        const Raster raster = read_raster(path);
+        check_projection(path, raster, "");
+        return raster;
       }
 
       void
@@ -282,8 +283,7 @@ namespace geotiff_test
     degrees.scale  = {0.5, 0.5, 0.};
     degrees.tie    = {0., 0., 0., 14., 68., 0.};
     expect_error(geotiff(pixels(), degrees), "is in degrees");
-    const Raster raster =
-      read(geotiff(pixels(), degrees), RasterUnits::degrees);
+    const Raster raster = read_raster(path);
     EXPECT_EQ(raster.west, 14.);
     EXPECT_EQ(raster.south, 66.5);
   }
@@ -292,8 +292,8 @@ namespace geotiff_test
 
   TEST_F(GeotiffTest, RefusesWhatIsNoRasterOnAMap)
   {
-    expect_error(std::string("II*\0 and no more", 17), "cannot be read (");
-    expect_error(geotiff(pixels()).substr(0, 100), "cannot be read (");
+    expect_error(std::string("II*\0 and no more", 17), "GDAL cannot read it (");
+    expect_error(geotiff(pixels()).substr(0, 100), "GDAL cannot read it (");
     Georeference nowhere;
     nowhere.scale = {};
     expect_error(geotiff(pixels(), nowhere), "where it lies on the map");
@@ -301,6 +301,7 @@ namespace geotiff_test
     Georeference feet;
     feet.system = 2263;
     expect_error(geotiff(pixels(), feet), "is not in metres");
+    expect_error(geotiff(pixels(), feet), "Set `Projection` = UTM 18N");
   }
 
 
