@@ -12,9 +12,16 @@ namespace talus
 
   namespace
   {
-    const std::string how_to_install =
-      " Or install Debian's package libgdal-dev, "
-      "configure and build again.";
+    /// Throw ExcUser: @p found, and what to do.
+    void
+    refuse_without_gdal(const std::string &found, const std::string &command)
+    {
+      AssertThrow(false,
+                  ExcUser(found + ", but this talus was built without GDAL. " +
+                          command +
+                          " Or install Debian's package libgdal-dev, configure "
+                          "and build again."));
+    }
   } // namespace
 
 
@@ -47,24 +54,14 @@ namespace talus
 
 
 
-  struct MapTransformation::Implementation
-  {};
-
-
-
   MapTransformation::MapTransformation(const std::string &from,
                                        const std::string &to)
   {
-    AssertThrow(false,
-                ExcUser(text("Coordinates in '",
-                             from.substr(0, 60),
-                             "' have to be brought to '",
-                             to,
-                             "', but this talus was built without GDAL. "
-                             "Transform the file yourself: ogr2ogr -t_srs ",
-                             to,
-                             " OUT.geojson IN, and remove `Projection`.",
-                             how_to_install)));
+    refuse_without_gdal("Coordinates in '" + from +
+                          "' have to be brought to '" + to + "'",
+                        "Transform the file yourself, and remove `Projection`: "
+                        "ogr2ogr -t_srs " +
+                          to + " OUT.geojson IN.");
   }
 
 
@@ -78,17 +75,13 @@ namespace talus
   Raster
   read_gdal_raster(const std::filesystem::path &file)
   {
-    AssertThrow(false,
-                ExcUser(text("The raster '",
-                             file.string(),
-                             "' is no Esri ASCII grid, which begins with ncols "
-                             "or another keyword, and this talus was built "
-                             "without GDAL, which reads other formats. Convert "
-                             "it: gdal_translate -of AAIGrid IN OUT.asc, or, "
-                             "if it is in degrees, gdalwarp -t_srs EPSG:32633 "
-                             "-r cubic IN OUT.tif (the code is that of UTM "
-                             "33N) before.",
-                             how_to_install)));
+    refuse_without_gdal("The raster '" + file.string() +
+                          "' is no Esri ASCII grid, which begins with ncols or "
+                          "another keyword",
+                        "Convert it: gdal_translate -of AAIGrid IN OUT.asc; "
+                        "before, if it is in degrees, project it: gdalwarp "
+                        "-t_srs EPSG:32633 -r cubic IN OUT.tif (the code is "
+                        "that of UTM 33N).");
     return {};
   }
 
@@ -108,14 +101,10 @@ namespace talus
   MapPolygons
   read_gdal_polygons(const std::filesystem::path &file)
   {
-    AssertThrow(false,
-                ExcUser(text("The outline '",
-                             file.string(),
-                             "' is no GeoJSON file, and this talus was built "
-                             "without GDAL, which reads other formats. Convert "
-                             "it: ogr2ogr -t_srs EPSG:32633 OUT.geojson IN "
-                             "(the code is that of UTM 33N).",
-                             how_to_install)));
+    refuse_without_gdal("The outline '" + file.string() +
+                          "' is no GeoJSON file",
+                        "Convert it: ogr2ogr -t_srs EPSG:32633 OUT.geojson IN "
+                        "(the code is that of UTM 33N).");
     return {};
   }
 
@@ -124,12 +113,9 @@ namespace talus
   void
   check_geotiff(const std::string &)
   {
-    AssertThrow(false,
-                ExcUser("'Maps/Write GeoTIFF' is true, but this talus was "
-                        "built without GDAL, which writes GeoTIFF. Set it to "
-                        "false and convert the maps: gdal_translate IN.asc "
-                        "OUT.tif." +
-                        how_to_install));
+    refuse_without_gdal("'Maps/Write GeoTIFF' is true",
+                        "Set it to false, and convert the maps: "
+                        "gdal_translate IN.asc OUT.tif.");
   }
 
 

@@ -191,37 +191,6 @@ TEST(MapTransformation, IsKruegersSeries)
 
 
 
-// The CN Tower, as Wikipedia's page on UTM has it, to a tenth of a second.
-TEST(MapTransformation, PublishedPlace)
-{
-  const Point<2> place(-(79. + 23. / 60. + 13.7 / 3600.),
-                       43. + 38. / 60. + 33.24 / 3600.);
-  const UtmZone  zone = utm_zone(place[0], place[1]);
-  EXPECT_EQ(zone.name(), "UTM 17N");
-  const Point<2> x = transformed(place, wgs_84, zone.epsg_code());
-  EXPECT_NEAR(x[0], 630084., 1.2);
-  EXPECT_NEAR(x[1], 4833438., 1.2);
-}
-
-
-
-// A millimetre, that is 1e-8 degrees, and of the map itself.
-TEST(MapTransformation, ThereAndBack)
-{
-  for (const char *map : {"EPSG:32633", "EPSG:3575"})
-    for (double lon = 10.5; lon <= 19.5; lon += 1.)
-      for (double lat = 52.; lat < 84.; lat += 4.)
-        {
-          const Point<2> place(lon, lat);
-          const Point<2> x    = transformed(place, wgs_84, map);
-          const Point<2> back = transformed(x, map, wgs_84);
-          EXPECT_LT(transformed(back, wgs_84, map).distance(x), 1e-3) << map;
-          EXPECT_LT(back.distance(place), 1e-8) << map;
-        }
-}
-
-
-
 TEST(MapTransformation, PlacesThatAreNone)
 {
   EXPECT_FALSE(std::isfinite(transformed({0., 95.}, wgs_84, utm_33n).norm()));
