@@ -98,7 +98,6 @@ namespace talus
         out << "talus " << TALUS_VERSION << " (git revision "
             << TALUS_GIT_REVISION << "), deal.II " << DEAL_II_PACKAGE_VERSION
             << ", kernels for " << processor()
-            << (TALUS_WITH_PROJ ? ", with PROJ" : "")
             << (TALUS_WITH_GDAL ? ", with GDAL" : "") << std::endl;
         return {};
       }

@@ -112,7 +112,8 @@ namespace talus
                              " m, and may have places without data. Soil could "
                              "come there: make the mesh smaller, move it "
                              "('Grid/Origin', 'Section'), or fill the raster "
-                             "(gdal_fillnodata.py).")));
+                             "(gdal_fillnodata.py). A raster in degrees needs "
+                             "a `Projection`.")));
     Value result{value->height - origin_[2], {}};
     for (unsigned int d = 0; d < dim; ++d)
       result.slope[d] = value->slope * place.axes[d];

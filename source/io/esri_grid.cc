@@ -295,6 +295,34 @@ namespace talus
 
 
 
+  bool
+  is_esri_grid(const std::filesystem::path &file)
+  {
+    // A device may have no end, and to open a pipe is to wait for its writer.
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error))
+      return false;
+    std::ifstream in(file, std::ios::binary);
+    std::string   head(1024, '\0');
+    in.read(head.data(), head.size());
+    head.resize(in.gcount());
+    const std::string no_words = "\xef\xbb\xbf \t\r\n"; // with UTF-8's mark
+    const std::size_t begin    = head.find_first_not_of(no_words);
+    if (begin == std::string::npos)
+      return false;
+    const auto words =
+      split(std::string_view(head).substr(begin,
+                                          head.find('\n', begin) - begin),
+            "=:,");
+    return std::any_of(words.begin(),
+                       words.begin() + std::min<std::size_t>(2, words.size()),
+                       [](const std::string_view word) {
+                         return !keyword(word).empty();
+                       });
+  }
+
+
+
   // Line by line, and not number by number, so that a row that lacks a value
   // does not shift all that follow: the sum may be right by accident.
   Raster

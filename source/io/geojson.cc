@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/io/coordinate_system.h>
 #include <talus/io/geojson.h>
 
 #include <boost/property_tree/json_parser.hpp>
@@ -46,11 +47,11 @@ namespace talus
 
 
 
-    /// Corners of a ring, which ends where it begins.
-    std::vector<Point<2>>
+    /// Corners of a ring.
+    MapPolygons::Ring
     corners_of(const Tree &ring)
     {
-      std::vector<Point<2>> corners;
+      MapPolygons::Ring corners;
       for (const auto &[key, position] : ring)
         {
           // Behind the first two there may be a height.
@@ -59,23 +60,22 @@ namespace talus
             numbers.push_back(number.template get_value<double>());
           corners.emplace_back(numbers.at(0), numbers.at(1));
         }
-      if (corners.size() > 1 && corners.front() == corners.back())
-        corners.pop_back();
       return corners;
     }
 
 
 
-    /// Without a name of a coordinate system, or with that of WGS 84.
-    bool
-    is_in_degrees(const Tree &file)
+    /// Return the coordinate system that @p file names: WGS 84 without a name.
+    std::string
+    coordinate_system(const Tree &file)
     {
       const std::string name      = file.get("crs.properties.name", "");
       const auto        ends_with = [&](const std::string &end) {
         return name.size() >= end.size() &&
                name.compare(name.size() - end.size(), end.size(), end) == 0;
       };
-      return name.empty() || ends_with("CRS84") || ends_with(":4326");
+      return name.empty() || ends_with("CRS84") || ends_with(":4326") ? wgs_84
+                                                                      : name;
     }
   } // namespace
 
@@ -89,42 +89,38 @@ namespace talus
 
 
 
-  GeojsonPolygon
-  read_geojson_polygon(const std::filesystem::path &path)
+  MapPolygons
+  read_geojson(const std::filesystem::path &path)
   {
-    const std::string file = "The GeoJSON file '" + path.string() + "' ";
-    Tree              tree;
-    std::vector<Tree> polygons;
-    GeojsonPolygon    result;
+    const std::string file = "The outline '" + path.string() + "' ";
+    MapPolygons       result;
     try
       {
+        Tree              tree;
+        std::vector<Tree> polygons;
         boost::property_tree::read_json(path.string(), tree);
         collect_polygons(tree, polygons);
-        AssertThrow(polygons.size() == 1,
-                    ExcUser(text(file,
-                                 "has ",
-                                 polygons.size(),
-                                 " polygons, where one was expected. Save one "
-                                 "outline to a file of its own.")));
-        AssertThrow(polygons[0].size() == 1,
-                    ExcUser(text(file,
-                                 "has a polygon of ",
-                                 polygons[0].size(),
-                                 " rings, where one was expected: the outline, "
-                                 "without holes.")));
-        result.corners = corners_of(polygons[0].front().second);
+        for (const Tree &polygon : polygons)
+          {
+            auto &rings = result.polygons.emplace_back();
+            for (const auto &[key, ring] : polygon)
+              rings.push_back(corners_of(ring));
+          }
+        result.coordinate_system = coordinate_system(tree);
       }
     catch (const boost::property_tree::ptree_error &error)
       {
         AssertThrow(false,
-                    ExcUser(file + "cannot be read: " + error.what() + "."));
+                    ExcUser(file + "cannot be read as GeoJSON: " +
+                            error.what() + ". Save it anew."));
       }
     catch (const std::out_of_range &)
       {
         AssertThrow(false,
-                    ExcUser(file + "has a corner with less than two numbers."));
+                    ExcUser(file + "has a corner with less than two numbers, "
+                                   "where longitude and latitude were "
+                                   "expected. Save it anew."));
       }
-    result.is_in_degrees = is_in_degrees(tree);
     return result;
   }
 } // namespace talus

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/contact/ground.h>
+#include <talus/io/coordinate_system.h>
 #include <talus/io/esri_grid.h>
 #include <talus/io/files.h>
-#include <talus/io/geotiff_raster.h>
-#include <talus/io/map_projection.h>
+#include <talus/io/gdal_raster.h>
 #include <talus/io/vtu_writer.h>
 #include <talus/maps/maps.h>
 #include <talus/observers/state_cells.h>

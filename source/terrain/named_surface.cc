@@ -2,10 +2,11 @@
 #include <talus/base/errors.h>
 #include <talus/geometry/outline_surface.h>
 #include <talus/geometry/terrain.h>
+#include <talus/io/coordinate_system.h>
 #include <talus/io/files.h>
-#include <talus/io/geojson.h>
-#include <talus/io/map_projection.h>
+#include <talus/io/map_outline.h>
 #include <talus/io/raster_file.h>
+#include <talus/io/utm_zone.h>
 #include <talus/terrain/named_surface.h>
 #include <talus/terrain/plan_place.h>
 #include <talus/terrain/project_raster.h>
@@ -15,6 +16,8 @@
 #include <boost/geometry.hpp>
 #include <boost/geometry/geometries/linestring.hpp>
 #include <boost/geometry/geometries/point_xy.hpp>
+
+#include <cmath>
 
 namespace talus
 {
@@ -28,32 +31,27 @@ namespace talus
     add_parameter("File",
                   file_,
                   "Raster of heights, from the folder of this file: an Esri "
-                  "ASCII grid, netCDF-4 (GEBCO, GMT) or, if talus was built "
-                  "with GDAL, GeoTIFF; in metres, or in degrees with a "
-                  "`Projection`. In 3-D x is the easting and -z "
-                  "the northing, from 'Grid/Origin' on. Or, 3-D only, the "
-                  "polygon of a GeoJSON file (.geojson), as an `Outline`.");
+                  "ASCII grid or, if talus was built with GDAL, any format "
+                  "that GDAL reads (GeoTIFF, netCDF as GEBCO and GMT write "
+                  "it); in metres, or with a `Projection`. In 3-D x is the "
+                  "easting and -z the northing, from 'Grid/Origin' on. Or, 3-D "
+                  "only, the polygon of a GeoJSON file or, with GDAL, of any "
+                  "file of vectors (shapefile, GeoPackage, KML), as an "
+                  "`Outline`.");
     add_parameter("Projection",
                   projection_,
-                  "Of a raster in degrees (WGS 84): the map in metres that it "
-                  "is brought to on reading, and that 'Grid/Origin' and "
-                  "`Section` are on: zone and hemisphere as UTM 33N or UTM "
-                  "33S, or EPSG:3575, a number of PROJ's database. Empty: the "
-                  "raster is in metres.");
+                  "The map in metres that the file is brought to on reading, "
+                  "and that 'Grid/Origin' and `Section` are on: zone and "
+                  "hemisphere as UTM 33N or UTM 33S, or EPSG:3575, a code of "
+                  "the EPSG registry. A file that does not say its coordinate "
+                  "system is then in degrees (WGS 84). Needs a talus that was "
+                  "built with GDAL. Empty: the file is in metres.");
     add_parameter("Cell size",
                   cell_size_,
                   "Of the raster on that map [m]; 0: the smaller side that its "
                   "cells have in its middle.",
                   this->prm,
                   Patterns::Double(0.));
-    add_parameter(
-      "Units",
-      units_,
-      "Of the raster's coordinates: 'guess', by what the file says "
-      "and by their size, so that maps in degrees are refused without "
-      "a `Projection`; 'm', for flumes, which may look like degrees.",
-      this->prm,
-      Patterns::Selection("guess|m"));
     add_parameter("Section",
                   section_,
                   "2-D only: corners of the line on the map that the surface "
@@ -158,32 +156,39 @@ namespace talus
 
 
 
-  /// Projected, if it is in degrees.
+  template <int dim>
+  std::string
+  NamedSurface<dim>::map() const
+  {
+    if (projection_.empty())
+      return "";
+    const std::string map = epsg_code(path("Projection"), projection_);
+    AssertThrow(!is_built_with_gdal() || map_unit(map) == MapUnit::metres,
+                ExcUser(text(path("Projection"),
+                             " = '",
+                             projection_,
+                             "' is no map that GDAL knows whose easting and "
+                             "northing are in metres. Give a projected "
+                             "coordinate system, such as UTM 33N.")));
+    return map;
+  }
+
+
+
+  /// Projected, if there is a map to bring it to.
   template <int dim>
   Raster
   NamedSurface<dim>::read_file(const std::filesystem::path &file) const
   {
-    AssertThrow(projection_.empty() || units_ != "m",
-                ExcUser(text(path("Projection"),
-                             " is '",
-                             projection_,
-                             "', which is for rasters in degrees, but ",
-                             path("Units"),
-                             " is 'm'. Remove one of the two entries.")));
     AssertThrow(!projection_.empty() || cell_size_ == 0.,
                 ExcUser(text(path("Cell size"),
                              " is ",
                              cell_size_,
                              " m, but the cells of a raster change only where "
                              "there is a `Projection`. Remove the entry.")));
-    // Without PROJ the reader says how to project it by hand.
-    const bool is_projected =
-      !projection_.empty() && MapProjection::is_available();
+    const std::string map = this->map();
     protect_input(file);
-    Raster raster = read_raster(file,
-                                units_ == "m"  ? RasterUnits::metres
-                                : is_projected ? RasterUnits::degrees
-                                               : RasterUnits::guess);
+    Raster raster = read_raster(file);
     AssertThrow(raster.n_columns >= 2 && raster.n_rows >= 2,
                 ExcUser(text("The raster '",
                              file_,
@@ -192,15 +197,13 @@ namespace talus
                              " rows and ",
                              raster.n_columns,
                              " columns, but a surface needs two of both.")));
-    if (projection_.empty())
-      return raster;
-    const MapProjection map(path("Projection"), projection_);
-    raster                   = project_raster(std::move(raster),
-                            map,
-                            cell_size_,
-                            path("Projection") + " = " + projection_);
-    raster.coordinate_system = map.coordinate_system();
-    return raster;
+    check_projection(file, raster, map);
+    return map.empty()
+             ? raster
+             : project_raster(std::move(raster),
+                              map,
+                              cell_size_,
+                              path("Projection") + " = " + projection_);
   }
 
 
@@ -261,27 +264,38 @@ namespace talus
                                      const Point<3>              &origin) const
   {
     protect_input(file);
-    GeojsonPolygon polygon = read_geojson_polygon(file);
-    AssertThrow(polygon.is_in_degrees != projection_.empty(),
-                ExcUser(
-                  text("The outline '",
-                       file_,
-                       polygon.is_in_degrees
-                         ? "' is in degrees. Say to which map it is to be "
-                           "brought: "
-                         : "' is on a map in metres. Remove ",
-                       path("Projection"),
-                       polygon.is_in_degrees ? ", such as UTM 33N." : ".")));
-    if (polygon.is_in_degrees)
+    MapOutline        outline = talus::read_outline(file);
+    const std::string map     = this->map();
+    const MapUnit     unit    = map_unit(outline.coordinate_system);
+    AssertThrow(!map.empty() || unit == MapUnit::metres ||
+                  unit == MapUnit::unknown,
+                ExcUser(text("The outline '",
+                             file_,
+                             unit == MapUnit::degrees ? "' is in degrees"
+                                                      : "' is not in metres",
+                             ". Say to which map it is to be brought: ",
+                             path("Projection"),
+                             ", such as UTM 33N.")));
+    if (!map.empty())
+      MapTransformation(unit == MapUnit::unknown ? wgs_84
+                                                 : outline.coordinate_system,
+                        map)
+        .transform(outline.corners);
+    for (Point<2> &corner : outline.corners)
       {
-        const MapProjection map(path("Projection"), projection_);
-        for (Point<2> &corner : polygon.corners)
-          corner = map.forward(corner);
+        AssertThrow(std::isfinite(corner.norm()),
+                    ExcUser(text("The outline '",
+                                 file_,
+                                 "' has a corner without a place on the map ",
+                                 path("Projection"),
+                                 " = '",
+                                 projection_,
+                                 "'. Choose another map, or remove that entry "
+                                 "if the outline is in metres.")));
+        corner = Point<2>(corner[0] - origin[0], origin[1] - corner[1]);
       }
-    for (Point<2> &corner : polygon.corners)
-      corner = Point<2>(corner[0] - origin[0], origin[1] - corner[1]);
     return std::make_shared<OutlineSurface>("The outline '" + file_ + "'",
-                                            polygon.corners);
+                                            outline.corners);
   }
 
 
@@ -316,7 +330,7 @@ namespace talus
   {
     if (!outline_.empty())
       return read_outline(origin);
-    if (is_geojson(file_))
+    if (is_outline_file(file(folder)))
       return read_outline_file(file(folder), origin);
     const auto corners = section();
     Raster     raster  = read_file(file(folder));

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/geometry/height_field.h>
+#include <talus/io/coordinate_system.h>
+#include <talus/io/utm_zone.h>
 #include <talus/terrain/project_raster.h>
 
 #include <deal.II/base/numbers.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -26,36 +29,68 @@ namespace talus
 
 
 
-    /// At longitude and latitude @p x. True lengths are those on the ellipsoid of
-    /// WGS 84, by its radii of curvature along the meridian and across
-    /// (@cite snyder1987, eqs. 4-18, 4-20).
-    CellSize
-    cell_size(const Raster        &degrees,
-              const MapProjection &projection,
-              const Point<2>      &x)
+    /// Return the length of the way between two close places, longitude and
+    /// latitude, on the ellipsoid of WGS 84, by its radii of curvature along the
+    /// meridian and across (@cite snyder1987, eqs. 4-18, 4-20), m.
+    double
+    length_on_ellipsoid(const Point<2> &from, const Point<2> &to)
     {
       constexpr double a = 6378137., e2 = 6.69437999014e-3;
-      const double     radian = numbers::PI / 180.;
-      const double     sine   = std::sin(x[1] * radian);
-      const double     w      = 1. - e2 * sine * sine;
-      const double     across = a / std::sqrt(w) * std::cos(x[1] * radian);
-      const double     along  = a * (1. - e2) / (w * std::sqrt(w));
-      CellSize         result{std::numeric_limits<double>::max(), 0.};
-      for (const auto &[step, radius] :
-           {std::pair<Tensor<1, 2>, double>(Point<2>(0.5 * degrees.dx, 0.),
-                                            across),
-            std::pair<Tensor<1, 2>, double>(Point<2>(0., 0.5 * degrees.dy),
-                                            along)})
+      const double     radian   = numbers::PI / 180.;
+      const double     latitude = 0.5 * (from[1] + to[1]) * radian;
+      const double     sine     = std::sin(latitude);
+      const double     w        = 1. - e2 * sine * sine;
+      const double     across   = a / std::sqrt(w) * std::cos(latitude);
+      const double     along    = a * (1. - e2) / (w * std::sqrt(w));
+      return std::hypot(std::remainder(to[0] - from[0], 360.) * radian * across,
+                        (to[1] - from[1]) * radian * along);
+    }
+
+
+
+    /// From the coordinates of a raster to those of a map.
+    struct ToMap
+    {
+      ToMap(const Raster &raster, const std::string &map)
+        : to_map(raster.coordinate_system, map)
+        , from_map(map, raster.coordinate_system)
+        , to_degrees(raster.coordinate_system, wgs_84)
+      {}
+
+      const MapTransformation to_map, from_map, to_degrees;
+    };
+
+
+
+    /// Return the sizes of a cell at each of @p places of the raster.
+    std::vector<CellSize>
+    cell_sizes(const Raster                &raster,
+               const ToMap                 &transformation,
+               const std::vector<Point<2>> &places)
+    {
+      const std::array<Tensor<1, 2>, 2> steps = {
+        {Point<2>(0.5 * raster.dx, 0.), Point<2>(0., 0.5 * raster.dy)}};
+      std::vector<Point<2>> on_map;
+      for (const Point<2> &place : places)
+        for (const auto &step : steps)
+          for (const double sign : {-1., 1.})
+            on_map.push_back(place + sign * step);
+      std::vector<Point<2>> on_globe = on_map;
+      transformation.to_map.transform(on_map);
+      transformation.to_degrees.transform(on_globe);
+      std::vector<CellSize> result(places.size(),
+                                   {std::numeric_limits<double>::max(), 0.});
+      for (std::size_t i = 0; i < on_map.size(); i += 2)
         {
-          const double length =
-            (projection.forward(x + step) - projection.forward(x - step))
-              .norm();
-          const double truth = 2. * step.norm() * radian * radius;
-          result.on_map      = std::min(result.on_map, length);
-          const double error = std::isfinite(length)
+          const double length = on_map[i].distance(on_map[i + 1]);
+          const double truth =
+            length_on_ellipsoid(on_globe[i], on_globe[i + 1]);
+          const double error = std::isfinite(length) && std::isfinite(truth)
                                  ? std::abs(length / truth - 1.)
                                  : std::numeric_limits<double>::infinity();
-          result.too_long    = std::max(result.too_long, error);
+          CellSize    &size  = result[i / 4];
+          size.on_map        = std::min(size.on_map, length);
+          size.too_long      = std::max(size.too_long, error);
         }
       return result;
     }
@@ -89,53 +124,78 @@ namespace talus
 
 
 
+    /// Of a raster that does not say what its coordinates are.
     void
-    check_scale(const Raster         &degrees,
-                const MapProjection  &projection,
-                std::vector<Point<2>> places,
-                const std::string    &place)
+    check_degrees(const Raster &raster, const std::string &place)
     {
-      const Point<2> centre = middle(degrees);
-      places.push_back(centre);
-      for (const Point<2> &x : places)
-        {
-          const double error = cell_size(degrees, projection, x).too_long;
-          AssertThrow(error <= 0.01,
-                      ExcUser(text(place,
-                                   " projects a raster whose lengths would be "
-                                   "wrong by ",
-                                   100. * error,
-                                   " % at longitude ",
-                                   x[0],
-                                   ", latitude ",
-                                   x[1],
-                                   ", where at most 1 % was expected. Choose "
-                                   "another map (in its middle the raster is "
-                                   "in the zone ",
-                                   utm_zone(centre[0], centre[1]).name(),
-                                   "), or cut out the part you need.")));
-        }
+      const double east  = raster.west + raster.n_columns * raster.dx;
+      const double north = raster.south + raster.n_rows * raster.dy;
+      const double slack = raster.dx; // half a cell beyond the poles
+      AssertThrow(std::max(std::abs(raster.west), std::abs(east)) <=
+                      360. + slack &&
+                    std::max(std::abs(raster.south), std::abs(north)) <=
+                      90. + slack,
+                  ExcUser(text(place,
+                               " is set for a raster that reaches from ",
+                               raster.west,
+                               " to ",
+                               east,
+                               " and from ",
+                               raster.south,
+                               " to ",
+                               north,
+                               ", which are no longitudes and latitudes in "
+                               "degrees, and does not say what they are. "
+                               "Remove that entry if they are in metres, or "
+                               "put a file .prj beside the raster.")));
     }
 
 
 
-    /// Cells of this size that cover the outline, without values.
+    void
+    check_scale(const Raster                &raster,
+                const ToMap                 &transformation,
+                const std::vector<Point<2>> &places,
+                const std::string           &place)
+    {
+      const auto            sizes = cell_sizes(raster, transformation, places);
+      std::vector<Point<2>> on_globe = places;
+      on_globe.push_back(middle(raster));
+      transformation.to_degrees.transform(on_globe);
+      for (std::size_t i = 0; i < places.size(); ++i)
+        AssertThrow(
+          sizes[i].too_long <= 0.01,
+          ExcUser(text(place,
+                       " projects a raster whose lengths would be "
+                       "wrong by ",
+                       100. * sizes[i].too_long,
+                       " % at longitude ",
+                       on_globe[i][0],
+                       ", latitude ",
+                       on_globe[i][1],
+                       ", where at most 1 % was expected. Choose "
+                       "another map (in its middle the raster is "
+                       "in the zone ",
+                       utm_zone(on_globe.back()[0], on_globe.back()[1]).name(),
+                       "), or cut out the part you need.")));
+    }
+
+
+
+    /// Return cells of this size that cover the outline on the map @p corners,
+    /// without values.
     Raster
-    frame(const std::vector<Point<2>> &outline,
-          const MapProjection         &projection,
+    frame(const std::vector<Point<2>> &corners,
           const double                 spacing,
           const std::string           &place)
     {
-      Point<2> lower = projection.forward(outline.front()), upper = lower;
-      for (const Point<2> &x : outline)
-        {
-          const Point<2> corner = projection.forward(x);
-          for (unsigned int d = 0; d < 2; ++d)
-            {
-              lower[d] = std::min(lower[d], corner[d]);
-              upper[d] = std::max(upper[d], corner[d]);
-            }
-        }
+      Point<2> lower = corners.front(), upper = lower;
+      for (const Point<2> &corner : corners)
+        for (unsigned int d = 0; d < 2; ++d)
+          {
+            lower[d] = std::min(lower[d], corner[d]);
+            upper[d] = std::max(upper[d], corner[d]);
+          }
       Raster result;
       result.dx = result.dy  = spacing;
       result.west            = spacing * std::floor(lower[0] / spacing);
@@ -163,30 +223,50 @@ namespace talus
 
   // Backwards, from each centre of the new cells to the old ones: so values are
   // interpolated in the raster's own lattice, and half a cell is half a cell.
+  // GDAL's warper has a cubic kernel, too, but where cells of the map are larger
+  // than those of the raster along one axis, beside its edges and beside cells
+  // without data it does not bring back a plane.
   Raster
-  project_raster(Raster               degrees,
-                 const MapProjection &projection,
-                 const double         spacing,
-                 const std::string   &place)
+  project_raster(Raster             raster,
+                 const std::string &map,
+                 const double       spacing,
+                 const std::string &place)
   {
-    const auto     edge   = outline(degrees);
-    const Point<2> centre = middle(degrees);
-    check_scale(degrees, projection, edge, place);
-    const double own = cell_size(degrees, projection, centre).on_map;
-    Raster result = frame(edge, projection, spacing > 0 ? spacing : own, place);
-    result.nodata = degrees.nodata;
-    const HeightField heights(std::move(degrees));
+    if (raster.coordinate_system.empty())
+      {
+        check_degrees(raster, place);
+        raster.coordinate_system = wgs_84;
+      }
+    const bool is_in_degrees =
+      map_unit(raster.coordinate_system) == MapUnit::degrees;
+    const ToMap    transformation(raster, map);
+    const Point<2> centre = middle(raster);
+    auto           edge   = outline(raster);
+    edge.push_back(centre);
+    check_scale(raster, transformation, edge, place);
+    const double own = cell_sizes(raster, transformation, {centre})[0].on_map;
+    transformation.to_map.transform(edge);
+    Raster result            = frame(edge, spacing > 0 ? spacing : own, place);
+    result.nodata            = raster.nodata;
+    result.coordinate_system = map;
+    const HeightField heights(std::move(raster));
     result.values.reserve(std::size_t(result.n_rows) * result.n_columns);
     for (unsigned int r = 0; r < result.n_rows; ++r)
-      for (unsigned int i = 0; i < result.n_columns; ++i)
-        {
-          Point<2> x = projection.inverse(Point<2>(result.x(i), result.y(r)));
-          // A raster may count its longitudes from 0 to 360.
-          x[0] += 360. * std::round((centre[0] - x[0]) / 360.);
-          const auto value = heights.at(x);
-          result.values.push_back(
-            value ? value->height : std::numeric_limits<double>::quiet_NaN());
-        }
+      {
+        std::vector<Point<2>> row;
+        for (unsigned int i = 0; i < result.n_columns; ++i)
+          row.emplace_back(result.x(i), result.y(r));
+        transformation.from_map.transform(row);
+        for (Point<2> x : row)
+          {
+            // A raster may count its longitudes from 0 to 360.
+            if (is_in_degrees)
+              x[0] += 360. * std::round((centre[0] - x[0]) / 360.);
+            const auto value = heights.at(x);
+            result.values.push_back(
+              value ? value->height : std::numeric_limits<double>::quiet_NaN());
+          }
+      }
     return result;
   }
 } // namespace talus

@@ -1,7 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """What talus says to rasters and surfaces that are none; run by bad_input.py."""
 
-from bad_input_case import Case
+import subprocess
+
+from bad_input_case import TALUS, Case
+
+WITH_GDAL = "GDAL" in subprocess.run(
+    [TALUS, "--version"], capture_output=True, text=True, check=True).stdout
 
 
 class BadInputTerrain(Case):
@@ -38,8 +43,9 @@ class BadInputTerrain(Case):
     def test_rasters(self):
         for content, *words in (
                 ("", "cannot be read or is empty"),
-                ("CDF\x01...", "netCDF-3", "nccopy"),
-                ("II*\0...", "TIFF", "gdal_translate"),
+                ("CDF\x01...", "no Esri ASCII grid", "GDAL"),
+                ("II*\0...", "no Esri ASCII grid", "GDAL"),
+                ("<html>", "no Esri ASCII grid", "GDAL"),
                 (self.HEAD + "1 1 1\n1 1\n1 1 1\n", "line 7", "row 2 has 2"),
                 (self.HEAD + "1 1 1\n1 a 1\n1 1 1\n", "line 7", "'a'",
                  "column 2"),
@@ -52,21 +58,34 @@ class BadInputTerrain(Case):
                 (self.HEAD.replace("-5", "6e5") + self.ROWS, "has no value at",
                  "from 600000 m to 600015 m"),
                 ("ncols 3\nnrows 3\nxllcorner 4\nyllcorner 63\ncellsize "
-                 "0.004\n" + self.ROWS, "degrees", "`Projection` = UTM 31N",
-                 "EPSG:32631 -tr 400 400", "`Units` = m")):
+                 "0.004\n" + self.ROWS, "has no value at",
+                 "raster in degrees needs a `Projection`")):
             with self.subTest(content):
                 self.refuse_raster(content, *words)
 
     def test_projections(self):
         (self.folder / "bed.asc").write_text(self.HEAD + self.ROWS)
+        far = (["lengths would be wrong by"] if WITH_GDAL
+               else ["gdalwarp -s_srs EPSG:4326 -t_srs EPSG:32633 -tr", "GDAL"])
+        degrees = (["no map that GDAL knows", "in metres"] if WITH_GDAL
+                   else ["gdalwarp", "-t_srs EPSG:4326"])
         for settings, *words in (
-                (["Projection=UTM 33N", "Units=m"],
-                 "'Surfaces/bed/Projection' is 'UTM 33N'", "'Surfaces/bed/Units'"),
+                (["Projection=UTM 33"], "'Surfaces/bed/Projection' = 'UTM 33'",
+                 "hemisphere"),
+                (["Projection=UTM 33N"], *far),
+                (["Projection=EPSG:4326"], *degrees),
                 (["Cell size=5"], "'Surfaces/bed/Cell size' is 5 m",
                  "`Projection`")):
             with self.subTest(settings):
                 self.refuse_set(self.FILE + ["Surfaces/bed/" + s
                                              for s in settings], *words)
+        # By the file beside it.
+        (self.folder / "bed.prj").write_text(
+            'GEOGCS["GCS_WGS_1984",DATUM["D_WGS_1984",SPHEROID["WGS_1984",'
+            '6378137.0,298.257223563]],PRIMEM["Greenwich",0.0],'
+            'UNIT["Degree",0.0174532925199433]]')
+        self.refuse_set(self.FILE, "bed.asc", "is in degrees", "UTM 31N"
+                        if WITH_GDAL else "GDAL", "-t_srs EPSG:32631 -tr 600000")
 
     def test_surfaces(self):
         layer = ["Bodies/block/Shape=layer", "Bodies/block/Lower surface=0"]

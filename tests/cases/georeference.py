@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """Runs on bathymetry in degrees, which is projected on reading.
 
-Usage: georeference.py TALUS FOLDER MPIEXEC. Exit status 77 if this talus was
-built without PROJ.
+Usage: georeference.py TALUS FOLDER MPIEXEC. A talus that was built without GDAL
+has to refuse all of it.
 """
 
 import csv
+import json
 import math
 import pathlib
 import shutil
@@ -60,18 +61,19 @@ subsection Grid
   set Origin = {east}, {north}, 0
 end
 subsection Surfaces
-  set Names = mudline
+  set Names = {names}mudline
   subsection mudline
     set File = degrees.asc
     set Projection = UTM 33N
     {entry}
   end
+  {more}
 end
 subsection Obstacles
   set Names = bed
   subsection bed
     set Shape = terrain
-    set Surface = mudline - 30
+    set Surface = mudline - 30{pocket}
   end
 end
 subsection Bodies
@@ -114,14 +116,18 @@ class Georeference(unittest.TestCase):
             f"ncols {N}\nnrows {N}\nxllcorner {WEST}\nyllcorner {SOUTH}\n"
             f"cellsize {CELL!r}\n" + "\n".join(rows) + "\n")
 
-    def run_talus(self, n_ranks=1, **values):
+    def start(self, n_ranks=1, names="", more="", pocket="", **values):
         (self.folder / "case.prm").write_text(
-            BED.format(east=EAST, north=NORTH, **values))
+            BED.format(east=EAST, north=NORTH, names=names, more=more,
+                       pocket=pocket, **values))
         launcher = [MPIEXEC, "-n", str(n_ranks)] if n_ranks > 1 else []
-        result = subprocess.run(
-            [*launcher, TALUS, self.folder / "case.prm",
+        return subprocess.run(
+            [*launcher, TALUS, self.folder / "case.prm", "--overwrite",
              "--output", self.folder / "run"],
             capture_output=True, text=True, timeout=600)
+
+    def run_talus(self, n_ranks=1, **values):
+        result = self.start(n_ranks, **values)
         self.assertEqual(result.returncode, 0, result.stderr)
 
     def check_projection(self):
@@ -182,10 +188,78 @@ class Georeference(unittest.TestCase):
                                    delta=1e-4)
 
 
+    def test_outlines(self):
+        """An area in degrees is the one that is given by its corners on the map."""
+        # Corners in degrees, around the middle.
+        places = [(WEST + (N / 2 + i) * CELL, SOUTH + (N / 2 + j) * CELL)
+                  for i, j in ((-6, -3), (7, -2), (1, 3))]
+        ring = places + places[:1]
+        (self.folder / "area.geojson").write_text(json.dumps(
+            {"type": "Polygon", "coordinates": [ring]}))
+        (self.folder / "area.kml").write_text(
+            '<kml xmlns="http://www.opengis.net/kml/2.2"><Placemark><Polygon>'
+            "<outerBoundaryIs><LinearRing><coordinates>"
+            + " ".join("%.12f,%.12f" % place for place in ring) +
+            "</coordinates></LinearRing></outerBoundaryIs></Polygon></Placemark>"
+            "</kml>")
+        corners = "; ".join("%.9f,%.9f" % transverse_mercator(*place)
+                            for place in places)
+        grounds = []
+        for entries in (f"set Outline = {corners}\n set Coordinates = map",
+                        "set File = area.geojson\n set Projection = UTM 33N",
+                        "set File = area.kml\n set Projection = UTM 33N"):
+            self.run_talus(dim=3, zero=", 0", width=", 300", near=", 80",
+                           far=", 220", entry="set Cell size = 10",
+                           names="area, ",
+                           more=f"subsection area\n {entries}\n end",
+                           pocket=" - min(5, max(0, area))")
+            grounds.append(list(map(float, (self.folder / "run/maps/ground.asc")
+                                    .read_text().split()[12:])))
+        by_corners, by_geojson, by_kml = grounds
+        self.assertEqual(len(by_corners), len(by_geojson))
+        for a, b, c in zip(by_corners, by_geojson, by_kml):
+            self.assertAlmostEqual(a, b, delta=1e-3)  # as the series above
+            self.assertAlmostEqual(b, c, delta=1e-6)  # twelve decimals
+        # The area is not without effect.
+        self.run_talus(dim=3, zero=", 0", width=", 300", near=", 80",
+                       far=", 220", entry="set Cell size = 10")
+        without = map(float, (self.folder / "run/maps/ground.asc")
+                      .read_text().split()[12:])
+        self.assertAlmostEqual(max(a - b for a, b in zip(without, by_corners)),
+                               5, delta=1)
+
+
+class Refused(Georeference):
+    """Without GDAL."""
+
+    def test_three_dimensions(self):
+        self.refuse("gdalwarp -s_srs EPSG:4326 -t_srs EPSG:32633 -tr 40 40",
+                    dim=3, zero=", 0", width=", 300", near=", 80",
+                    far=", 220", entry="")
+
+    def test_section(self):
+        self.refuse("gdalwarp", dim=2, zero="", width="", near="", far="",
+                    entry=f"set Section = {EAST},{NORTH}; {EAST + 300},{NORTH}")
+
+    def test_outlines(self):
+        for name, words in (("area.geojson", "ogr2ogr -t_srs EPSG:32633"),
+                            ("area.kml", "ogr2ogr")):
+            (self.folder / name).write_text(json.dumps(
+                {"type": "Polygon",
+                 "coordinates": [[[16, 67], [16.1, 67], [16, 67.1], [16, 67]]]}))
+            self.refuse(words, dim=3, zero=", 0", width=", 300", near=", 80",
+                        far=", 220", entry="", names="area, ",
+                        more=f"subsection area\n set File = {name}\n"
+                             " set Projection = UTM 33N\n end")
+
+    def refuse(self, words, **values):
+        result = self.start(**values)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn(words, " ".join(result.stderr.split()))
+
+
 if __name__ == "__main__":
     version = subprocess.run([TALUS, "--version"], capture_output=True, text=True,
                              check=True).stdout
-    if "PROJ" not in version:
-        print("This talus was built without PROJ:", version)
-        sys.exit(77)
-    unittest.main(argv=sys.argv[:1], verbosity=2)
+    suite = "Georeference" if "GDAL" in version else "Refused"
+    unittest.main(argv=[sys.argv[0], suite], verbosity=2)

@@ -4,8 +4,8 @@
 #include "case.h"
 
 #include <talus/base/raster.h>
+#include <talus/io/coordinate_system.h>
 #include <talus/io/esri_grid.h>
-#include <talus/io/map_projection.h>
 #include <talus/points/points_kernel.h>
 
 #include <gtest/gtest.h>
@@ -134,8 +134,8 @@ TEST(Terrain, LayersInThreeDimensions)
 // what their errors leave between them is no soil. A box is 12.5 m wide.
 TEST(Terrain, NoSoilBetweenSurfacesThatGoOnAsOne)
 {
-  if (!MapProjection::is_available())
-    GTEST_SKIP() << "The raster is in degrees, and PROJ was not found.";
+  if (!is_built_with_gdal())
+    GTEST_SKIP() << "The raster is in degrees, and GDAL was not found.";
   Case<3> slope(
     "own-slope.prm",
     {"Grid/Cell size=25",

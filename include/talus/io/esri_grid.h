@@ -8,6 +8,13 @@
 
 namespace talus
 {
+  /// Return whether the first line of @p file has a keyword of an Esri ASCII
+  /// grid; false for what is no regular file.
+  bool
+  is_esri_grid(const std::filesystem::path &file);
+
+
+
   /// Read an Esri ASCII grid (.asc): lines of a keyword and a number, in any
   /// order and case (`ncols`, `nrows`; `xllcorner` or `xllcenter`, the same of
   /// y; `cellsize`, or `dx` and `dy`; `nodata_value` or `nodata`), and then one
@@ -19,8 +26,10 @@ namespace talus
   Raster
   read_esri_grid(const std::filesystem::path &file);
 
-  /// Write one, with as many digits as bring back every bit. Throws ExcUser if
-  /// that fails.
+
+
+  /// Write an Esri ASCII grid, with as many digits as bring back every bit.
+  /// Throws ExcUser if that fails.
   void
   write_esri_grid(const std::filesystem::path &file, const Raster &raster);
 } // namespace talus

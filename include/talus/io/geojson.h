@@ -2,34 +2,23 @@
 #ifndef talus_io_geojson_h
 #define talus_io_geojson_h
 
-#include <deal.II/base/point.h>
+#include <talus/io/map_outline.h>
 
 #include <filesystem>
-#include <string>
-#include <vector>
 
 namespace talus
 {
-  /// The one polygon of a GeoJSON file.
-  struct GeojsonPolygon
-  {
-    std::vector<dealii::Point<2>> corners; ///< the last one is not the first
-    /// Whether corners are longitude and latitude in degrees (WGS 84), as the
-    /// standard (RFC 7946) has it; else easting and northing in m, of the map
-    /// that the member `crs` of the file names.
-    bool is_in_degrees;
-  };
-
-
-
-  /// Whether the name of a file says that it is GeoJSON.
+  /// Return whether the name of a file says that it is GeoJSON.
   bool
   is_geojson(const std::filesystem::path &path);
 
-  /// Read a polygon without holes. Throws ExcUser if the file cannot be read, or
-  /// has none or several.
-  GeojsonPolygon
-  read_geojson_polygon(const std::filesystem::path &path);
+
+
+  /// Read all polygons of a GeoJSON file, in longitude and latitude (WGS 84) as
+  /// the standard (RFC 7946) has it, or in the coordinate system that the member
+  /// `crs` of the file names. Throws ExcUser if the file cannot be read.
+  MapPolygons
+  read_geojson(const std::filesystem::path &path);
 } // namespace talus
 
 #endif

@@ -5,26 +5,27 @@
 #include <talus/base/raster.h>
 
 #include <filesystem>
+#include <string>
 
 namespace talus
 {
-  /// What the coordinates of a raster are.
-  enum class RasterUnits
-  {
-    guess, ///< by what the file says, and by their size
-    metres,
-    degrees
-  };
-
-
-
-  /// Read a raster, an Esri ASCII grid, netCDF-4 or GeoTIFF, whichever it is by
-  /// its content; in metres, unless @p units are degrees. Throws ExcUser, naming the
-  /// file, if it cannot be read, is of another format, or not in these units: of
-  /// one in degrees with the command that projects it.
+  /// Read a raster: an Esri ASCII grid, with the coordinate system of the file
+  /// .prj beside it, or any format that GDAL reads; in the coordinates of the
+  /// file, which may be degrees. Throws ExcUser, naming the file, if it cannot be
+  /// read.
   Raster
-  read_raster(const std::filesystem::path &file,
-              RasterUnits                  units = RasterUnits::guess);
+  read_raster(const std::filesystem::path &file);
+
+
+
+  /// Throw ExcUser, with the command that projects @p file, if talus cannot
+  /// compute on this raster: if it is not in metres and @p map is empty, or if
+  /// it has to be brought to @p map (EPSG:32633) and talus was built without
+  /// GDAL.
+  void
+  check_projection(const std::filesystem::path &file,
+                   const Raster                &raster,
+                   const std::string           &map);
 } // namespace talus
 
 #endif

@@ -55,7 +55,8 @@ namespace talus
       return expression_;
     }
 
-    /// The map that a raster in degrees is brought to; empty if it is in metres.
+    /// Return the map that the file is brought to, in the user's words; empty if
+    /// it is used as it is.
     const std::string &
     projection() const
     {
@@ -81,6 +82,9 @@ namespace talus
   private:
     std::vector<dealii::Point<2>>
     section() const;
+    /// Return the code of that map.
+    std::string
+    map() const;
     Raster
     read_file(const std::filesystem::path &file) const;
     std::shared_ptr<const Surface<dim>>
@@ -91,7 +95,6 @@ namespace talus
 
     std::string name_;
     std::string file_        = "";
-    std::string units_       = "guess";
     std::string projection_  = "";
     double      cell_size_   = 0.;
     std::string section_     = "";

@@ -4,9 +4,8 @@
 
 #include <talus/base/errors.h>
 #include <talus/io/esri_grid.h>
-#include <talus/io/hdf5_handle.h>
-#include <talus/io/netcdf_raster.h>
 #include <talus/io/raster_file.h>
+#include <talus/version.h>
 
 #include <gtest/gtest.h>
 
@@ -55,7 +54,9 @@ namespace raster_test
       read(const std::string &content)
       {
         std::ofstream(path, std::ios::binary) << content;
-        return read_raster(path);
+        const Raster raster = read_raster(path);
+        check_projection(path, raster, "");
+        return raster;
       }
 
       /// What the user is told.
@@ -135,109 +136,6 @@ namespace raster_test
                                      value_of_plane(raster.x(i), raster.y(r))));
       return result;
     }
-
-
-
-    /// Writes a netCDF-4 file as the library of that name lays it out.
-    class NetcdfWriter
-    {
-    public:
-      explicit NetcdfWriter(const fs::path &path)
-        : file(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT),
-               H5Fclose)
-      {}
-
-      void
-      add(const std::string          &name,
-          const hid_t                 type,
-          const std::vector<hsize_t> &shape,
-          const std::vector<double>  &values)
-      {
-        const Hdf5Handle space(
-          H5Screate_simple(shape.size(), shape.data(), nullptr), H5Sclose);
-        const Hdf5Handle array(H5Dcreate2(file,
-                                          name.c_str(),
-                                          type,
-                                          space,
-                                          H5P_DEFAULT,
-                                          H5P_DEFAULT,
-                                          H5P_DEFAULT),
-                               H5Dclose);
-        ASSERT_GE(H5Dwrite(array,
-                           H5T_NATIVE_DOUBLE,
-                           H5S_ALL,
-                           H5S_ALL,
-                           H5P_DEFAULT,
-                           values.data()),
-                  0);
-      }
-
-      void
-      add_number(const std::string &name,
-                 const std::string &attribute,
-                 const hid_t        type,
-                 const double       value)
-      {
-        const hsize_t    one = 1;
-        const Hdf5Handle space(H5Screate_simple(1, &one, nullptr), H5Sclose);
-        write_attribute(
-          name, attribute, type, space, H5T_NATIVE_DOUBLE, &value);
-      }
-
-      void
-      add_text(const std::string &name,
-               const std::string &attribute,
-               const std::string &value)
-      {
-        const Hdf5Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-        const Hdf5Handle type = text_type(value);
-        write_attribute(name, attribute, type, space, type, value.data());
-      }
-
-    private:
-      void
-      write_attribute(const std::string &name,
-                      const std::string &attribute,
-                      const hid_t        type,
-                      const hid_t        space,
-                      const hid_t        memory_type,
-                      const void        *value)
-      {
-        const Hdf5Handle array(H5Dopen2(file, name.c_str(), H5P_DEFAULT),
-                               H5Dclose);
-        const Hdf5Handle handle(
-          H5Acreate2(
-            array, attribute.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
-          H5Aclose);
-        ASSERT_GE(H5Awrite(handle, memory_type, value), 0);
-      }
-
-      Hdf5Handle file;
-    };
-
-
-
-    /// Coordinates and values of the plane, along x and y as given.
-    struct MapFrame
-    {
-      std::vector<double> x, y;
-
-      std::vector<double>
-      values(const std::function<double(double)> &pack) const
-      {
-        std::vector<double> result;
-        for (const double yi : y)
-          for (const double xi : x)
-            result.push_back(pack(value_of_plane(xi, yi)));
-        return result;
-      }
-
-      std::vector<hsize_t>
-      shape() const
-      {
-        return {y.size(), x.size()};
-      }
-    };
   } // namespace
 
 
@@ -338,109 +236,48 @@ namespace raster_test
     const std::string grid =
       "ncols 1\nnrows 1\nxllcorner 4\nyllcorner 63\ncellsize 1\n5\n";
     EXPECT_EQ(read(grid).coordinate_system, "");
-    const fs::path beside = path.string() + ".prj";
+    const fs::path beside = fs::path(path).replace_extension(".prj");
     std::ofstream(beside) << "PROJCS[\"of the user\"]\r\n";
     EXPECT_EQ(read(grid).coordinate_system, "PROJCS[\"of the user\"]");
-    std::ofstream(beside) << "GEOGCS[\"GCS_WGS_1984\"]";
-    expect_error(grid, "is in degrees");
     fs::remove(beside);
   }
 
 
 
-  TEST_F(RasterTest, NetcdfAsGmtWritesIt)
-  {
-    const MapFrame lattice{{10., 12., 14., 16.}, {100., 105., 110.}};
-    {
-      NetcdfWriter file(path);
-      file.add("x", H5T_IEEE_F64LE, {4}, lattice.x);
-      file.add("y", H5T_IEEE_F64LE, {3}, lattice.y);
-      auto z = lattice.values([](const double value) { return value; });
-      z[5]   = std::nan("");
-      file.add("z", H5T_IEEE_F32LE, lattice.shape(), z);
-      file.add_number("z", "_FillValue", H5T_IEEE_F32LE, std::nan(""));
-    }
-    Raster raster = read_raster(path, RasterUnits::metres);
-    EXPECT_EQ(raster.west, 9.);
-    EXPECT_EQ(raster.south, 97.5);
-    EXPECT_EQ(raster.dx, 2.);
-    EXPECT_EQ(raster.dy, 5.);
-    EXPECT_TRUE(std::isnan(raster.value(1, 1)));
-    raster.values[5] = value_of_plane(raster.x(1), raster.y(1));
-    EXPECT_LT(distance_from_plane(raster), 1e-12);
-  }
-
-
-
-  // South first as GEBCO has it, and north first; whole numbers, packed ones.
-  TEST_F(RasterTest, NetcdfRowsBothWaysAndPacked)
-  {
-    for (const bool ascends : {true, false})
-      {
-        const MapFrame lattice{{0., 4., 8.},
-                               ascends ? std::vector<double>{1000., 1002.}
-                                       : std::vector<double>{1002., 1000.}};
-        {
-          NetcdfWriter file(path);
-          file.add("lon", H5T_IEEE_F64LE, {3}, lattice.x);
-          file.add("lat", H5T_IEEE_F64LE, {2}, lattice.y);
-          file.add("elevation",
-                   H5T_STD_I16LE,
-                   lattice.shape(),
-                   lattice.values(
-                     [](const double value) { return (value - 50.) / 0.5; }));
-          file.add("tid", H5T_STD_I8LE, lattice.shape(), {1, 2, 3, 4, 5, 6});
-          file.add_number("elevation", "scale_factor", H5T_IEEE_F64LE, 0.5);
-          file.add_number("elevation", "add_offset", H5T_IEEE_F32LE, 50.);
-          file.add_number("elevation", "_FillValue", H5T_STD_I16LE, -32767.);
-        }
-        EXPECT_LT(distance_from_plane(read_raster(path, RasterUnits::metres)),
-                  1e-12);
-      }
-  }
-
-
-
+  // Off Norway; in the south, and west of Greenwich.
   TEST_F(RasterTest, DegreesAreRefusedWithTheCommandThatProjects)
   {
-    // GEBCO: 15 arc seconds, off Norway.
-    const double   h = 15. / 3600.;
-    const MapFrame lattice{{4. + 0.5 * h, 4. + 1.5 * h},
-                           {63. + 0.5 * h, 63. + 1.5 * h}};
-    for (const bool says_so : {true, false})
-      {
-        {
-          NetcdfWriter file(path);
-          file.add("lon", H5T_IEEE_F64LE, {2}, lattice.x);
-          file.add("lat", H5T_IEEE_F64LE, {2}, lattice.y);
-          file.add("elevation", H5T_STD_I16LE, lattice.shape(), {1, 2, 3, 4});
-          if (says_so)
-            file.add_text("lon", "units", "degrees_east");
-        }
-        const std::string sentence = error([&] { read_raster(path); });
-        EXPECT_NE(sentence.find("gdalwarp -t_srs EPSG:32631 -tr 500 500"),
-                  std::string::npos)
-          << sentence;
-        EXPECT_EQ(read_raster(path, RasterUnits::metres).value(0, 0), 3.);
-      }
-    // In the south, and west of Greenwich, as an Esri grid.
-    const std::string south =
-      "ncols 1\nnrows 1\nxllcorner -70.01\nyllcorner -33\ncellsize 0.0001\n5\n";
-    expect_error(south, "EPSG:32719 -tr 10 10");
-    expect_error(south, "set `Units` = m");
-    // A flume.
-    EXPECT_EQ(read_raster(path, RasterUnits::metres).value(0, 0), 5.);
+    const fs::path beside = fs::path(path).replace_extension(".prj");
+    std::ofstream(beside) << "GEOGCS[\"GCS_WGS_1984\",DATUM[\"D_WGS_1984\","
+                             "SPHEROID[\"WGS_1984\",6378137.0,298.257223563]],"
+                             "PRIMEM[\"Greenwich\",0.0],"
+                             "UNIT[\"Degree\",0.0174532925199433]]";
+    const std::string north =
+      "ncols 1\nnrows 1\nxllcorner 4\nyllcorner 63\ncellsize 0.0041666\n5\n";
+    expect_error(north, "is in degrees: its cells are 0.0041666 wide");
+    expect_error(north, "gdalwarp -t_srs EPSG:32631 -tr 500 500 -r cubic");
+    expect_error(
+      "ncols 1\nnrows 1\nxllcorner -70.01\nyllcorner -33\ncellsize 0.0001\n5\n",
+      "EPSG:32719 -tr 10 10");
+    fs::remove(beside);
+    // Without a word on its coordinates a raster is in metres: a flume.
+    EXPECT_EQ(read(north).value(0, 0), 5.);
   }
 
 
 
   TEST_F(RasterTest, WhatIsNoRasterIsSaid)
   {
-    expect_error("CDF\001 and more", "is netCDF-3");
-    expect_error("CDF\001 and more", "nccopy -k nc4");
-    expect_error(std::string("II*\0 and more", 14),
-                 "gdal_translate -of AAIGrid");
-    expect_error("\211HDF\r\n\032\n and more", "cannot be read (");
+    for (const std::string &begin : {std::string("CDF\001 and more"),
+                                     std::string("II*\0 and more", 14),
+                                     std::string("\211HDF\r\n\032\n and more"),
+                                     std::string("<html>\n")})
+      {
+        expect_error(begin, "is no Esri ASCII grid, which begins with ncols");
+        expect_error(begin,
+                     TALUS_WITH_GDAL ? "GDAL cannot read it ("
+                                     : "gdal_translate -of AAIGrid");
+      }
     expect_error("", "cannot be read or is empty");
     expect_error(header + "1 2 3 4\n5 6 7\n8 9 10 11\n",
                  "line 8: row 2 has 3 values, but ncols is 4");
@@ -460,47 +297,5 @@ namespace raster_test
     expect_error("ncols 2.5\nnrows 1\n1 2\n", "has ncols = 2.5, where a whole");
     expect_error("ncols 2\nnrows 1\ncellsize 0\n1 2\n", "has cells of 0");
     expect_error("ncols 4\n", "has 0 rows of values, where an Esri ASCII grid");
-  }
-
-
-
-  TEST_F(RasterTest, NetcdfThatIsNoRasterIsSaid)
-  {
-    const auto sentence = [&] {
-      return error([&] { read_raster(path, RasterUnits::metres); });
-    };
-    {
-      NetcdfWriter file(path);
-      file.add("x", H5T_IEEE_F64LE, {3}, {1., 2., 4.});
-    }
-    EXPECT_NE(sentence().find("'x' that are not evenly spaced (2 at place 2)"),
-              std::string::npos)
-      << sentence();
-    {
-      NetcdfWriter file(path);
-      file.add("x", H5T_IEEE_F64LE, {2}, {1., 2.});
-    }
-    EXPECT_NE(sentence().find("no coordinates named lat or latitude or y"),
-              std::string::npos)
-      << sentence();
-    {
-      NetcdfWriter file(path);
-      file.add("x", H5T_IEEE_F64LE, {2}, {1., 2.});
-      file.add("y", H5T_IEEE_F64LE, {2}, {1., 2.});
-      file.add("u", H5T_IEEE_F64LE, {2, 2}, {1., 2., 3., 4.});
-      file.add("v", H5T_IEEE_F64LE, {2, 2}, {1., 2., 3., 4.});
-    }
-    EXPECT_NE(sentence().find("has 2 arrays over 'y' and 'x' (u, v)"),
-              std::string::npos)
-      << sentence();
-    {
-      NetcdfWriter file(path);
-      file.add("x", H5T_IEEE_F64LE, {2}, {1., 2.});
-      file.add("y", H5T_IEEE_F64LE, {2}, {1., 2.});
-      file.add("z", H5T_IEEE_F64LE, {2, 2}, {1., 2., 3., 4.});
-      file.add_text("z", "positive", "down");
-    }
-    EXPECT_NE(sentence().find("positive downwards"), std::string::npos)
-      << sentence();
   }
 } // namespace raster_test

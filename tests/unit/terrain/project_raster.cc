@@ -4,7 +4,8 @@
 
 #include <talus/base/errors.h>
 #include <talus/geometry/height_field.h>
-#include <talus/io/map_projection.h>
+#include <talus/io/coordinate_system.h>
+#include <talus/io/utm_zone.h>
 #include <talus/terrain/project_raster.h>
 #include <talus/version.h>
 
@@ -43,18 +44,43 @@ namespace
 
 
 
-TEST(MapProjection, ZonesOfPlaces)
+TEST(UtmZone, ZonesOfPlaces)
 {
   EXPECT_EQ(utm_zone(15.1, 67.).name(), "UTM 33N");
-  EXPECT_EQ(utm_zone(15.1, 67.).epsg(), 32633u);
+  EXPECT_EQ(utm_zone(15.1, 67.).epsg_code(), "EPSG:32633");
   EXPECT_EQ(utm_zone(-180., -1.).name(), "UTM 1S");
-  EXPECT_EQ(utm_zone(179.9, -1.).epsg(), 32760u);
+  EXPECT_EQ(utm_zone(179.9, -1.).epsg_code(), "EPSG:32760");
   EXPECT_EQ(utm_zone(190., 5.).name(), "UTM 2N");
 }
 
 
 
-#if TALUS_WITH_PROJ
+TEST(UtmZone, Codes)
+{
+  for (const auto &[name, code] : {std::make_pair("UTM 33N", "EPSG:32633"),
+                                   std::make_pair("UTM1S", "EPSG:32701"),
+                                   std::make_pair("EPSG:3575", "EPSG:3575")})
+    EXPECT_EQ(epsg_code("'Projection'", name), code);
+  for (const std::string name : {"UTM 33",
+                                 "UTM 33V",
+                                 "UTM 61N",
+                                 "UTM 0N",
+                                 "+proj=utm +zone=33",
+                                 "/etc/hosts"})
+    {
+      const std::string sentence =
+        error([&] { epsg_code("'Projection'", name); });
+      EXPECT_NE(sentence.find("'Projection' = '" + name +
+                              "' was found, where a "
+                              "UTM zone from 1 to 60 and its hemisphere"),
+                std::string::npos)
+        << sentence;
+    }
+}
+
+
+
+#if TALUS_WITH_GDAL
 
 namespace
 {
@@ -62,10 +88,17 @@ namespace
 
   const Point<2> middle_of_map = transverse_mercator({14.375, 67.125}, 33);
 
-  MapProjection
-  utm_33n()
+  const std::string utm_33n = "EPSG:32633";
+
+
+
+  /// Place @p x of one coordinate system in another.
+  Point<2>
+  transformed(const Point<2> &x, const std::string &from, const std::string &to)
   {
-    return {"'Projection'", "UTM 33N"};
+    std::vector<Point<2>> places = {x};
+    MapTransformation(from, to).transform(places);
+    return places[0];
   }
 
 
@@ -135,83 +168,49 @@ namespace
 
 
 // In the zone, at its edges and beyond, in both hemispheres.
-TEST(MapProjection, IsKruegersSeries)
+TEST(MapTransformation, IsKruegersSeries)
 {
-  for (const auto &[name, zone, is_south] :
-       {std::make_tuple("UTM 33N", 33u, false),
-        std::make_tuple("UTM 1S", 1u, true),
-        std::make_tuple("UTM60S", 60u, true)})
+  for (const UtmZone &zone :
+       {UtmZone{33, false}, UtmZone{1, true}, UtmZone{60, true}})
     {
-      const MapProjection projection("'Projection'", name);
+      std::vector<Point<2>> places, expected;
       for (double lon = -6.; lon <= 6.; lon += 1.5)
         for (double lat = 1.; lat < 84.; lat += 7.)
           {
-            const Point<2> place(6. * zone - 183. + lon, is_south ? -lat : lat);
-            const Point<2> x = projection.forward(place);
-            EXPECT_LT(x.distance(transverse_mercator(place, zone, is_south)),
-                      1e-6)
-              << name << ' ' << place;
+            places.emplace_back(6. * zone.number - 183. + lon,
+                                zone.is_south ? -lat : lat);
+            expected.push_back(
+              transverse_mercator(places.back(), zone.number, zone.is_south));
           }
+      MapTransformation(wgs_84, zone.epsg_code()).transform(places);
+      for (std::size_t i = 0; i < places.size(); ++i)
+        EXPECT_LT(places[i].distance(expected[i]), 1e-6)
+          << zone.name() << ' ' << expected[i];
     }
 }
 
 
 
-// The CN Tower, as Wikipedia's page on UTM has it, to a tenth of a second.
-TEST(MapProjection, PublishedPlace)
+TEST(MapTransformation, PlacesThatAreNone)
 {
-  const Point<2> place(-(79. + 23. / 60. + 13.7 / 3600.),
-                       43. + 38. / 60. + 33.24 / 3600.);
-  EXPECT_EQ(utm_zone(place[0], place[1]).name(), "UTM 17N");
-  const Point<2> x = MapProjection("'Projection'", "UTM 17N").forward(place);
-  EXPECT_NEAR(x[0], 630084., 1.2);
-  EXPECT_NEAR(x[1], 4833438., 1.2);
+  EXPECT_FALSE(std::isfinite(transformed({0., 95.}, wgs_84, utm_33n).norm()));
+  EXPECT_NE(error([] {
+              MapTransformation("somewhere", utm_33n);
+            }).find("no transformation from the coordinate system 'somewhere'"),
+            std::string::npos);
 }
 
 
 
-// A millimetre, that is 1e-8 degrees, and of the map itself.
-TEST(MapProjection, ThereAndBack)
+// By code and by words; a central meridian of 15 degrees east is that of zone 33.
+TEST(CoordinateSystem, WordsForGis)
 {
-  for (const char *name : {"UTM 33N", "EPSG:32633", "EPSG:3575"})
-    {
-      const MapProjection projection("'Projection'", name);
-      for (double lon = 10.5; lon <= 19.5; lon += 1.)
-        for (double lat = 52.; lat < 84.; lat += 4.)
-          {
-            const Point<2> place(lon, lat);
-            const Point<2> x    = projection.forward(place);
-            const Point<2> back = projection.inverse(x);
-            EXPECT_LT(projection.forward(back).distance(x), 1e-3) << name;
-            EXPECT_LT(back.distance(place), 1e-8) << name;
-          }
-    }
-}
-
-
-
-TEST(MapProjection, NumbersOfTheDatabase)
-{
-  const Point<2>      place(14.3, 67.2);
-  const MapProjection by_number("'Projection'", "EPSG:32633");
-  EXPECT_LT(by_number.forward(place).distance(utm_33n().forward(place)), 1e-6);
-}
-
-
-
-// By name and by zone; a central meridian of 15 degrees east is that of zone 33.
-TEST(MapProjection, WordsForGis)
-{
-  for (const std::string name : {"UTM 33N", "EPSG:32633"})
-    {
-      const std::string words = well_known_text(
-        MapProjection("'Projection'", name).coordinate_system());
-      EXPECT_EQ(words.rfind("PROJCS[\"WGS_1984_UTM_Zone_33N\"", 0), 0u)
-        << words;
-      EXPECT_NE(words.find("PARAMETER[\"Central_Meridian\",15.0]"),
-                std::string::npos)
-        << words;
-    }
+  const std::string words = well_known_text(utm_33n);
+  EXPECT_EQ(words.rfind("PROJCS[\"WGS_1984_UTM_Zone_33N\"", 0), 0u) << words;
+  EXPECT_NE(words.find("PARAMETER[\"Central_Meridian\",15.0]"),
+            std::string::npos)
+    << words;
+  EXPECT_EQ(well_known_text(words), words);
   EXPECT_EQ(well_known_text("PROJCS[\"of the user\"]"),
             "PROJCS[\"of the user\"]");
   EXPECT_EQ(well_known_text(""), "");
@@ -220,24 +219,20 @@ TEST(MapProjection, WordsForGis)
 
 
 
-TEST(MapProjection, RefusesWhatIsNoMapInMetres)
+TEST(CoordinateSystem, Units)
 {
-  for (const auto &[name, words] :
-       {std::make_pair("UTM 33", "hemisphere were expected"),
-        std::make_pair("UTM 33V", "hemisphere were expected"),
-        std::make_pair("UTM 61N", "from 1 to 60"),
-        std::make_pair("UTM 0N", "from 1 to 60"),
-        std::make_pair("+proj=utm +zone=33", "UTM 33N or UTM 33S"),
-        std::make_pair("EPSG:1234567", "PROJ:"),
-        std::make_pair("EPSG:4326", "no map whose easting"),
-        // In feet.
-        std::make_pair("EPSG:2263", "in metres")})
-    {
-      const std::string sentence =
-        error([name = name] { MapProjection("'Projection'", name); });
-      EXPECT_NE(sentence.find(words), std::string::npos) << sentence;
-      EXPECT_NE(sentence.find(name), std::string::npos) << sentence;
-    }
+  for (const auto &[words, unit] :
+       {std::make_pair(utm_33n, MapUnit::metres),
+        std::make_pair(well_known_text(utm_33n), MapUnit::metres),
+        std::make_pair(std::string("urn:ogc:def:crs:EPSG::32633"),
+                       MapUnit::metres),
+        std::make_pair(wgs_84, MapUnit::degrees),
+        std::make_pair(well_known_text(wgs_84), MapUnit::degrees),
+        std::make_pair(std::string("EPSG:2263"), MapUnit::other), // feet
+        std::make_pair(std::string("EPSG:1234567"), MapUnit::unknown),
+        std::make_pair(std::string("/etc/hosts"), MapUnit::unknown),
+        std::make_pair(std::string(), MapUnit::unknown)})
+    EXPECT_EQ(map_unit(words), unit) << words;
 }
 
 
@@ -246,7 +241,7 @@ TEST(MapProjection, RefusesWhatIsNoMapInMetres)
 TEST(ProjectRaster, PlaneOfTheMap)
 {
   const Raster raster =
-    project_raster(in_degrees(120, plane), utm_33n(), 0., "'Projection'");
+    project_raster(in_degrees(120, plane), utm_33n, 0., "'Projection'");
   EXPECT_LT(largest_error(raster, plane, 4e3), 1e-7);
   // The outermost cells, where differences are one-sided, and all others.
   unsigned int n_known = 0;
@@ -267,13 +262,13 @@ TEST(ProjectRaster, PlaneOfTheMap)
 TEST(ProjectRaster, CellsOfTheMap)
 {
   const Raster degrees = in_degrees(120, plane);
-  const Raster own     = project_raster(degrees, utm_33n(), 0., "'Projection'");
+  const Raster own     = project_raster(degrees, utm_33n, 0., "'Projection'");
   const double width =
     transverse_mercator({14.375 + 0.5 * degrees.dx, 67.125}, 33)
       .distance(transverse_mercator({14.375 - 0.5 * degrees.dx, 67.125}, 33));
   EXPECT_NEAR(own.dx, width, 1e-6);
   EXPECT_EQ(own.dx, own.dy);
-  const Raster asked = project_raster(degrees, utm_33n(), 100., "'Projection'");
+  const Raster asked = project_raster(degrees, utm_33n, 100., "'Projection'");
   EXPECT_EQ(asked.dx, 100.);
   EXPECT_EQ(std::fmod(asked.west, 100.), 0.);
   EXPECT_EQ(std::fmod(asked.south, 100.), 0.);
@@ -297,7 +292,7 @@ TEST(ProjectRaster, Converges)
 {
   const auto error_on = [](const unsigned int n) {
     return largest_error(
-      project_raster(in_degrees(n, waves), utm_33n(), 90., "'Projection'"),
+      project_raster(in_degrees(n, waves), utm_33n, 90., "'Projection'"),
       waves,
       4e3);
   };
@@ -315,9 +310,8 @@ TEST(ProjectRaster, LongitudesUpTo360)
   east.west -= 30.;
   Raster beyond = east;
   beyond.west += 360.;
-  const MapProjection projection("'Projection'", "UTM 28N");
-  const Raster        a = project_raster(east, projection, 300., "");
-  const Raster        b = project_raster(beyond, projection, 300., "");
+  const Raster a = project_raster(east, "EPSG:32628", 300., "");
+  const Raster b = project_raster(beyond, "EPSG:32628", 300., "");
   EXPECT_EQ(a.west, b.west);
   ASSERT_EQ(a.values.size(), b.values.size());
   for (unsigned int i = 0; i < a.values.size(); ++i)
@@ -334,7 +328,7 @@ TEST(ProjectRaster, CellsWithoutData)
   Raster degrees               = in_degrees(60, plane);
   degrees.nodata               = -32768.;
   degrees.values[30 * 60 + 30] = std::numeric_limits<double>::quiet_NaN();
-  const Raster raster = project_raster(degrees, utm_33n(), 0., "'Projection'");
+  const Raster raster = project_raster(degrees, utm_33n, 0., "'Projection'");
   EXPECT_EQ(raster.nodata, -32768.);
   unsigned int n_missing = 0;
   for (unsigned int r = 0; r < raster.n_rows; ++r)
@@ -355,34 +349,80 @@ TEST(ProjectRaster, CellsWithoutData)
 
 
 
+// What is in metres of zone 33 already comes to zone 32 as what is in degrees.
+TEST(ProjectRaster, FromAnotherMap)
+{
+  Raster raster;
+  raster.n_columns = raster.n_rows = 60;
+  raster.dx = raster.dy    = 200.;
+  raster.west              = middle_of_map[0] - 6e3;
+  raster.south             = middle_of_map[1] - 6e3;
+  raster.coordinate_system = utm_33n;
+  for (unsigned int r = 0; r < 60; ++r)
+    for (unsigned int i = 0; i < 60; ++i)
+      raster.values.push_back(plane({raster.x(i), raster.y(r)}));
+  const Raster in_32 = project_raster(raster, "EPSG:32632", 0., "'Projection'");
+  EXPECT_EQ(in_32.coordinate_system, "EPSG:32632");
+  std::vector<Point<2>> places;
+  for (unsigned int r = 0; r < in_32.n_rows; ++r)
+    for (unsigned int i = 0; i < in_32.n_columns; ++i)
+      places.emplace_back(in_32.x(i), in_32.y(r));
+  MapTransformation("EPSG:32632", utm_33n).transform(places);
+  unsigned int n_known = 0;
+  for (std::size_t i = 0; i < places.size(); ++i)
+    if (!std::isnan(in_32.values[i]))
+      {
+        ++n_known;
+        ASSERT_NEAR(in_32.values[i], plane(places[i]), 1e-6);
+      }
+  EXPECT_GT(n_known, 3000u);
+}
+
+
+
+TEST(ProjectRaster, RefusesWhatIsNotInDegrees)
+{
+  Raster metres              = in_degrees(30, plane);
+  metres.south               = 6.5e6;
+  const std::string sentence = error(
+    [&] { project_raster(metres, utm_33n, 0., "'Projection' = UTM 33N"); });
+  EXPECT_NE(sentence.find("'Projection' = UTM 33N is set for a raster that"),
+            std::string::npos)
+    << sentence;
+}
+
+
+
 TEST(ProjectRaster, RefusesMapsThatAreNotTrue)
 {
   const Raster degrees = in_degrees(30, plane);
-  for (const char *name : {"UTM 40N", "EPSG:3857"})
+  for (const std::string map : {"EPSG:32640", "EPSG:3857"})
     {
       const std::string sentence = error([&] {
-        project_raster(degrees,
-                       MapProjection("'Projection'", name),
-                       0.,
-                       "'Surfaces/bed/Projection' = " + std::string(name));
+        project_raster(degrees, map, 0., "'Surfaces/bed/Projection' = " + map);
       });
       EXPECT_NE(sentence.find("lengths would be wrong by"), std::string::npos)
         << sentence;
       EXPECT_NE(sentence.find("UTM 33N"), std::string::npos) << sentence;
     }
   const std::string sentence =
-    error([&] { project_raster(degrees, utm_33n(), 0.1, "'Projection'"); });
+    error([&] { project_raster(degrees, utm_33n, 0.1, "'Projection'"); });
   EXPECT_NE(sentence.find("Choose larger cells"), std::string::npos)
     << sentence;
 }
 
 #else
 
-TEST(MapProjection, NeedsProj)
+TEST(MapTransformation, NeedsGdal)
 {
   const std::string sentence =
-    error([] { MapProjection("'Projection'", "UTM 33N"); });
-  EXPECT_NE(sentence.find("libproj-dev"), std::string::npos) << sentence;
+    error([] { MapTransformation(wgs_84, "EPSG:32633"); });
+  EXPECT_NE(sentence.find("libgdal-dev"), std::string::npos) << sentence;
+  EXPECT_EQ(map_unit(wgs_84), MapUnit::degrees);
+  EXPECT_EQ(map_unit("GEOGCS[\"GCS_WGS_1984\"]"), MapUnit::degrees);
+  EXPECT_EQ(map_unit("PROJCS[\"of the user\"]"), MapUnit::unknown);
+  EXPECT_EQ(well_known_text("PROJCS[\"of the user\"]"),
+            "PROJCS[\"of the user\"]");
 }
 
 #endif

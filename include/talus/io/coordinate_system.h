@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_io_coordinate_system_h
+#define talus_io_coordinate_system_h
+
+#include <deal.II/base/point.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// Unit of the coordinates on a map.
+  enum class MapUnit
+  {
+    unknown,
+    degrees, ///< longitude and latitude
+    metres,  ///< easting and northing
+    other    ///< feet, for example
+  };
+
+
+
+  /// Longitude and latitude, degrees, in WGS 84.
+  inline const std::string wgs_84 = "EPSG:4326";
+
+
+
+  /// Return whether talus was built with GDAL. Without GDAL, MapUnit::metres is
+  /// never found, and MapTransformation throws ExcUser.
+  bool
+  is_built_with_gdal();
+
+
+
+  /// Return the unit of the coordinates in @p coordinate_system, a
+  /// Raster::coordinate_system.
+  MapUnit
+  map_unit(const std::string &coordinate_system);
+
+
+
+  /// Return the text of a file .prj, by which a GIS knows the map of the raster
+  /// beside it: @p coordinate_system in Esri's dialect of well-known text. A
+  /// text that GDAL does not know is returned unchanged; the result is empty for
+  /// a code (EPSG:32633) that GDAL does not know.
+  std::string
+  well_known_text(const std::string &coordinate_system);
+
+
+
+  /// Transformation of places from one coordinate system to another.
+  class MapTransformation
+  {
+  public:
+    /// @p from and @p to are as Raster::coordinate_system. Throws ExcUser if
+    /// GDAL knows no transformation between them.
+    MapTransformation(const std::string &from, const std::string &to);
+
+    /// Transform @p places: longitude and latitude, degrees, or easting and
+    /// northing, m. Infinite where the other system has no such place; the
+    /// resulting longitudes are between -180 and 180 degrees.
+    void
+    transform(std::vector<dealii::Point<2>> &places) const;
+
+  private:
+    struct Implementation;
+    std::shared_ptr<Implementation> implementation_;
+  };
+} // namespace talus
+
+#endif

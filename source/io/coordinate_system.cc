@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/io/coordinate_system.h>
+#include <talus/io/gdal.h>
+
+#include <cmath>
+#include <cstdlib>
+
+namespace talus
+{
+  using namespace dealii;
+
+  bool
+  is_built_with_gdal()
+  {
+    return true;
+  }
+
+
+
+  // A file or an address in place of a description is not opened.
+  std::optional<OGRSpatialReference>
+  spatial_reference(const std::string &words)
+  {
+    const QuietGdal     quiet;
+    OGRSpatialReference system;
+    if (words.empty() ||
+        system.SetFromUserInput(
+          words.c_str(),
+          OGRSpatialReference::SET_FROM_USER_INPUT_LIMITATIONS_get()) !=
+          OGRERR_NONE)
+      return {};
+    system.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return system;
+  }
+
+
+
+  std::string
+  export_to_text(const OGRSpatialReference &system, const char *const *options)
+  {
+    const QuietGdal quiet;
+    char           *words = nullptr;
+    const OGRErr    error = system.exportToWkt(&words, options);
+    std::string     result(error == OGRERR_NONE ? words : "");
+    CPLFree(words);
+    return result;
+  }
+
+
+
+  MapUnit
+  map_unit(const std::string &coordinate_system)
+  {
+    const auto system = spatial_reference(coordinate_system);
+    if (!system)
+      return MapUnit::unknown;
+    if (system->IsGeographic())
+      return std::abs(system->GetAngularUnits() * 180. / M_PI - 1.) < 1e-9
+               ? MapUnit::degrees
+               : MapUnit::other;
+    if (system->IsProjected())
+      return system->GetLinearUnits() == 1. ? MapUnit::metres : MapUnit::other;
+    return MapUnit::unknown;
+  }
+
+
+
+  std::string
+  well_known_text(const std::string &coordinate_system)
+  {
+    const char *const dialect[] = {"FORMAT=WKT1_ESRI", nullptr};
+    const auto        system    = spatial_reference(coordinate_system);
+    const std::string words = system ? export_to_text(*system, dialect) : "";
+    return words.empty() && coordinate_system.rfind("EPSG:", 0) != 0
+             ? coordinate_system
+             : words;
+  }
+
+
+
+  struct MapTransformation::Implementation
+  {
+    std::unique_ptr<OGRCoordinateTransformation> transformation;
+  };
+
+
+
+  MapTransformation::MapTransformation(const std::string &from,
+                                       const std::string &to)
+    : implementation_(std::make_shared<Implementation>())
+  {
+    const QuietGdal quiet;
+    const auto      source = spatial_reference(from);
+    const auto      target = spatial_reference(to);
+    if (source && target)
+      implementation_->transformation.reset(
+        OGRCreateCoordinateTransformation(&*source, &*target));
+    AssertThrow(implementation_->transformation,
+                ExcUser(text("GDAL has no transformation from the coordinate "
+                             "system '",
+                             from.substr(0, 60),
+                             "' to '",
+                             to.substr(0, 60),
+                             "' (",
+                             CPLGetLastErrorMsg(),
+                             "). Give the file in one that GDAL knows.")));
+  }
+
+
+
+  void
+  MapTransformation::transform(std::vector<Point<2>> &places) const
+  {
+    const QuietGdal     quiet;
+    std::vector<double> x, y;
+    for (const Point<2> &place : places)
+      {
+        x.push_back(place[0]);
+        y.push_back(place[1]);
+      }
+    std::vector<int> is_done(places.size());
+    implementation_->transformation->Transform(
+      places.size(), x.data(), y.data(), nullptr, is_done.data());
+    for (std::size_t i = 0; i < places.size(); ++i)
+      places[i] =
+        is_done[i] ? Point<2>(x[i], y[i]) : Point<2>(HUGE_VAL, HUGE_VAL);
+  }
+} // namespace talus

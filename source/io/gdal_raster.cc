@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/io/coordinate_system.h>
+#include <talus/io/gdal.h>
+#include <talus/io/gdal_raster.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include <gdal_priv.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    /// Open a file, or a part of one by the name that GDAL gives it.
+    GDALDatasetUniquePtr
+    open(const std::string &name)
+    {
+      // GMT calls its axes x and y, and says no more about them.
+      const char *const options[] = {"IGNORE_XY_AXIS_NAME_CHECKS=YES", nullptr};
+      return GDALDatasetUniquePtr(
+        GDALDataset::Open(name.c_str(),
+                          GDAL_OF_RASTER | GDAL_OF_VERBOSE_ERROR,
+                          nullptr,
+                          options));
+    }
+
+
+
+    /// Return the coordinate system of a file. netCDF may say no more than the
+    /// unit of a coordinate, in an item such as lon#units=degrees_east.
+    std::string
+    coordinate_system(GDALDataset &file)
+    {
+      const std::string words = file.GetProjectionRef();
+      if (!words.empty())
+        return words;
+      for (CSLConstList item = file.GetMetadata(); item && *item; ++item)
+        if (std::strstr(*item, "#units=degrees_east") != nullptr)
+          return wgs_84;
+      return "";
+    }
+
+
+
+    /// One band of a file.
+    class GdalBand
+    {
+    public:
+      explicit GdalBand(const std::filesystem::path &path);
+
+      /// Read size and place, without values.
+      Raster
+      frame() const;
+
+      /// Read the values row by row from the north: packed numbers as what they
+      /// stand for, NaN where there is no datum.
+      std::vector<double>
+      values(const Raster &frame) const;
+
+    private:
+      void
+      check(const bool success, const std::string &words) const
+      {
+        AssertThrow(success,
+                    ExcUser("The raster '" + path_.string() + "' " + words));
+      }
+
+      void
+      open_part();
+
+      const std::filesystem::path path_;
+      const QuietGdal             quiet_;
+      GDALDatasetUniquePtr        file_;
+      GDALRasterBand             *band_ = nullptr;
+    };
+
+
+
+    GdalBand::GdalBand(const std::filesystem::path &path)
+      : path_(path)
+    {
+      GDALAllRegister();
+      file_ = open(path.string());
+      check(file_ != nullptr,
+            text("is no Esri ASCII grid, which begins with ncols or another "
+                 "keyword, and GDAL cannot read it (",
+                 CPLGetLastErrorMsg(),
+                 "). Give another file, or fetch it anew."));
+      if (file_->GetRasterCount() == 0)
+        open_part();
+      check(file_->GetRasterCount() == 1,
+            text("has ",
+                 file_->GetRasterCount(),
+                 " bands, where one of heights was expected. Take one out: "
+                 "gdal_translate -b 1 IN OUT.tif."));
+      band_ = file_->GetRasterBand(1);
+      // As netCDF says it.
+      const char *const sense = band_->GetMetadataItem("positive");
+      check(sense == nullptr || std::strcmp(sense, "down") != 0,
+            "has depths, positive downwards, where heights were expected. Turn "
+            "the sign: gdal_calc.py -A IN --calc=-A --outfile=OUT.tif.");
+    }
+
+
+
+    /// Open the heights among the rasters that the file has. Their names end
+    /// with that of the variable, as in NETCDF:"gebco.nc":elevation.
+    void
+    GdalBand::open_part()
+    {
+      char **const list = file_->GetMetadata("SUBDATASETS");
+      std::string  names;
+      for (int i = 1;
+           CSLFetchNameValue(list, text("SUBDATASET_", i, "_NAME").c_str());
+           ++i)
+        {
+          const std::string name =
+            CSLFetchNameValue(list, text("SUBDATASET_", i, "_NAME").c_str());
+          const std::string variable = name.substr(name.rfind(':') + 1);
+          names += (names.empty() ? "" : ", ") + variable;
+          if (variable == "elevation" || variable == "z" || variable == "Band1")
+            {
+              GDALDatasetUniquePtr part = open(name);
+              check(part != nullptr,
+                    text("cannot be read (", CPLGetLastErrorMsg(), ")."));
+              file_ = std::move(part);
+              return;
+            }
+        }
+      check(false,
+            text("has no raster of heights, but ",
+                 names,
+                 ", where one, or one named elevation, z or Band1, was "
+                 "expected. Copy it to a file of its own: gdal_translate "
+                 "'NETCDF:\"IN.nc\":NAME' OUT.tif."));
+    }
+
+
+
+    // GDAL counts from the outer corner, whatever a file says its values belong
+    // to.
+    Raster
+    GdalBand::frame() const
+    {
+      std::array<double, 6> t{};
+      check(file_->GetGeoTransform(t.data()) == CE_None,
+            "does not say where it lies on the map, by cells that are evenly "
+            "spaced. Write it anew with its georeference: gdal_translate "
+            "-a_ullr WEST NORTH EAST SOUTH IN OUT.tif.");
+      check(t[2] == 0. && t[4] == 0. && t[1] > 0. && t[5] != 0.,
+            "lies askew on the map, where rows from west to east were "
+            "expected. Turn it: gdalwarp IN OUT.tif.");
+      Raster result;
+      result.coordinate_system = coordinate_system(*file_);
+      result.n_columns         = file_->GetRasterXSize();
+      result.n_rows            = file_->GetRasterYSize();
+      result.dx                = t[1];
+      result.dy                = std::abs(t[5]);
+      result.west              = t[0];
+      result.south             = std::min(t[3], t[3] + result.n_rows * t[5]);
+      check(double(result.n_columns) * result.n_rows < 1e9,
+            text("has ",
+                 result.n_columns,
+                 " x ",
+                 result.n_rows,
+                 " values, where up to a thousand millions can be read. Cut "
+                 "out the part you need: gdalwarp -te WEST SOUTH EAST NORTH IN "
+                 "OUT.tif."));
+      return result;
+    }
+
+
+
+    std::vector<double>
+    GdalBand::values(const Raster &frame) const
+    {
+      const int                  n = frame.n_columns, m = frame.n_rows;
+      std::vector<double>        result(std::size_t(n) * m);
+      std::vector<unsigned char> is_known(result.size());
+      const auto                 read = [&](GDALRasterBand *const band,
+                            void *const           data,
+                            const GDALDataType    type) {
+        check(
+          band->RasterIO(
+            GF_Read, 0, 0, n, m, data, n, m, type, 0, 0, nullptr) == CE_None,
+          text("cannot be read (", CPLGetLastErrorMsg(), "). Fetch it anew."));
+      };
+      read(band_, result.data(), GDT_Float64);
+      read(band_->GetMaskBand(), is_known.data(), GDT_Byte);
+      const double scale = band_->GetScale(), offset = band_->GetOffset();
+      const bool   is_packed = (scale != 1. || offset != 0.);
+      for (std::size_t i = 0; i < result.size(); ++i)
+        if (is_known[i] == 0)
+          result[i] = std::numeric_limits<double>::quiet_NaN();
+        else if (is_packed) // else -0 would become 0
+          result[i] = scale * result[i] + offset;
+      std::array<double, 6> t{};
+      file_->GetGeoTransform(t.data());
+      if (t[5] > 0.) // from the south
+        for (int r = 0; r < m / 2; ++r)
+          std::swap_ranges(result.begin() + std::size_t(n) * r,
+                           result.begin() + std::size_t(n) * (r + 1),
+                           result.begin() + std::size_t(n) * (m - 1 - r));
+      return result;
+    }
+  } // namespace
+
+
+
+  Raster
+  read_gdal_raster(const std::filesystem::path &file)
+  {
+    const GdalBand band(file);
+    Raster         raster = band.frame();
+    raster.values         = band.values(raster);
+    return raster;
+  }
+} // namespace talus

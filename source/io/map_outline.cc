@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/io/esri_grid.h>
+#include <talus/io/gdal_polygons.h>
+#include <talus/io/geojson.h>
+#include <talus/io/map_outline.h>
+
+namespace talus
+{
+  using namespace dealii;
+
+  bool
+  is_outline_file(const std::filesystem::path &file)
+  {
+    std::error_code error;
+    return is_geojson(file) || (std::filesystem::is_regular_file(file, error) &&
+                                !is_esri_grid(file) && has_gdal_polygons(file));
+  }
+
+
+
+  MapOutline
+  read_outline(const std::filesystem::path &file)
+  {
+    const MapPolygons found =
+      is_geojson(file) ? read_geojson(file) : read_gdal_polygons(file);
+    const std::string name = "The outline '" + file.string() + "' ";
+    AssertThrow(found.polygons.size() == 1,
+                ExcUser(text(name,
+                             "has ",
+                             found.polygons.size(),
+                             " polygons, where one was expected. Save one "
+                             "outline to a file of its own.")));
+    AssertThrow(found.polygons[0].size() == 1,
+                ExcUser(text(name,
+                             "has a polygon of ",
+                             found.polygons[0].size(),
+                             " rings, where one was expected: the outline, "
+                             "without holes. Remove the others.")));
+    MapOutline outline{found.polygons[0][0], found.coordinate_system};
+    if (outline.corners.size() > 1 &&
+        outline.corners.front() == outline.corners.back())
+      outline.corners.pop_back();
+    return outline;
+  }
+} // namespace talus

@@ -1,0 +1,412 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// Rasters by GDAL: the plane z = a x + b y + c comes back from GeoTIFF and from
+// netCDF-4 (HDF5 by another library than ours), and what is no raster of heights
+// is refused. What talus writes comes back by bit, with its map.
+
+#include <talus/base/errors.h>
+#include <talus/io/coordinate_system.h>
+#include <talus/io/gdal_raster.h>
+#include <talus/io/raster_file.h>
+#include <talus/version.h>
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <random>
+#include <sstream>
+
+#include <unistd.h>
+
+#if TALUS_WITH_GDAL
+#  include <gdal_priv.h>
+#endif
+
+using namespace talus;
+namespace fs = std::filesystem;
+
+// A namespace of its own: several files are compiled as one.
+namespace gdal_raster_test
+{
+  namespace
+  {
+    double
+    plane(const double x, const double y)
+    {
+      return 0.125 * x - 0.5 * y + 7.;
+    }
+
+
+
+    class GdalRasterTest : public testing::Test
+    {
+    protected:
+      GdalRasterTest()
+        : path(fs::temp_directory_path() /
+               ("talus-gdal-raster-" + std::to_string(getpid()) + ".nc"))
+      {}
+
+      ~GdalRasterTest() override
+      {
+        fs::remove(path);
+      }
+
+      void
+      expect_refused(const std::function<void()> &action,
+                     const std::string           &sentence)
+      {
+        std::string words;
+        try
+          {
+            action();
+          }
+        catch (const ExcUser &error)
+          {
+            std::istringstream lines(error.what());
+            for (std::string word; lines >> word;)
+              words += word + ' ';
+          }
+        EXPECT_NE(words.find(sentence), std::string::npos)
+          << sentence << ": " << words;
+      }
+
+      void
+      expect_refused(const std::string &sentence)
+      {
+        expect_refused(
+          [this] { check_projection(path, read_raster(path), ""); }, sentence);
+      }
+
+      void
+      expect_plane(const Raster &raster)
+      {
+        for (unsigned int r = 0; r < raster.n_rows; ++r)
+          for (unsigned int i = 0; i < raster.n_columns; ++i)
+            EXPECT_NEAR(raster.value(i, r),
+                        plane(raster.x(i), raster.y(r)),
+                        1e-9);
+      }
+
+      const fs::path path;
+    };
+  } // namespace
+
+
+
+#if TALUS_WITH_GDAL
+
+  namespace
+  {
+    using Frame = std::array<double, 6>;
+
+    /// Cells of 200 m x 100 m, the northernmost row first.
+    constexpr Frame frame = {{12000., 200., 0., 42300., 0., -100.}};
+
+    /// Write a GeoTIFF of 4 x 3 values of the plane, but for one that is missing.
+    void
+    write_tiff(const fs::path    &path,
+               const Frame       *place   = &frame,
+               const std::string &system  = "EPSG:32633",
+               const int          n_bands = 1)
+    {
+      GDALAllRegister();
+      const GDALDatasetUniquePtr file(
+        GetGDALDriverManager()->GetDriverByName("GTiff")->Create(
+          path.c_str(), 4, 3, n_bands, GDT_Float32, nullptr));
+      const Frame        t = (place == nullptr ? frame : *place);
+      std::vector<float> values;
+      for (unsigned int r = 0; r < 3; ++r)
+        for (unsigned int i = 0; i < 4; ++i)
+          values.push_back(
+            plane(t[0] + (i + 0.5) * t[1], t[3] + (r + 0.5) * t[5]));
+      values[5] = -9999.f;
+      if (place != nullptr)
+        file->SetGeoTransform(const_cast<double *>(place->data()));
+      OGRSpatialReference words;
+      words.SetFromUserInput(system.c_str());
+      file->SetSpatialRef(&words);
+      file->GetRasterBand(1)->SetNoDataValue(-9999.);
+      ASSERT_EQ(file->GetRasterBand(1)->RasterIO(GF_Write,
+                                                 0,
+                                                 0,
+                                                 4,
+                                                 3,
+                                                 values.data(),
+                                                 4,
+                                                 3,
+                                                 GDT_Float32,
+                                                 0,
+                                                 0,
+                                                 nullptr),
+                CE_None);
+    }
+
+
+
+    /// Writes arrays over two coordinates, the second of which has rows.
+    class NetcdfWriter
+    {
+    public:
+      NetcdfWriter(const fs::path            &path,
+                   const std::string         &x_name,
+                   const std::vector<double> &x,
+                   const std::string         &y_name,
+                   const std::vector<double> &y)
+        : x_(x)
+        , y_(y)
+      {
+        GDALAllRegister();
+        file_.reset(GetGDALDriverManager()
+                      ->GetDriverByName("netCDF")
+                      ->CreateMultiDimensional(path.c_str(), nullptr, nullptr));
+        axes_ = {add_axis(y_name, y, "degrees_north"),
+                 add_axis(x_name, x, "degrees_east")};
+      }
+
+      std::shared_ptr<GDALMDArray>
+      add(const std::string &name,
+          const GDALDataType type,
+          const double       scale  = 1.,
+          const double       offset = 0.)
+      {
+        auto array = add_array(name, axes_, type);
+        if (scale != 1.)
+          {
+            array->SetScale(scale);
+            array->SetOffset(offset);
+          }
+        array->SetNoDataValue(-32767.);
+        std::vector<double> values;
+        for (const double y : y_)
+          for (const double x : x_)
+            values.push_back((plane(x, y) - offset) / scale);
+        write(*array, values);
+        return array;
+      }
+
+    private:
+      using Axes = std::vector<std::shared_ptr<GDALDimension>>;
+
+      std::shared_ptr<GDALMDArray>
+      add_array(const std::string &name,
+                const Axes        &axes,
+                const GDALDataType type)
+      {
+        return file_->GetRootGroup()->CreateMDArray(
+          name, axes, GDALExtendedDataType::Create(type));
+      }
+
+      static void
+      write(GDALMDArray &array, const std::vector<double> &values)
+      {
+        const std::vector<GUInt64> start(array.GetDimensionCount(), 0);
+        std::vector<std::size_t>   counts;
+        for (const auto &axis : array.GetDimensions())
+          counts.push_back(axis->GetSize());
+        ASSERT_TRUE(array.Write(start.data(),
+                                counts.data(),
+                                nullptr,
+                                nullptr,
+                                GDALExtendedDataType::Create(GDT_Float64),
+                                values.data()));
+      }
+
+      /// A coordinate in degrees has a name that says so.
+      std::shared_ptr<GDALDimension>
+      add_axis(const std::string         &name,
+               const std::vector<double> &values,
+               const std::string         &unit)
+      {
+        auto axis =
+          file_->GetRootGroup()->CreateDimension(name, "", "", values.size());
+        auto array = add_array(name, {axis}, GDT_Float64);
+        if (name[0] == 'l')
+          array->SetUnit(unit);
+        write(*array, values);
+        return axis;
+      }
+
+      GDALDatasetUniquePtr      file_;
+      const std::vector<double> x_, y_;
+      Axes                      axes_;
+    };
+  } // namespace
+
+
+
+  // From the north as usual, and from the south.
+  TEST_F(GdalRasterTest, PlaneOfGeotiff)
+  {
+    const Frame upwards = {{frame[0], frame[1], 0., 42000., 0., 100.}};
+    for (const Frame *place : {&frame, &upwards})
+      {
+        write_tiff(path, place);
+        Raster raster = read_raster(path);
+        ASSERT_EQ(raster.values.size(), 12u);
+        EXPECT_EQ(raster.west, 12000.);
+        EXPECT_EQ(raster.south, 42000.);
+        EXPECT_EQ(raster.dx, 200.);
+        EXPECT_EQ(raster.dy, 100.);
+        const unsigned int row = 1, column = 1;
+        EXPECT_TRUE(std::isnan(raster.value(column, row)));
+        raster.values[5] = plane(raster.x(column), raster.y(row));
+        expect_plane(raster);
+      }
+  }
+
+
+
+  TEST_F(GdalRasterTest, RefusesGeotiffThatIsNoMapInMetres)
+  {
+    write_tiff(path, nullptr);
+    expect_refused("where it lies on the map");
+    const Frame turned = {{12000., 200., 10., 42300., 10., -100.}};
+    write_tiff(path, &turned);
+    expect_refused("lies askew");
+    write_tiff(path, &frame, "EPSG:32633", 3);
+    expect_refused("has 3 bands, where one");
+    const Frame degrees = {{14., 0.5, 0., 68., 0., -0.5}};
+    write_tiff(path, &degrees, "EPSG:4326");
+    expect_refused("is in degrees: its cells are 0.5 wide");
+    expect_refused("Set `Projection` = UTM 33N");
+    // New York, Long Island.
+    const Frame feet = {{1e6, 50., 0., 2e5, 0., -50.}};
+    write_tiff(path, &feet, "EPSG:2263");
+    expect_refused("is not in metres");
+    expect_refused("Set `Projection` = UTM 18N");
+    write_tiff(path);
+    fs::resize_file(path, 100);
+    expect_refused("GDAL cannot read it (");
+  }
+
+
+
+  TEST_F(GdalRasterTest, NetcdfAsGmtWritesIt)
+  {
+    NetcdfWriter(path, "x", {10., 12., 14., 16.}, "y", {100., 105., 110.})
+      .add("z", GDT_Float32);
+    const Raster raster = read_raster(path);
+    EXPECT_EQ(raster.west, 9.);
+    EXPECT_EQ(raster.south, 97.5);
+    EXPECT_EQ(raster.dx, 2.);
+    EXPECT_EQ(raster.dy, 5.);
+    ASSERT_EQ(raster.values.size(), 12u);
+    expect_plane(raster);
+    EXPECT_NE(map_unit(raster.coordinate_system), MapUnit::degrees);
+  }
+
+
+
+  // South first as GEBCO has it, and north first; packed in whole numbers; beside
+  // another array, which has no heights.
+  TEST_F(GdalRasterTest, NetcdfRowsBothWaysAndPacked)
+  {
+    for (const bool ascends : {true, false})
+      {
+        {
+          NetcdfWriter file(path,
+                            "lon",
+                            {4., 4.5, 5.},
+                            "lat",
+                            ascends ? std::vector<double>{63., 63.5}
+                                    : std::vector<double>{63.5, 63.});
+          file.add("elevation", GDT_Int16, 0.0625, 50.);
+          file.add("tid", GDT_Int16);
+        }
+        const Raster raster = read_raster(path);
+        ASSERT_EQ(raster.values.size(), 6u);
+        EXPECT_EQ(raster.west, 3.75);
+        expect_plane(raster);
+        EXPECT_EQ(map_unit(raster.coordinate_system), MapUnit::degrees);
+      }
+  }
+
+
+
+  TEST_F(GdalRasterTest, RefusesNetcdfWithoutHeights)
+  {
+    NetcdfWriter(path, "x", {1., 2., 4.}, "y", {1., 2.}).add("z", GDT_Float64);
+    expect_refused("cells that are evenly spaced");
+    {
+      NetcdfWriter file(path, "x", {1., 2., 3.}, "y", {1., 2.});
+      file.add("u", GDT_Float64);
+      file.add("v", GDT_Float64);
+    }
+    expect_refused("heights, but u, v, where");
+    NetcdfWriter(path, "x", {1., 2., 3.}, "y", {1., 2.})
+      .add("z", GDT_Float64)
+      ->CreateAttribute("positive", {}, GDALExtendedDataType::CreateString())
+      ->Write("down");
+    expect_refused("positive downwards");
+  }
+
+
+
+  TEST_F(GdalRasterTest, WritesAndReadsEveryBit)
+  {
+    std::mt19937                           random(5);
+    std::uniform_real_distribution<double> some(-4000., 10.);
+    for (const std::string system : {"", "EPSG:32633", "EPSG:3575"})
+      {
+        Raster raster;
+        raster.n_columns         = 13;
+        raster.n_rows            = 7;
+        raster.west              = 612345.678901;
+        raster.south             = 7.1e6 + 0.5;
+        raster.dx                = 12.3;
+        raster.dy                = 0.125;
+        raster.coordinate_system = system;
+        for (unsigned int i = 0; i < 13 * 7; ++i)
+          raster.values.push_back(i % 10 == 9 ? std::nan("") : some(random));
+        raster.values[0] = 1e-310; // denormal
+        raster.values[1] = -0.;
+        write_geotiff(path, raster);
+        const Raster same = read_raster(path);
+        ASSERT_EQ(same.n_columns, 13u);
+        ASSERT_EQ(same.n_rows, 7u);
+        EXPECT_EQ(same.west, raster.west);
+        EXPECT_EQ(same.south, raster.south);
+        EXPECT_EQ(same.dx, raster.dx);
+        EXPECT_EQ(same.dy, raster.dy);
+        EXPECT_EQ(std::memcmp(same.values.data(),
+                              raster.values.data(),
+                              13 * 7 * sizeof(double)),
+                  0);
+        EXPECT_EQ(well_known_text(same.coordinate_system),
+                  well_known_text(system));
+        // What was read can be written in turn.
+        std::stringstream once, twice;
+        once << std::ifstream(path, std::ios::binary).rdbuf();
+        write_geotiff(path, same);
+        twice << std::ifstream(path, std::ios::binary).rdbuf();
+        EXPECT_EQ(once.str(), twice.str());
+      }
+  }
+
+
+
+  TEST_F(GdalRasterTest, SystemThatNobodyKnowsIsRefused)
+  {
+    check_geotiff(well_known_text("EPSG:32633"));
+    for (const std::string words :
+         {"somewhere", "EPSG:1", "PROJCS[", "/etc/hosts"})
+      expect_refused([&] { check_geotiff(words); }, "is not known to GDAL");
+  }
+
+#else
+
+  TEST_F(GdalRasterTest, NeedsGdal)
+  {
+    std::ofstream(path) << "II*";
+    expect_refused("gdal_translate -of AAIGrid");
+    expect_refused([] { check_geotiff(""); }, "'Maps/Write GeoTIFF' is true");
+    expect_refused([&] { write_geotiff(path, Raster()); },
+                   "built without GDAL");
+  }
+
+#endif
+} // namespace gdal_raster_test
