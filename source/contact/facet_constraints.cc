@@ -16,15 +16,40 @@ namespace talus
   void
   FacetConstraints<dim>::prepare(const Grid<dim> &grid)
   {
-    gaps_.prepare(grid,
-                  surfaces(),
-                  slots(grid),
-                  [this](const Point<dim> &x, const double distance) {
-                    return obstacles_.near(x, distance);
-                  });
+    prepare_gaps(grid, slots(grid));
     coverage_.prepare(grid);
     constraints_.clear();
     loaded_.clear();
+  }
+
+
+
+  template <int dim>
+  void
+  FacetConstraints<dim>::prepare_gaps(const Grid<dim>          &grid,
+                                      std::vector<unsigned int> slots)
+  {
+    gaps_.prepare(grid,
+                  surfaces(),
+                  std::move(slots),
+                  [this](const Point<dim> &x, const double distance) {
+                    return obstacles_.near(x, distance);
+                  });
+  }
+
+
+
+  /// Obstacles that move may have come near to others since the last step.
+  template <int dim>
+  void
+  FacetConstraints<dim>::find_gaps(const State<dim> &state)
+  {
+    if (obstacles_.move())
+      if (auto slots_now = slots(state.grid); slots_now != gaps_.slots())
+        prepare_gaps(state.grid, std::move(slots_now));
+    gaps_.find(state,
+               facets_.nodes_and_obstacles(),
+               facets_.nearness_of_cells());
   }
 
 
@@ -49,7 +74,7 @@ namespace talus
 
 
   /// As few slots as the density of the obstacles asks for, however many there
-  /// are; on all ranks the same. One that moves may come near to all others.
+  /// are; on all ranks the same. Collective.
   template <int dim>
   std::vector<unsigned int>
   FacetConstraints<dim>::slots(const Grid<dim> &grid) const
@@ -64,10 +89,7 @@ namespace talus
     for (unsigned int k = 0; k < obstacles_.size(); ++k)
       {
         const auto near =
-          obstacles_.near(obstacles_[k].bounding_box(),
-                          obstacles_[k].moves()
-                            ? std::numeric_limits<double>::infinity()
-                            : distance);
+          obstacles_.near(obstacles_[k].bounding_box(), distance);
         std::vector<unsigned char> is_taken(near.size() + 1, 0);
         for (const unsigned int other : near)
           if (other < k && result[other] < is_taken.size())

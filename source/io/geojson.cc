@@ -25,33 +25,34 @@ namespace talus
 
 
 
-    /// Append the polygons, each a list of rings, of a GeoJSON object and of all
-    /// in it.
+    /// Append the coordinates of all geometries of @p kind, Polygon or LineString,
+    /// of a GeoJSON object and of all in it.
     void
-    collect_polygons(const Tree &object, std::vector<Tree> &polygons)
+    collect(const std::string &kind,
+            const Tree        &object,
+            std::vector<Tree> &coordinates)
     {
       const std::string type = object.get("type", "");
-      if (type == "Polygon")
-        polygons.push_back(member(object, "coordinates"));
-      else if (type == "MultiPolygon")
-        for (const auto &[key, polygon] : member(object, "coordinates"))
-          polygons.push_back(polygon);
+      if (type == kind)
+        coordinates.push_back(member(object, "coordinates"));
+      else if (type == "Multi" + kind)
+        for (const auto &[key, one] : member(object, "coordinates"))
+          coordinates.push_back(one);
       else if (type == "Feature")
-        collect_polygons(member(object, "geometry"), polygons);
+        collect(kind, member(object, "geometry"), coordinates);
       else
         for (const std::string list : {"features", "geometries"})
           for (const auto &[key, part] : member(object, list))
-            collect_polygons(part, polygons);
+            collect(kind, part, coordinates);
     }
 
 
 
-    /// Corners of a ring, which ends where it begins.
     std::vector<Point<2>>
-    corners_of(const Tree &ring)
+    corners_of(const Tree &positions)
     {
       std::vector<Point<2>> corners;
-      for (const auto &[key, position] : ring)
+      for (const auto &[key, position] : positions)
         {
           // Behind the first two there may be a height.
           std::vector<double> numbers;
@@ -59,8 +60,6 @@ namespace talus
             numbers.push_back(number.template get_value<double>());
           corners.emplace_back(numbers.at(0), numbers.at(1));
         }
-      if (corners.size() > 1 && corners.front() == corners.back())
-        corners.pop_back();
       return corners;
     }
 
@@ -89,42 +88,85 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Read a file, and let @p take have its content and the coordinates of all
+    /// geometries of @p kind. Throws ExcUser unless there is one.
+    template <typename Take>
+    void
+    read(const std::filesystem::path &path,
+         const std::string           &kind,
+         const std::string           &in_words,
+         const Take                  &take)
+    {
+      const std::string file = "The GeoJSON file '" + path.string() + "' ";
+      try
+        {
+          Tree              tree;
+          std::vector<Tree> found;
+          boost::property_tree::read_json(path.string(), tree);
+          collect(kind, tree, found);
+          AssertThrow(found.size() == 1,
+                      ExcUser(text(file,
+                                   "has ",
+                                   found.size(),
+                                   " ",
+                                   in_words,
+                                   "s, where one was expected. Save one to a "
+                                   "file of its own.")));
+          take(file, tree, found[0]);
+        }
+      catch (const boost::property_tree::ptree_error &error)
+        {
+          AssertThrow(false,
+                      ExcUser(file + "cannot be read: " + error.what() + "."));
+        }
+      catch (const std::out_of_range &)
+        {
+          AssertThrow(false,
+                      ExcUser(file +
+                              "has a corner with less than two numbers."));
+        }
+    }
+  } // namespace
+
+
+
+  /// A ring ends where it begins.
   GeojsonPolygon
   read_geojson_polygon(const std::filesystem::path &path)
   {
-    const std::string file = "The GeoJSON file '" + path.string() + "' ";
-    Tree              tree;
-    std::vector<Tree> polygons;
-    GeojsonPolygon    result;
-    try
-      {
-        boost::property_tree::read_json(path.string(), tree);
-        collect_polygons(tree, polygons);
-        AssertThrow(polygons.size() == 1,
-                    ExcUser(text(file,
-                                 "has ",
-                                 polygons.size(),
-                                 " polygons, where one was expected. Save one "
-                                 "outline to a file of its own.")));
-        AssertThrow(polygons[0].size() == 1,
-                    ExcUser(text(file,
-                                 "has a polygon of ",
-                                 polygons[0].size(),
-                                 " rings, where one was expected: the outline, "
-                                 "without holes.")));
-        result.corners = corners_of(polygons[0].front().second);
-      }
-    catch (const boost::property_tree::ptree_error &error)
-      {
-        AssertThrow(false,
-                    ExcUser(file + "cannot be read: " + error.what() + "."));
-      }
-    catch (const std::out_of_range &)
-      {
-        AssertThrow(false,
-                    ExcUser(file + "has a corner with less than two numbers."));
-      }
-    result.is_in_degrees = is_in_degrees(tree);
+    GeojsonPolygon result;
+    read(path,
+         "Polygon",
+         "polygon",
+         [&](const std::string &file, const Tree &tree, const Tree &rings) {
+           AssertThrow(rings.size() == 1,
+                       ExcUser(text(file,
+                                    "has a polygon of ",
+                                    rings.size(),
+                                    " rings, where one was expected: the "
+                                    "outline, without holes.")));
+           result = {corners_of(rings.front().second), is_in_degrees(tree)};
+         });
+    auto &corners = result.corners;
+    if (corners.size() > 1 && corners.front() == corners.back())
+      corners.pop_back();
+    return result;
+  }
+
+
+
+  GeojsonLine
+  read_geojson_line(const std::filesystem::path &path)
+  {
+    GeojsonLine result;
+    read(path,
+         "LineString",
+         "line",
+         [&](const std::string &, const Tree &tree, const Tree &line) {
+           result = {corners_of(line), is_in_degrees(tree)};
+         });
     return result;
   }
 } // namespace talus

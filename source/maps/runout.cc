@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
-#include <talus/terrain/plan_place.h>
 #include <talus/maps/runout.h>
+#include <talus/terrain/plan_place.h>
 
 #include <deal.II/base/mpi.h>
 #include <deal.II/base/patterns.h>
@@ -59,12 +59,11 @@ namespace talus
     std::vector<Point<2>> result;
     for (const std::string &place : Utilities::split_string_list(path_, ';'))
       {
-        const Point<3> x =
-          parse_plan_place<3>("Runout/Path",
-                              place,
-                              coordinates_ == "map" ? PlanCoordinates::map
-                                                    : PlanCoordinates::mesh,
-                              origin);
+        const Point<3> x = parse_plan_place<3>(
+          "Runout/Path",
+          place,
+          PlaceCoordinates("Runout", coordinates_, dim, origin).kind(),
+          origin);
         const Point<2> corner(x[0], x[2]);
         AssertThrow(result.empty() || corner.distance(result.back()) > 0.,
                     ExcUser("'Runout/Path' has the corner '" + place +

@@ -193,7 +193,8 @@ namespace talus
     check_can_be_made(output_.folder() + "/checkpoints");
     problem_.prepare(state_.points,
                      static_stages_.stages().contain(Stage::strength_reduction),
-                     end_time_);
+                     end_time_,
+                     state_.grid.origin());
     problem_.contact.set_averaging_time(output_.force_averaging_time());
     problem_.boundaries.reactions().set_averaging_time(
       output_.force_averaging_time());

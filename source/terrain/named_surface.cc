@@ -226,12 +226,11 @@ namespace talus
     std::vector<Point<2>> corners;
     for (const auto &place : Utilities::split_string_list(outline_, ';'))
       {
-        const Point<3> x =
-          parse_plan_place<3>("Surfaces/" + name_ + "/Outline",
-                              place,
-                              coordinates_ == "map" ? PlanCoordinates::map
-                                                    : PlanCoordinates::mesh,
-                              origin);
+        const Point<3> x = parse_plan_place<3>(
+          "Surfaces/" + name_ + "/Outline",
+          place,
+          PlaceCoordinates("Surfaces/" + name_, coordinates_, 3, origin).kind(),
+          origin);
         corners.emplace_back(x[0], x[2]);
       }
     return std::make_shared<OutlineSurface>("The outline in " + path("Outline"),
@@ -278,8 +277,9 @@ namespace talus
         for (Point<2> &corner : polygon.corners)
           corner = map.forward(corner);
       }
+    const PlaceCoordinates on_map(PlanCoordinates::map, origin);
     for (Point<2> &corner : polygon.corners)
-      corner = Point<2>(corner[0] - origin[0], origin[1] - corner[1]);
+      corner = on_map.in_plan(corner);
     return std::make_shared<OutlineSurface>("The outline '" + file_ + "'",
                                             polygon.corners);
   }

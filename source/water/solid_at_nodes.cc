@@ -94,7 +94,9 @@ namespace talus
 
 
 
-  /// Of all nodes of cells that touch a facet, ghosts included.
+  /// Find the distances of all nodes of cells that touch a facet, ghosts
+  /// included. A facet at a node of the cell may lie in a neighbor of twice its
+  /// size: no vertex is farther from an obstacle than three diameters.
   template <int dim>
   void
   SolidAtNodes<dim>::find_distances(const Grid<dim>         &grid,
@@ -108,9 +110,13 @@ namespace talus
               return contact.facets().is_contact_node(node);
             }))
           continue;
+        const Obstacles<dim> &obstacles = contact.obstacles();
+        const double          reach = 3. * std::sqrt(double(dim)) * cell.size;
         for (unsigned int v = 0; v < nodes.size(); ++v)
           if (double &known = distance_[nodes[v]]; std::isnan(known))
-            known = contact.obstacles().signed_distance(cell.vertex(v));
+            known =
+              obstacles.signed_distance(cell.vertex(v),
+                                        obstacles.near(cell.vertex(v), reach));
       }
   }
 

@@ -51,12 +51,7 @@ namespace talus
 
     /// Find how near soil comes to the surfaces; before find(). Collective.
     void
-    find_gaps(const State<dim> &state)
-    {
-      gaps_.find(state,
-                 facets_.nodes_and_obstacles(),
-                 facets_.nearness_of_cells());
-    }
+    find_gaps(const State<dim> &state);
 
     /// Find those of Facets::owned() for soil as the nodes have it, whose
     /// friction remembers earlier steps if it @p has_memory.
@@ -112,6 +107,8 @@ namespace talus
     }
 
   private:
+    void
+    prepare_gaps(const Grid<dim> &grid, std::vector<unsigned int> slots);
     std::vector<typename NodalGaps<dim>::Surface>
     surfaces() const;
     std::vector<unsigned int>

@@ -56,14 +56,21 @@ namespace talus
     /// boxes reach, in cells; twice that where cells of two sizes meet.
     static constexpr double reach = 3. * 1.7320508075688772;
 
-    /// To be called after each change of the mesh or its partition. A node has
-    /// one gap per slot: surfaces with the same entry of @p slots are so far
-    /// apart (min_distance_in_slot()) that no node is beside two of them.
+    /// To be called after each change of the mesh, its partition or the slots. A
+    /// node has one gap per slot: surfaces with the same entry of @p slots are so
+    /// far apart (min_distance_in_slot()) that no node is beside two of them.
     void
     prepare(const Grid<dim>          &grid,
             std::vector<Surface>      surfaces,
             std::vector<unsigned int> slots,
             Near                      near);
+
+    /// Slots of the surfaces, as prepare() got them.
+    const std::vector<unsigned int> &
+    slots() const
+    {
+      return slots_;
+    }
 
     /// Distance, m, between surfaces of one slot, in cells of @p cell_size: of a
     /// point near one of them the other one is farther away.

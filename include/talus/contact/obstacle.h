@@ -76,6 +76,16 @@ namespace talus
     Box<dim>
     bounding_box() const;
 
+    /// Sentence for the log on where the obstacle lies; empty for shapes whose
+    /// parameters say it.
+    std::string
+    fact() const;
+
+    /// Sentence for the log on what the shape only stands for; empty if it is
+    /// what the user asked for.
+    std::string
+    remark() const;
+
     /// Whether friction has a limit besides the coefficient.
     bool
     limits_shear_stress() const
@@ -144,6 +154,9 @@ namespace talus
     list_state(StateList &list);
 
   private:
+    void
+    prepare_reference_point();
+
     std::string
     path(const std::string &entry) const
     {

@@ -57,9 +57,9 @@ namespace talus
     /// Numbers of obstacles, ascending.
     using Numbers = std::vector<unsigned int>;
 
-    /// Return all obstacles whose bounding boxes are not farther from @p x than
-    /// @p distance, m, and perhaps some others: by an index, so that many
-    /// obstacles cost no more than few. Those that move are always among them.
+    /// Return all obstacles whose bounding boxes, where they are now, are not
+    /// farther from @p x than @p distance, m, and perhaps some others: by an
+    /// index, so that many obstacles cost no more than few.
     Numbers
     near(const dealii::Point<dim> &x, const double distance) const
     {
@@ -99,6 +99,19 @@ namespace talus
     /// Those that move go on by a step of @p dt from time @p t.
     void
     advance(double t, double dt);
+
+    /// Index the obstacles where they are now. To be called after their places
+    /// were restored from a checkpoint; prepare() and advance() do it themselves.
+    void
+    locate();
+
+    /// Sentences for the log on where obstacles lie.
+    std::vector<std::string>
+    facts() const;
+
+    /// Sentences for the log on shapes that only stand for what was asked for.
+    std::vector<std::string>
+    remarks() const;
 
     /// Whether one of them has a maximum shear stress.
     bool

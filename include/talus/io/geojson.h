@@ -22,6 +22,15 @@ namespace talus
 
 
 
+  /// The one line of a GeoJSON file.
+  struct GeojsonLine
+  {
+    std::vector<dealii::Point<2>> corners;
+    bool                          is_in_degrees; ///< as that of GeojsonPolygon
+  };
+
+
+
   /// Whether the name of a file says that it is GeoJSON.
   bool
   is_geojson(const std::filesystem::path &path);
@@ -30,6 +39,11 @@ namespace talus
   /// has none or several.
   GeojsonPolygon
   read_geojson_polygon(const std::filesystem::path &path);
+
+  /// Read a line (LineString). Throws ExcUser if the file cannot be read, or has
+  /// none or several.
+  GeojsonLine
+  read_geojson_line(const std::filesystem::path &path);
 } // namespace talus
 
 #endif

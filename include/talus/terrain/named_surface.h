@@ -78,9 +78,12 @@ namespace talus
     read(const std::filesystem::path &folder,
          const dealii::Point<3>      &origin) const;
 
-  private:
+    /// Corners of the line on the map along which the raster is cut, 2-D only.
+    /// Throws ExcUser if it is none.
     std::vector<dealii::Point<2>>
     section() const;
+
+  private:
     Raster
     read_file(const std::filesystem::path &file) const;
     std::shared_ptr<const Surface<dim>>

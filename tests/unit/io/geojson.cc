@@ -98,4 +98,25 @@ namespace geojson_test
     expect_refused(polygon(R"([[1, "a"], [2, 3]])"), "cannot be read");
     expect_refused(polygon("[[1], [2, 3]]"), "less than two numbers");
   }
+
+
+
+  TEST(Geojson, LineOfAFeature)
+  {
+    const std::string line =
+      R"({"type": "LineString", "coordinates": [[15.1, 41], [15.2, 41, 7]]})";
+    for (const std::string &text : {line, features(line)})
+      {
+        std::ofstream(file) << text;
+        const GeojsonLine read = read_geojson_line(file);
+        EXPECT_EQ(read.corners,
+                  (std::vector<Point<2>>{{15.1, 41.}, {15.2, 41.}}));
+        EXPECT_TRUE(read.is_in_degrees);
+      }
+    std::ofstream(file) << polygon(ring);
+    const std::string message =
+      message_of<ExcUser>([&]() { read_geojson_line(file); });
+    EXPECT_TRUE(contains(message, "has 0 lines, where one was expected"))
+      << message;
+  }
 } // namespace geojson_test
