@@ -105,7 +105,7 @@ namespace talus
   double
   Pipe::signed_distance(const Point<3> &x) const
   {
-    return x.distance(nearest_on_axis(x).place) - radius_;
+    return distance_and_normal(x).first;
   }
 
 

@@ -3,6 +3,7 @@
 
 #include <talus/contact/ground.h>
 #include <talus/contact/obstacle_sizes.h>
+#include <talus/geometry/expression_surface.h>
 #include <talus/geometry/pipe.h>
 #include <talus/geometry/section_line.h>
 
@@ -254,7 +255,7 @@ namespace pipe_test
   // is easting 512000, northing 6742800, height -300.
   TEST(Coordinates, ShapesOnTheMapAreThoseOfTheMesh)
   {
-    const std::vector<std::array<std::string, 2>> pairs = {
+    const std::vector<std::pair<std::string, std::string>> pairs = {
       {"Shape = box|Lower corner = 1, 2, 3|Upper corner = 5, 4, 9",
        "Shape = box|Lower corner = 512001, 6742791, -298|"
        "Upper corner = 512005, 6742797, -296"},
