@@ -173,7 +173,7 @@ TEST(Terrain, ForceIsSquareToAnObliquePipe)
 {
   run<3>("slide-on-pipe-3d.prm",
          "slide-on-oblique-pipe",
-         {"Surfaces/mudline/File=" + write("dips-east.asc",
+         {"Surfaces/mudline/File=" + write("dips-east-too.asc",
                                            [](const double x, const double) {
                                              return gradient * x + 300.;
                                            }),
