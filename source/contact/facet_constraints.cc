@@ -16,15 +16,40 @@ namespace talus
   void
   FacetConstraints<dim>::prepare(const Grid<dim> &grid)
   {
-    gaps_.prepare(grid,
-                  surfaces(),
-                  slots(grid),
-                  [this](const Point<dim> &x, const double distance) {
-                    return obstacles_.near(x, distance);
-                  });
+    prepare_gaps(grid, slots(grid));
     coverage_.prepare(grid);
     constraints_.clear();
     loaded_.clear();
+  }
+
+
+
+  template <int dim>
+  void
+  FacetConstraints<dim>::prepare_gaps(const Grid<dim>          &grid,
+                                      std::vector<unsigned int> slots)
+  {
+    gaps_.prepare(grid,
+                  surfaces(),
+                  std::move(slots),
+                  [this](const Point<dim> &x, const double distance) {
+                    return obstacles_.near(x, distance);
+                  });
+  }
+
+
+
+  // Moving obstacles may have come near to others since the last step.
+  template <int dim>
+  void
+  FacetConstraints<dim>::find_gaps(const State<dim> &state)
+  {
+    if (obstacles_.move())
+      if (auto slots_now = slots(state.grid); slots_now != gaps_.slots())
+        prepare_gaps(state.grid, std::move(slots_now));
+    gaps_.find(state,
+               facets_.nodes_and_obstacles(),
+               facets_.nearness_of_cells());
   }
 
 
@@ -48,9 +73,9 @@ namespace talus
 
 
 
-  /// Return the slot of each obstacle, same on all ranks. Obstacles far apart
-  /// share a slot: the number of slots follows the density of the obstacles. A
-  /// moving obstacle may come near all others and has its own slot.
+  /// Return the slot of each obstacle, the same on all ranks. Obstacles far apart
+  /// share a slot: the number of slots follows the density of the obstacles.
+  /// Collective.
   template <int dim>
   std::vector<unsigned int>
   FacetConstraints<dim>::slots(const Grid<dim> &grid) const
@@ -65,10 +90,7 @@ namespace talus
     for (unsigned int k = 0; k < obstacles_.size(); ++k)
       {
         const auto near =
-          obstacles_.near(obstacles_[k].bounding_box(),
-                          obstacles_[k].moves()
-                            ? std::numeric_limits<double>::infinity()
-                            : distance);
+          obstacles_.near(obstacles_[k].bounding_box(), distance);
         std::vector<unsigned char> is_taken(near.size() + 1, 0);
         for (const unsigned int other : near)
           if (other < k && result[other] < is_taken.size())

@@ -70,6 +70,7 @@ namespace talus
     for (const auto &of_rank :
          Utilities::MPI::all_gather(grid.communicator(), impulses_.rows()))
       rows.insert(rows.end(), of_rank.begin(), of_rank.end());
+    obstacles_.locate(); // a checkpoint may have restored their places
     facets_.prepare(grid, obstacles_);
     impulses_.take(rows);
     nodes_.prepare(grid);
@@ -142,7 +143,10 @@ namespace talus
     if (!impulses_.has_restored())
       return;
     if (obstacles_.move())
-      facets_.update(state.grid, obstacles_);
+      {
+        obstacles_.locate();
+        facets_.update(state.grid, obstacles_);
+      }
     impulses_.take_restored();
   }
 

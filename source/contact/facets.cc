@@ -122,8 +122,8 @@ namespace talus
     {
       const auto     box       = cell.box();
       const Box<dim> around    = obstacle.bounding_box();
-      double         thickness = around.length(0);
-      for (unsigned int d = 1; d < dim; ++d)
+      double         thickness = obstacle.shape().width();
+      for (unsigned int d = 0; d < dim; ++d)
         thickness = std::min(thickness, around.length(d));
       const bool is_thin = thickness < 2. * cell.size;
       const auto pieces  = surface_pieces<dim>(

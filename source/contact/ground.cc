@@ -17,20 +17,27 @@ namespace talus
   {
     if (is_bottom_face())
       return;
+    std::vector<Box<dim>> boxes;
     for (unsigned int k = 0; k < obstacles_->size(); ++k)
       if (belongs_to_ground((*obstacles_)[k], domain))
-        members_.push_back(k);
+        {
+          members_.push_back(k);
+          boxes.push_back((*obstacles_)[k].bounding_box());
+        }
+    index_ = BoxIndex<dim>(boxes);
   }
 
 
 
   // The tolerance keeps a pipe on the bottom of the mesh out of the ground,
-  // despite round-off.
+  // despite round-off. The bounding box of an oblique pipe gives no answer.
   template <int dim>
   bool
   Ground<dim>::belongs_to_ground(const Obstacle<dim> &obstacle,
                                  const Box<dim>      &domain)
   {
+    if (std::isfinite(obstacle.shape().width()))
+      return false;
     const Box<dim> box       = obstacle.bounding_box();
     const double   tolerance = 1e-6 * domain.length(1);
     bool           crosses   = true;
@@ -44,14 +51,16 @@ namespace talus
 
 
   template <int dim>
-  double
-  Ground<dim>::signed_distance(const Members    &members,
-                               const Point<dim> &x) const
+  typename Ground<dim>::Members
+  Ground<dim>::members_in_column(const Point<dim> &x) const
   {
-    double result = std::numeric_limits<double>::max();
-    for (const unsigned int k : members)
-      result = std::min(result, (*obstacles_)[k].signed_distance(x));
-    return result;
+    Box<dim> column{x, x};
+    column.lower[1] = -std::numeric_limits<double>::infinity();
+    column.upper[1] = std::numeric_limits<double>::infinity();
+    Members members;
+    for (const unsigned int i : index_.near(column, 0.))
+      members.push_back(members_[i]);
+    return members;
   }
 
 
@@ -70,7 +79,7 @@ namespace talus
     const auto distance = [&](const double y) {
       Point<dim> place = x;
       place[1]         = y;
-      return signed_distance(members, place);
+      return obstacles_->signed_distance(place, members);
     };
     const double error  = 1e-12 * domain_.length(1);
     double       open   = distance(y_open);
@@ -109,16 +118,18 @@ namespace talus
   Ground<dim>::elevation(const Members &members, const Point<dim> &x) const
   {
     const double bottom = domain_.lower[1];
-    const double least  = 1e-4 * domain_.length(1);
-    double       phi    = signed_distance(members, x);
-    const bool   is_up  = phi <= 0;
-    Point<dim>   place  = x;
+    if (members.empty())
+      return bottom;
+    const double least = 1e-4 * domain_.length(1);
+    double       phi   = obstacles_->signed_distance(x, members);
+    const bool   is_up = phi <= 0;
+    Point<dim>   place = x;
     for (double y = x[1];;)
       {
         const double step = std::max(std::abs(phi), least);
         const double next = is_up ? y + step : std::max(y - step, bottom);
         place[1]          = next;
-        phi               = signed_distance(members, place);
+        phi               = obstacles_->signed_distance(place, members);
         if (is_up != (phi <= 0))
           return std::max(bottom,
                           is_up ? surface_at(members, x, next, y)
@@ -138,7 +149,7 @@ namespace talus
   double
   Ground<dim>::elevation(const Point<dim> &x) const
   {
-    return members_.empty() ? domain_.lower[1] : elevation(members_, x);
+    return elevation(members_in_column(x), x);
   }
 
 
@@ -147,25 +158,19 @@ namespace talus
   Tensor<1, dim>
   Ground<dim>::layer_normal(const Point<dim> &x) const
   {
-    Members members = members_;
+    Members members = members_in_column(x);
     while (!members.empty())
       {
-        Point<dim> place = x;
-        place[1]         = elevation(members, x);
-        const auto nearest =
-          std::min_element(members.begin(),
-                           members.end(),
-                           [&](const unsigned int a, const unsigned int b) {
-                             return (*obstacles_)[a].signed_distance(place) <
-                                    (*obstacles_)[b].signed_distance(place);
-                           });
-        if ((*obstacles_)[*nearest].signed_distance(place) >
+        Point<dim> place           = x;
+        place[1]                   = elevation(members, x);
+        const unsigned int nearest = obstacles_->nearest(place, members);
+        if ((*obstacles_)[nearest].signed_distance(place) >
             1e-9 * domain_.length(1))
           break; // the bottom face of the mesh
-        const Tensor<1, dim> normal = (*obstacles_)[*nearest].normal(place);
+        const Tensor<1, dim> normal = (*obstacles_)[nearest].normal(place);
         if (normal[1] >= std::sqrt(0.5))
           return normal;
-        members.erase(nearest);
+        members.erase(std::find(members.begin(), members.end(), nearest));
       }
     return Point<dim>::unit_vector(1);
   }

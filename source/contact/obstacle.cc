@@ -34,9 +34,10 @@ namespace talus
                   "start. Empty: at rest.");
     add_parameter("Reference point",
                   reference_point_text_,
-                  "Point about which moments are taken, as x,y or x,y,z [m]; "
-                  "the point moves with the obstacle. Empty: the centre of "
-                  "the obstacle, 0 along axes without two ends.",
+                  "Point about which moments are taken, as x,y or x,y,z, with "
+                  "`Coordinates` = map as easting, northing, height [m]; the "
+                  "point moves with the obstacle. Empty: the centre of the "
+                  "obstacle, 0 along axes without two ends.",
                   this->prm,
                   Patterns::List(Patterns::Double(), 0, dim));
   }
@@ -98,6 +99,16 @@ namespace talus
                              "the obstacle moves (",
                              path("Velocity"),
                              "). Give a stress without `depth`.")));
+    prepare_reference_point();
+    velocity(0.); // throws here rather than in the first step
+  }
+
+
+
+  template <int dim>
+  void
+  Obstacle<dim>::prepare_reference_point()
+  {
     reference_point_ = middle(shape_->bounding_box());
     if (!reference_point_text_.empty())
       {
@@ -114,8 +125,29 @@ namespace talus
                                  " numbers, separated by commas.")));
         for (unsigned int d = 0; d < dim; ++d)
           reference_point_[d] = Utilities::string_to_double(numbers[d]);
+        reference_point_ =
+          shape_parameters_.coordinates().in_space(reference_point_);
       }
-    velocity(0.); // throws here rather than in the first step
+  }
+
+
+
+  template <int dim>
+  std::string
+  Obstacle<dim>::fact() const
+  {
+    const std::string place = shape_parameters_.place_in_words();
+    return place.empty() ? "" : "The obstacle '" + name_ + "' " + place;
+  }
+
+
+
+  template <int dim>
+  std::string
+  Obstacle<dim>::remark() const
+  {
+    const std::string remark = shape_parameters_.remark();
+    return remark.empty() ? "" : "The obstacle '" + name_ + "' " + remark;
   }
 
 

@@ -29,7 +29,7 @@ namespace talus
                   const unsigned int    k,
                   const Point<dim>     &x)
     {
-      for (unsigned int other = 0; other < obstacles.size(); ++other)
+      for (const unsigned int other : obstacles.near(x, 0.))
         if (other != k && obstacles[other].shape().contains(x))
           return true;
       return false;

@@ -3,6 +3,7 @@
 #include <talus/contact/obstacle_sizes.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iomanip>
 
 namespace talus
@@ -15,23 +16,29 @@ namespace talus
     // the force on a pipe is right within a few per cent.
     constexpr double n_cells_needed = 4.;
 
-    /// Extent of an obstacle along axis @p axis, m.
+    /// Extent of an obstacle along a direction, m.
     struct Extent
     {
-      unsigned int axis;
-      double       length;
+      double      length;
+      std::string direction;
     };
 
 
 
-    /// Return the extents of a box, the shortest first.
+    /// Return the extents of an obstacle, the shortest first: those of its box,
+    /// and its width if that may be oblique, which is one across each of all axes
+    /// but one.
     template <int dim>
     std::vector<Extent>
-    sorted_extents(const Box<dim> &box)
+    sorted_extents(const Obstacle<dim> &obstacle)
     {
+      const Box<dim>      box = obstacle.bounding_box();
       std::vector<Extent> extents;
       for (unsigned int d = 0; d < dim; ++d)
-        extents.push_back({d, box.upper[d] - box.lower[d]});
+        extents.push_back({box.length(d), std::string(" along ") + "xyz"[d]});
+      if (const double width = obstacle.shape().width(); std::isfinite(width))
+        for (unsigned int d = 1; d < dim; ++d)
+          extents.push_back({width, " across"});
       std::stable_sort(extents.begin(),
                        extents.end(),
                        [](const Extent &a, const Extent &b) {
@@ -54,7 +61,7 @@ namespace talus
     std::string
     in_words(const Extent &extent)
     {
-      return in_words(extent.length) + " along " + "xyz"[extent.axis];
+      return in_words(extent.length) + extent.direction;
     }
 
 
@@ -74,7 +81,7 @@ namespace talus
       {
         const Box<dim> box     = obstacles[k].bounding_box();
         const double   h       = grid.finest_size_in(box);
-        const auto     extents = sorted_extents(box);
+        const auto     extents = sorted_extents(obstacles[k]);
         // Tolerance for round-off in the size of a cell that fits exactly.
         const auto is_shorter = [](const double a, const double b) {
           return a < (1. - 1e-9) * b;

@@ -28,19 +28,46 @@ namespace talus
   Obstacles<dim>::prepare(const Constants          &constants,
                           const SurfaceSource<dim> *surfaces)
   {
-    constexpr double      far = std::numeric_limits<double>::infinity();
+    for (const auto &obstacle : obstacles_)
+      obstacle->prepare(constants, surfaces);
+    locate();
+  }
+
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::locate()
+  {
     std::vector<Box<dim>> boxes;
     for (const auto &obstacle : obstacles_)
-      {
-        obstacle->prepare(constants, surfaces);
-        boxes.push_back(obstacle->bounding_box());
-        for (unsigned int d = 0; d < dim && obstacle->moves(); ++d)
-          {
-            boxes.back().lower[d] = -far;
-            boxes.back().upper[d] = far;
-          }
-      }
+      boxes.push_back(obstacle->bounding_box());
     index_ = BoxIndex<dim>(boxes);
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Obstacles<dim>::facts() const
+  {
+    std::vector<std::string> result;
+    for (const auto &obstacle : obstacles_)
+      if (const std::string fact = obstacle->fact(); !fact.empty())
+        result.push_back(fact);
+    return result;
+  }
+
+
+
+  template <int dim>
+  std::vector<std::string>
+  Obstacles<dim>::remarks() const
+  {
+    std::vector<std::string> result;
+    for (const auto &obstacle : obstacles_)
+      result.push_back(obstacle->remark());
+    return result;
   }
 
 
@@ -150,6 +177,8 @@ namespace talus
     for (const auto &obstacle : obstacles_)
       if (obstacle->moves())
         obstacle->advance(t, dt);
+    if (move())
+      locate();
   }
 
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/geometry/analytic_shapes.h>
+#include <talus/geometry/corner_list.h>
 #include <talus/geometry/intersection.h>
 #include <talus/geometry/polygon.h>
 #include <talus/geometry/shape_parameters.h>
@@ -19,6 +20,7 @@ namespace talus
   ShapeParameters<dim>::ShapeParameters(const std::string &section)
     : ParameterAcceptor(section)
     , section_(section)
+    , pipe_(section)
   {
     add_parameter(
       "Shape",
@@ -26,13 +28,36 @@ namespace talus
       "Must be given: 'polygon' (see Vertices, Open; in 3-D a prism over it), "
       "'box' (see Lower corner, Upper corner), 'ball' (a disc in "
       "2-D; see Centre, Radius, Inner radius), 'cylinder' (along "
-      "z; in 2-D the same as ball), 'half-plane' (in 3-D a half "
+      "z; in 2-D the same as ball), 'pipe' (along a line in plan; see Route, "
+      "Height of axis, Radius), 'half-plane' (in 3-D a half "
       "of space; see Point, Normal), 'terrain' (all below a "
       "surface; see Surface) or 'layer' (between two surfaces; see "
       "Upper surface, Lower surface).",
       this->prm,
       Patterns::Selection(
-        "|polygon|box|ball|cylinder|half-plane|terrain|layer"));
+        "|polygon|box|ball|cylinder|pipe|half-plane|terrain|layer"));
+    add_parameter(
+      "Coordinates",
+      coordinates_,
+      "'map', 3-D only but for the route of a pipe: all places of "
+      "this section are on the map. A place x, y, z is easting, "
+      "northing, height; x, z of a plan are easting, northing; x, y "
+      "of a polygon are easting, height; the ends along z are the "
+      "southern and the northern one. Expressions keep x, y, z.",
+      this->prm,
+      Patterns::Selection("mesh|map"));
+    declare_parameters_of_boxes();
+    declare_parameters_of_round_shapes();
+    declare_parameters_of_polygon_and_half_plane();
+    declare_parameters_of_surfaces();
+  }
+
+
+
+  template <int dim>
+  void
+  ShapeParameters<dim>::declare_parameters_of_boxes()
+  {
     add_parameter("Lower corner",
                   lower_corner_,
                   "Corner of the box with the smallest coordinates [m]. Of a "
@@ -41,13 +66,21 @@ namespace talus
                   upper_corner_,
                   "Corner of the box with the largest coordinates [m]; of a "
                   "layer as the lower one.");
+  }
+
+
+
+  template <int dim>
+  void
+  ShapeParameters<dim>::declare_parameters_of_round_shapes()
+  {
     add_parameter("Centre",
                   centre_,
                   "Centre of the ball; of the cylinder any place on its axis "
                   "[m].");
     add_parameter("Radius",
                   radius_,
-                  "Radius of the ball or cylinder [m].",
+                  "Radius of the ball, cylinder or pipe [m].",
                   this->prm,
                   Patterns::Double(1e-12));
     add_parameter("Inner radius",
@@ -56,8 +89,6 @@ namespace talus
                   "it a ring (in 3-D a shell or pipe) [m].",
                   this->prm,
                   Patterns::Double(0.));
-    declare_parameters_of_polygon_and_half_plane();
-    declare_parameters_of_surfaces();
   }
 
 
@@ -87,7 +118,8 @@ namespace talus
     add_parameter(
       "Normal",
       normal_,
-      "Vector of any length that points out of the half-plane [-].");
+      "Vector of any length that points out of the half-plane; with "
+      "`Coordinates` = map to east, north and up [-].");
   }
 
 
@@ -121,6 +153,32 @@ namespace talus
 
 
 
+  /// The route of a pipe in 2-D may be on the map: its other places are not.
+  template <int dim>
+  PlaceCoordinates
+  ShapeParameters<dim>::coordinates() const
+  {
+    return PlaceCoordinates(section_.substr(1),
+                            dim == 2 && is_pipe() ? "mesh" : coordinates_,
+                            dim,
+                            surfaces_ != nullptr ? surfaces_->origin()
+                                                 : Point<3>());
+  }
+
+
+
+  template <int dim>
+  typename PipeParameters<dim>::Setting
+  ShapeParameters<dim>::setting_of_pipe() const
+  {
+    return {coordinates_ == "map" ? PlanCoordinates::map
+                                  : PlanCoordinates::mesh,
+            radius_,
+            surfaces_};
+  }
+
+
+
   /// Made anew by whoever asks: a shape is cheap, and needs the domain for the
   /// ends of a prism, which is known only when the mesh is.
   template <int dim>
@@ -131,8 +189,8 @@ namespace talus
     AssertThrow(!shape_.empty(),
                 ExcUser(text(path("Shape"),
                              " is not given, but 'polygon', 'box', 'ball', "
-                             "'cylinder', 'half-plane', 'terrain' or 'layer' "
-                             "is expected there. "
+                             "'cylinder', 'pipe', 'half-plane', 'terrain' or "
+                             "'layer' is expected there. "
                              "Add it and the entries that it needs to the "
                              "section '",
                              section_.substr(1),
@@ -153,15 +211,18 @@ namespace talus
         const std::string         name = "The vertices in " + path("Vertices");
         std::unique_ptr<Shape<2>> base;
         if (is_open_)
-          base = std::make_unique<OpenPolygon>(name, vertices());
+          base = std::make_unique<OpenPolygon>(name, vertices(false));
         else
-          base = std::make_unique<Polygon>(name, vertices());
+          base = std::make_unique<Polygon>(name, vertices(false));
         return make_over(std::move(base), domain);
       }
+    if (is_pipe())
+      return pipe_.make(setting_of_pipe());
     check_radii();
+    const Point<dim> centre = coordinates().in_space(centre_);
     if (shape_ == "ball")
-      return std::make_unique<Ball<dim>>(centre_, radius_, inner_radius_);
-    return make_over(std::make_unique<Ball<2>>(Point<2>(centre_[0], centre_[1]),
+      return std::make_unique<Ball<dim>>(centre, radius_, inner_radius_);
+    return make_over(std::make_unique<Ball<2>>(Point<2>(centre[0], centre[1]),
                                                radius_,
                                                inner_radius_),
                      domain);
@@ -169,26 +230,15 @@ namespace talus
 
 
 
-  /// Reads "x,y; x,y; ...".
   template <int dim>
   std::vector<Point<2>>
-  ShapeParameters<dim>::vertices() const
+  ShapeParameters<dim>::vertices(const bool are_in_plan) const
   {
-    std::vector<Point<2>> vertices;
-    for (const auto &vertex : Utilities::split_string_list(vertices_, ';'))
-      {
-        const auto numbers = Utilities::split_string_list(vertex, ',');
-        AssertThrow(numbers.size() == 2 &&
-                      Patterns::Double().match(numbers[0]) &&
-                      Patterns::Double().match(numbers[1]),
-                    ExcUser(text(path("Vertices"),
-                                 " contains '",
-                                 vertex,
-                                 "', where two numbers 'x,y' were expected; "
-                                 "vertices are separated by semicolons.")));
-        vertices.emplace_back(Utilities::string_to_double(numbers[0]),
-                              Utilities::string_to_double(numbers[1]));
-      }
+    const PlaceCoordinates coordinates = this->coordinates();
+    std::vector<Point<2>> vertices = parse_corners(path("Vertices"), vertices_);
+    for (Point<2> &vertex : vertices)
+      vertex = are_in_plan ? coordinates.in_plan(vertex)
+                           : coordinates.in_elevation(vertex);
     return vertices;
   }
 
@@ -224,7 +274,11 @@ namespace talus
                              extent_z_,
                              "' ends before it begins; the lower end comes "
                              "first, and it must have a length.")));
-    return ends;
+    if (!coordinates().are_of_map())
+      return ends;
+    // The northern end has the smaller z.
+    return {{coordinates().in_plan(Point<2>(0., ends[1]))[1],
+             coordinates().in_plan(Point<2>(0., ends[0]))[1]}};
   }
 
 
@@ -239,7 +293,8 @@ namespace talus
                              normal_,
                              ") has no direction. Give a vector that points "
                              "out of the half-plane, of any length but 0.")));
-    return std::make_unique<HalfSpace<dim>>(point_, normal_);
+    return std::make_unique<HalfSpace<dim>>(coordinates().in_space(point_),
+                                            coordinates().direction(normal_));
   }
 
 
@@ -257,7 +312,7 @@ namespace talus
                                lower_corner_,
                                ") in every coordinate.")));
     return std::make_unique<BoxRegion<dim>>(
-      Box<dim>{lower_corner_, upper_corner_});
+      coordinates().box(lower_corner_, upper_corner_));
   }
 
 
@@ -329,7 +384,7 @@ namespace talus
     typename Intersection<dim>::Parts parts;
     if (!(lower_corner_ == upper_corner_))
       {
-        Box<dim> box{lower_corner_, upper_corner_};
+        Box<dim> box = coordinates().box(lower_corner_, upper_corner_);
         box.upper[1] = std::numeric_limits<double>::infinity();
         box.lower[1] = -box.upper[1];
         for (unsigned int d = 0; d < dim; d += 2)
@@ -345,7 +400,7 @@ namespace talus
     if (!vertices_.empty())
       parts.push_back(
         over_outline(std::make_unique<Polygon>(
-                       "The vertices in " + path("Vertices"), vertices()),
+                       "The vertices in " + path("Vertices"), vertices(true)),
                      std::integral_constant<int, dim>()));
     parts.push_back(make_side("Upper surface", upper_surface_, Side::below));
     parts.push_back(make_side("Lower surface", lower_surface_, Side::above));

@@ -31,6 +31,20 @@ namespace talus
                   upper_corner_,
                   "Corner of the box that the mesh fills, with the largest "
                   "coordinates [m].");
+    add_parameter("Origin",
+                  origin_,
+                  "Where x = y = z = 0 of the mesh lies on the map: easting, "
+                  "northing and height [m]. Rasters are read relative to it, "
+                  "so that coordinates are small numbers that lose no digits; "
+                  "in 2-D only the height counts.",
+                  this->prm,
+                  Patterns::List(Patterns::Double(-1e9, 1e9), 3, 3));
+    add_parameter("Coordinates",
+                  coordinates_,
+                  "'map', 3-D only: the corners of the mesh and of `Refinement "
+                  "boxes` are easting, northing, height.",
+                  this->prm,
+                  Patterns::Selection("mesh|map"));
     add_parameter("Cell size",
                   cell_size_,
                   "Edge of the cells before 'Initial refinement', exact [m]. "
@@ -69,6 +83,16 @@ namespace talus
 
 
   template <int dim>
+  Box<dim>
+  MeshLayout<dim>::box_of_parameters() const
+  {
+    return PlaceCoordinates("Grid", coordinates_, dim, origin_)
+      .box(lower_corner_, upper_corner_);
+  }
+
+
+
+  template <int dim>
   void
   MeshLayout<dim>::check() const
   {
@@ -81,6 +105,7 @@ namespace talus
                                ") in every coordinate; coordinate ",
                                d,
                                " does not.")));
+    box_of_parameters(); // throws if there is no map
   }
 
 
@@ -128,10 +153,11 @@ namespace talus
                             const bool         may_move,
                             const unsigned int factor)
   {
-    const double h     = cell_size_;
-    const double exact = (upper_corner_[d] - lower_corner_[d]) / h;
-    const double whole = std::round(exact);
-    const bool   fits  = whole >= 1 && std::abs(exact - whole) <= 1e-9 * whole;
+    const double h         = cell_size_;
+    const double asked_for = box_of_parameters().upper[d];
+    const double exact     = box_of_parameters().length(d) / h;
+    const double whole     = std::round(exact);
+    const bool   fits = whole >= 1 && std::abs(exact - whole) <= 1e-9 * whole;
     const unsigned int face = 2 * d + 1;
     // Compared as doubles, before rounding to an integer could overflow.
     AssertThrow(exact < 2e9,
@@ -174,7 +200,7 @@ namespace talus
                         " The face '",
                         face_names[face],
                         "' was moved outwards from ",
-                        upper_corner_[d],
+                        asked_for,
                         " m to ",
                         domain_.upper[d],
                         " m, so that the ",
@@ -270,13 +296,16 @@ namespace talus
                            const bool                       grow,
                            const std::array<bool, dim>     &periodic)
   {
-    domain_          = {lower_corner_, upper_corner_};
+    domain_          = box_of_parameters();
     grows_           = grow;
     memory_per_rank_ = talus::memory_per_rank(MPI_COMM_WORLD);
     for (unsigned int d = 0; d < dim; ++d)
       fit_axis(d, may_move[2 * d + 1], 1);
     domain_before_growth_ = domain_;
-    boxes_                = parse_refinement_boxes(refinement_boxes_, domain_);
+    boxes_                = parse_refinement_boxes(
+      refinement_boxes_,
+      domain_,
+      PlaceCoordinates("Grid", coordinates_, dim, origin_));
     check_one_size<dim>(periodic,
                         grow             ? "'Mesh tracking/Enabled' is true"
                         : boxes_.empty() ? ""

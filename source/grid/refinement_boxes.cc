@@ -42,7 +42,9 @@ namespace talus
   // message.
   template <int dim>
   std::vector<RefinementBox<dim>>
-  parse_refinement_boxes(const std::string &boxes, const Box<dim> &domain)
+  parse_refinement_boxes(const std::string      &boxes,
+                         const Box<dim>         &domain,
+                         const PlaceCoordinates &coordinates)
   {
     std::vector<RefinementBox<dim>> result;
     for (const auto &entry : Utilities::split_string_list(boxes, '|'))
@@ -54,8 +56,9 @@ namespace talus
                             "' contains '" + entry +
                             "'; expected 'lower corner; upper corner; n' with "
                             "n from 1 to 10."));
-        const Box<dim> box{parse_corner<dim>(parts[0], boxes),
-                           parse_corner<dim>(parts[1], boxes)};
+        const Box<dim> box =
+          coordinates.box(parse_corner<dim>(parts[0], boxes),
+                          parse_corner<dim>(parts[1], boxes));
         for (unsigned int d = 0; d < dim; ++d)
           AssertThrow(box.lower[d] < box.upper[d],
                       ExcUser("'Grid/Refinement boxes = " + boxes +
@@ -69,7 +72,11 @@ namespace talus
                                    boxes,
                                    "' contains '",
                                    entry,
-                                   "', which lies outside the mesh from (",
+                                   "', which is the box from (",
+                                   box.lower,
+                                   ") to (",
+                                   box.upper,
+                                   ") m and lies outside the mesh from (",
                                    domain.lower,
                                    ") to (",
                                    domain.upper,

@@ -26,33 +26,35 @@ namespace talus
 
 
 
-    /// Append the polygons, each a list of rings, of a GeoJSON object and of all
-    /// in it.
+    /// Append the coordinates of all geometries of type @p kind or "Multi" +
+    /// @p kind in a GeoJSON object and its members.
     void
-    collect_polygons(const Tree &object, std::vector<Tree> &polygons)
+    collect(const std::string &kind,
+            const Tree        &object,
+            std::vector<Tree> &found)
     {
       const std::string type = object.get("type", "");
-      if (type == "Polygon")
-        polygons.push_back(member(object, "coordinates"));
-      else if (type == "MultiPolygon")
-        for (const auto &[key, polygon] : member(object, "coordinates"))
-          polygons.push_back(polygon);
+      if (type == kind)
+        found.push_back(member(object, "coordinates"));
+      else if (type == "Multi" + kind)
+        for (const auto &[key, part] : member(object, "coordinates"))
+          found.push_back(part);
       else if (type == "Feature")
-        collect_polygons(member(object, "geometry"), polygons);
+        collect(kind, member(object, "geometry"), found);
       else
         for (const std::string list : {"features", "geometries"})
           for (const auto &[key, part] : member(object, list))
-            collect_polygons(part, polygons);
+            collect(kind, part, found);
     }
 
 
 
-    /// Corners of a ring.
-    MapPolygons::Ring
-    corners_of(const Tree &ring)
+    /// Corners of a ring or a line.
+    MapFeatures::Corners
+    corners_of(const Tree &positions)
     {
-      MapPolygons::Ring corners;
-      for (const auto &[key, position] : ring)
+      MapFeatures::Corners corners;
+      for (const auto &[key, position] : positions)
         {
           // Behind the first two there may be a height.
           std::vector<double> numbers;
@@ -89,23 +91,26 @@ namespace talus
 
 
 
-  MapPolygons
+  MapFeatures
   read_geojson(const std::filesystem::path &path)
   {
-    const std::string file = "The outline '" + path.string() + "' ";
-    MapPolygons       result;
+    const std::string file = "The file '" + path.string() + "' ";
+    MapFeatures       result;
     try
       {
         Tree              tree;
-        std::vector<Tree> polygons;
+        std::vector<Tree> polygons, lines;
         boost::property_tree::read_json(path.string(), tree);
-        collect_polygons(tree, polygons);
+        collect("Polygon", tree, polygons);
+        collect("LineString", tree, lines);
         for (const Tree &polygon : polygons)
           {
             auto &rings = result.polygons.emplace_back();
             for (const auto &[key, ring] : polygon)
               rings.push_back(corners_of(ring));
           }
+        for (const Tree &line : lines)
+          result.lines.push_back(corners_of(line));
         result.coordinate_system = coordinate_system(tree);
       }
     catch (const boost::property_tree::ptree_error &error)

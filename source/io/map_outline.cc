@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/esri_grid.h>
-#include <talus/io/gdal_polygons.h>
+#include <talus/io/gdal_features.h>
 #include <talus/io/geojson.h>
 #include <talus/io/map_outline.h>
 
@@ -14,17 +14,27 @@ namespace talus
   {
     std::error_code error;
     return is_geojson(file) || (std::filesystem::is_regular_file(file, error) &&
-                                !is_esri_grid(file) && has_gdal_polygons(file));
+                                !is_esri_grid(file) && has_gdal_features(file));
   }
+
+
+
+  namespace
+  {
+    MapFeatures
+    read_features(const std::filesystem::path &file)
+    {
+      return is_geojson(file) ? read_geojson(file) : read_gdal_features(file);
+    }
+  } // namespace
 
 
 
   MapOutline
   read_outline(const std::filesystem::path &file)
   {
-    const MapPolygons found =
-      is_geojson(file) ? read_geojson(file) : read_gdal_polygons(file);
-    const std::string name = "The outline '" + file.string() + "' ";
+    const MapFeatures found = read_features(file);
+    const std::string name  = "The outline '" + file.string() + "' ";
     AssertThrow(found.polygons.size() == 1,
                 ExcUser(text(name,
                              "has ",
@@ -42,5 +52,21 @@ namespace talus
         outline.corners.front() == outline.corners.back())
       outline.corners.pop_back();
     return outline;
+  }
+
+
+
+  MapLine
+  read_line(const std::filesystem::path &file)
+  {
+    const MapFeatures found = read_features(file);
+    AssertThrow(found.lines.size() == 1,
+                ExcUser(text("The route '",
+                             file.string(),
+                             "' has ",
+                             found.lines.size(),
+                             " lines, where one was expected. Save one line to "
+                             "a file of its own.")));
+    return {found.lines[0], found.coordinate_system};
   }
 } // namespace talus

@@ -3,7 +3,7 @@
 // refuses, with the command that converts a file.
 #include <talus/base/errors.h>
 #include <talus/io/coordinate_system.h>
-#include <talus/io/gdal_polygons.h>
+#include <talus/io/gdal_features.h>
 #include <talus/io/gdal_raster.h>
 
 namespace talus
@@ -88,7 +88,7 @@ namespace talus
 
 
   bool
-  has_gdal_polygons(const std::filesystem::path &file)
+  has_gdal_features(const std::filesystem::path &file)
   {
     for (const std::string end : {".shp", ".gpkg", ".kml"})
       if (file.extension() == end)
@@ -98,11 +98,10 @@ namespace talus
 
 
 
-  MapPolygons
-  read_gdal_polygons(const std::filesystem::path &file)
+  MapFeatures
+  read_gdal_features(const std::filesystem::path &file)
   {
-    refuse_without_gdal("The outline '" + file.string() +
-                          "' is no GeoJSON file",
+    refuse_without_gdal("The file '" + file.string() + "' is no GeoJSON file",
                         "Convert it: ogr2ogr -t_srs EPSG:32633 OUT.geojson IN "
                         "(the code is that of UTM 33N).");
     return {};

@@ -62,12 +62,11 @@ namespace talus
     std::vector<Point<2>> result;
     for (const std::string &place : Utilities::split_string_list(path_, ';'))
       {
-        const Point<3> x =
-          parse_plan_place<3>("Runout/Path",
-                              place,
-                              coordinates_ == "map" ? PlanCoordinates::map
-                                                    : PlanCoordinates::mesh,
-                              origin);
+        const Point<3> x = parse_plan_place<3>(
+          "Runout/Path",
+          place,
+          PlaceCoordinates("Runout", coordinates_, dim, origin).kind(),
+          origin);
         const Point<2> corner(x[0], x[2]);
         AssertThrow(result.empty() || corner.distance(result.back()) > 0.,
                     ExcUser("'Runout/Path' has the corner '" + place +

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
-#include <talus/terrain/plan_place.h>
 #include <talus/maps/station_list.h>
+#include <talus/terrain/plan_place.h>
 
 #include <deal.II/base/utilities.h>
 
@@ -59,10 +59,6 @@ namespace talus
   void
   StationList<dim>::check(const Box<dim> &domain) const
   {
-    AssertThrow(dim == 3 || coordinates_ == "mesh",
-                ExcUser("'Stations/Coordinates' is 'map', but a 2-D section "
-                        "has no position on the map. Give x along the section, "
-                        "and set 'mesh'."));
     AssertThrow(width_ == 0. || (width_ <= domain.length(0) &&
                                  width_ > 1e-9 * domain.length(0)),
                 ExcUser(text("'Stations/Width' is ",
@@ -83,7 +79,8 @@ namespace talus
                           const Point<3>    &origin) const
   {
     check(domain);
-    std::vector<Named> result;
+    const PlaceCoordinates coordinates("Stations", coordinates_, dim, origin);
+    std::vector<Named>     result;
     for (const std::string &item : Utilities::split_string_list(value, '|'))
       {
         const auto colon = item.find(':');
@@ -112,9 +109,7 @@ namespace talus
           {
             Point<dim> x = parse_plan_place<dim>("Stations/" + entry,
                                                  place,
-                                                 coordinates_ == "map"
-                                                   ? PlanCoordinates::map
-                                                   : PlanCoordinates::mesh,
+                                                 coordinates.kind(),
                                                  origin);
             x[1]         = domain.lower[1];
             AssertThrow(domain.contains(x),

@@ -62,16 +62,6 @@ namespace talus
       "Names of the bodies, separated by commas; each has a section "
       "of that name.");
     leave_subsection();
-    enter_subsection("Grid");
-    add_parameter("Origin",
-                  origin_,
-                  "Where x = y = z = 0 of the mesh lies on the map: easting, "
-                  "northing and height [m]. Rasters are read relative to it, "
-                  "so that coordinates are small numbers that lose no digits; "
-                  "in 2-D only the height counts.",
-                  this->prm,
-                  Patterns::List(Patterns::Double(-1e9, 1e9), 3, 3));
-    leave_subsection();
   }
 
 
@@ -82,12 +72,13 @@ namespace talus
   /// there before the first point is.
   template <int dim>
   void
-  Problem<dim>::prepare(Points<dim> &points,
-                        const bool   changes_strength,
-                        const double end_time)
+  Problem<dim>::prepare(Points<dim>    &points,
+                        const bool      changes_strength,
+                        const double    end_time,
+                        const Point<3> &origin)
   {
     constants_.values(); // throws, also where no expression needs them
-    surfaces_.prepare(constants_, folder_, origin_);
+    surfaces_.prepare(constants_, folder_, origin);
     for (const auto &body : bodies_)
       body->use_surfaces(surfaces_);
     const std::vector<std::string> names = names_of_bodies();
@@ -188,6 +179,7 @@ namespace talus
   Problem<dim>::look_at_geometry(const State<dim> &state)
   {
     const Box<dim> domain = state.grid.domain_before_growth();
+    add_remarks(obstacles.remarks());
     add_remarks(check_obstacle_sizes(obstacles, state.grid));
     add_remarks(notes_on_hidden_obstacles(obstacles, domain));
     bool   has_strength = false;
@@ -354,6 +346,8 @@ namespace talus
     std::vector<std::string> result = surfaces_.notes();
     if (const std::string note = trigger.note(); !note.empty())
       result.push_back(note);
+    const auto on_obstacles = obstacles.facts();
+    result.insert(result.end(), on_obstacles.begin(), on_obstacles.end());
     return result;
   }
 

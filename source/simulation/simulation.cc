@@ -112,7 +112,8 @@ namespace talus
     check_can_be_made(output_.folder() + "/checkpoints");
     problem_.prepare(state_.points,
                      static_stages_.stages().contain(Stage::strength_reduction),
-                     end_time_);
+                     end_time_,
+                     state_.grid.origin());
     static_stages_.check();
     transfer_.use_bbar(problem_.bodies_with_bbar());
     state_.constants.box_shape  = transfer_.box_shape();

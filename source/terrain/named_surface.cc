@@ -7,6 +7,7 @@
 #include <talus/io/map_outline.h>
 #include <talus/io/raster_file.h>
 #include <talus/io/utm_zone.h>
+#include <talus/terrain/bring_to_map.h>
 #include <talus/terrain/named_surface.h>
 #include <talus/terrain/plan_place.h>
 #include <talus/terrain/project_raster.h>
@@ -229,12 +230,11 @@ namespace talus
     std::vector<Point<2>> corners;
     for (const auto &place : Utilities::split_string_list(outline_, ';'))
       {
-        const Point<3> x =
-          parse_plan_place<3>("Surfaces/" + name_ + "/Outline",
-                              place,
-                              coordinates_ == "map" ? PlanCoordinates::map
-                                                    : PlanCoordinates::mesh,
-                              origin);
+        const Point<3> x = parse_plan_place<3>(
+          "Surfaces/" + name_ + "/Outline",
+          place,
+          PlaceCoordinates("Surfaces/" + name_, coordinates_, 3, origin).kind(),
+          origin);
         corners.emplace_back(x[0], x[2]);
       }
     return std::make_shared<OutlineSurface>("The outline in " + path("Outline"),
@@ -264,36 +264,15 @@ namespace talus
                                      const Point<3>              &origin) const
   {
     protect_input(file);
-    MapOutline        outline = talus::read_outline(file);
-    const std::string map     = this->map();
-    const MapUnit     unit    = map_unit(outline.coordinate_system);
-    AssertThrow(!map.empty() || unit == MapUnit::metres ||
-                  unit == MapUnit::unknown,
-                ExcUser(text("The outline '",
-                             file_,
-                             unit == MapUnit::degrees ? "' is in degrees"
-                                                      : "' is not in metres",
-                             ". Say to which map it is to be brought: ",
-                             path("Projection"),
-                             ", such as UTM 33N.")));
-    if (!map.empty())
-      MapTransformation(unit == MapUnit::unknown ? wgs_84
-                                                 : outline.coordinate_system,
-                        map)
-        .transform(outline.corners);
+    MapOutline outline = talus::read_outline(file);
+    bring_to_map(outline.corners,
+                 outline.coordinate_system,
+                 map(),
+                 "The outline '" + file_ + "'",
+                 path("Projection"));
+    const PlaceCoordinates on_map(PlanCoordinates::map, origin);
     for (Point<2> &corner : outline.corners)
-      {
-        AssertThrow(std::isfinite(corner.norm()),
-                    ExcUser(text("The outline '",
-                                 file_,
-                                 "' has a corner without a place on the map ",
-                                 path("Projection"),
-                                 " = '",
-                                 projection_,
-                                 "'. Choose another map, or remove that entry "
-                                 "if the outline is in metres.")));
-        corner = Point<2>(corner[0] - origin[0], origin[1] - corner[1]);
-      }
+      corner = on_map.in_plan(corner);
     return std::make_shared<OutlineSurface>("The outline '" + file_ + "'",
                                             outline.corners);
   }

@@ -35,14 +35,15 @@ namespace talus
                              : on_map ? "two numbers, easting and northing,"
                                       : "two numbers, x and z,",
                              " were expected.")));
-    Point<dim> x;
+    Point<2> place_in_plan;
     for (unsigned int a = 0; a < texts.size(); ++a)
-      x[a == 0 ? 0 : dim - 1] = Utilities::string_to_double(texts[a]);
-    if (on_map)
-      {
-        x[0] -= origin[0];
-        x[dim - 1] = origin[1] - x[dim - 1];
-      }
+      place_in_plan[a] = Utilities::string_to_double(texts[a]);
+    place_in_plan =
+      PlaceCoordinates(coordinates, origin).in_plan(place_in_plan);
+    Point<dim> x;
+    x[0] = place_in_plan[0];
+    if (dim == 3)
+      x[dim - 1] = place_in_plan[1];
     return x;
   }
 

@@ -2,6 +2,9 @@
 #include <talus/base/errors.h>
 #include <talus/geometry/terrain.h>
 #include <talus/io/checksum.h>
+#include <talus/io/files.h>
+#include <talus/io/map_outline.h>
+#include <talus/terrain/bring_to_map.h>
 #include <talus/terrain/surfaces.h>
 
 #include <algorithm>
@@ -86,6 +89,9 @@ namespace talus
                          const Point<3>              &origin)
   {
     constants_ = &constants;
+    origin_    = origin;
+    folder_    = folder;
+    routes_.clear();
     surfaces_.clear();
     files_.clear();
     for (const auto &named : named_)
@@ -125,6 +131,75 @@ namespace talus
                                                     expression,
                                                     *constants_,
                                                     others);
+  }
+
+
+
+  template <int dim>
+  std::vector<Point<2>>
+  Surfaces<dim>::section(const std::string &path) const
+  {
+    const NamedSurface<dim> *first = nullptr;
+    for (const auto &named : named_)
+      if (named->has_file())
+        {
+          AssertThrow(first == nullptr || named->section() == first->section(),
+                      ExcUser(text(path,
+                                   " is on the map, but the rasters are cut "
+                                   "along two lines, ",
+                                   first->path("Section"),
+                                   " and ",
+                                   named->path("Section"),
+                                   ", so that a place of the map may have two "
+                                   "x. Make the two the same.")));
+          if (first == nullptr)
+            first = named.get();
+        }
+    AssertThrow(first != nullptr,
+                ExcUser(path + " is on the map, but no section of a raster "
+                               "tells where x lies there. Give it in the axes "
+                               "of the mesh, or a surface with `File` and "
+                               "`Section`."));
+    return first->section();
+  }
+
+
+
+  template <int dim>
+  std::string
+  Surfaces<dim>::map() const
+  {
+    for (const auto &named : named_)
+      if (!named->projection().empty())
+        return named->map();
+    return "";
+  }
+
+
+
+  template <int dim>
+  std::vector<Point<2>>
+  Surfaces<dim>::read_route(const std::string &path,
+                            const std::string &file) const
+  {
+    const std::filesystem::path place = folder_ / file;
+    protect_input(place);
+    MapLine line = read_line(place);
+    bring_to_map(line.corners,
+                 line.coordinate_system,
+                 map(),
+                 path + ": the line of '" + file + "'",
+                 "'Projection' of a surface");
+    // The log asks again for what it says of the route.
+    std::string name = "route " + file;
+    std::replace(name.begin(), name.end(), '/', ' ');
+    if (std::none_of(routes_.begin(),
+                     routes_.end(),
+                     [&](const InputFile &known) {
+                       return known.name == name;
+                     }))
+      routes_.push_back({name, "route", place, text(checksum_of_file(place))});
+    return line.corners;
   }
 
 
@@ -198,6 +273,8 @@ namespace talus
   Surfaces<dim>::list_state(StateList &list) const
   {
     for (const InputFile &file : files_)
+      file.list_state(list);
+    for (const InputFile &file : routes_)
       file.list_state(list);
   }
 

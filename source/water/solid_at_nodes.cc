@@ -95,7 +95,8 @@ namespace talus
 
 
   /// Compute the distances of all nodes of cells with a contact node, ghosts
-  /// included.
+  /// included. A facet at a node of the cell may lie in a neighbor of twice the
+  /// size: no vertex is farther from an obstacle than three diameters.
   template <int dim>
   void
   SolidAtNodes<dim>::find_distances(const Grid<dim>         &grid,
@@ -109,9 +110,13 @@ namespace talus
               return contact.facets().is_contact_node(node);
             }))
           continue;
+        const Obstacles<dim> &obstacles = contact.obstacles();
+        const double          reach = 3. * std::sqrt(double(dim)) * cell.size;
         for (unsigned int v = 0; v < nodes.size(); ++v)
           if (double &known = distance_[nodes[v]]; std::isnan(known))
-            known = contact.obstacles().signed_distance(cell.vertex(v));
+            known =
+              obstacles.signed_distance(cell.vertex(v),
+                                        obstacles.near(cell.vertex(v), reach));
       }
   }
 

@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iomanip>
 
 using namespace talus;
 using dealii::Point;
@@ -126,6 +127,68 @@ TEST(Terrain, LayersInThreeDimensions)
   EXPECT_NEAR(centre[0], 5.5, 1e-8);
   EXPECT_NEAR(centre[2], 8.25, 1e-8);
   EXPECT_NEAR(centre[1], 0.25 * 5.5 + 0.5 * 8.25 - 2. - 1.5, 1e-8);
+}
+
+
+
+// A route that runs along z, and goes on beyond the mesh, is a cylinder without
+// ends: the same forces. The mesh, body and route are given on the map.
+TEST(Terrain, PipeAlongARouteOfTheMap)
+{
+  const Overrides on_plane = {
+    "Surfaces/mudline/File=" +
+    write("dips-east.asc",
+          [](const double x, const double) { return gradient * x + 300.; })};
+  const auto forces = [](const std::string &name) {
+    return Table(std::filesystem::path(TALUS_RESULTS_DIR) / name /
+                 "obstacles.csv");
+  };
+  run<3>("slide-on-pipe-3d.prm", "slide-on-pipe", on_plane);
+  run<3>("slide-on-pipe-3d.prm",
+         "slide-on-cylinder",
+         on_plane + Overrides{"Obstacles/pipe/Shape=cylinder",
+                              "Obstacles/pipe/Coordinates=mesh",
+                              text("Obstacles/pipe/Centre=6, ",
+                                   std::setprecision(17),
+                                   6. * gradient + 0.4,
+                                   ", 0")});
+  const Table pipe     = forces("slide-on-pipe"),
+              cylinder = forces("slide-on-cylinder");
+  ASSERT_EQ(pipe.n_rows(), cylinder.n_rows());
+  const double last = cylinder["pipe impulse x [N s]"].back();
+  EXPECT_GT(last, 100.);
+  for (const std::string column :
+       {"pipe impulse x [N s]", "pipe impulse y [N s]", "bed impulse y [N s]"})
+    for (unsigned int row = 0; row < pipe.n_rows(); ++row)
+      EXPECT_NEAR(pipe[column][row], cylinder[column][row], 1e-6 * last)
+        << column << ", row " << row;
+}
+
+
+
+// The force of soil on a pipe without friction is square to the pipe, whatever
+// its route: here 30 degrees from north, on a bed that dips along x. Facets are
+// plane, on cells as large as the radius: 0.22 % of the force was along it.
+TEST(Terrain, ForceIsSquareToAnObliquePipe)
+{
+  run<3>("slide-on-pipe-3d.prm",
+         "slide-on-oblique-pipe",
+         {"Surfaces/mudline/File=" + write("dips-east-too.asc",
+                                           [](const double x, const double) {
+                                             return gradient * x + 300.;
+                                           }),
+          "Obstacles/pipe/Route=400010, 6500005.428203230276; "
+          "400002, 6499991.571796769724"});
+  const Table table(std::filesystem::path(TALUS_RESULTS_DIR) /
+                    "slide-on-oblique-pipe" / "obstacles.csv");
+  Point<3>    impulse;
+  for (unsigned int d = 0; d < 3; ++d)
+    impulse[d] =
+      table[std::string("pipe impulse ") + "xyz"[d] + " [N s]"].back();
+  const Point<3> along(8., 8. * gradient, -8. * std::sqrt(3.));
+  EXPECT_GT(impulse[0], 100.);
+  EXPECT_GT(impulse[2], 0.3 * impulse[0]);
+  EXPECT_NEAR(impulse * along / along.norm(), 0., 5e-3 * impulse.norm());
 }
 
 

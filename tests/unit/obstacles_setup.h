@@ -13,13 +13,14 @@
 #include <vector>
 
 /// Obstacles by name and entries, "Shape = ball|Radius = 1": behind all other
-/// objects with parameters, which keep theirs.
+/// objects with parameters, which keep theirs. Shapes may name @p surfaces.
 template <int dim>
 struct WithObstacles
 {
   using Section = std::pair<std::string, std::string>;
 
-  WithObstacles(const std::initializer_list<Section> &sections)
+  WithObstacles(const std::initializer_list<Section> &sections,
+                const talus::SurfaceSource<dim>      *surfaces = nullptr)
     : obstacles(names_of(sections))
   {
     auto &prm = dealii::ParameterAcceptor::prm;
@@ -32,7 +33,7 @@ struct WithObstacles
                                       name + "\nset " + entry + "\nend\nend\n");
       }
     dealii::ParameterAcceptor::parse_all_parameters();
-    obstacles.prepare(talus::Constants());
+    obstacles.prepare(talus::Constants(), surfaces);
   }
 
   static std::vector<std::string>

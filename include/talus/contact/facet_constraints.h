@@ -53,12 +53,7 @@ namespace talus
     /// Compute the gaps between soil and surfaces. Call before find().
     /// Collective.
     void
-    find_gaps(const State<dim> &state)
-    {
-      gaps_.find(state,
-                 facets_.nodes_and_obstacles(),
-                 facets_.nearness_of_cells());
-    }
+    find_gaps(const State<dim> &state);
 
     /// Compute the constraints of Facets::owned() from ContactNodes and the
     /// gaps. If @p has_memory, a running mean of the normal impulse limits
@@ -122,6 +117,8 @@ namespace talus
     }
 
   private:
+    void
+    prepare_gaps(const Grid<dim> &grid, std::vector<unsigned int> slots);
     std::vector<typename NodalGaps<dim>::Surface>
     surfaces() const;
     std::vector<unsigned int>

@@ -37,7 +37,7 @@ namespace talus
     bool
     contains(const unsigned int k) const
     {
-      return std::find(members_.begin(), members_.end(), k) != members_.end();
+      return std::binary_search(members_.begin(), members_.end(), k);
     }
 
     /// Whether @p x is outside of all obstacles, also of obstacles which do not
@@ -47,7 +47,9 @@ namespace talus
     {
       // A place on the surface is inside, despite round-off.
       const double round_off = 1e-12 * domain_.lower.distance(domain_.upper);
-      return is_bottom_face() || obstacles_->signed_distance(x) > round_off;
+      return is_bottom_face() ||
+             obstacles_->signed_distance(x, obstacles_->near(x, round_off)) >
+               round_off;
     }
 
     /// Return y of the ground below @p x, m; if @p x is inside the ground, y of
@@ -64,10 +66,13 @@ namespace talus
   private:
     using Members = std::vector<unsigned int>;
 
+    /// Members of the ground whose bounding boxes the vertical line through
+    /// @p x meets: no other one can be the ground below or above it.
+    Members
+    members_in_column(const dealii::Point<dim> &x) const;
+
     static bool
     belongs_to_ground(const Obstacle<dim> &obstacle, const Box<dim> &domain);
-    double
-    signed_distance(const Members &members, const dealii::Point<dim> &x) const;
     double
     surface_at(const Members            &members,
                const dealii::Point<dim> &x,
@@ -79,6 +84,7 @@ namespace talus
     Box<dim>              domain_;
     const Obstacles<dim> *obstacles_;
     Members               members_; ///< numbers of the obstacles of the ground
+    BoxIndex<dim>         index_;   ///< of the members, by their place there
   };
 } // namespace talus
 

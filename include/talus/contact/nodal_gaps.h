@@ -57,8 +57,8 @@ namespace talus
     /// meet.
     static constexpr double reach = 3. * 1.7320508075688772;
 
-    /// Set the surfaces and delete all gaps. Call after each change of the mesh
-    /// or its partition. @p slots: slot of each surface. A node stores one gap
+    /// Set the surfaces and delete all gaps. Call after each change of the mesh,
+    /// its partition, or the slots. @p slots: slot of each surface. A node stores one gap
     /// per slot: no node may be near two surfaces of a slot, see
     /// min_distance_in_slot().
     void
@@ -66,6 +66,13 @@ namespace talus
             std::vector<Surface>      surfaces,
             std::vector<unsigned int> slots,
             Near                      near);
+
+    /// Slots of the surfaces, as set by prepare().
+    const std::vector<unsigned int> &
+    slots() const
+    {
+      return slots_;
+    }
 
     /// Minimum distance, m, between two surfaces in the same slot, for cells of
     /// @p cell_size, m: a point within reach of a surface is farther from the

@@ -77,6 +77,16 @@ namespace talus
     Box<dim>
     bounding_box() const;
 
+    /// Return a sentence for the log on the position of the obstacle; empty for
+    /// shapes whose parameters say it.
+    std::string
+    fact() const;
+
+    /// Return a sentence for the log if the shape is a substitute for the shape
+    /// that the user asked for; empty otherwise.
+    std::string
+    remark() const;
+
     /// Whether the surface has a maximum shear stress.
     bool
     limits_shear_stress() const
@@ -146,6 +156,9 @@ namespace talus
     list_state(StateList &list);
 
   private:
+    void
+    prepare_reference_point();
+
     std::string
     path(const std::string &entry) const
     {

@@ -58,8 +58,8 @@ namespace talus
     /// Numbers of obstacles, ascending.
     using Numbers = std::vector<unsigned int>;
 
-    /// Return all obstacles whose bounding boxes are not farther from @p x than
-    /// @p distance, m, and all moving obstacles; more may be included. A
+    /// Return all obstacles whose bounding boxes, at their present positions, are
+    /// not farther from @p x than @p distance, m; more may be included. A
     /// spatial index makes the cost independent of the number of obstacles.
     Numbers
     near(const dealii::Point<dim> &x, const double distance) const
@@ -99,6 +99,19 @@ namespace talus
     /// Advance moving obstacles from time @p t, s, by a step @p dt, s.
     void
     advance(double t, double dt);
+
+    /// Index the obstacles at their present positions. Call after positions were
+    /// restored from a checkpoint; prepare() and advance() call it themselves.
+    void
+    locate();
+
+    /// Return sentences for the log on the positions of obstacles.
+    std::vector<std::string>
+    facts() const;
+
+    /// Return sentences for the log on shapes that are substitutes.
+    std::vector<std::string>
+    remarks() const;
 
     /// Whether any obstacle has a maximum shear stress.
     bool

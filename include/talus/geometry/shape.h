@@ -7,6 +7,7 @@
 #include <deal.II/base/tensor.h>
 
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -56,6 +57,15 @@ namespace talus
     may_cut_ball(const dealii::Point<dim> &x, const double radius) const
     {
       return std::abs(signed_distance(x)) < radius;
+    }
+
+    /// Width across the shape, m, where this is the same along all directions but
+    /// one, which may be oblique, as of a pipe. Infinite for all other shapes, of
+    /// which the bounding box tells how thin they are.
+    virtual double
+    width() const
+    {
+      return std::numeric_limits<double>::infinity();
     }
 
     /// Shapes whose intersection this is: itself, or those that meet in sharp

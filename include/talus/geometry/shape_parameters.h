@@ -2,6 +2,8 @@
 #ifndef talus_geometry_shape_parameters_h
 #define talus_geometry_shape_parameters_h
 
+#include <talus/base/place_coordinates.h>
+#include <talus/geometry/pipe_parameters.h>
 #include <talus/geometry/shape.h>
 #include <talus/geometry/side_of_surface.h>
 #include <talus/geometry/surface.h>
@@ -37,17 +39,50 @@ namespace talus
     std::unique_ptr<Shape<dim>>
     make(const Box<dim> &domain) const;
 
+    /// Coordinates of the places among the entries.
+    PlaceCoordinates
+    coordinates() const;
+
+    /// What the log says after the name of a shape: where it lies, if its
+    /// parameters do not say so; else empty.
+    std::string
+    place_in_words() const
+    {
+      return is_pipe() ? pipe_.place_in_words(setting_of_pipe()) : "";
+    }
+
+    /// What the log says after the name of a shape that only stands for what the
+    /// user asked for; else empty.
+    std::string
+    remark() const
+    {
+      return is_pipe() ? pipe_.remark(setting_of_pipe()) : "";
+    }
+
   private:
+    bool
+    is_pipe() const
+    {
+      return shape_ == "pipe";
+    }
+
+    typename PipeParameters<dim>::Setting
+    setting_of_pipe() const;
     std::string
     path(const std::string &entry) const;
+    void
+    declare_parameters_of_boxes();
+    void
+    declare_parameters_of_round_shapes();
     void
     declare_parameters_of_polygon_and_half_plane();
 
     void
     declare_parameters_of_surfaces();
 
+    /// In elevation, or of an outline in plan; in the axes of the mesh.
     std::vector<dealii::Point<2>>
-    vertices() const;
+    vertices(bool are_in_plan) const;
     std::array<double, 2>
     extent_z(const Box<dim> &domain) const;
     std::unique_ptr<Shape<dim>>
@@ -68,10 +103,12 @@ namespace talus
     check_radii() const;
 
     std::string               section_;
-    std::string               shape_    = ""; ///< there is none by default
-    std::string               vertices_ = "";
-    bool                      is_open_  = false;
-    std::string               extent_z_ = "";
+    PipeParameters<dim>       pipe_;
+    std::string               shape_       = ""; ///< there is none by default
+    std::string               coordinates_ = "mesh";
+    std::string               vertices_    = "";
+    bool                      is_open_     = false;
+    std::string               extent_z_    = "";
     dealii::Point<dim>        lower_corner_, upper_corner_;
     dealii::Point<dim>        centre_;
     double                    radius_       = 1.;

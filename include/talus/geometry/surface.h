@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace talus
 {
@@ -40,7 +41,8 @@ namespace talus
 
 
 
-  /// Who knows the surfaces that the user has given names to.
+  /// Looks up surfaces by the names that the user has given them, and knows where
+  /// the mesh lies on the map.
   template <int dim>
   class SurfaceSource
   {
@@ -51,6 +53,22 @@ namespace talus
     /// "mudline - 5"; @p path is the parameter, for messages. Throws ExcUser.
     virtual std::shared_ptr<const Surface<dim>>
     surface(const std::string &path, const std::string &expression) const = 0;
+
+    /// Easting, northing and height of the mesh's origin on the map, m.
+    virtual const dealii::Point<3> &
+    origin() const = 0;
+
+    /// In 2-D, corners on the map, easting and northing in m, of the line along
+    /// which the rasters are cut; x is the length along it. Throws ExcUser, naming
+    /// the parameter @p path that needs it, if there is not one for all rasters.
+    virtual std::vector<dealii::Point<2>>
+    section(const std::string &path) const = 0;
+
+    /// Corners on the map, easting and northing in m, of the line in the GeoJSON
+    /// file @p file, from the folder of the parameters. Throws ExcUser, naming the
+    /// parameter @p path, if the file cannot be read or has no line.
+    virtual std::vector<dealii::Point<2>>
+    read_route(const std::string &path, const std::string &file) const = 0;
   };
 } // namespace talus
 

@@ -3,6 +3,7 @@
 #define talus_grid_mesh_layout_h
 
 #include <talus/base/box.h>
+#include <talus/base/place_coordinates.h>
 #include <talus/grid/lattice.h>
 #include <talus/grid/periodicity.h>
 #include <talus/grid/refinement_boxes.h>
@@ -30,6 +31,13 @@ namespace talus
     /// Throw ExcUser if parameters contradict each other.
     void
     check() const;
+
+    /// Easting, northing and height of x = y = z = 0 on the map, m.
+    const dealii::Point<3> &
+    origin() const
+    {
+      return origin_;
+    }
 
     /// Box filled by the mesh.
     const Box<dim> &
@@ -131,6 +139,9 @@ namespace talus
     check_memory(double n_cells) const;
 
   private:
+    /// The box as the parameters have it, in the axes of the mesh.
+    Box<dim>
+    box_of_parameters() const;
     void
     check_lattice(unsigned int level) const;
     void
@@ -141,6 +152,8 @@ namespace talus
     // Parameters
     dealii::Point<dim> lower_corner_;
     dealii::Point<dim> upper_corner_;
+    dealii::Point<3>   origin_;
+    std::string        coordinates_        = "mesh";
     double             cell_size_          = 0.2;
     unsigned int       coarsest_level_     = 3;
     unsigned int       initial_refinement_ = 0;

@@ -14,10 +14,10 @@ namespace talus
 
 
 
-  /// Read all polygons of a GeoJSON file, in longitude and latitude (WGS 84) as
+  /// Read all polygons and lines of a GeoJSON file, in longitude and latitude (WGS 84) as
   /// the standard (RFC 7946) has it, or in the coordinate system that the member
   /// `crs` of the file names. Throws ExcUser if the file cannot be read.
-  MapPolygons
+  MapFeatures
   read_geojson(const std::filesystem::path &path);
 } // namespace talus
 

@@ -10,13 +10,14 @@
 
 namespace talus
 {
-  /// All polygons of a file of GIS: each a list of rings, the outer one first;
-  /// each ring a list of corners.
-  struct MapPolygons
+  /// All polygons and lines of a file of a GIS.
+  struct MapFeatures
   {
-    using Ring = std::vector<dealii::Point<2>>;
+    using Corners = std::vector<dealii::Point<2>>;
 
-    std::vector<std::vector<Ring>> polygons;
+    /// Each polygon is a list of rings, the outer one first.
+    std::vector<std::vector<Corners>> polygons;
+    std::vector<Corners>              lines;
     /// As Raster::coordinate_system.
     std::string coordinate_system;
   };
@@ -27,6 +28,16 @@ namespace talus
   struct MapOutline
   {
     std::vector<dealii::Point<2>> corners; ///< the last one is not the first
+    /// As Raster::coordinate_system.
+    std::string coordinate_system;
+  };
+
+
+
+  /// Line in plan.
+  struct MapLine
+  {
+    std::vector<dealii::Point<2>> corners;
     /// As Raster::coordinate_system.
     std::string coordinate_system;
   };
@@ -45,6 +56,11 @@ namespace talus
   /// no polygon, several polygons, or a hole.
   MapOutline
   read_outline(const std::filesystem::path &file);
+
+  /// Read the one line of a file as for read_outline(). Throws ExcUser if @p file
+  /// cannot be read, or contains no line or several lines.
+  MapLine
+  read_line(const std::filesystem::path &file);
 } // namespace talus
 
 #endif

@@ -37,9 +37,13 @@ namespace talus
 
     /// To be called after parsing. Throws ExcUser if parameters contradict each
     /// other. Declares the columns that laws and trigger need, and that of the
-    /// strength factor also if somebody else @p changes_strength.
+    /// strength factor also if somebody else @p changes_strength. @p origin of the
+    /// mesh on the map: easting, northing, height, m.
     void
-    prepare(Points<dim> &points, bool changes_strength, double end_time);
+    prepare(Points<dim>            &points,
+            bool                    changes_strength,
+            double                  end_time,
+            const dealii::Point<3> &origin);
 
     /// Open the accounts of all that exchanges energy with the soil; to be called
     /// after prepare().
@@ -155,7 +159,7 @@ namespace talus
     const dealii::Point<3> &
     origin() const
     {
-      return origin_;
+      return surfaces_.origin();
     }
 
     void
@@ -180,7 +184,6 @@ namespace talus
     Constants                               constants_;
     std::filesystem::path                   folder_; ///< of the parameters
     std::string                             initial_velocity_time_ = "start";
-    dealii::Point<3>                        origin_; ///< of the mesh on the map
     std::vector<std::string>                listed_names_;
     Surfaces<dim>                           surfaces_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;

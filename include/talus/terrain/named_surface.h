@@ -79,12 +79,17 @@ namespace talus
     read(const std::filesystem::path &folder,
          const dealii::Point<3>      &origin) const;
 
-  private:
+    /// Corners of the line on the map along which the raster is cut, 2-D only.
+    /// Throws ExcUser if it is none.
     std::vector<dealii::Point<2>>
     section() const;
-    /// Return the code of that map.
+
+    /// Return the code of the map in `Projection`; empty if there is none. Throws
+    /// ExcUser if it is no map in metres.
     std::string
     map() const;
+
+  private:
     Raster
     read_file(const std::filesystem::path &file) const;
     std::shared_ptr<const Surface<dim>>

@@ -2,22 +2,14 @@
 #ifndef talus_terrain_plan_place_h
 #define talus_terrain_plan_place_h
 
+#include <talus/base/place_coordinates.h>
+
 #include <deal.II/base/point.h>
 
 #include <string>
 
 namespace talus
 {
-  /// Whether places of the plan are given in the axes of the mesh, or as easting
-  /// and northing of the map.
-  enum class PlanCoordinates
-  {
-    mesh,
-    map
-  };
-
-
-
   /// Place in the axes of the mesh, m, with y = 0, from the text @p place of the
   /// parameter @p entry: 'x' in 2-D, 'x, z' or 'easting, northing' in 3-D, all in
   /// m. @p origin is that of the mesh on the map. Throws ExcUser, naming the

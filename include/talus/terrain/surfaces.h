@@ -26,8 +26,8 @@ namespace talus
     /// @p names must be known before the parameters are declared.
     explicit Surfaces(const std::vector<std::string> &names);
 
-    /// To be called after parsing: reads the files, from @p folder. Throws
-    /// ExcUser.
+    /// To be called after parsing: reads the files, from @p folder. @p origin of
+    /// the mesh on the map: easting, northing, height, m. Throws ExcUser.
     void
     prepare(const Constants             &constants,
             const std::filesystem::path &folder,
@@ -36,6 +36,18 @@ namespace talus
     std::shared_ptr<const Surface<dim>>
     surface(const std::string &path,
             const std::string &expression) const override;
+
+    const dealii::Point<3> &
+    origin() const override
+    {
+      return origin_;
+    }
+
+    std::vector<dealii::Point<2>>
+    section(const std::string &path) const override;
+
+    std::vector<dealii::Point<2>>
+    read_route(const std::string &path, const std::string &file) const override;
 
     /// Sentences for the log: where projected rasters lie on the map.
     std::vector<std::string>
@@ -46,7 +58,7 @@ namespace talus
     std::vector<std::string>
     notes_on_rising(double from, double to) const;
 
-    /// The rasters must be the same when the run is resumed.
+    /// Rasters and routes must be the same when the run is resumed.
     void
     list_state(StateList &list) const;
 
@@ -56,11 +68,19 @@ namespace talus
     raster(const std::string &name = "") const;
 
   private:
+    /// Return the code of the map that files are brought to; empty if there is
+    /// none.
+    std::string
+    map() const;
+
     std::vector<std::string>                            listed_names_;
     std::vector<std::unique_ptr<NamedSurface<dim>>>     named_;
     const Constants                                    *constants_ = nullptr;
+    dealii::Point<3>                                    origin_;
     std::vector<typename ExpressionSurface<dim>::Named> surfaces_;
+    std::filesystem::path                               folder_;
     std::vector<InputFile>                              files_;
+    mutable std::vector<InputFile> routes_; ///< that were read
   };
 } // namespace talus
 

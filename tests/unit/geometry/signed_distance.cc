@@ -4,6 +4,7 @@
 
 #include <talus/base/errors.h>
 #include <talus/geometry/analytic_shapes.h>
+#include <talus/geometry/pipe.h>
 #include <talus/geometry/polygon.h>
 
 #include <gtest/gtest.h>
@@ -110,6 +111,7 @@ namespace
       Prism(std::make_unique<OpenPolygon>("Vertices", seabed_vertices),
             -infinity,
             infinity));
+    expect_distance(Pipe({{0.5, 1., 0.}, {3., 2., 2.}}, 0.8));
   }
 
 

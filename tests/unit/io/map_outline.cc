@@ -57,6 +57,27 @@ namespace map_outline_test
 
 
 
+  TEST(Geojson, LineOfAFeature)
+  {
+    const std::string line =
+      R"({"type": "LineString", "coordinates": [[15.1, 41], [15.2, 41, 7]]})";
+    for (const std::string &text : {line, features(line)})
+      {
+        std::ofstream(file) << text;
+        const MapLine read = read_line(file);
+        EXPECT_EQ(read.corners,
+                  (std::vector<Point<2>>{{15.1, 41.}, {15.2, 41.}}));
+        EXPECT_EQ(read.coordinate_system, "EPSG:4326");
+      }
+    std::ofstream(file) << polygon(ring);
+    const std::string message = message_of<ExcUser>([&]() { read_line(file); });
+    EXPECT_NE(message.find("has 0 lines, where one was expected"),
+              std::string::npos)
+      << message;
+  }
+
+
+
   TEST(Geojson, PolygonOfAFeature)
   {
     for (const std::string &text :

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#ifndef talus_io_gdal_polygons_h
-#define talus_io_gdal_polygons_h
+#ifndef talus_io_gdal_features_h
+#define talus_io_gdal_features_h
 
 #include <talus/io/map_outline.h>
 
@@ -12,16 +12,16 @@ namespace talus
   /// and no raster. Without GDAL: whether the file is named as a shapefile, a
   /// GeoPackage or KML.
   bool
-  has_gdal_polygons(const std::filesystem::path &file);
+  has_gdal_features(const std::filesystem::path &file);
 
 
 
-  /// Read the polygons of all layers of a file of any format that GDAL reads,
+  /// Read the polygons and lines of all layers of a file of any format that GDAL reads,
   /// curved edges as many short ones; all in the coordinate system of the last
-  /// layer with polygons. Throws ExcUser if the file cannot be read, or if talus
+  /// layer with any. Throws ExcUser if the file cannot be read, or if talus
   /// was built without GDAL.
-  MapPolygons
-  read_gdal_polygons(const std::filesystem::path &file);
+  MapFeatures
+  read_gdal_features(const std::filesystem::path &file);
 } // namespace talus
 
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/gdal.h>
-#include <talus/io/gdal_polygons.h>
+#include <talus/io/gdal_features.h>
 
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
@@ -12,20 +12,20 @@ namespace talus
 
   namespace
   {
-    MapPolygons::Ring
-    corners_of(const OGRLinearRing &ring)
+    MapFeatures::Corners
+    corners_of(const OGRSimpleCurve &curve)
     {
-      MapPolygons::Ring corners;
-      for (const OGRPoint &corner : ring)
+      MapFeatures::Corners corners;
+      for (const OGRPoint &corner : curve)
         corners.emplace_back(corner.getX(), corner.getY());
       return corners;
     }
 
 
 
-    /// Append the polygons of a geometry and of all in it.
+    /// Append the polygons and lines of a geometry and its parts.
     void
-    collect_polygons(const OGRGeometry &geometry, MapPolygons &result)
+    collect(const OGRGeometry &geometry, MapFeatures &result)
     {
       if (wkbFlatten(geometry.getGeometryType()) == wkbPolygon)
         {
@@ -33,17 +33,19 @@ namespace talus
           for (const OGRLinearRing *ring : *geometry.toPolygon())
             polygon.push_back(corners_of(*ring));
         }
+      else if (wkbFlatten(geometry.getGeometryType()) == wkbLineString)
+        result.lines.push_back(corners_of(*geometry.toLineString()));
       else if (OGR_GT_IsSubClassOf(geometry.getGeometryType(),
                                    wkbGeometryCollection))
         for (const OGRGeometry *part : *geometry.toGeometryCollection())
-          collect_polygons(*part, result);
+          collect(*part, result);
     }
   } // namespace
 
 
 
   bool
-  has_gdal_polygons(const std::filesystem::path &file)
+  has_gdal_features(const std::filesystem::path &file)
   {
     const QuietGdal quiet;
     GDALAllRegister();
@@ -56,30 +58,33 @@ namespace talus
 
 
 
-  MapPolygons
-  read_gdal_polygons(const std::filesystem::path &path)
+  MapFeatures
+  read_gdal_features(const std::filesystem::path &path)
   {
     const QuietGdal quiet;
     GDALAllRegister();
     const GDALDatasetUniquePtr file(
       GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR));
     AssertThrow(file != nullptr,
-                ExcUser(text("The outline '",
+                ExcUser(text("The file '",
                              path.string(),
                              "' cannot be read (",
                              CPLGetLastErrorMsg(),
                              "). Save it anew, or convert it: ogr2ogr "
                              "OUT.geojson IN.")));
-    MapPolygons result;
+    MapFeatures result;
     for (OGRLayer *layer : file->GetLayers())
       {
-        const std::size_t n_before = result.polygons.size();
+        const auto n = [&result]() {
+          return result.polygons.size() + result.lines.size();
+        };
+        const std::size_t n_before = n();
         for (const OGRFeatureUniquePtr &feature : *layer)
           if (const OGRGeometry *geometry = feature->GetGeometryRef())
-            collect_polygons(*std::unique_ptr<OGRGeometry>(
-                               geometry->getLinearGeometry()),
-                             result);
-        if (result.polygons.size() > n_before)
+            collect(*std::unique_ptr<OGRGeometry>(
+                      geometry->getLinearGeometry()),
+                    result);
+        if (n() > n_before)
           result.coordinate_system =
             layer->GetSpatialRef() == nullptr
               ? ""

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_geometry_pipe_parameters_h
+#define talus_geometry_pipe_parameters_h
+
+#include <talus/base/place_coordinates.h>
+#include <talus/geometry/section_line.h>
+#include <talus/geometry/shape.h>
+#include <talus/geometry/surface.h>
+
+#include <deal.II/base/parameter_acceptor.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace talus
+{
+  /// Entries of a shape that describe a pipe: its route in plan and the height of
+  /// its axis above a surface. In 3-D the shape follows the route; in 2-D it is
+  /// the disc where the route crosses the section.
+  template <int dim>
+  class PipeParameters : public dealii::ParameterAcceptor
+  {
+  public:
+    /// @p section as that of ShapeParameters, which has other entries, too.
+    explicit PipeParameters(const std::string &section);
+
+    /// What the pipe needs besides its own entries.
+    struct Setting
+    {
+      PlanCoordinates           coordinates; ///< of the route
+      double                    radius;      ///< m
+      const SurfaceSource<dim> *surfaces;    ///< that the height may name
+    };
+
+    /// Make the shape. Throws ExcUser if the entries describe none.
+    std::unique_ptr<Shape<dim>>
+    make(const Setting &setting) const;
+
+    /// What the log says after the name of the pipe: where it lies.
+    std::string
+    place_in_words(const Setting &setting) const;
+
+    /// What the log says after the name of the pipe if its section is not the
+    /// disc that stands for it; else empty.
+    std::string
+    remark(const Setting &setting) const;
+
+  private:
+    std::string
+    path(const std::string &entry) const
+    {
+      return "'" + section_.substr(1) + "/" + entry + "'";
+    }
+
+    std::vector<dealii::Point<2>>
+    corners(const Setting &setting) const;
+    std::vector<dealii::Point<3>>
+    axis(const Setting &setting) const;
+    SectionCrossing
+    crossing(const Setting &setting) const;
+    double
+    height(const Setting &setting, const dealii::Point<dim> &x) const;
+
+    std::string section_;
+    std::string route_          = "";
+    std::string height_of_axis_ = "";
+  };
+} // namespace talus
+
+#endif

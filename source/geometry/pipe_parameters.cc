@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
+#include <talus/geometry/analytic_shapes.h>
+#include <talus/geometry/corner_list.h>
+#include <talus/geometry/pipe.h>
+#include <talus/geometry/pipe_parameters.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iomanip>
+
+namespace talus
+{
+  using namespace dealii;
+
+  namespace
+  {
+    // An axis may have so many pieces, each as long as the pipe is wide.
+    constexpr double max_n_pieces = 1e6;
+
+    // The section of a pipe that is crossed at a smaller angle is an ellipse that
+    // a disc cannot stand for.
+    constexpr double min_angle = 45.; // degrees
+
+    // Ratio of the axes of that ellipse from which on the user is told.
+    constexpr double round_enough = 1.01;
+
+
+
+    double
+    in_degrees(const SectionCrossing &crossing)
+    {
+      return std::asin(std::min(crossing.sine, 1.)) * 180. / numbers::PI;
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  PipeParameters<dim>::PipeParameters(const std::string &section)
+    : ParameterAcceptor(section)
+    , section_(section)
+  {
+    add_parameter(
+      "Route",
+      route_,
+      "Corners of the pipe's axis in plan, as x, z; x, z; ..., with "
+      "`Coordinates` = map as easting, northing [m]; or, then, the name "
+      "of a GeoJSON file (.geojson) with one line, in degrees if a surface "
+      "has a `Projection`. In 2-D the pipe "
+      "is a disc where the route crosses the section, which is z = 0, "
+      "or on the map the line of the rasters' `Section`.");
+    add_parameter(
+      "Height of axis",
+      height_of_axis_,
+      "y of the pipe's axis along its route, linear between places "
+      "that are a diameter apart: a name of Surfaces/Names, or an "
+      "expression in these names and x (, z), as mudline + 0.5 [m].");
+  }
+
+
+
+  template <int dim>
+  std::vector<Point<2>>
+  PipeParameters<dim>::corners(const Setting &setting) const
+  {
+    const bool is_file =
+      std::filesystem::path(route_).extension() == ".geojson";
+    AssertThrow(!is_file || setting.coordinates == PlanCoordinates::map,
+                ExcUser(path("Route") + " = " + route_ +
+                        " is a file, whose places are on the map. Set " +
+                        path("Coordinates") + " to 'map'."));
+    const std::vector<Point<2>> corners =
+      is_file ? setting.surfaces->read_route(path("Route"), route_)
+              : parse_corners(path("Route"), route_);
+    AssertThrow(corners.size() >= 2,
+                ExcUser(
+                  text(path("Route"),
+                       " has ",
+                       corners.size(),
+                       " corners, but a pipe needs two or more, separated "
+                       "by semicolons.")));
+    for (std::size_t i = 1; i < corners.size(); ++i)
+      AssertThrow(corners[i] != corners[i - 1],
+                  ExcUser(text(path("Route"),
+                               " has the corner (",
+                               corners[i],
+                               ") twice in succession. Remove one of them.")));
+    return corners;
+  }
+
+
+
+  template <int dim>
+  double
+  PipeParameters<dim>::height(const Setting &setting, const Point<dim> &x) const
+  {
+    Assert(setting.surfaces != nullptr, ExcMessage("There are no surfaces."));
+    AssertThrow(!height_of_axis_.empty(),
+                ExcUser(path("Height of axis") +
+                        " is empty, but a pipe needs it. Give a name of "
+                        "'Surfaces/Names', or an expression in these names, as "
+                        "mudline + 0.5."));
+    const auto surface =
+      setting.surfaces->surface(path("Height of axis"), height_of_axis_);
+    AssertThrow(surface->is_known_at(x),
+                ExcUser(text(path("Height of axis"),
+                             " = ",
+                             height_of_axis_,
+                             " has no value at (",
+                             x,
+                             ") m of the mesh, where ",
+                             path("Route"),
+                             " leads: the raster ends there, or has no data. "
+                             "Give that part of the route only that lies on "
+                             "the raster.")));
+    return surface->at(x).height;
+  }
+
+
+
+  template <int dim>
+  std::vector<Point<3>>
+  PipeParameters<dim>::axis(const Setting &setting) const
+  {
+    std::vector<Point<3>> axis;
+    if constexpr (dim == 3)
+      {
+        const PlaceCoordinates coordinates(setting.coordinates,
+                                           setting.surfaces->origin());
+        const auto             in_plan = [&](const Point<2> &corner) {
+          const Point<2> x = coordinates.in_plan(corner);
+          return Point<3>(x[0], 0., x[1]);
+        };
+        const auto corners = this->corners(setting);
+        axis.push_back(in_plan(corners[0]));
+        for (std::size_t i = 1; i < corners.size(); ++i)
+          {
+            const Point<3>     begin = in_plan(corners[i - 1]);
+            const Tensor<1, 3> leg   = in_plan(corners[i]) - begin;
+            const double n = std::ceil(leg.norm() / (2. * setting.radius));
+            AssertThrow(n + axis.size() <= max_n_pieces,
+                        ExcUser(
+                          text(path("Route"),
+                               " is ",
+                               leg.norm(),
+                               " m long between its corners ",
+                               i,
+                               " and ",
+                               i + 1,
+                               ", which is too long for a pipe with ",
+                               path("Radius"),
+                               " = ",
+                               setting.radius,
+                               " m: at most ",
+                               max_n_pieces,
+                               " diameters were expected. Give that part "
+                               "of the route only that lies in the mesh.")));
+            for (double j = 1; j <= n; ++j)
+              axis.push_back(begin + j / n * leg);
+          }
+        for (Point<3> &x : axis)
+          x[1] = height(setting, x);
+      }
+    return axis;
+  }
+
+
+
+  template <int dim>
+  SectionCrossing
+  PipeParameters<dim>::crossing(const Setting &setting) const
+  {
+    const bool on_map = setting.coordinates == PlanCoordinates::map;
+    const auto crossings =
+      find_crossings(on_map ? setting.surfaces->section(path("Route"))
+                            : std::vector<Point<2>>{{0., 0.}, {1., 0.}},
+                     corners(setting));
+    AssertThrow(!crossings.empty(),
+                ExcUser(text(path("Route"),
+                             " = ",
+                             route_,
+                             " does not cross the section",
+                             on_map ? ", the line of the rasters' `Section`"
+                                    : ", z = 0",
+                             ". Correct it (and look at ",
+                             path("Coordinates"),
+                             "), or leave the pipe out.")));
+    AssertThrow(crossings.size() == 1,
+                ExcUser(text(path("Route"),
+                             " crosses the section at x = ",
+                             crossings[0].length,
+                             " m, at x = ",
+                             crossings[1].length,
+                             " m and perhaps again. A section has one obstacle "
+                             "for each crossing: give each that part of the "
+                             "route only that it crosses with.")));
+    AssertThrow(in_degrees(crossings[0]) >= min_angle,
+                ExcUser(text(path("Route"),
+                             " crosses the section at ",
+                             std::setprecision(3),
+                             in_degrees(crossings[0]),
+                             " degrees. A pipe along which the section runs is "
+                             "no disc in it: at least ",
+                             min_angle,
+                             " degrees were expected. Lay the section more "
+                             "across the route, or compute in 3-D.")));
+    return crossings[0];
+  }
+
+
+
+  template <int dim>
+  std::unique_ptr<Shape<dim>>
+  PipeParameters<dim>::make(const Setting &setting) const
+  {
+    if constexpr (dim == 3)
+      return std::make_unique<Pipe>(axis(setting), setting.radius);
+    else
+      {
+        Point<dim> centre(crossing(setting).length, 0.);
+        centre[1] = height(setting, centre);
+        return std::make_unique<Ball<dim>>(centre, setting.radius);
+      }
+  }
+
+
+
+  template <int dim>
+  std::string
+  PipeParameters<dim>::place_in_words(const Setting &setting) const
+  {
+    if constexpr (dim == 3)
+      {
+        const auto axis   = this->axis(setting);
+        double     length = 0., lowest = axis[0][1], highest = axis[0][1];
+        for (std::size_t i = 1; i < axis.size(); ++i)
+          {
+            length += axis[i].distance(axis[i - 1]);
+            lowest  = std::min(lowest, axis[i][1]);
+            highest = std::max(highest, axis[i][1]);
+          }
+        return text(std::setprecision(6),
+                    "is a pipe of ",
+                    length,
+                    " m, from (",
+                    axis.front(),
+                    ") to (",
+                    axis.back(),
+                    ") m; its axis has y from ",
+                    lowest,
+                    " m to ",
+                    highest,
+                    " m.");
+      }
+    else
+      {
+        const SectionCrossing crossing = this->crossing(setting);
+        return text(std::setprecision(6),
+                    "crosses the section at x = ",
+                    crossing.length,
+                    " m, y = ",
+                    height(setting, Point<dim>(crossing.length, 0.)),
+                    " m, at ",
+                    std::setprecision(3),
+                    in_degrees(crossing),
+                    " degrees.");
+      }
+  }
+
+
+
+  template <int dim>
+  std::string
+  PipeParameters<dim>::remark(const Setting &setting) const
+  {
+    if (dim == 3)
+      return "";
+    const SectionCrossing crossing = this->crossing(setting);
+    if (round_enough * crossing.sine >= 1.)
+      return "";
+    return text(
+      std::setprecision(3),
+      "crosses the section at ",
+      in_degrees(crossing),
+      " degrees, where the section of a pipe is an ellipse, ",
+      1. / crossing.sine,
+      " times as long as high. A disc of the pipe's radius stands for "
+      "it, so that the force is that of soil that moves square to the "
+      "pipe. Lay the section across the route, or compute in 3-D, if "
+      "that is not meant.");
+  }
+
+
+
+  template class PipeParameters<2>;
+  template class PipeParameters<3>;
+} // namespace talus
