@@ -74,6 +74,8 @@ namespace talus
 
       void
       open_part();
+      void
+      check_axes(unsigned int n_columns, unsigned int n_rows) const;
 
       const std::filesystem::path path_;
       const QuietGdal             quiet_;
@@ -144,6 +146,30 @@ namespace talus
 
 
 
+    /// Of netCDF coordinates GDAL looks at the first, a middle and the last
+    /// spacing only, and where a row is missing the raster would be stretched.
+    void
+    GdalBand::check_axes(const unsigned int n_columns,
+                         const unsigned int n_rows) const
+    {
+      const GDALDatasetUniquePtr file(
+        GDALDataset::Open(path_.c_str(), GDAL_OF_MULTIDIM_RASTER));
+      if (file == nullptr)
+        return;
+      for (const auto &axis : file->GetRootGroup()->GetDimensions())
+        if (axis->GetSize() == n_columns || axis->GetSize() == n_rows)
+          {
+            const auto values = axis->GetIndexingVariable();
+            double     first = 0., step = 0.;
+            check(values == nullptr || values->IsRegularlySpaced(first, step),
+                  "has coordinates '" + axis->GetName() +
+                    "' that are not evenly spaced. Bring it to an even raster "
+                    "by gdalwarp, or add the rows that are missing.");
+          }
+    }
+
+
+
     // GDAL counts from the outer corner, whatever a file says its values belong
     // to.
     Raster
@@ -161,10 +187,11 @@ namespace talus
       result.coordinate_system = coordinate_system(*file_);
       result.n_columns         = file_->GetRasterXSize();
       result.n_rows            = file_->GetRasterYSize();
-      result.dx                = t[1];
-      result.dy                = std::abs(t[5]);
-      result.west              = t[0];
-      result.south             = std::min(t[3], t[3] + result.n_rows * t[5]);
+      check_axes(result.n_columns, result.n_rows);
+      result.dx    = t[1];
+      result.dy    = std::abs(t[5]);
+      result.west  = t[0];
+      result.south = std::min(t[3], t[3] + result.n_rows * t[5]);
       check(double(result.n_columns) * result.n_rows < 1e9,
             text("has ",
                  result.n_columns,

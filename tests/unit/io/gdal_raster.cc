@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <fstream>
 #include <functional>
+#include <numeric>
 #include <random>
 #include <sstream>
 
@@ -331,6 +332,12 @@ namespace gdal_raster_test
   {
     NetcdfWriter(path, "x", {1., 2., 4.}, "y", {1., 2.}).add("z", GDT_Float64);
     expect_refused("cells that are evenly spaced");
+    // A column is missing, where GDAL itself does not look.
+    std::vector<double> x(15);
+    std::iota(x.begin(), x.begin() + 10, 0.);
+    std::iota(x.begin() + 10, x.end(), 11.);
+    NetcdfWriter(path, "x", x, "y", {1., 2.}).add("z", GDT_Float64);
+    expect_refused("has coordinates 'x' that are not evenly spaced");
     {
       NetcdfWriter file(path, "x", {1., 2., 3.}, "y", {1., 2.});
       file.add("u", GDT_Float64);
