@@ -242,6 +242,38 @@ class BadInputTerrain(Case):
                                 + ["Obstacles/pipe/Shape=half-plane"]
                                 * setting.startswith("Normal"), *words)
 
+    def test_routes_of_pipes(self):
+        """In a section whose raster reaches from -5 to 10 m of the map."""
+        (self.folder / "bed.asc").write_text(self.HEAD + self.ROWS)
+        (self.folder / "degrees.geojson").write_text(
+            '{"type": "LineString", "coordinates": [[15.1, 41], [15.2, 41]]}')
+        route = "Obstacles/pipe/Route="
+        pipe = [entry for entry in self.FILE if "Names" not in entry] + [
+            "Obstacles/Names=bottom, pipe", "Obstacles/pipe/Shape=pipe",
+            "Obstacles/pipe/Coordinates=map", "Obstacles/pipe/Radius=1",
+            "Obstacles/pipe/Height of axis=bed + 1"]
+        for settings, *words in (
+                (["Surfaces/Names=bed", route + "1,1; 2,2"],
+                 "'Obstacles/pipe/Route'", "does not cross the section"),
+                (["Surfaces/Names=bed", route + "1e29,1; 1e29,-1"],
+                 "'Obstacles/pipe/Height of axis'", "has no value"),
+                (["Surfaces/Names=bed", route + "none.geojson"],
+                 "none.geojson", "cannot be read"),
+                (["Surfaces/Names=bed", route + "degrees.geojson"],
+                 "'Obstacles/pipe/Route'", "in degrees", "`Projection`"),
+                (["Surfaces/Names=bed, base", "Surfaces/base/File=bed.asc",
+                  "Surfaces/base/Section=0,0; 0,5", route + "3,-1; 3,1"],
+                 "'Obstacles/pipe/Route'", "two lines",
+                 "'Surfaces/base/Section'"),
+                (["Surfaces/Names=bed", route + "3,-1; 3,1",
+                  "Grid/Coordinates=map"],
+                 "'Grid/Coordinates' is 'map'", "two-dimensional"),
+                (["Surfaces/Names=bed", route + "3,-1; 3,1",
+                  "Stations/Coordinates=map", "Stations/Points=a: 3, 0"],
+                 "'Stations/Coordinates' is 'map'", "two-dimensional")):
+            with self.subTest(settings):
+                self.refuse_set(pipe + settings, *words)
+
     def test_rasters_of_no_ground(self):
         for content, *words in (
                 (self.HEAD + "1 1 1\n1 9.97e36 1\n1 1 1\n",

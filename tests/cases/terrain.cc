@@ -135,11 +135,13 @@ TEST(Terrain, LayersInThreeDimensions)
 // ends: the same forces. The mesh, body and route are given on the map.
 TEST(Terrain, PipeAlongARouteOfTheMap)
 {
-  const Overrides on_plane = {
-    "Surfaces/mudline/File=" +
-    write("dips-east.asc",
-          [](const double x, const double) { return gradient * x + 300.; })};
-  const auto forces = [](const std::string &name) {
+  const Overrides on_plane = {"Surfaces/mudline/Expression=",
+                              "Surfaces/mudline/File=" +
+                                write("dips-east.asc",
+                                      [](const double x, const double) {
+                                        return gradient * x + 300.;
+                                      })};
+  const auto      forces   = [](const std::string &name) {
     return Table(std::filesystem::path(TALUS_RESULTS_DIR) / name /
                  "obstacles.csv");
   };
@@ -173,7 +175,8 @@ TEST(Terrain, ForceIsSquareToAnObliquePipe)
 {
   run<3>("slide-on-pipe-3d.prm",
          "slide-on-oblique-pipe",
-         {"Surfaces/mudline/File=" + write("dips-east-too.asc",
+         {"Surfaces/mudline/Expression=",
+          "Surfaces/mudline/File=" + write("dips-east-too.asc",
                                            [](const double x, const double) {
                                              return gradient * x + 300.;
                                            }),

@@ -25,6 +25,29 @@ namespace
 
 
 
+  // South-western and north-eastern corner: z points to the south.
+  TEST(RefinementBoxes, OnTheMap)
+  {
+    const Box<3> mesh{Point<3>(0., -50., 0.), Point<3>(100., 0., 80.)};
+    const PlaceCoordinates map(PlanCoordinates::map,
+                               Point<3>(412000., 6538000., 20.));
+    const auto             boxes =
+      parse_refinement_boxes<3>("412010, 6537940, -15; 412030, 6537990, 0; 2",
+                                mesh,
+                                map);
+    ASSERT_EQ(boxes.size(), 1u);
+    EXPECT_EQ(boxes[0].box.lower, Point<3>(10., -35., 10.));
+    EXPECT_EQ(boxes[0].box.upper, Point<3>(30., -20., 60.));
+    EXPECT_TRUE(
+      contains(message_of<ExcUser>([&]() {
+                 parse_refinement_boxes<3>(
+                   "412010, 6537990, -15; 412030, 6537940, 0; 2", mesh, map);
+               }),
+               "upper corner must lie above the lower one"));
+  }
+
+
+
   TEST(RefinementBoxes, BoxesWithoutEffectAreRefused)
   {
     for (const std::string wrong : {"0,0; 1,1",     // how often?
