@@ -101,7 +101,6 @@ namespace talus
 
 
 
-  // A material that no body is made of has nothing to say about the run.
   template <int dim>
   std::vector<std::string>
   Materials<dim>::notes(const double cell_size) const
@@ -109,7 +108,12 @@ namespace talus
     std::vector<std::string> result;
     const auto              &used = material_of_body_;
     for (unsigned int m = 0; m < models_.size(); ++m)
-      if (std::find(used.begin(), used.end(), m) != used.end())
+      if (std::find(used.begin(), used.end(), m) == used.end())
+        result.push_back("No body is made of the material of section " +
+                         models_[m]->section() +
+                         ": look at 'Material' of the bodies, or remove the "
+                         "name from 'Materials/Names'.");
+      else
         for (const std::string &note :
              {models_[m]->note(cell_size), note_on_volume(*models_[m])})
           if (!note.empty())
