@@ -100,7 +100,6 @@ namespace talus
 
 
 
-  // Materials not used by any body are skipped.
   template <int dim>
   std::vector<std::string>
   Materials<dim>::notes(const double cell_size) const
@@ -108,7 +107,12 @@ namespace talus
     std::vector<std::string> result;
     const auto              &used = material_of_body_;
     for (unsigned int m = 0; m < models_.size(); ++m)
-      if (std::find(used.begin(), used.end(), m) != used.end())
+      if (std::find(used.begin(), used.end(), m) == used.end())
+        result.push_back("No body is made of the material of section " +
+                         models_[m]->section() +
+                         ": look at 'Material' of the bodies, or remove the "
+                         "name from 'Materials/Names'.");
+      else
         for (const std::string &note :
              {models_[m]->note(cell_size), note_on_volume(*models_[m])})
           if (!note.empty())

@@ -95,21 +95,21 @@ namespace talus
   Quantities
   EnergyBudget<dim>::evaluate(const State<dim> &state) const
   {
-    const std::vector<Term> terms  = sum_terms(state);
-    const auto              change = [&](const unsigned int i) {
-      return terms[i].value - (i < start_.size() ? start_[i] : 0.);
-    };
-    Quantities result;
-    double     remainder = 0;
-    for (unsigned int i = 0; i < terms.size(); ++i)
+    Quantities          result;
+    std::vector<double> to_subtract;
+    double              remainder = 0;
+    for (const Term &term : sum_terms(state))
       {
-        result.push_back({terms[i].name, "J", terms[i].value});
-        if (terms[i].sign > 0)
-          remainder += change(i);
+        const unsigned int i = result.size();
+        const double change = term.value - (i < start_.size() ? start_[i] : 0.);
+        result.push_back({term.name, "J", term.value});
+        if (term.sign > 0)
+          remainder += change;
+        else if (term.sign < 0)
+          to_subtract.push_back(change);
       }
-    for (unsigned int i = 0; i < terms.size(); ++i)
-      if (terms[i].sign < 0)
-        remainder -= change(i);
+    for (const double change : to_subtract)
+      remainder -= change;
     result.push_back({"energy remainder", "J", remainder});
     return result;
   }

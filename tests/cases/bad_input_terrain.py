@@ -153,6 +153,8 @@ class BadInputTerrain(Case):
                 "Materials/clay/Poisson's ratio=0.49"]
         for settings, *words in (
                 (clay[:1], "`Poisson's ratio` is 0.3", "0.45 to 0.49"),
+                (["Materials/Names=clay, sand"],
+                 "No body is made of the material of section /Materials/sand"),
                 (self.layer("2-0.5*x", "0.5*x-0.2"), "lies above its upper one",
                  "by up to 0.3 m, at x = 2.5 m"),
                 (self.layer("1.5", "0"), "'block' is 1.5 cells of 1 m thick"),

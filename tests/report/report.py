@@ -31,6 +31,7 @@ from talus_tools.report.film import entries, painted, palette_image, rasters
 from talus_tools.report.places import routes_of, stations_of
 from talus_tools.report.run import Run
 from talus_tools.report.sections.cut import cut_points, cut_surface
+from talus_tools.report.sections.safety import line_of_motion, mechanism
 from talus_tools.report.sections.thalweg import columns_of
 from talus_tools.report.way import Way, way_of
 from talus_tools.report.write import write_report
@@ -504,6 +505,24 @@ class Ways(ReportCase):
         self.assertEqual(way_of(run).corners.tolist(), [[0, 2], [-5, 2], [-9, 2], [-14, 2]])
         run.statistics["mass [kg]"] = numpy.full(7, 100.0)
         self.assertEqual(len(way_of(run).corners), 6)
+
+    def test_mechanism(self):
+        """Points of 1 m that fail towards -x and +z, without an outline of their own: the section
+        goes through their middle, along the diagonal."""
+        places = numpy.stack(numpy.meshgrid(*3 * [numpy.arange(5.0)]), axis=-1).reshape(-1, 1, 3)
+        motion = numpy.tile([-0.6, -0.5, 0.6], (len(places), 1))
+        values = {"mechanism [-]": motion, "box length [m]": numpy.ones((len(places), 3))}
+        way = line_of_motion(places, motion)
+        numpy.testing.assert_allclose(way.corners, [[2, 2], [2 - 0.5**0.5, 2 + 0.5**0.5]])
+        outlines, found = cut_points(places, values, way)
+        # Those on the diagonal and beside it, in all five layers.
+        self.assertEqual(len(outlines), 5 * (5 + 4 + 4))
+        self.assertEqual(len(found["mechanism [-]"]), len(outlines))
+        self.assertAlmostEqual(numpy.ptp(outlines[..., 0]), 5 * 2**0.5)
+        run = types.SimpleNamespace(dimension=3, entries={}, series=lambda name: (
+            types.SimpleNamespace(times=[0.0], read=lambda time: (places, values))))
+        (figure,) = mechanism(run, "mechanism", "How it fails.")
+        self.assertIn("along the mean motion", figure.caption)
 
     def test_path_of_the_user(self):
         """In coordinates of the map, from east to west."""

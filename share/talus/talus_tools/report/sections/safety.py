@@ -40,7 +40,7 @@ def mechanism(run, name, caption):
         caption += f" Section along {way.name}, x = {x:.4g} m, z = {z:.4g} m."
         motion = numpy.stack([motion[:, PLAN] @ (way.corners[1] - way.corners[0]), motion[:, 1]],
                              axis=-1)
-    outlines, values = cut_points(corners, {"motion": motion}, way)
+    outlines, values = cut_points(corners, {**values, "motion": motion}, way)
     motion = values["motion"][:, :2]
     speed = numpy.linalg.norm(motion, axis=1)
     places = outlines.mean(axis=1)
