@@ -104,7 +104,7 @@ class BadInputTerrain(Case):
                  "'Surfaces/bed/Expression' = '2*q' cannot be understood: "
                  "Unexpected token \"q\""),
                 (self.BED + ["Surfaces/bed/Expression=(2*x"],
-                 "Missing parenthesis. An expression in x"),
+                 "Missing parenthesis. Expected an expression in x"),
                 (layer, "'Bodies/block/Upper surface' is empty",
                  "'Surfaces/Names'"),
                 (layer + ["Bodies/block/Upper surface=mudline"],

@@ -212,7 +212,7 @@ TEST(StrengthWithDepth, WhatCannotBeIsSaid)
   EXPECT_NE(error({s_u + "500 - 1000*depth"})
               .find("below the mudline. Soil needs a positive"),
             std::string::npos);
-  EXPECT_NE(error({s_u + "500*deep"}).find("An expression in x, y, depth, pi"),
+  EXPECT_NE(error({s_u + "500*deep"}).find("an expression in x, y, depth, pi"),
             std::string::npos);
   EXPECT_NE(error({s_u + "-5"}).find("is -5 Pa"), std::string::npos);
   EXPECT_NE(error({s_u + "500*depth + 1", "Constants=depth=3"})

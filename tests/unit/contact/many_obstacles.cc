@@ -28,7 +28,7 @@ namespace many_obstacles_test
       load(Point<2>(0., -10.));
       StaticProblem<2> all = problem();
       this->time_step      = 1.;
-      contact.move_obstacles(*this);
+      contact.begin_step(*this);
       sum_forces(all);
       contact.find_constraints(*this);
     }
