@@ -91,7 +91,7 @@ RULES = [
     ("baseline", "", r"at rest from|highest point at rest|unsplit: |"
      r"points at rest|splits / splits|speed of points|scatter of the mean|"
      r"largest stretch|mean thickness|3 generations|\| without: |merging work"),
-    ("balance", "", r"energy (drift|lost|created|gained|remainder)|ledger|"
+    ("balance", "", r"energy (drift|lost|created|gained|remainder)|conservation error|"
      r"mass inside|empty interior|empty columns|bodies|work of the loads|"
      r"mass below|seabed force over|kinetic energy before"),
     ("agreement", "LandslideFromEquilibrium", r"\| front"),
