@@ -56,9 +56,9 @@ namespace talus
                             "' contains '" + entry +
                             "'; expected 'lower corner; upper corner; n' with "
                             "n from 1 to 10."));
-        const Box<dim> box =
-          coordinates.box(parse_corner<dim>(parts[0], boxes),
-                          parse_corner<dim>(parts[1], boxes));
+        const Point<dim> lower = parse_corner<dim>(parts[0], boxes);
+        const Point<dim> upper = parse_corner<dim>(parts[1], boxes);
+        const Box<dim>   box   = coordinates.box(lower, upper);
         for (unsigned int d = 0; d < dim; ++d)
           AssertThrow(box.lower[d] < box.upper[d],
                       ExcUser("'Grid/Refinement boxes = " + boxes +

@@ -189,7 +189,7 @@ namespace talus
                  line.coordinate_system,
                  map(),
                  path + ": the line of '" + file + "'",
-                 "'Projection' of a surface");
+                 "`Projection` of a surface");
     // The log asks again for what it says of the route.
     std::string name = "route " + file;
     std::replace(name.begin(), name.end(), '/', ' ');
