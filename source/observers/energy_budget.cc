@@ -83,7 +83,6 @@ namespace talus
   void
   EnergyBudget<dim>::begin(const State<dim> &state)
   {
-    is_first_rank_ = is_first_rank(state.communicator());
     start_.clear();
     for (const Term &term : sum_terms(state))
       start_.push_back(term.value);
@@ -116,8 +115,9 @@ namespace talus
 
 
 
-  /// The first rank saves the sums, which are identical on all ranks: a
-  /// checkpoint may be read by another number of ranks.
+  // The first rank saves the sums, which are identical on all ranks: a
+  // checkpoint may be read by another number of ranks. A resumed run, in which
+  // begin() is not called, saves them, too.
   template <int dim>
   void
   EnergyBudget<dim>::list_state(StateList &list)
@@ -126,7 +126,9 @@ namespace talus
       {"energies at the start",
        "energy [J], by term of the energy budget",
        1,
-       [this]() { return is_first_rank_ ? start_ : std::vector<double>(); },
+       [this]() {
+         return is_first_rank(MPI_COMM_WORLD) ? start_ : std::vector<double>();
+       },
        [this](const std::vector<double> &rows) { start_ = rows; }});
   }
 

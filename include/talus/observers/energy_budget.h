@@ -35,7 +35,6 @@ namespace talus
 
   private:
     std::vector<double> start_; ///< terms at the start, J
-    bool                is_first_rank_ = false;
   };
 } // namespace talus
 
