@@ -242,7 +242,7 @@ class Ranks(Runs):
             result = self.start("big", n_ranks, ["Grid/Cell size=1e-5"],
                                 "landslide-quick.prm")
             self.assertEqual(result.returncode, 1)
-            found = re.search(r"on each rank, where (\S+) GB", result.stderr)
+            found = re.search(r"on each rank\. (\S+) GB are available", result.stderr)
             self.assertTrue(found, result.stderr)
             most.append(float(found.group(1)))
         self.assertAlmostEqual(most[0] / most[1], 2., delta=1e-4)
