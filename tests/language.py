@@ -33,7 +33,7 @@ MAX_PARAMETERS = 6
 POINTING = {
     "doc/output.md": 7.9,
     "doc/usage.md": 7.9,
-    "geometry": 9.3,
+    "geometry": 8.9,
     "io": 9.8,
     "problem": 9.2,
     "terrain": 8.5,
@@ -45,10 +45,10 @@ OPENINGS = {
     "checkpoint": 2,
     "contact": 4,
     "equilibrium": 10,
-    "geometry": 29,
+    "geometry": 23,
     "grid": 1,
     "io": 37,
-    "maps": 4,
+    "maps": 3,
     "materials": 6,
     "observers": 3,
     "problem": 29,
@@ -63,7 +63,6 @@ REPLACED = {
     "doc/output.md": 2,
     "geometry": 4,
     "io": 4,
-    "maps": 2,
 }
 # Pages on which no paragraph may be longer than MAX_PARAGRAPH.
 SHORT_PARAGRAPHS = ["doc/method.md", "doc/performance.md"]

@@ -6,6 +6,7 @@
 #include <talus/geometry/pipe_parameters.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <iomanip>
@@ -47,10 +48,10 @@ namespace talus
       route_,
       "Corners of the pipe's axis in plan, as x, z; x, z; ..., with "
       "`Coordinates` = map as easting, northing [m]; or, then, the name "
-      "of a GeoJSON file (.geojson) with one line, in degrees if a surface "
-      "has a `Projection`. In 2-D the pipe "
-      "is a disc where the route crosses the section, which is z = 0, "
-      "or on the map the line of the rasters' `Section`.");
+      "of a file with one line (GeoJSON; with GDAL also shapefile, GeoPackage, "
+      "KML), in degrees if a surface has a `Projection`. In 2-D the pipe is a "
+      "disc where the route crosses the section, which is z = 0, or on the map "
+      "the line of the rasters' `Section`.");
     add_parameter(
       "Height of axis",
       height_of_axis_,
@@ -65,8 +66,9 @@ namespace talus
   std::vector<Point<2>>
   PipeParameters<dim>::corners(const Setting &setting) const
   {
-    const bool is_file =
-      std::filesystem::path(route_).extension() == ".geojson";
+    // Numbers have no letter behind a point.
+    const std::string ending  = std::filesystem::path(route_).extension();
+    const bool        is_file = ending.size() > 1 && std::isalpha(ending[1]);
     AssertThrow(!is_file || setting.coordinates == PlanCoordinates::map,
                 ExcUser(path("Route") + " = " + route_ +
                         " is a file, whose places are on the map. Set " +

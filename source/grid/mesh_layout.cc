@@ -33,9 +33,8 @@ namespace talus
                   "coordinates [m].");
     add_parameter("Origin",
                   origin_,
-                  "Where x = y = z = 0 of the mesh lies on the map: easting, "
-                  "northing and height [m]. Rasters are read relative to it, "
-                  "so that coordinates are small numbers that lose no digits; "
+                  "Position of x = y = z = 0 on the map: easting, northing, "
+                  "height [m]. Small coordinates of the mesh lose no digits; "
                   "in 2-D only the height counts.",
                   this->prm,
                   Patterns::List(Patterns::Double(-1e9, 1e9), 3, 3));

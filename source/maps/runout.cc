@@ -20,8 +20,8 @@ namespace talus
     /// Distance between corners of the path of the centre of mass, in cells.
     constexpr double distance_of_corners = 4.;
 
-    /// Share of the mass at the start that has to be there for the way to go on.
-    constexpr double least_share_of_mass = 0.99;
+    /// Fraction of the initial mass below which the path is not extended.
+    constexpr double min_mass_fraction = 0.99;
   } // namespace
 
 
@@ -200,14 +200,13 @@ namespace talus
 
 
 
-  /// Where soil leaves the mesh, the centre of mass of the rest goes back up the
-  /// slope, and a way that followed it would fold.
+  // Once soil leaves the mesh, the centre of mass of the remaining soil moves back
+  // up the slope, and a path along it would fold.
   template <int dim>
   bool
   Runout<dim>::has_way_ended(const Centre &centre) const
   {
-    return way_.size() > 1 &&
-           centre.mass < least_share_of_mass * mass_at_start_;
+    return way_.size() > 1 && centre.mass < min_mass_fraction * mass_at_start_;
   }
 
 

@@ -148,8 +148,8 @@ namespace talus
         lower = Utilities::MPI::min(lower, communicator);
         upper = Utilities::MPI::max(upper, communicator);
         if (!(lower < upper))
-          return lower > upper ? std::numeric_limits<double>::quiet_NaN() :
-                                 upper;
+          return lower > upper ? std::numeric_limits<double>::quiet_NaN()
+                               : upper;
 
         // The largest x would fall in a bin beyond the last.
         const auto bin = [&](const Candidate &c) {
@@ -161,8 +161,7 @@ namespace talus
           bins[bin(c)] += c.mass;
         Utilities::MPI::sum(bins, communicator, bins);
 
-        // The last bin is accepted in any case: by round-off the sum may miss
-        // the target.
+        // By round-off the sum may miss the target: accept the last bin.
         unsigned int b = 0;
         for (; b + 1 < n_bins && mass_below + bins[b] < target; ++b)
           mass_below += bins[b];

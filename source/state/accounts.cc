@@ -37,8 +37,12 @@ namespace talus
   void
   Accounts<dim>::open_energy(const std::string &name, const EnergyKind kind)
   {
-    if (find_account(energies_, name) == energies_.end())
+    const auto found = find_account(energies_, name);
+    if (found == energies_.end())
       energies_.push_back({name, kind, 0., {}});
+    else
+      Assert(found->kind == kind,
+             ExcMessage("The account '" + name + "' is open as another kind."));
   }
 
 

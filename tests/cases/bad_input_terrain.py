@@ -261,6 +261,8 @@ class BadInputTerrain(Case):
                  "'Obstacles/pipe/Height of axis'", "has no value"),
                 (["Surfaces/Names=bed", route + "none.geojson"],
                  "none.geojson", "cannot be read"),
+                (["Surfaces/Names=bed", route + "none.shp"], "none.shp",
+                 "cannot be read" if WITH_GDAL else "ogr2ogr"),
                 (["Surfaces/Names=bed", route + "degrees.geojson"],
                  "'Obstacles/pipe/Route'", "in degrees", "`Projection`"),
                 (["Surfaces/Names=bed, base", "Surfaces/base/File=bed.asc",

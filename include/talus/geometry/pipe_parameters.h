@@ -25,7 +25,7 @@ namespace talus
     /// @p section as that of ShapeParameters, which has other entries, too.
     explicit PipeParameters(const std::string &section);
 
-    /// What the pipe needs besides its own entries.
+    /// Data for a pipe from other entries of the obstacle.
     struct Setting
     {
       PlanCoordinates           coordinates; ///< of the route
@@ -37,12 +37,13 @@ namespace talus
     std::unique_ptr<Shape<dim>>
     make(const Setting &setting) const;
 
-    /// What the log says after the name of the pipe: where it lies.
+    /// Return the end of a sentence of the log that begins with the name of the
+    /// pipe and says where the pipe lies.
     std::string
     place_in_words(const Setting &setting) const;
 
-    /// What the log says after the name of the pipe if its section is not the
-    /// disc that stands for it; else empty.
+    /// Return the end of a remark that begins with the name of the pipe, if the
+    /// disc in the section only approximates the pipe; empty otherwise.
     std::string
     remark(const Setting &setting) const;
 

@@ -8,7 +8,7 @@
 
 namespace talus
 {
-  /// Where a route crosses the line of a section in plan.
+  /// Point at which a route crosses the line of a section in plan.
   struct SectionCrossing
   {
     double length; ///< along the section, from its first corner, m

@@ -43,16 +43,16 @@ namespace talus
     PlaceCoordinates
     coordinates() const;
 
-    /// What the log says after the name of a shape: where it lies, if its
-    /// parameters do not say so; else empty.
+    /// Return the end of a sentence of the log that begins with the name of the
+    /// shape and says where the shape lies; empty if the parameters say so.
     std::string
     place_in_words() const
     {
       return is_pipe() ? pipe_.place_in_words(setting_of_pipe()) : "";
     }
 
-    /// What the log says after the name of a shape that only stands for what the
-    /// user asked for; else empty.
+    /// Return the end of a remark that begins with the name of the shape, if the
+    /// shape only approximates the shape the user asked for; empty otherwise.
     std::string
     remark() const
     {

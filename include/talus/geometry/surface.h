@@ -64,8 +64,8 @@ namespace talus
     virtual std::vector<dealii::Point<2>>
     section(const std::string &path) const = 0;
 
-    /// Corners on the map, easting and northing in m, of the line in the GeoJSON
-    /// file @p file, from the folder of the parameters. Throws ExcUser, naming the
+    /// Return the corners on the map, easting and northing in m, of the line in
+    /// @p file, a file of a GIS in the folder of the parameters. Throws ExcUser, naming the
     /// parameter @p path, if the file cannot be read or has no line.
     virtual std::vector<dealii::Point<2>>
     read_route(const std::string &path, const std::string &file) const = 0;

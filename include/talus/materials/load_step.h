@@ -6,7 +6,7 @@
 #include <talus/materials/kinematics_kernel.h>
 #include <talus/materials/material_model.h>
 
-// One step of a quasi-static load with the formulas of a dynamic step, and the
+// A step of a quasi-static load with the formulas of a dynamic step, and the
 // derivatives of the formulas: the interface of laws to the search for
 // equilibrium.
 

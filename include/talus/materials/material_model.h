@@ -248,7 +248,7 @@ namespace talus
   private:
     std::string section_;
     double      density_ = 1000.;
-    // One number, or empty if not given.
+    // A single number, or empty if the parameter is not given.
     std::vector<double> submerged_density_;
     std::string         bbar_     = "auto";
     unsigned int strength_factor_ = dealii::numbers::invalid_unsigned_int;

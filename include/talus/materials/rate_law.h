@@ -166,7 +166,7 @@ namespace talus
     unsigned int      plastic_variable_ = dealii::numbers::invalid_unsigned_int;
     unsigned int      strength_column_  = dealii::numbers::invalid_unsigned_int;
     UndrainedStrength strength_{"2500"};
-    // One number, or empty if not given.
+    // A single number, or empty if the parameter is not given.
     std::vector<double> stiffness_ratio_;
   };
 } // namespace talus

@@ -243,6 +243,20 @@ namespace map_outline_test
 
 
 
+  TEST(MapOutline, LineOfAnyFileOfVectors)
+  {
+    std::ofstream("route.kml")
+      << "<?xml version=\"1.0\" encoding=\"UTF-8\"?>"
+         "<kml xmlns=\"http://www.opengis.net/kml/2.2\"><Document><Placemark>"
+         "<LineString><coordinates>15.1,41,0 15.2,41.1,0</coordinates>"
+         "</LineString></Placemark></Document></kml>";
+    const MapLine line = read_line("route.kml");
+    EXPECT_EQ(line.corners, (std::vector<Point<2>>{{15.1, 41.}, {15.2, 41.1}}));
+    EXPECT_EQ(map_unit(line.coordinate_system), MapUnit::degrees);
+  }
+
+
+
   TEST(MapOutline, RefusesSeveralPolygonsAndHoles)
   {
     const auto expect_refused_file = [](const std::string &name,
