@@ -146,8 +146,9 @@ namespace talus
     newton_parameters_.is_well_balanced = limits.is_well_balanced;
     load_                               = 0;
     step_                               = 1. / limits.n_load_steps;
-    n_steps_ = n_settling_ = 0;
-    imbalance_             = 0;
+    n_steps_ = n_settling_ = n_flowing_ = 0;
+    is_partial_                         = false;
+    imbalance_                          = 0;
     is_found_ = is_stopped_ = false;
     imbalances_.clear();
     failure_.clear();
@@ -238,9 +239,11 @@ namespace talus
 
 
 
-  /// Return whether the soil seems to come to rest at full load: settling steps
-  /// are left, and the imbalance fell by 10 % in the last 20 steps. Failing
-  /// soil flows on and on.
+  /// Return whether the soil seems to come to rest at full load. Failing soil
+  /// flows on and on: no settling steps are left, or the imbalance did not fall
+  /// by 10 % in the last 20 steps, or in two steps with only a part of the
+  /// imbalance, as no step with all of it converged (small strain only: with
+  /// large strain, steps are also cut where points would be inverted).
   template <int dim>
   bool
   Equilibrium<dim>::is_settling()
@@ -251,9 +254,15 @@ namespace talus
     imbalances_.push_back(imbalance_);
     if (n_settling_ >= largest_settling_)
       return false;
-    const std::size_t n = imbalances_.size();
-    return n <= patience ||
-           imbalances_.back() < 0.9 * imbalances_[n - 1 - patience];
+    const std::size_t n          = imbalances_.size();
+    const auto        fell_since = [&](const unsigned int before) {
+      return n <= before ||
+             imbalances_.back() < 0.9 * imbalances_[n - 1 - before];
+    };
+    n_flowing_ += (is_partial_ && !fell_since(1));
+    const bool flows =
+      (newton_parameters_.measure == StrainMeasure::small && n_flowing_ >= 2);
+    return !flows && fell_since(patience);
   }
 
 
@@ -299,6 +308,7 @@ namespace talus
         newton_.commit(problem);
         // Count by the load before the step: the step that completes the load
         // does not settle.
+        is_partial_ = (load_ >= 1. && cut < 1.);
         n_settling_ += (load_ >= 1.);
         load_ = after;
         step_ = std::min(1.5 * cut * step_, 1. / limits_.n_load_steps);

@@ -135,51 +135,29 @@ namespace talus
 
 
 
-  /// The penalty may couple nodes beyond the points of either cell, for which
-  /// the pattern has no entries yet. Held unknowns keep their entries, since
-  /// constraints change within a load step.
   template <int dim>
   void
-  GhostStabilization<dim>::add_to_pattern(
-    const Unknowns<dim>               &unknowns,
-    TrilinosWrappers::SparsityPattern &pattern) const
+  GhostStabilization<dim>::couple(StiffnessMatrix<dim> &matrix) const
   {
-    std::vector<types::global_dof_index> columns(n_nodes);
     for (const Face &face : faces_)
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          for (unsigned int a = 0; a < n_nodes; ++a)
-            columns[a] = unknowns.first(face.nodes[a]) + d;
-          unknowns.constraints().add_entries_local_to_global(columns,
-                                                             pattern,
-                                                             true);
-        }
+      matrix.couple(face.nodes);
   }
 
 
 
-  /// Add the same matrix for each component. Rows of ghost nodes travel to
-  /// their owners when the caller compresses the matrix.
+  /// Add the same matrix for each component.
   template <int dim>
   void
-  GhostStabilization<dim>::add_to_matrix(
-    const Unknowns<dim> &unknowns, TrilinosWrappers::SparseMatrix &matrix) const
+  GhostStabilization<dim>::add_to_matrix(StiffnessMatrix<dim> &matrix) const
   {
-    FullMatrix<double>                   face_matrix(n_nodes, n_nodes);
-    std::vector<types::global_dof_index> rows(n_nodes);
+    FullMatrix<double> block(dim * n_nodes, dim * n_nodes);
     for (const Face &face : faces_)
       {
         for (unsigned int a = 0; a < n_nodes; ++a)
           for (unsigned int b = 0; b < n_nodes; ++b)
-            face_matrix(a, b) = face.stiffness * coupling(a, b);
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            for (unsigned int a = 0; a < n_nodes; ++a)
-              rows[a] = unknowns.first(face.nodes[a]) + d;
-            unknowns.constraints().distribute_local_to_global(face_matrix,
-                                                              rows,
-                                                              matrix);
-          }
+            for (unsigned int d = 0; d < dim; ++d)
+              block(dim * a + d, dim * b + d) = face.stiffness * coupling(a, b);
+        matrix.add(face.nodes, block);
       }
   }
 

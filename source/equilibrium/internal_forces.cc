@@ -272,13 +272,11 @@ namespace talus
   /// One element matrix per cell, over all nodes touched by any of its points.
   /// With B-bar all nodes of a cell are coupled anyway, and one matrix per
   /// point would need several times as many insertions. The matrix is symmetric
-  /// if the tangents of the laws are symmetric. The constraints drop rows and
-  /// columns of held unknowns and leave a number on the diagonal.
+  /// if the tangents of the laws are symmetric.
   template <int dim>
   void
-  InternalForces<dim>::add_tangent(const ShapeFunctionCache<dim>  &weights,
-                                   const Unknowns<dim>            &unknowns,
-                                   TrilinosWrappers::SparseMatrix &matrix) const
+  InternalForces<dim>::add_tangent(const ShapeFunctionCache<dim> &weights,
+                                   StiffnessMatrix<dim>          &matrix) const
   {
     Scratch scratch;
     for (unsigned int c = 0; c < weights.cells().size(); ++c)
@@ -296,13 +294,7 @@ namespace talus
                         scratch);
             add_point(volumes_[p], linearizations_[p], n, scratch);
           }
-        scratch.unknowns.clear();
-        for (unsigned int a = 0; a < patch.n_nodes; ++a)
-          for (unsigned int i = 0; i < dim; ++i)
-            scratch.unknowns.push_back(unknowns.first(patch.nodes[a]) + i);
-        unknowns.constraints().distribute_local_to_global(scratch.matrix,
-                                                          scratch.unknowns,
-                                                          matrix);
+        matrix.add(weights.nodes(c), scratch.matrix);
       }
   }
 

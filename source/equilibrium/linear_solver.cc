@@ -101,36 +101,27 @@ namespace talus
   /// fail, and the load step is then cut. Hence exceptions of deal.II are
   /// caught here.
   LinearSolution
-  LinearSolver::solve(const TrilinosWrappers::SparseMatrix &matrix,
-                      TrilinosWrappers::MPI::Vector        &x,
-                      const TrilinosWrappers::MPI::Vector  &rhs,
-                      const RigidModes                     &modes,
-                      const unsigned int                    dim,
-                      const bool                            symmetric) const
+  LinearSolver::solve(const LinearSystem                  &system,
+                      TrilinosWrappers::MPI::Vector       &x,
+                      const TrilinosWrappers::MPI::Vector &rhs) const
   {
-    const std::string type = choice(matrix.m(), dim, symmetric);
-    SolverControl     control(largest_iterations_, tolerance_ * rhs.l2_norm());
-    x = 0.;
+    const auto       &matrix = system.matrix;
+    const std::string type   = choice(matrix.m(), system.dim, system.symmetric);
+    x                        = 0.;
     if (type == "direct")
-      {
-        try
-          {
-            TrilinosWrappers::SolverDirect(control).solve(matrix, x, rhs);
-            return {};
-          }
-        catch (const ExceptionBase &)
-          {
-            return {0, "the matrix is singular"};
-          }
-      }
+      return {0,
+              system.factorization.solve(matrix, x, rhs)
+                ? ""
+                : "the matrix is singular"};
 
     // ML expects all modes in one array, one after the other.
     std::vector<double> all_modes;
-    for (const auto &mode : modes)
+    for (const auto &mode : system.modes)
       all_modes.insert(all_modes.end(), mode.begin(), mode.end());
     TrilinosWrappers::PreconditionAMG multigrid;
-    multigrid.initialize(matrix,
-                         multigrid_parameters(dim, all_modes, modes.size()));
+    multigrid.initialize(
+      matrix, multigrid_parameters(system.dim, all_modes, system.modes.size()));
+    SolverControl control(largest_iterations_, tolerance_ * rhs.l2_norm());
     try
       {
         if (type == "CG")

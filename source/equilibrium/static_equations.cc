@@ -5,8 +5,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
-
 #include <cmath>
 
 namespace talus
@@ -134,37 +132,19 @@ namespace talus
 
 
 
-  /// Couple all unknowns that the points of a cell touch. Held unknowns keep
-  /// their places: nodes on the seabed change their states within a load step,
-  /// and the pattern serves all matrices of the step. compress() sends the rows
-  /// of ghost nodes to their owners. Collective.
+  /// Couple all unknowns that the points of a cell touch. The pattern serves
+  /// all matrices of the step. Collective.
   template <int dim>
   void
   StaticEquations<dim>::make_pattern()
   {
-    // Use Trilinos' own pattern: deal.II's function that makes a matrix from a
-    // DynamicSparsityPattern is not inline, and clang names it differently from
-    // GCC, which compiled deal.II.
-    TrilinosWrappers::SparsityPattern    pattern(unknowns_.owned(),
-                                              unknowns_.owned(),
-                                              unknowns_.relevant(),
-                                              unknowns_.communicator());
-    std::vector<types::global_dof_index> indices;
+    factorization_.clear();
+    matrix_.begin_pattern(unknowns_);
     for (unsigned int c = 0; c < weights_.cells().size(); ++c)
-      {
-        const auto patch = weights_.patch(c);
-        indices.clear();
-        for (unsigned int a = 0; a < patch.n_nodes; ++a)
-          for (unsigned int d = 0; d < dim; ++d)
-            indices.push_back(unknowns_.first(patch.nodes[a]) + d);
-        unknowns_.constraints().add_entries_local_to_global(indices,
-                                                            pattern,
-                                                            true);
-      }
-    ghost_.add_to_pattern(unknowns_, pattern);
-    contact_.facets().add_to_pattern(unknowns_, pattern);
-    pattern.compress();
-    matrix_.reinit(pattern);
+      matrix_.couple(weights_.nodes(c));
+    ghost_.couple(matrix_);
+    contact_.facets().couple(matrix_);
+    matrix_.finish_pattern();
   }
 
 
@@ -346,15 +326,11 @@ namespace talus
   void
   StaticEquations<dim>::assemble_matrix()
   {
-    matrix_ = 0.;
-    internal_forces_.add_tangent(weights_, unknowns_, matrix_);
-    ghost_.add_to_matrix(unknowns_, matrix_);
-    contact_.facets().add_to_matrix(unknowns_, matrix_);
-    matrix_.compress(VectorOperation::add);
-    // Where soil can move freely the solution must be large, not infinite.
-    for (const auto i : unknowns_.owned())
-      matrix_.add(i, i, 1e-13 * matrix_.diag_element(i));
-    matrix_.compress(VectorOperation::add);
+    matrix_.clear();
+    internal_forces_.add_tangent(weights_, matrix_);
+    ghost_.add_to_matrix(matrix_);
+    contact_.facets().add_to_matrix(matrix_);
+    matrix_.finish();
   }
 
 
@@ -398,8 +374,11 @@ namespace talus
         rhs(unknowns_.first(node) + d) = residual[dim * node + d];
       });
     rhs.compress(VectorOperation::insert);
+    const RigidModes     modes   = free_rigid_modes();
     const LinearSolution outcome = linear_solver.solve(
-      matrix_, solution, rhs, free_rigid_modes(), dim, is_symmetric());
+      {matrix_.matrix(), factorization_, modes, dim, is_symmetric()},
+      solution,
+      rhs);
     Correction result{unknowns_.field(),
                       0.,
                       outcome.n_iterations,

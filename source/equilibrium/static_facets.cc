@@ -5,8 +5,6 @@
 
 #include <deal.II/base/mpi.h>
 
-#include <deal.II/lac/full_matrix.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -312,43 +310,35 @@ namespace talus
 
   namespace
   {
-    /// List the nodes with a weight and their unknowns, node by node.
-    template <int dim, typename ContactPoint>
+    /// List the nodes with a weight, and their indices in the contact point.
+    template <typename ContactPoint>
     void
-    list_unknowns(const ContactPoint                   &point,
-                  const Unknowns<dim>                  &unknowns,
-                  std::vector<unsigned int>            &vertices,
-                  std::vector<types::global_dof_index> &indices)
+    list_nodes(const ContactPoint        &point,
+               std::vector<unsigned int> &nodes,
+               std::vector<unsigned int> &vertices)
     {
+      nodes.clear();
       vertices.clear();
-      indices.clear();
       for (unsigned int v = 0; v < point.share.size(); ++v)
         if (point.stiffness > 0 && point.share[v] > 0)
           {
+            nodes.push_back(point.node[v]);
             vertices.push_back(v);
-            for (unsigned int d = 0; d < dim; ++d)
-              indices.push_back(unknowns.first(point.node[v]) + d);
           }
     }
   } // namespace
 
 
 
-  /// Nodes of a cut cell are coupled even without points in the cell.
   template <int dim>
   void
-  StaticFacets<dim>::add_to_pattern(
-    const Unknowns<dim>               &unknowns,
-    TrilinosWrappers::SparsityPattern &pattern) const
+  StaticFacets<dim>::couple(StiffnessMatrix<dim> &matrix) const
   {
-    std::vector<unsigned int>            vertices;
-    std::vector<types::global_dof_index> indices;
+    std::vector<unsigned int> nodes, vertices;
     for (const ContactPoint &point : points_)
       {
-        list_unknowns(point, unknowns, vertices, indices);
-        unknowns.constraints().add_entries_local_to_global(indices,
-                                                           pattern,
-                                                           true);
+        list_nodes(point, nodes, vertices);
+        matrix.couple(nodes);
       }
   }
 
@@ -356,27 +346,24 @@ namespace talus
 
   template <int dim>
   void
-  StaticFacets<dim>::add_to_matrix(const Unknowns<dim>            &unknowns,
-                                   TrilinosWrappers::SparseMatrix &matrix)
+  StaticFacets<dim>::add_to_matrix(StiffnessMatrix<dim> &matrix)
   {
-    std::vector<unsigned int>            vertices;
-    std::vector<types::global_dof_index> indices;
-    FullMatrix<double>                   block;
+    std::vector<unsigned int> nodes, vertices;
+    FullMatrix<double>        block;
     for (ContactPoint &point : points_)
       {
         const Tensor<2, dim> k = tangent(point);
         point.sticks_first     = false;
         if (!point.is_closed)
           continue;
-        list_unknowns(point, unknowns, vertices, indices);
-        block.reinit(indices.size(), indices.size());
-        for (unsigned int i = 0; i < indices.size(); ++i)
-          for (unsigned int j = 0; j < indices.size(); ++j)
+        list_nodes(point, nodes, vertices);
+        const unsigned int n = dim * nodes.size();
+        block.reinit(n, n);
+        for (unsigned int i = 0; i < n; ++i)
+          for (unsigned int j = 0; j < n; ++j)
             block(i, j) = point.share[vertices[i / dim]] *
                           point.share[vertices[j / dim]] * k[i % dim][j % dim];
-        unknowns.constraints().distribute_local_to_global(block,
-                                                          indices,
-                                                          matrix);
+        matrix.add(nodes, block);
       }
   }
 

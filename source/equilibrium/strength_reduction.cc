@@ -62,7 +62,12 @@ namespace talus
   namespace
   {
     constexpr double fastest_growth = 0.5;
-  }
+
+    // A failure counts from this multiple of the tolerance below the factor.
+    // Halving a bracket of twice the tolerance leaves lengths slightly above
+    // the tolerance, as the tolerance is relative to the lower end.
+    constexpr double nearby = 1.25;
+  } // namespace
 
 
 
@@ -122,7 +127,7 @@ namespace talus
   /// A narrow bracket is not enough: its upper end may have failed because the
   /// reduction from a much lower factor was too large for one trial. The upper
   /// end counts if it was tried from a factor, upper_from_, within the
-  /// tolerance. The slack of 1e-9 is for the round-off of bisection.
+  /// tolerance, up to the factor `nearby`.
   bool
   StrengthReduction::is_done() const
   {
@@ -130,8 +135,7 @@ namespace talus
       return lower_ >= largest_;
     if (lower_ == 0.)
       return upper_ <= min_factor();
-    return is_narrow() &&
-           upper_ - upper_from_ <= (1. + 1e-9) * tolerance_ * lower_;
+    return is_narrow() && upper_ - upper_from_ <= nearby * tolerance_ * lower_;
   }
 
 
@@ -200,7 +204,7 @@ namespace talus
     if (lower_ == 0.)
       return limits;
     limits.n_load_steps = 1;
-    const bool decides  = factor - lower_ <= (1. + 1e-9) * tolerance_ * lower_;
+    const bool decides  = factor - lower_ <= nearby * tolerance_ * lower_;
     limits.smallest_step =
       decides ? std::min(smallest_step_, limits.smallest_step) : smallest_step_;
     return limits;

@@ -70,8 +70,6 @@ namespace talus
 
 
 
-  /// Set up deal.II's constraints with zero lines only: assembly then drops
-  /// rows and columns of held unknowns, which keep their places in the matrix.
   /// Unknowns keep their numbers when a node begins to slip.
   template <int dim>
   void
@@ -81,13 +79,6 @@ namespace talus
     for (unsigned int k = 0; k < active_nodes_.size(); ++k)
       records_[width * std::size_t(active_nodes_[k]) + 1] = held[k];
     exchange_of_records_.copy_to_ghosts(records_.data());
-    constraints_.reinit(relevant_);
-    for (unsigned int node = 0; node < n_nodes_; ++node)
-      if (is_active(node))
-        for (unsigned int d = 0; d < dim; ++d)
-          if (is_constrained(node, d))
-            constraints_.add_line(first(node) + d);
-    constraints_.close();
   }
 
 

@@ -200,24 +200,17 @@ namespace
       return field;
     }
 
-    /// An empty matrix with room for all couplings.
+    /// Make an empty matrix with room for all couplings.
     void
-    make_full(dealii::TrilinosWrappers::SparseMatrix &matrix) const
+    make_full(StiffnessMatrix<dim> &matrix) const
     {
-      // Trilinos' own pattern, as in StaticEquations<dim>::make_pattern().
-      const unsigned int                        n = unknowns.n_global();
-      dealii::TrilinosWrappers::SparsityPattern pattern(
-        unknowns.owned(),
-        unknowns.owned(),
-        unknowns.relevant(),
-        unknowns.communicator());
-      std::vector<dealii::types::global_dof_index> all(n);
-      for (unsigned int i = 0; i < n; ++i)
-        all[i] = i;
-      for (const auto row : unknowns.relevant())
-        pattern.add_entries(row, all.begin(), all.end(), true);
-      pattern.compress();
-      matrix.reinit(pattern);
+      std::vector<unsigned int> nodes;
+      for (unsigned int node = 0; node < unknowns.field().size() / dim; ++node)
+        if (unknowns.is_active(node))
+          nodes.push_back(node);
+      matrix.begin_pattern(unknowns);
+      matrix.couple(nodes);
+      matrix.finish_pattern();
     }
 
     std::vector<double>

@@ -190,16 +190,18 @@ namespace talus
     bool                             is_well_balanced_ = true;
     LinearSolver                     linear_solver_;
 
-    Newton<dim>         newton_;
-    double              load_ = 0;
-    double              step_ = 1;
-    EquilibriumLimits   limits_{};
-    unsigned int        n_steps_    = 0;
-    unsigned int        n_settling_ = 0; ///< steps taken at full load
-    double              imbalance_  = 0;
-    bool                is_found_   = false;
-    bool                is_stopped_ = false;
-    std::string         failure_;
+    Newton<dim>       newton_;
+    double            load_ = 0;
+    double            step_ = 1;
+    EquilibriumLimits limits_{};
+    unsigned int      n_steps_    = 0;
+    unsigned int      n_settling_ = 0; ///< steps taken at full load
+    unsigned int      n_flowing_  = 0; ///< settling steps without success
+    bool        is_partial_ = false;   ///< last settling step removed a part
+    double      imbalance_  = 0;
+    bool        is_found_   = false;
+    bool        is_stopped_ = false;
+    std::string failure_;
     std::vector<double> imbalances_; ///< history at full load [-]
   };
 } // namespace talus

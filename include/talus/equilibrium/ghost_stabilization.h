@@ -2,10 +2,7 @@
 #ifndef talus_equilibrium_ghost_stabilization_h
 #define talus_equilibrium_ghost_stabilization_h
 
-#include <talus/equilibrium/unknowns.h>
-
-#include <deal.II/lac/trilinos_sparse_matrix.h>
-#include <deal.II/lac/trilinos_sparsity_pattern.h>
+#include <talus/equilibrium/stiffness_matrix.h>
 
 #include <vector>
 
@@ -46,13 +43,14 @@ namespace talus
     void
     add_forces(const std::vector<double> &u, std::vector<double> &forces) const;
 
+    /// Couple the nodes of each face in the pattern of @p matrix: the penalty
+    /// may couple nodes beyond the points of either cell.
     void
-    add_to_pattern(const Unknowns<dim>                       &unknowns,
-                   dealii::TrilinosWrappers::SparsityPattern &pattern) const;
+    couple(StiffnessMatrix<dim> &matrix) const;
 
+    /// Add the derivative of the penalty forces.
     void
-    add_to_matrix(const Unknowns<dim>                    &unknowns,
-                  dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+    add_to_matrix(StiffnessMatrix<dim> &matrix) const;
 
     unsigned int
     n_faces() const

@@ -4,9 +4,9 @@
 
 #include <talus/equilibrium/shape_function_cache.h>
 #include <talus/equilibrium/static_problem.h>
+#include <talus/equilibrium/stiffness_matrix.h>
 
 #include <deal.II/lac/full_matrix.h>
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 
 #include <vector>
 
@@ -59,20 +59,18 @@ namespace talus
 
     /// Add the tangent of the last evaluate() to @p matrix.
     void
-    add_tangent(const ShapeFunctionCache<dim>          &weights,
-                const Unknowns<dim>                    &unknowns,
-                dealii::TrilinosWrappers::SparseMatrix &matrix) const;
+    add_tangent(const ShapeFunctionCache<dim> &weights,
+                StiffnessMatrix<dim>          &matrix) const;
 
   private:
     static constexpr unsigned int n_gradients = dim * dim;
 
     struct Scratch
     {
-      std::vector<dealii::Tensor<1, dim>>          mean_gradient;
-      std::vector<double>                          strain;   // B, by rows
-      std::vector<double>                          stressed; // V A B
-      dealii::FullMatrix<double>                   matrix;
-      std::vector<dealii::types::global_dof_index> unknowns;
+      std::vector<dealii::Tensor<1, dim>> mean_gradient;
+      std::vector<double>                 strain;   // B, by rows
+      std::vector<double>                 stressed; // V A B
+      dealii::FullMatrix<double>          matrix;
     };
 
     void

@@ -2,6 +2,8 @@
 #ifndef talus_equilibrium_linear_solver_h
 #define talus_equilibrium_linear_solver_h
 
+#include <talus/equilibrium/lu_factorization.h>
+
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <deal.II/lac/trilinos_sparse_matrix.h>
@@ -27,26 +29,30 @@ namespace talus
 
 
 
+  /// Matrix of a linear system with properties for the solver.
+  struct LinearSystem
+  {
+    const dealii::TrilinosWrappers::SparseMatrix &matrix; ///< N/m
+    LuFactorization  &factorization; ///< of earlier matrices of the pattern
+    const RigidModes &modes;         ///< for multigrid
+    unsigned int      dim;           ///< number of unknowns per node
+    bool symmetric; ///< whether the matrix is symmetric, positive definite
+  };
+
+
+
   /// Solves the linear systems of Newton's method by Trilinos.
   class LinearSolver : public dealii::ParameterAcceptor
   {
   public:
     LinearSolver();
 
-    /// Solve matrix * x = rhs. Collective.
-    /// @param matrix Matrix of the system, N/m.
-    /// @param x Solution, m; overwritten.
-    /// @param rhs Right-hand side, N.
-    /// @param modes Rigid motions for multigrid.
-    /// @param dim Number of unknowns per node.
-    /// @param symmetric Whether the matrix is symmetric and positive definite.
+    /// Solve the system for @p x, m, with the right-hand side @p rhs, N.
+    /// Collective.
     LinearSolution
-    solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-          dealii::TrilinosWrappers::MPI::Vector        &x,
-          const dealii::TrilinosWrappers::MPI::Vector  &rhs,
-          const RigidModes                             &modes,
-          unsigned int                                  dim,
-          bool                                          symmetric) const;
+    solve(const LinearSystem                          &system,
+          dealii::TrilinosWrappers::MPI::Vector       &x,
+          const dealii::TrilinosWrappers::MPI::Vector &rhs) const;
 
     /// Name of the method that solve() uses for @p n_unknowns unknowns.
     std::string

@@ -46,6 +46,13 @@ namespace talus
               first_node_[c + 1] - first_node_[c]};
     }
 
+    /// Same nodes as an array.
+    dealii::ArrayView<const unsigned int>
+    nodes(const unsigned int c) const
+    {
+      return {patch(c).nodes, patch(c).n_nodes};
+    }
+
     /// Value [-] and gradient, 1/m, of the weight of a point at a node of the
     /// patch.
     struct Weight

@@ -6,9 +6,9 @@
 #include <talus/equilibrium/internal_forces.h>
 #include <talus/equilibrium/linear_solver.h>
 #include <talus/equilibrium/static_contact.h>
+#include <talus/equilibrium/stiffness_matrix.h>
 #include <talus/equilibrium/well_balanced_load.h>
 
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_vector.h>
 
 #include <string>
@@ -202,9 +202,10 @@ namespace talus
     WellBalancedLoad<dim>   well_balanced_;
     bool                    is_well_balanced_ = false;
 
-    dealii::TrilinosWrappers::SparseMatrix matrix_;
-    RigidModes                             modes_;
-    std::vector<dealii::Point<dim>>        places_;
+    StiffnessMatrix<dim>            matrix_;
+    LuFactorization                 factorization_;
+    RigidModes                      modes_;
+    std::vector<dealii::Point<dim>> places_;
 
     // Fields at the nodes
     std::vector<double> unbalanced_;    ///< f_ext - E - f_int(0), N

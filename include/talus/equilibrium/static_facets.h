@@ -3,9 +3,9 @@
 #define talus_equilibrium_static_facets_h
 
 #include <talus/equilibrium/static_problem.h>
+#include <talus/equilibrium/stiffness_matrix.h>
 #include <talus/equilibrium/unknowns.h>
 
-#include <deal.II/lac/trilinos_sparse_matrix.h>
 #include <deal.II/lac/trilinos_sparsity_pattern.h>
 
 #include <array>
@@ -50,14 +50,14 @@ namespace talus
       const std::function<double(const dealii::Point<dim> &)> &pressure,
       std::vector<double>                                     &forces) const;
 
+    /// Couple the nodes of each contact point in the pattern of @p matrix:
+    /// nodes of a cut cell are coupled even without points in the cell.
     void
-    add_to_pattern(const Unknowns<dim>                       &unknowns,
-                   dealii::TrilinosWrappers::SparsityPattern &pattern) const;
+    couple(StiffnessMatrix<dim> &matrix) const;
 
     /// Add the negative derivative of the last add_forces() to @p matrix.
     void
-    add_to_matrix(const Unknowns<dim>                    &unknowns,
-                  dealii::TrilinosWrappers::SparseMatrix &matrix);
+    add_to_matrix(StiffnessMatrix<dim> &matrix);
 
     /// Return whether the matrix is always symmetric: only without friction
     /// coefficients.

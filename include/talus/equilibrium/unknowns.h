@@ -7,8 +7,6 @@
 
 #include <deal.II/base/index_set.h>
 
-#include <deal.II/lac/affine_constraints.h>
-
 #include <vector>
 
 namespace talus
@@ -83,12 +81,6 @@ namespace talus
       return records_[width * std::size_t(node) + 3];
     }
 
-    const dealii::AffineConstraints<double> &
-    constraints() const
-    {
-      return constraints_;
-    }
-
     const dealii::IndexSet &
     owned() const
     {
@@ -160,14 +152,13 @@ namespace talus
     // mass, volume.
     static constexpr unsigned int width = 4;
 
-    MPI_Comm                          communicator_ = MPI_COMM_WORLD;
-    unsigned int                      n_nodes_      = 0;
-    std::vector<unsigned int>         active_nodes_;
-    std::vector<double>               records_;
-    dealii::IndexSet                  owned_, relevant_;
-    dealii::AffineConstraints<double> constraints_;
-    NodalExchange<dim>                exchange_of_records_;
-    NodalExchange<dim>                exchange_of_fields_;
+    MPI_Comm                  communicator_ = MPI_COMM_WORLD;
+    unsigned int              n_nodes_      = 0;
+    std::vector<unsigned int> active_nodes_;
+    std::vector<double>       records_;
+    dealii::IndexSet          owned_, relevant_;
+    NodalExchange<dim>        exchange_of_records_;
+    NodalExchange<dim>        exchange_of_fields_;
   };
 } // namespace talus
 

@@ -49,8 +49,8 @@ namespace
                                       unknowns.field(),
                                       forces);
       parts->make_full(matrix);
-      parts->internal_forces.add_tangent(parts->weights, unknowns, matrix);
-      matrix.compress(dealii::VectorOperation::add);
+      parts->internal_forces.add_tangent(parts->weights, matrix);
+      matrix.finish();
       rhs.reinit(unknowns.owned(), unknowns.communicator());
       unknowns.for_each_free_dof(
         [&](const unsigned int node, const unsigned int d) {
@@ -73,13 +73,20 @@ namespace
         in_section("Linear solver", entries));
       dealii::ParameterAcceptor::parse_all_parameters();
       x.reinit(rhs);
-      return solver.solve(matrix, x, rhs, modes, dim, true);
+      return solve(matrix.matrix(), x);
+    }
+
+    LinearSolution
+    solve(const SystemMatrix &a, Vector &x)
+    {
+      return solver.solve({a, factorization, modes, dim, true}, x, rhs);
     }
 
     // Before the parameters are parsed, which the base class does.
     LinearSolver                  solver;
     std::optional<StepParts<dim>> parts;
-    SystemMatrix                  matrix;
+    StiffnessMatrix<dim>          matrix;
+    LuFactorization               factorization;
     Vector                        rhs;
     RigidModes                    modes;
   };
@@ -96,7 +103,7 @@ namespace
     EXPECT_EQ(how.failure, "");
     EXPECT_EQ(how.n_iterations, 0u);
     Vector residual(block.rhs);
-    EXPECT_LT(block.matrix.residual(residual, direct, block.rhs),
+    EXPECT_LT(block.matrix.matrix().residual(residual, direct, block.rhs),
               1e-11 * block.rhs.l2_norm());
     for (const std::string type : {"CG", "GMRES"})
       {
@@ -131,9 +138,86 @@ TEST(LinearSolver, FailuresAreSentences)
         .failure,
       type + " did not solve the linear system in 2 iterations");
   // One unknown that nothing depends on.
-  block.matrix.clear_row(block.rhs.size() - 1);
-  EXPECT_EQ(block.solve("set Type = direct", x).failure,
-            "the matrix is singular");
+  SystemMatrix singular;
+  singular.copy_from(block.matrix.matrix());
+  singular.clear_row(block.rhs.size() - 1);
+  EXPECT_EQ(block.solve("set Type = direct", x).failure, "");
+  EXPECT_EQ(block.solve(singular, x).failure, "the matrix is singular");
+}
+
+
+
+/// The first matrix has large pivots on the diagonal, the second has pivots of
+/// 1e-14 there, with which the solution would be wrong.
+TEST(LuFactorization, FindsNewPivotsWhereTheOldArePoor)
+{
+  const dealii::IndexSet owned = dealii::complete_index_set(2);
+  dealii::TrilinosWrappers::SparsityPattern pattern(owned, MPI_COMM_SELF);
+  for (const unsigned int i : {0, 1})
+    for (const unsigned int j : {0, 1})
+      pattern.add(i, j);
+  pattern.compress();
+  SystemMatrix matrix;
+  matrix.reinit(pattern);
+  const auto set = [&](const double diagonal, const double other) {
+    for (const unsigned int i : {0, 1})
+      {
+        matrix.set(i, i, diagonal);
+        matrix.set(i, 1 - i, other);
+      }
+    matrix.compress(dealii::VectorOperation::insert);
+  };
+  Vector rhs(owned, MPI_COMM_SELF), x(rhs);
+  rhs(0) = 1.;
+  rhs(1) = 2.;
+  LuFactorization factorization;
+  set(2., 1.);
+  ASSERT_TRUE(factorization.solve(matrix, x, rhs));
+  EXPECT_NEAR(x(0), 0., 1e-15);
+  EXPECT_NEAR(x(1), 1., 1e-15);
+  set(1e-14, 1.);
+  ASSERT_TRUE(factorization.solve(matrix, x, rhs));
+  EXPECT_NEAR(x(0), 2., 1e-12);
+  EXPECT_NEAR(x(1), 1., 1e-12);
+  // Singular, and regular again.
+  set(1., 1.);
+  EXPECT_FALSE(factorization.solve(matrix, x, rhs));
+  set(4., 2.);
+  ASSERT_TRUE(factorization.solve(matrix, x, rhs));
+  EXPECT_NEAR(x(1), 0.5, 1e-15);
+}
+
+
+
+/// Held unknowns keep their diagonal entry only, and the other entries do not
+/// depend on which unknowns are held.
+TEST(StiffnessMatrix, HoldsUnknowns)
+{
+  HeldBlock<2> block;
+  auto        &unknowns = block.parts->unknowns;
+  const auto  &held     = block.matrix.matrix();
+  SystemMatrix all;
+  unknowns.constrain(
+    std::vector<unsigned char>(unknowns.active_nodes().size(), 0));
+  StiffnessMatrix<2> free;
+  block.parts->make_full(free);
+  block.parts->internal_forces.add_tangent(block.parts->weights, free);
+  free.finish();
+  all.copy_from(free.matrix());
+  unsigned int n_held = 0;
+  for (const unsigned int a : unknowns.active_nodes())
+    for (const unsigned int b : unknowns.active_nodes())
+      for (unsigned int d = 0; d < 2; ++d)
+        for (unsigned int e = 0; e < 2; ++e)
+          {
+            const bool is_held = (block.grid.faces_of_node(a) & 4) ||
+                                 (block.grid.faces_of_node(b) & 4);
+            const unsigned int i = unknowns.first(a) + d;
+            const unsigned int j = unknowns.first(b) + e;
+            n_held += is_held;
+            EXPECT_EQ(held.el(i, j), is_held && i != j ? 0. : all.el(i, j));
+          }
+  EXPECT_GT(n_held, 0u);
 }
 
 

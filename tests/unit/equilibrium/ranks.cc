@@ -124,9 +124,6 @@ namespace
             EXPECT_EQ(unknowns.is_constrained(node, d), held);
             EXPECT_TRUE(
               unknowns.relevant().is_element(unknowns.first(node) + d));
-            EXPECT_EQ(unknowns.constraints().is_constrained(
-                        unknowns.first(node) + d),
-                      held);
           }
       }
   }

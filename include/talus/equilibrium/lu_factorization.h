@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_equilibrium_lu_factorization_h
+#define talus_equilibrium_lu_factorization_h
+
+#include <deal.II/lac/trilinos_sparse_matrix.h>
+#include <deal.II/lac/trilinos_vector.h>
+
+#include <memory>
+
+namespace talus
+{
+  /// Sparse LU factorization by Trilinos' Amesos (KLU @cite davis2010). The
+  /// matrices of Newton's method differ in their values only: the ordering of
+  /// the unknowns is computed once per pattern, and the pivots of the previous
+  /// matrix are tried first.
+  class LuFactorization
+  {
+  public:
+    LuFactorization();
+    ~LuFactorization();
+
+    /// Forget the last matrix. To be called whenever the pattern changes.
+    void
+    clear();
+
+    /// Factorize @p matrix and solve matrix * @p x = @p rhs. Returns false if
+    /// the matrix is singular; @p x is then undefined. Collective.
+    bool
+    solve(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+          dealii::TrilinosWrappers::MPI::Vector        &x,
+          const dealii::TrilinosWrappers::MPI::Vector  &rhs);
+
+  private:
+    class Amesos;
+    bool
+    solve_with_pivots(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                      dealii::TrilinosWrappers::MPI::Vector        &x,
+                      const dealii::TrilinosWrappers::MPI::Vector  &rhs,
+                      bool                                          old_pivots);
+
+    std::unique_ptr<Amesos> amesos_;
+  };
+} // namespace talus
+
+#endif
