@@ -87,15 +87,37 @@ namespace talus
 
   namespace
   {
-    /// Bound on the distance of a surface from its plane, m. Different normals
-    /// make the vector area smaller than the area. A surface whose normals turn
-    /// by 5 degrees in the cell is at most 1/40 of the cell from the plane.
+    /// Share of the area of a surface that the vector area lacks [-], as the
+    /// normals differ: half the mean square of their angles to the mean normal.
+    template <int dim>
+    double
+    lost_area(const CutSurface<dim> &surface)
+    {
+      return 1. - surface.vector_area.norm() / surface.area;
+    }
+
+
+
+    /// Bound on the distance of a surface from its plane, m. A surface whose
+    /// normals turn by 5 degrees in the cell is at most 1/40 of the cell from
+    /// the plane.
     template <int dim>
     double
     deviation_from_plane(const CutSurface<dim> &surface, const double cell_size)
     {
-      const double lost = 1. - surface.vector_area.norm() / surface.area;
-      return cell_size * (lost < 1e-3 ? 0.025 : 0.4);
+      return cell_size * (lost_area(surface) < 1e-3 ? 0.025 : 0.4);
+    }
+
+
+
+    /// Return whether the normals of a surface turn by less than about a
+    /// degree: a surface of constant curvature is then within 1/200 of the cell
+    /// size of the plane.
+    template <int dim>
+    bool
+    is_flat(const CutSurface<dim> &surface)
+    {
+      return lost_area(surface) < 1.5e-5;
     }
   } // namespace
 
@@ -233,6 +255,7 @@ namespace talus
                  surface.vector_area / surface.vector_area.norm(),
                  surface.area,
                  deviation_from_plane(surface, cell.size),
+                 is_flat(surface),
                  obstacle.maximum_shear_stress(surface.centroid)});
         };
         const auto whole = surfaces_by_direction<dim>(pieces);

@@ -148,14 +148,18 @@ namespace talus
         distance_from_plane(*facet, x) >
           facet->deviation + support_of_box(candidate.half, facet->normal))
       return false;
+    // The distance from a terrain is expensive, and most of the bed is flat
+    // within a cell. An obstacle that moves has left the plane of the facet.
+    const Obstacle<dim> &obstacle = obstacles_[candidate.obstacle];
     const auto [of_centre, normal] =
-      obstacles_[candidate.obstacle].distance_and_normal(x);
+      facet && facet->is_flat && !obstacle.moves()
+        ? std::make_pair(distance_from_plane(*facet, x), facet->normal)
+        : obstacle.distance_and_normal(x);
     const double distance = of_centre - support_of_box(candidate.half, normal);
     if (distance >= 0)
       return false;
-    const Tensor<1, dim> drift =
-      dt * obstacles_[candidate.obstacle].velocity(time + 0.5 * dt);
-    const double inwards = (drift - (x - candidate.place)) * normal;
+    const Tensor<1, dim> drift   = dt * obstacle.velocity(time + 0.5 * dt);
+    const double         inwards = (drift - (x - candidate.place)) * normal;
     if (inwards <= 0)
       return false;
     x += std::min(inwards, -distance) * normal;

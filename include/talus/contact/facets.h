@@ -34,6 +34,8 @@ namespace talus
     double                            area;   ///< m^(dim-1)
     /// Maximum distance of the surface from the plane through the centroid, m.
     double deviation;
+    /// Whether the surface is within 1/200 of the cell size of the plane.
+    bool   is_flat;
     double maximum_shear_stress; ///< Pa
   };
 
