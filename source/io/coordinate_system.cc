@@ -18,7 +18,7 @@ namespace talus
 
 
 
-  // A file or an address in place of a description is not opened.
+  // Files and addresses in place of a description are not opened.
   std::optional<OGRSpatialReference>
   spatial_reference(const std::string &words)
   {

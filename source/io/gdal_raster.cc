@@ -18,11 +18,11 @@ namespace talus
 
   namespace
   {
-    /// Open a file, or a part of one by the name that GDAL gives it.
+    /// Open a file, or a part of a file by GDAL's name for the part.
     GDALDatasetUniquePtr
     open(const std::string &name)
     {
-      // GMT calls its axes x and y, and says no more about them.
+      // GMT names the axes x and y, without further description.
       const char *const options[] = {"IGNORE_XY_AXIS_NAME_CHECKS=YES", nullptr};
       return GDALDatasetUniquePtr(
         GDALDataset::Open(name.c_str(),
@@ -33,8 +33,8 @@ namespace talus
 
 
 
-    /// Return the coordinate system of a file. netCDF may say no more than the
-    /// unit of a coordinate, in an item such as lon#units=degrees_east.
+    /// Return the coordinate system of a file. netCDF may give only the unit of
+    /// a coordinate, in an item such as lon#units=degrees_east.
     std::string
     coordinate_system(GDALDataset &file)
     {
@@ -49,7 +49,7 @@ namespace talus
 
 
 
-    /// One band of a file.
+    /// Single band of a file.
     class GdalBand
     {
     public:
@@ -59,8 +59,8 @@ namespace talus
       Raster
       frame() const;
 
-      /// Read the values row by row from the north: packed numbers as what they
-      /// stand for, NaN where there is no datum.
+      /// Read the values row by row from the north: packed numbers are
+      /// unpacked, and cells without a datum become NaN.
       std::vector<double>
       values(const Raster &frame) const;
 
@@ -103,7 +103,7 @@ namespace talus
                  " bands, where one of heights was expected. Take one out: "
                  "gdal_translate -b 1 IN OUT.tif."));
       band_ = file_->GetRasterBand(1);
-      // As netCDF says it.
+      // netCDF's attribute.
       const char *const sense = band_->GetMetadataItem("positive");
       check(sense == nullptr || std::strcmp(sense, "down") != 0,
             "has depths, positive downwards, where heights were expected. Turn "
@@ -112,8 +112,8 @@ namespace talus
 
 
 
-    /// Open the heights among the rasters that the file has. Their names end
-    /// with that of the variable, as in NETCDF:"gebco.nc":elevation.
+    /// Open the heights among the rasters of the file. The names of the rasters
+    /// end with the name of the variable, as in NETCDF:"gebco.nc":elevation.
     void
     GdalBand::open_part()
     {
@@ -146,8 +146,9 @@ namespace talus
 
 
 
-    /// Of netCDF coordinates GDAL looks at the first, a middle and the last
-    /// spacing only, and where a row is missing the raster would be stretched.
+    /// Check all coordinates of netCDF axes. GDAL compares only the first, a
+    /// middle and the last spacing; the raster would be stretched where a row
+    /// is missing.
     void
     GdalBand::check_axes(const unsigned int n_columns,
                          const unsigned int n_rows) const
@@ -170,8 +171,8 @@ namespace talus
 
 
 
-    // GDAL counts from the outer corner, whatever a file says its values belong
-    // to.
+    // GDAL counts from the outer corner, whether the file gives values at
+    // centres or at corners.
     Raster
     GdalBand::frame() const
     {
@@ -226,7 +227,7 @@ namespace talus
       for (std::size_t i = 0; i < result.size(); ++i)
         if (is_known[i] == 0)
           result[i] = std::numeric_limits<double>::quiet_NaN();
-        else if (is_packed) // else -0 would become 0
+        else if (is_packed) // 1 * -0 + 0 is 0, not -0
           result[i] = scale * result[i] + offset;
       std::array<double, 6> t{};
       file_->GetGeoTransform(t.data());

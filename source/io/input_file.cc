@@ -4,7 +4,7 @@
 
 namespace talus
 {
-  // By value: the list may outlive what made it.
+  // By value: the list may outlive this object.
   void
   InputFile::list_state(StateList &list) const
   {

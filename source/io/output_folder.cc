@@ -14,8 +14,8 @@ namespace talus
   using namespace dealii;
   namespace fs = std::filesystem;
 
-  // All names stand here, and not with those who write the files: what an earlier
-  // run has written this one need not write.
+  // All names are listed here, not with the writers: an earlier run may have
+  // written files that the present run does not write.
   bool
   is_output_name(const std::string &file_name)
   {
@@ -44,8 +44,8 @@ namespace talus
 
 
 
-    /// The files of this type in a folder, or what links lead to, that bear such
-    /// names, with @p ending behind.
+    /// Return the files of @p type in a folder, or the targets of links, that
+    /// are named as outputs followed by @p ending.
     std::vector<fs::path>
     outputs_in(const fs::path     &folder,
                const std::string  &ending = "",
@@ -73,8 +73,9 @@ namespace talus
 
   namespace
   {
-    /// By making one that goes at once: permissions do not tell it of root, nor
-    /// of file systems that take no files, such as /proc.
+    /// Return whether a folder can be written, by making and removing a
+    /// subfolder: permissions are no answer for root, nor on file systems
+    /// without new files, such as /proc.
     bool
     can_hold_folders(const fs::path &folder)
     {
@@ -88,7 +89,7 @@ namespace talus
 
 
 
-  // What is there of the path decides.
+  // Checks the existing part of the path.
   void
   check_can_be_made(const fs::path &folder)
   {
@@ -133,7 +134,8 @@ namespace talus
 
 
 
-    /// Where no run has left its record: nobody knows whose results they are.
+    /// Return an error for results without the record of a run: the owner is
+    /// unknown.
     std::string
     results_without_a_run(const fs::path &folder)
     {
@@ -154,7 +156,7 @@ namespace talus
 
   namespace
   {
-    /// To open a pipe is to wait for who reads it.
+    /// Return an error for pipes: opening a pipe would wait for a reader.
     std::string
     pipe_of_others(const fs::path &folder)
     {

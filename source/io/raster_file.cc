@@ -21,8 +21,8 @@ namespace talus
     void
     check_readable(const std::filesystem::path &file)
     {
-      // Not of a device or a pipe: what is read once is gone, or has no end, and
-      // to open a pipe is to wait for who writes it.
+      // Devices and pipes are refused: content can be read only once, or has no
+      // end, and opening a pipe waits for a writer.
       std::error_code error;
       AssertThrow(std::filesystem::is_regular_file(file, error) &&
                     std::ifstream(file).peek() != EOF,
@@ -34,8 +34,9 @@ namespace talus
 
 
 
-    /// The map of a raster whose format has no place for it: what GIS keep in a
-    /// file of the same name that ends with .prj. Empty if there is none.
+    /// Return the coordinate system of a raster whose format has no place for
+    /// it, from the file of the same name with the ending .prj, as in a GIS.
+    /// Empty if there is none.
     std::string
     system_beside(std::filesystem::path file)
     {
@@ -51,9 +52,9 @@ namespace talus
 
 
 
-    /// A number such as 9.97e36 marks cells without a datum, but not all files
-    /// say so, and it would be taken for a mountain. And squares of coordinates
-    /// must not overflow.
+    /// Refuse implausible numbers. A number such as 9.97e36 may mark cells
+    /// without a datum, without a declaration in the file, and would be taken
+    /// for a mountain. Squares of coordinates must not overflow.
     void
     check_magnitudes(const std::filesystem::path &file, const Raster &raster)
     {
@@ -91,7 +92,7 @@ namespace talus
 
 
 
-    /// Length with one digit that is close to @p size.
+    /// Return @p size rounded to one significant digit.
     double
     rounded(const double size)
     {
@@ -101,8 +102,8 @@ namespace talus
 
 
 
-    /// Return the command that brings a raster to @p map, a code of EPSG, in
-    /// cells of the same size.
+    /// Return the command that projects a raster to @p map, a code of EPSG,
+    /// with the same cell size.
     std::string
     command(const std::filesystem::path &file,
             const Raster                &raster,
@@ -125,7 +126,7 @@ namespace talus
 
 
 
-    /// Return the zone of UTM that the middle of the raster lies in.
+    /// Return the UTM zone at the middle of the raster.
     UtmZone
     zone_of(const Raster &raster)
     {
