@@ -17,14 +17,14 @@ namespace talus
 
   namespace
   {
-    // An axis may have so many pieces, each as long as the pipe is wide.
+    // Maximum number of pieces of an axis, each as long as the pipe is wide.
     constexpr double max_n_pieces = 1e6;
 
-    // The section of a pipe that is crossed at a smaller angle is an ellipse that
-    // a disc cannot stand for.
+    // At smaller angles the section of a pipe is an ellipse that a disc cannot
+    // approximate.
     constexpr double min_angle = 45.; // degrees
 
-    // Ratio of the axes of that ellipse from which on the user is told.
+    // Ratio of the axes of the ellipse above which a remark is given.
     constexpr double round_enough = 1.01;
 
 
@@ -66,7 +66,7 @@ namespace talus
   std::vector<Point<2>>
   PipeParameters<dim>::corners(const Setting &setting) const
   {
-    // Numbers have no letter behind a point.
+    // Numbers have no letter after a point.
     const std::string ending  = std::filesystem::path(route_).extension();
     const bool        is_file = ending.size() > 1 && std::isalpha(ending[1]);
     AssertThrow(!is_file || setting.coordinates == PlanCoordinates::map,

@@ -153,7 +153,7 @@ namespace talus
 
 
 
-  /// The route of a pipe in 2-D may be on the map: its other places are not.
+  /// In 2-D only the route of a pipe may be on the map.
   template <int dim>
   PlaceCoordinates
   ShapeParameters<dim>::coordinates() const
@@ -179,13 +179,13 @@ namespace talus
 
 
 
-  /// Made anew by whoever asks: a shape is cheap, and needs the domain for the
-  /// ends of a prism, which is known only when the mesh is.
+  /// Made anew in each call: a shape is cheap, and the ends of a prism depend
+  /// on the domain, known only after the mesh.
   template <int dim>
   std::unique_ptr<Shape<dim>>
   ShapeParameters<dim>::make(const Box<dim> &domain) const
   {
-    // A section that is listed by name but missing looks the same.
+    // Also reached for a listed section that is missing.
     AssertThrow(!shape_.empty(),
                 ExcUser(text(path("Shape"),
                              " is not given, but 'polygon', 'box', 'ball', "
@@ -244,7 +244,7 @@ namespace talus
 
 
 
-  /// The ends of a prism, which are those of the mesh unless given.
+  /// Return the ends of a prism, by default the ends of the mesh.
   template <int dim>
   std::array<double, 2>
   ShapeParameters<dim>::extent_z(const Box<dim> &domain) const
@@ -375,7 +375,7 @@ namespace talus
 
 
 
-  /// What limits it in plan comes first: the surfaces may not be known beyond.
+  /// Limits in plan come first: the surfaces may be undefined beyond.
   template <int dim>
   std::unique_ptr<Shape<dim>>
   ShapeParameters<dim>::make_layer(const Box<dim> &domain) const
@@ -411,9 +411,9 @@ namespace talus
 
 
 
-  /// Soil that the mesh does not reach up to would be left out without a word,
-  /// other than at its bottom, where layers may go down for ever. Looked for at
-  /// some places of the top face.
+  /// Soil above the top of the mesh would be left out silently. (Below the mesh
+  /// soil may be left out, because layers may be endless.) Checked at some
+  /// places of the top face.
   template <int dim>
   void
   ShapeParameters<dim>::check_top(const Shape<dim> &layer,
