@@ -41,8 +41,9 @@ namespace talus
 
   namespace
   {
-    /// Throw ExcUser if a column of accelerations does nothing, or lets the ground
-    /// jump into motion at @p begin, s of the run, with its first value @p first.
+    /// Throw ExcUser if a column of accelerations has no effect, or lets the
+    /// ground jump into motion at time @p begin of the run, s, with the first
+    /// value @p first.
     void
     check_accelerations(const std::string           &column,
                         const double                 factor,
@@ -74,9 +75,9 @@ namespace talus
 
 
 
-  /// Reads the table. One that begins after the start of the run must begin
-  /// with zeros: outside of the table the ground rests, so that it would else
-  /// jump. A table that ends with the ground in acceleration is not refused.
+  /// A table that begins after the start of the run must begin with zeros: the
+  /// ground rests outside of the table, and would jump otherwise. The final
+  /// acceleration of a table may be nonzero.
   template <int dim>
   void
   GroundMotion<dim>::prepare(const double end_time)
@@ -94,7 +95,7 @@ namespace talus
                                            "gravity factor [-]"};
     const std::filesystem::path path    = folder_ / file_;
     table_ = std::make_unique<TimeTable>(path, columns);
-    // A column that would be ignored is an error: the user expects it to act.
+    // A column without effect is an error: the user expects an effect.
     AssertThrow(dim == 3 || !table_->has(across),
                 ExcUser("The table '" + path.string() + "' has a column '" +
                         columns[across] +
@@ -110,7 +111,7 @@ namespace talus
                             begin,
                             table_->value(column, table_->first_time()),
                             path);
-    // Gravity keeps its outermost values.
+    // Gravity is constant outside of the table.
     AssertThrow(table_->has(gravity) ||
                   (begin < end_time && start_time_ + table_->last_time() > 0.),
                 ExcUser(text("The table '",
@@ -128,8 +129,9 @@ namespace talus
 
 
 
+  /// Return the acceleration of the ground, m/s^2, at time @p t of the run.
   /// Zero outside of the table, where interpolation would keep the outermost
-  /// value. Acceleration of the ground, m/s^2, at the time @p t of the run.
+  /// value.
   template <int dim>
   double
   GroundMotion<dim>::component(const Column column, const double t) const
@@ -143,9 +145,9 @@ namespace talus
 
 
 
-  /// Records are horizontal and vertical, the mesh is turned by the slope
-  /// angle: from the one into the other axes by a rotation, a_x = a_h cos - a_v
-  /// sin and a_y = a_h sin + a_v cos (doc/method.md, section 11).
+  /// Records are horizontal and vertical, and the mesh is turned by the slope
+  /// angle: a_x = a_h cos - a_v sin and a_y = a_h sin + a_v cos (doc/method.md,
+  /// section 11).
   template <int dim>
   Tensor<1, dim>
   GroundMotion<dim>::acceleration(const double t, const double angle) const
@@ -163,8 +165,7 @@ namespace talus
 
 
 
-  /// Unlike accelerations it keeps its outermost values: gravity does not go
-  /// away.
+  /// Unlike accelerations, gravity keeps the outermost values.
   template <int dim>
   double
   GroundMotion<dim>::gravity_factor(const double t) const

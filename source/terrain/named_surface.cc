@@ -82,8 +82,8 @@ namespace talus
 
   namespace
   {
-    /// Throw ExcUser if the line through @p corners in the plan turns back or
-    /// meets itself: then two places x of the section lie at one of the map.
+    /// Throw ExcUser if the line through @p corners in plan turns back or meets
+    /// itself: two places x of the section would lie at one place of the map.
     void
     check_section(const std::string &path, const std::vector<Point<2>> &corners)
     {
@@ -122,7 +122,7 @@ namespace talus
     for (const auto &corner : Utilities::split_string_list(section_, ';'))
       {
         const auto numbers = Utilities::split_string_list(corner, ',');
-        // Squares of larger ones would overflow.
+        // Squares of larger numbers would overflow.
         const Patterns::Double number(-1e9, 1e9);
         AssertThrow(
           numbers.size() == 2 && number.match(numbers[0]) &&
@@ -176,7 +176,7 @@ namespace talus
 
 
 
-  /// Projected, if there is a map to bring it to.
+  /// Read the raster, and project the raster if there is a map.
   template <int dim>
   Raster
   NamedSurface<dim>::read_file(const std::filesystem::path &file) const

@@ -43,7 +43,7 @@ namespace talus
 
 
 
-    /// The words of an expression: names of surfaces among them.
+    /// Return the words of an expression, with names of surfaces among them.
     std::set<std::string>
     words_of(const std::string &expression)
     {
@@ -62,8 +62,8 @@ namespace talus
 
 
 
-    /// In expressions a name must be one word, and not one that means something
-    /// else.
+    /// Check a name: in expressions a name must be a single word without
+    /// another meaning.
     void
     check_name(const std::string &name)
     {
@@ -81,7 +81,7 @@ namespace talus
 
 
 
-  // In the order in which they are listed, so that nothing goes in circles.
+  // In the order of the list, without circular references.
   template <int dim>
   void
   Surfaces<dim>::prepare(const Constants             &constants,
@@ -190,7 +190,7 @@ namespace talus
                  map(),
                  path + ": the line of '" + file + "'",
                  "`Projection` of a surface");
-    // The log asks again for what it says of the route.
+    // The log reads a route again.
     std::string name = "route " + file;
     std::replace(name.begin(), name.end(), '/', ' ');
     if (std::none_of(routes_.begin(),
