@@ -104,8 +104,8 @@ namespace talus
 
 
 
-  // The criterion is stricter in smaller cells: if no point violates it in
-  // cells of this size, no point violates it in larger cells.
+  // The criterion is stricter in smaller cells: if no point exceeds the
+  // threshold in cells of this size, no point does in larger cells.
   template <int dim>
   bool
   Splitter<dim>::may_exceed(const Points<dim> &points,
