@@ -65,16 +65,17 @@ namespace talus
                                             const std::vector<Named> &others)
     : others_(others)
   {
-    AssertThrow(others.size() <= n_others,
-                ExcUser(text(path,
-                             " = '",
-                             expression,
-                             "' names ",
-                             others.size(),
-                             " surfaces, but at most ",
-                             n_others,
-                             " may stand in one expression. Give a part of it "
-                             "a name of its own in the section Surfaces.")));
+    AssertThrow(
+      others.size() <= n_others,
+      ExcUser(text(path,
+                   " = '",
+                   expression,
+                   "' names ",
+                   others.size(),
+                   " surfaces, but at most ",
+                   n_others,
+                   " are possible in an expression. Define a part of the "
+                   "expression as a named surface in the section Surfaces.")));
     expression_ = std::make_unique<Expression<3>>(
       path, expression, 1, constants, variables<dim>(others));
   }

@@ -204,13 +204,13 @@ namespace talus
       for (std::size_t v = 1; v + 1 < vertices.size(); ++v)
         append(vertices[v]);
       append(beyond(vertices[vertices.size() - 2], vertices.back()));
-      AssertThrow(bg::is_simple(line),
-                  ExcUser(text(name,
-                               " form a line that crosses itself, or would if "
-                               "its first and last edges went on for ever, as "
-                               "those of an open polygon do. List them in "
-                               "order along the surface, with the solid on the "
-                               "right.")));
+      AssertThrow(
+        bg::is_simple(line),
+        ExcUser(text(name,
+                     " form a line that crosses itself, possibly beyond the "
+                     "ends: the first and last edges of an open polygon are "
+                     "endless. List the vertices in order along the surface, "
+                     "with the solid on the right.")));
     }
 
 

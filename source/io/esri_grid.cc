@@ -164,14 +164,15 @@ namespace talus
       for (const std::string &name : names)
         if (const auto found = header.find(name); found != header.end())
           return found->second;
-      AssertThrow(false,
-                  ExcUser(text("The raster '",
-                               file.string(),
-                               "' has no line with '",
-                               names[0],
-                               "', which an Esri ASCII grid needs. Add it, or "
-                               "give a file of that format, as gdal_translate "
-                               "-of AAIGrid makes it from others.")));
+      AssertThrow(
+        false,
+        ExcUser(
+          text("The raster '",
+               file.string(),
+               "' has no line with '",
+               names[0],
+               "', which an Esri ASCII grid needs. Add the line, or "
+               "convert the raster: gdal_translate -of AAIGrid IN OUT.asc.")));
       return 0.;
     }
 

@@ -64,11 +64,10 @@ namespace talus
       if (std::filesystem::equivalent(path, input, ignored))
         return text("The run would write '",
                     path.string(),
-                    "', but that is '",
+                    "', which is also the input '",
                     input.string(),
-                    "', which it reads. Choose another folder with "
-                    "Output/Folder or --output, or give the input another "
-                    "name.");
+                    "'. Choose another folder with Output/Folder or --output, "
+                    "or give the input another name.");
     return "";
   }
 
@@ -242,8 +241,8 @@ namespace talus
                         : text("has only ", size, " bytes"),
                   ", but it had ",
                   n_bytes_,
-                  " bytes at the checkpoint. Put back the file that belongs to "
-                  "the checkpoint, or start the run anew.");
+                  " bytes at the checkpoint. Restore the file of the "
+                  "checkpoint, or start the run anew.");
 
     // Another version of talus may have other columns.
     std::ifstream file(path);
@@ -256,8 +255,8 @@ namespace talus
         std::getline(columns, found, ',');
         if (found != name)
           return what + "has a column '" + found + "' where '" + name +
-                 "' was expected. Resume with the version of talus that wrote "
-                 "it, or start the run anew.";
+                 "' was expected. Resume with the version of talus that "
+                 "wrote the file, or start the run anew.";
       }
     return "";
   }
@@ -315,11 +314,12 @@ namespace talus
   CsvFile::flush()
   {
     AssertThrow(n_bytes_ == 0 || !has_lost(path_, n_bytes_),
-                ExcUser("The file '" + path_.string() +
-                        "', into which the run writes, was removed or cut "
-                        "short by someone else, so that its results are not "
-                        "complete. Put back what is missing and go on with "
-                        "--resume, or start anew with --overwrite."));
+                ExcUser(
+                  "The file '" + path_.string() +
+                  "', into which the run writes, was removed or cut short by "
+                  "another program: the results are not complete. Restore "
+                  "the missing part and continue with --resume, or start "
+                  "anew with --overwrite."));
     errno = 0;
     file_.flush();
     AssertThrow(file_, ExcUser(failed_write(path_)));

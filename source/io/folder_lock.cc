@@ -63,12 +63,11 @@ namespace talus
     std::string
     lock_of_others(const std::filesystem::path &path)
     {
-      return text(
-        "The output folder '",
-        path.parent_path().string(),
-        "' holds a 'lock' that no run has written, and this one would "
-        "write over it. Move it, or choose another folder with "
-        "Output/Folder or --output.");
+      return text("The output folder '",
+                  path.parent_path().string(),
+                  "' holds a file 'lock' that no run has written, and this "
+                  "run would write over the file. Move the file, or choose "
+                  "another folder with Output/Folder or --output.");
     }
 
 
@@ -80,8 +79,8 @@ namespace talus
                   path.parent_path().string(),
                   "' belongs to another run, which runs ",
                   owner.empty() ? "somewhere" : owner,
-                  ". Wait until that has ended, or choose another folder "
-                  "with Output/Folder or --output.");
+                  ". Wait for the end of the other run, or choose another "
+                  "folder with Output/Folder or --output.");
     }
 
 

@@ -100,8 +100,8 @@ namespace talus
       check(file_->GetRasterCount() == 1,
             text("has ",
                  file_->GetRasterCount(),
-                 " bands, where one of heights was expected. Take one out: "
-                 "gdal_translate -b 1 IN OUT.tif."));
+                 " bands, where one band of heights was expected. Extract a "
+                 "band: gdal_translate -b 1 IN OUT.tif."));
       band_ = file_->GetRasterBand(1);
       // netCDF's attribute.
       const char *const sense = band_->GetMetadataItem("positive");
@@ -139,9 +139,9 @@ namespace talus
       check(false,
             text("has no raster of heights, but ",
                  names,
-                 ", where one, or one named elevation, z or Band1, was "
-                 "expected. Copy it to a file of its own: gdal_translate "
-                 "'NETCDF:\"IN.nc\":NAME' OUT.tif."));
+                 ", where a single raster, or a raster named elevation, z "
+                 "or Band1, was expected. Copy the heights to a separate "
+                 "file: gdal_translate 'NETCDF:\"IN.nc\":NAME' OUT.tif."));
     }
 
 
@@ -164,8 +164,8 @@ namespace talus
             double     first = 0., step = 0.;
             check(values == nullptr || values->IsRegularlySpaced(first, step),
                   "has coordinates '" + axis->GetName() +
-                    "' that are not evenly spaced. Bring it to an even raster "
-                    "by gdalwarp, or add the rows that are missing.");
+                    "' that are not evenly spaced. Resample the raster by "
+                    "gdalwarp, or add the missing rows.");
           }
     }
 
@@ -178,8 +178,8 @@ namespace talus
     {
       std::array<double, 6> t{};
       check(file_->GetGeoTransform(t.data()) == CE_None,
-            "does not say where it lies on the map, by cells that are evenly "
-            "spaced. Write it anew with its georeference: gdal_translate "
+            "has no georeference of evenly spaced cells on the map. "
+            "Write the raster anew with a georeference: gdal_translate "
             "-a_ullr WEST NORTH EAST SOUTH IN OUT.tif.");
       check(t[2] == 0. && t[4] == 0. && t[1] > 0. && t[5] != 0.,
             "lies askew on the map, where rows from west to east were "

@@ -88,15 +88,15 @@ namespace talus
   void
   check_geotiff(const std::string &coordinate_system)
   {
-    AssertThrow(coordinate_system.empty() ||
-                  spatial_reference(coordinate_system),
-                ExcUser(text("The coordinate system of the raster, '",
-                             coordinate_system.substr(0, 60),
-                             coordinate_system.size() > 60 ? "..." : "",
-                             "', is not known to GDAL, so that no GeoTIFF can "
-                             "be written on it. Correct it in the raster or "
-                             "the .prj file beside it, or set 'Maps/Write "
-                             "GeoTIFF' to false.")));
+    AssertThrow(
+      coordinate_system.empty() || spatial_reference(coordinate_system),
+      ExcUser(text("The coordinate system of the raster, '",
+                   coordinate_system.substr(0, 60),
+                   coordinate_system.size() > 60 ? "..." : "",
+                   "', is not known to GDAL: no GeoTIFF can be written. "
+                   "Correct the coordinate system in the raster or the .prj "
+                   "file beside the raster, or set 'Maps/Write GeoTIFF' to "
+                   "false.")));
   }
 
 

@@ -120,16 +120,16 @@ namespace talus
         fs::symlink_status(record).type() != fs::file_type::not_found;
       if (!is_there || is_run_record(record))
         return "";
-      return text(
-        "The output folder '",
-        record.parent_path().string(),
-        "' holds a file 'parameters.prm' that no run has written or "
-        "somebody has changed, and this run would write over it. Move "
-        "it",
-        beginning == Beginning::resumed
-          ? ", and go on with it or another parameter file."
-          : ", or choose another folder with Output/Folder or "
-            "--output.");
+      return text("The output folder '",
+                  record.parent_path().string(),
+                  "' holds a file 'parameters.prm' that no run has written "
+                  "or somebody has changed, and this run would write over "
+                  "the file. Move the file",
+                  beginning == Beginning::resumed
+                    ? ", and resume with the moved file or another parameter "
+                      "file."
+                    : ", or choose another folder with Output/Folder or "
+                      "--output.");
     }
 
 
@@ -146,9 +146,10 @@ namespace talus
                   folder.string(),
                   "' holds '",
                   found.front().string(),
-                  "', which is named as the output of a run, but no "
-                  "'parameters.prm' of one, so that it may be yours. Move it, "
-                  "or choose another folder with Output/Folder or --output.");
+                  "', named like the output of a run, but no "
+                  "'parameters.prm' of a run: the file may be yours. Move "
+                  "the file, or choose another folder with Output/Folder or "
+                  "--output.");
     }
   } // namespace
 
@@ -168,8 +169,9 @@ namespace talus
                   folder.string(),
                   "' holds a pipe '",
                   found.front().string(),
-                  "', where the run writes a file of that name. Remove it, or "
-                  "choose another folder with Output/Folder or --output.");
+                  "', where the run writes a file of the same name. Remove "
+                  "the pipe, or choose another folder with Output/Folder or "
+                  "--output.");
     }
   } // namespace
 

@@ -64,19 +64,20 @@ namespace talus
                                      return std::abs(height) > 1e6;
                                    });
       const std::size_t i  = it - raster.values.begin();
-      AssertThrow(it == raster.values.end(),
-                  ExcUser(text("The raster '",
-                               file.string(),
-                               "' has the height ",
-                               *it,
-                               " m in row ",
-                               i / raster.n_columns + 1,
-                               ", column ",
-                               i % raster.n_columns + 1,
-                               ". If that marks cells without a datum, say so "
-                               "in the head of the file: nodata_value ",
-                               *it,
-                               ".")));
+      AssertThrow(
+        it == raster.values.end(),
+        ExcUser(text("The raster '",
+                     file.string(),
+                     "' has the height ",
+                     *it,
+                     " m in row ",
+                     i / raster.n_columns + 1,
+                     ", column ",
+                     i % raster.n_columns + 1,
+                     ". If the number marks cells without a datum, declare the "
+                     "mark in the head of the file: nodata_value ",
+                     *it,
+                     ".")));
       const double farthest = std::max({std::abs(raster.west),
                                         std::abs(raster.south),
                                         raster.n_columns * raster.dx,
@@ -172,22 +173,24 @@ namespace talus
     const std::string target = map.empty() ? zone.epsg_code() : map;
     AssertThrow(
       false,
-      ExcUser(text(
-        "The raster '",
-        file.string(),
-        unit == MapUnit::other ? "' is not in metres" : "' is in degrees",
-        ": its cells are ",
-        raster.dx,
-        " wide, and it reaches from ",
-        raster.west,
-        " to ",
-        raster.west + raster.n_columns * raster.dx,
-        ". A map in metres was expected. ",
-        is_built_with_gdal()
-          ? "Set `Projection` = " + zone.name() + ", or project it yourself: "
-          : "Project it yourself, and remove a `Projection` (this talus was "
-            "built without GDAL, which would follow that entry): ",
-        command(file, raster, target),
-        ".")));
+      ExcUser(
+        text("The raster '",
+             file.string(),
+             unit == MapUnit::other ? "' is not in metres" : "' is in degrees",
+             ": its cells are ",
+             raster.dx,
+             " wide, and it reaches from ",
+             raster.west,
+             " to ",
+             raster.west + raster.n_columns * raster.dx,
+             ". A map in metres was expected. ",
+             is_built_with_gdal()
+               ? "Set `Projection` = " + zone.name() +
+                   ", or project the raster yourself: "
+               : "Project the raster yourself, and remove a `Projection` "
+                 "(this talus was built without GDAL, which the entry "
+                 "needs): ",
+             command(file, raster, target),
+             ".")));
   }
 } // namespace talus

@@ -55,12 +55,12 @@ namespace talus
             IndexEntry         entry;
             std::istringstream words(line);
             words >> entry.time >> entry.file;
-            AssertThrow(line[0] != ' ' && words,
-                        ExcUser("The list '" + name +
-                                "' of the checkpoint has '" + line +
-                                "' where the time and the name of a file were "
-                                "expected. Remove this checkpoint so that the "
-                                "one before it is used."));
+            AssertThrow(
+              line[0] != ' ' && words,
+              ExcUser(
+                "The list '" + name + "' of the checkpoint has '" + line +
+                "' where the time and the name of a file were expected. "
+                "Remove this checkpoint, to use the previous checkpoint."));
             entries_.push_back(entry);
           }
     };

@@ -26,23 +26,24 @@ namespace talus
     add_parameter("Points per cell and axis",
                   points_per_cell_,
                   "Number of material points along each axis of a cell: one "
-                  "number for all axes, or one for each, separated by commas.",
+                  "number for all axes, or one number per axis, separated by "
+                  "commas.",
                   this->prm,
                   Patterns::List(Patterns::Integer(1, 16), 1, dim));
     add_parameter("Filling",
                   filling_,
-                  "'clipped': boxes of points cut by the surface of the body; "
-                  "the points lie at the centroids of what is left, and the "
-                  "mass is that of the shape. 'centres': whole boxes, those "
-                  "whose centre lies in the body, so that its surface is a "
-                  "staircase and its volume right to the size of a point.",
+                  "'clipped': boxes of points are cut by the surface of the "
+                  "body; points lie at the centroids of the parts inside, "
+                  "and the mass equals the mass of the shape. 'centres': "
+                  "whole boxes with centres in the body; the surface is a "
+                  "staircase, and the volume accurate to the size of a point.",
                   this->prm,
                   Patterns::Selection("clipped|centres"));
     add_parameter("Cut by obstacles",
                   cut_by_obstacles_,
-                  "Whether what of the body lies inside of obstacles is "
-                  "removed, so that it is filled down to them. false: that is "
-                  "an error.");
+                  "true: parts of the body inside obstacles are removed, and "
+                  "the body is filled down to the obstacles. false: a body "
+                  "inside an obstacle is an error.");
   }
 
 
@@ -289,7 +290,7 @@ namespace talus
                   name,
                   "', ",
                   100. * lost / uncut,
-                  " % of it: no soil is put into them.");
+                  " % of the body: no soil is put into obstacles.");
     }
   } // namespace
 
@@ -319,7 +320,7 @@ namespace talus
                                bytes / 1e9,
                                " GB of memory on each rank, where ",
                                grid.memory_per_rank() / 1e9,
-                               " GB are to be had. ",
+                               " GB are available. ",
                                fewer_points_advice)));
     }
   } // namespace

@@ -131,9 +131,9 @@ namespace talus
                body.n_cells,
                " cells of ",
                body.cell_size,
-               " m thick where it is thickest, less than two: its top and its "
-               "base move with the same nodes, so that it hardly shears. Cells "
-               "of ",
+               " m thick where it is thickest, less than two: top and "
+               "base move with the same nodes, and the body hardly "
+               "shears. Cells of ",
                body.n_cells / n_cells_to_shear * body.cell_size,
                " m or less there, by 'Grid/Cell size' or 'Grid/Refinement "
                "boxes', resolve it."));

@@ -103,7 +103,7 @@ namespace talus
                                n_points,
                                " points, which take more than the ",
                                memory / 1e9,
-                               " GB of memory that are to be had. ",
+                               " GB of available memory. ",
                                fewer_points_advice)));
     }
   } // namespace

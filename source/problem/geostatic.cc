@@ -188,12 +188,12 @@ namespace talus
                             "/Initial displacement', too, and the weight above "
                             "a point is taken without displacement. Remove one "
                             "of the two."));
-      AssertThrow(gravity.norm() > 0.,
-                  ExcUser("'Bodies/" + name +
-                          "/K0' is given, but there is no gravity at t = 0, so "
-                          "that the soil has no weight. Set 'Gravity/Ramp "
-                          "time' to 0 and 'Gravity/Magnitude' to more than 0, "
-                          "or remove the entry."));
+      AssertThrow(
+        gravity.norm() > 0.,
+        ExcUser("'Bodies/" + name +
+                "/K0' is given, but there is no gravity at t = 0, and the "
+                "soil has no weight. Set 'Gravity/Ramp time' to 0 and "
+                "'Gravity/Magnitude' to more than 0, or remove the entry."));
     }
 
 
@@ -272,9 +272,9 @@ namespace talus
                   " of its points: the shear stress is up to ",
                   std::setprecision(6),
                   ratio,
-                  " times the strength. There it is returned to the strength "
-                  "in the first steps, and the body starts to move. A slope "
-                  "that is to be at rest needs more strength or a 'Bodies/",
+                  " times the strength. The first steps return the stress to "
+                  "the strength, and the body starts to move. A slope at "
+                  "rest needs more strength or a 'Bodies/",
                   name,
                   "/K0' closer to 1.");
     }

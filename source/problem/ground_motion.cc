@@ -16,23 +16,25 @@ namespace talus
   {
     add_parameter("File",
                   file_,
-                  "CSV file of what the ground does in time, its path from the "
-                  "folder of the parameter file; empty for none. The first "
-                  "line names the columns: 'time [s]' and any of 'horizontal "
-                  "[m/s^2]' (acceleration of the ground, positive down the "
-                  "slope), 'vertical [m/s^2]' (upwards), in 3-D 'across "
-                  "[m/s^2]' (along z), and 'gravity factor [-]', which gravity "
-                  "is multiplied with. Linear between the rows; outside of "
-                  "them accelerations are zero and gravity stays.");
+                  "CSV file with the motion of the ground in time, with a "
+                  "path from the folder of the parameter file; empty for "
+                  "none. The first line names the columns: 'time [s]' and "
+                  "any of 'horizontal [m/s^2]' (acceleration of the ground, "
+                  "positive down the slope), 'vertical [m/s^2]' (upwards), "
+                  "in 3-D 'across [m/s^2]' (along z), and 'gravity factor "
+                  "[-]' (multiplier of gravity). Linear between the rows; "
+                  "before and after the rows accelerations are zero and "
+                  "gravity is constant.");
     add_parameter("Start time",
                   start_time_,
-                  "Time of the run at which that of the table is zero [s].",
+                  "Time of the run at which the time of the table is zero "
+                  "[s].",
                   this->prm,
                   Patterns::Double());
     add_parameter("Factor",
                   factor_,
-                  "What the accelerations of the table are multiplied with "
-                  "[-], to scale a record.",
+                  "Multiplier of the accelerations of the table [-], to "
+                  "scale a record.",
                   this->prm,
                   Patterns::Double());
   }
@@ -52,24 +54,25 @@ namespace talus
                         const std::filesystem::path &table)
     {
       AssertThrow(factor != 0.,
-                  ExcUser("'Ground motion/Factor' is 0, so that the "
-                          "accelerations of the table '" +
-                          table.string() +
-                          "' do nothing. Give another factor, or remove their "
-                          "columns."));
-      AssertThrow(begin <= 0. || first == 0.,
-                  ExcUser(text("The table '",
-                               table.string(),
-                               "' begins at t = ",
-                               begin,
-                               " s of the run with ",
-                               factor * first,
-                               " m/s^2 in the column '",
-                               column,
-                               "', so that the ground would jump into "
-                               "motion. Put a row with zeros before it, or "
-                               "let it begin with the run ('Ground "
-                               "motion/Start time').")));
+                  ExcUser(
+                    "'Ground motion/Factor' is 0: the accelerations of the "
+                    "table '" +
+                    table.string() +
+                    "' have no effect. Give another factor, or remove the "
+                    "columns of accelerations."));
+      AssertThrow(
+        begin <= 0. || first == 0.,
+        ExcUser(text("The table '",
+                     table.string(),
+                     "' begins at t = ",
+                     begin,
+                     " s of the run with ",
+                     factor * first,
+                     " m/s^2 in the column '",
+                     column,
+                     "': the ground would jump into motion. Insert a row with "
+                     "zeros before the first row, or let the table begin with "
+                     "the run ('Ground motion/Start time').")));
     }
   } // namespace
 
@@ -84,9 +87,10 @@ namespace talus
   {
     table_.reset();
     AssertThrow(!file_.empty() || (start_time_ == 0. && factor_ == 1.),
-                ExcUser("The section 'Ground motion' has entries, but 'Ground "
-                        "motion/File' is empty, so that the ground rests. Give "
-                        "a table or remove the section."));
+                ExcUser(
+                  "The section 'Ground motion' has entries, but 'Ground "
+                  "motion/File' is empty, and the ground rests. Give a table "
+                  "or remove the section."));
     if (file_.empty())
       return;
     std::vector<std::string>    columns = {"horizontal [m/s^2]",

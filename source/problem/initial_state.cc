@@ -50,37 +50,36 @@ namespace talus
     : ParameterAcceptor(section)
     , section_(section)
   {
-    add_parameter(
-      "Initial displacement",
-      displacement_,
-      "Expressions in x, y, (z,) t for the components of the displacement at "
-      "t = 0, separated by semicolons [m]; empty for none. x, y, z are the "
-      "place without it, in all initial fields. Deformation gradient and boxes "
-      "follow, and with hyperelastic laws the stress.");
-    add_parameter(
-      "Initial velocity",
-      velocity_,
-      "Expressions in x, y, (z,) t for the components of the "
-      "velocity, separated by semicolons [m/s]; empty for rest. t is the "
-      "time it belongs to, see "
-      "'Initial velocity time'.");
+    add_parameter("Initial displacement",
+                  displacement_,
+                  "Expressions in x, y, (z,) t for the components of the "
+                  "displacement at t = 0, separated by semicolons [m]; empty "
+                  "for none. x, y, z are the place before the displacement, "
+                  "in all initial fields. Deformation gradient and boxes are "
+                  "set accordingly, and with hyperelastic laws the stress.");
+    add_parameter("Initial velocity",
+                  velocity_,
+                  "Expressions in x, y, (z,) t for the components of the "
+                  "velocity, separated by semicolons [m/s]; empty for rest. "
+                  "t is the time of the velocity, see 'Initial velocity "
+                  "time'.");
     add_parameter(
       "Initial stress",
       stress_,
       "Expressions in x, y, (z,) t for the Cauchy stress, tension "
       "positive [Pa]: in 2-D xx; yy; zz; xy, in 3-D xx; yy; zz; xy; "
       "xz; yz. Empty for none. Only for laws in rate form.");
-    add_parameter(
-      "K0",
-      K0_,
-      "Coefficient of earth pressure at rest [-]: start with the stress of "
-      "ground at rest under the weight of all that lies above, along y, with "
-      "stresses along the layer of K0 times that across it and, on a slope, "
-      "the shear stress of an infinite slope. Layers follow the ground: the "
-      "bottom of the mesh, or a seabed that is an obstacle. Empty: without. "
-      "Only for laws in rate form.",
-      this->prm,
-      Patterns::List(Patterns::Double(0.), 0, 1));
+    add_parameter("K0",
+                  K0_,
+                  "Coefficient of earth pressure at rest [-]: start with the "
+                  "stress of ground at rest under the weight of all soil "
+                  "above, along y. Stresses along the layer are K0 times the "
+                  "stress across the layer; on a slope the shear stress of "
+                  "an infinite slope is added. Layers follow the ground: the "
+                  "bottom of the mesh, or a seabed that is an obstacle. "
+                  "Empty: no such stress. Only for laws in rate form.",
+                  this->prm,
+                  Patterns::List(Patterns::Double(0.), 0, 1));
   }
 
 
@@ -107,13 +106,13 @@ namespace talus
                              path("K0"),
                              " are given, but a body starts with one stress. "
                              "Remove one of the two.")));
-    AssertThrow((stress_.empty() && K0_.empty()) || !law.is_hyperelastic(),
-                ExcUser(text(path(K0_.empty() ? "Initial stress" : "K0"),
-                             " is given, but the stress of the body's material "
-                             "follows from its deformation alone. Remove it, "
-                             "prescribe 'Initial displacement', or choose a "
-                             "law in rate form ('linear elastic', 'von "
-                             "Mises').")));
+    AssertThrow(
+      (stress_.empty() && K0_.empty()) || !law.is_hyperelastic(),
+      ExcUser(text(path(K0_.empty() ? "Initial stress" : "K0"),
+                   " is given, but the stress of the body's material follows "
+                   "from the deformation alone. Remove the entry, prescribe "
+                   "'Initial displacement', or choose a law in rate form "
+                   "('linear elastic', 'von Mises').")));
   }
 
 

@@ -103,29 +103,30 @@ namespace talus
         }
     const std::string section = "Bodies/" + body.name();
     AssertThrow(n_places == 0 || largest > thickness_of_round_off * cell_size,
-                ExcUser(text("The layer '",
-                             body.name(),
-                             "' has no thickness: '",
-                             section,
-                             "/Upper surface' is at most ",
-                             largest,
-                             " m above '",
-                             section,
-                             "/Lower surface', where soil needs room between "
-                             "the two. Correct one of them.")));
+                ExcUser(
+                  text("The layer '",
+                       body.name(),
+                       "' has no thickness: '",
+                       section,
+                       "/Upper surface' is at most ",
+                       largest,
+                       " m above '",
+                       section,
+                       "/Lower surface', without space for soil in between. "
+                       "Correct one of the surfaces.")));
     if (n_crossed == 0)
       return "";
     return text(std::setprecision(4),
                 "The lower surface of the layer '",
                 body.name(),
-                "' lies above its upper one over ",
+                "' lies above the upper surface over ",
                 100. * n_crossed / n_places,
                 " % of the plan, by up to ",
                 -least,
                 " m, at x = ",
                 place[0],
                 dim == 3 ? text(" m, z = ", place[dim - 1]) : "",
-                " m: there is no soil there. If that is not meant, correct '",
+                " m: there is no soil there. To avoid the gap, correct '",
                 section,
                 "/Upper surface' or '",
                 section,

@@ -21,15 +21,15 @@ namespace talus
     add_parameter("Slope angle",
                   slope_angle,
                   "Angle by which the mesh is turned against the horizontal "
-                  "[degrees]: gravity points along (sin, -cos), so that x "
-                  "points down the slope.",
+                  "[degrees]: gravity points along (sin, -cos), and x points "
+                  "down the slope.",
                   this->prm,
                   Patterns::Double(-90., 90.));
     add_parameter("Ramp time",
                   ramp_time,
-                  "Time over which gravity grows from 0 to its magnitude, "
-                  "smoothly by half a cosine [s]; 0 for full gravity from the "
-                  "start.",
+                  "Time over which gravity grows from 0 to the full "
+                  "magnitude, smoothly by half a cosine [s]; 0 for full "
+                  "gravity from the start.",
                   this->prm,
                   Patterns::Double(0.));
   }
@@ -48,8 +48,8 @@ namespace talus
                   "(z,) t, separated by semicolons [m/s^2]; empty for none.");
     add_parameter("Coordinates",
                   coordinates,
-                  "What x, y, z are: 'spatial' (where the point is now) or "
-                  "'material' (where it was at the start, without initial "
+                  "Meaning of x, y, z: 'spatial' (present place of the "
+                  "point) or 'material' (place at the start, without initial "
                   "displacement).",
                   this->prm,
                   Patterns::Selection("spatial|material"));

@@ -56,11 +56,10 @@ namespace talus
       this->prm,
       Patterns::Selection("start|half step"));
     enter_subsection("Bodies");
-    add_parameter(
-      "Names",
-      listed_names_,
-      "Names of the bodies, separated by commas; each has a section "
-      "of that name.");
+    add_parameter("Names",
+                  listed_names_,
+                  "Names of the bodies, separated by commas; each body has a "
+                  "section of the same name.");
     leave_subsection();
   }
 

@@ -109,18 +109,19 @@ namespace talus
                     const StrengthRange      &range)
     {
       const double largest = material.largest_strength_factor(range);
-      AssertThrow(largest >= 1.,
-                  ExcUser(text(path,
-                               " is from ",
-                               range.least,
-                               " Pa to ",
-                               range.largest,
-                               " Pa, but somewhere the soil would soften "
-                               "faster than it can unload elastically: it "
-                               "would have to do so ",
-                               1. / largest,
-                               " times more slowly. Let it soften over more "
-                               "strain, or make it stiffer.")));
+      AssertThrow(
+        largest >= 1.,
+        ExcUser(
+          text(path,
+               " is from ",
+               range.least,
+               " Pa to ",
+               range.largest,
+               " Pa, but somewhere the soil would soften faster than "
+               "elastic unloading permits: the softening would have to be ",
+               1. / largest,
+               " times slower. Let the soil soften over more strain, or "
+               "increase the stiffness.")));
     }
   } // namespace
 

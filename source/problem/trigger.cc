@@ -30,29 +30,29 @@ namespace talus
                   Patterns::Double(0.));
     add_parameter("Duration",
                   duration_,
-                  "Time over which it falls, smoothly by half a cosine [s]; 0: "
-                  "at once, in the step after the start time.",
+                  "Time over which the strength falls, smoothly by half a "
+                  "cosine [s]; 0: at once, in the step after the start time.",
                   this->prm,
                   Patterns::Double(0.));
     add_fraction("Strength fraction",
                  strength_fraction_,
-                 "Fraction of its strength that soil is left with [-], without "
-                 "viscosity; 1: it keeps its strength.");
+                 "Fraction of the strength that remains in the end [-], "
+                 "without viscosity; 1: the strength stays.");
     add_parameter("Bodies",
                   names_of_bodies_,
                   "Names of the bodies whose soil becomes weaker, separated by "
                   "commas; empty: all whose law has a strength.");
     add_parameter("Region",
                   region_,
-                  "Expression in x, y (, z) that is positive where the soil of "
-                  "these bodies becomes weaker, for instance 0.5 - y for a "
-                  "weak layer; x, y, z is the initial place, without initial "
+                  "Expression in x, y (, z), positive where the soil of the "
+                  "bodies becomes weaker, for instance 0.5 - y for a weak "
+                  "layer; x, y, z is the initial place, without initial "
                   "displacement. Empty: everywhere.");
     add_fraction("Seabed shear stress fraction",
                  seabed_fraction_,
                  "Fraction of `Maximum shear stress` of the seabed and of "
-                 "obstacles that is left [-]; friction coefficients stay. 1: "
-                 "all of it.");
+                 "obstacles that remains in the end [-]; friction "
+                 "coefficients stay. 1: no reduction.");
   }
 
 
@@ -90,10 +90,10 @@ namespace talus
                        "the entry.")));
     AssertThrow(changes_strength() ||
                   (names_of_bodies_.empty() && region_.empty()),
-                ExcUser("'Trigger/Bodies' or 'Trigger/Region' is given, but "
-                        "'Trigger/Strength fraction' is 1, so that no soil "
-                        "becomes weaker. Set it to less than 1 or remove the "
-                        "entries."));
+                ExcUser(
+                  "'Trigger/Bodies' or 'Trigger/Region' is given, but "
+                  "'Trigger/Strength fraction' is 1: no soil becomes weaker. "
+                  "Set the fraction to less than 1 or remove the entries."));
     if (changes_strength())
       check_bodies(names_of_bodies, materials);
   }
@@ -186,10 +186,11 @@ namespace talus
         n_weakened += is_weakened;
       }
     AssertThrow(Utilities::MPI::sum(n_weakened, communicator) > 0.,
-                ExcUser("'Trigger/Region' = '" + region_ +
-                        "' is positive at no point of the bodies that are to "
-                        "become weaker. Give an expression that is positive "
-                        "where the weak soil lies, or leave it empty."));
+                ExcUser(
+                  "'Trigger/Region' = '" + region_ +
+                  "' is positive at no point of the bodies to be weakened. "
+                  "Give an expression that is positive in the weak soil, or "
+                  "leave the entry empty."));
   }
 
 

@@ -41,28 +41,29 @@ namespace talus
                   "`Outline`.");
     add_parameter("Projection",
                   projection_,
-                  "The map in metres that the file is brought to on reading, "
-                  "and that 'Grid/Origin' and `Section` are on: zone and "
-                  "hemisphere as UTM 33N or UTM 33S, or EPSG:3575, a code of "
-                  "the EPSG registry. A file that does not say its coordinate "
-                  "system is then in degrees (WGS 84). Needs a talus that was "
-                  "built with GDAL. Empty: the file is in metres.");
+                  "Map in metres to which the file is projected on reading, "
+                  "and which is the map of 'Grid/Origin' and `Section`: zone "
+                  "and hemisphere as UTM 33N or UTM 33S, or a code of the "
+                  "EPSG registry as EPSG:3575. A file without a coordinate "
+                  "system is then taken to be in degrees (WGS 84). Needs "
+                  "talus built with GDAL. Empty: the file is in metres.");
     add_parameter("Cell size",
                   cell_size_,
-                  "Of the raster on that map [m]; 0: the smaller side that its "
-                  "cells have in its middle.",
+                  "Cell size of the projected raster on the map of "
+                  "`Projection` [m]; 0: the shorter side of the cell in the "
+                  "middle of the raster, measured on the map.",
                   this->prm,
                   Patterns::Double(0.));
     add_parameter("Section",
                   section_,
-                  "2-D only: corners of the line on the map that the surface "
-                  "is cut along, as easting,northing; easting,northing; ... "
-                  "[m]. x is the length along it, and it goes on straight "
-                  "beyond both ends.");
+                  "2-D only: corners of the line on the map along which the "
+                  "surface is cut, as easting,northing; easting,northing; "
+                  "... [m]. x is the length along the line, which extends "
+                  "straight beyond both ends.");
     add_parameter("Expression",
                   expression_,
-                  "In place of a file: the height as an expression in x (, z) "
-                  "and the surfaces listed before this one [m].");
+                  "In place of a file: the height as an expression in x (, "
+                  "z) and the surfaces listed before this surface [m].");
     add_parameter("Outline",
                   outline_,
                   "3-D only, in place of a file: corners 'x, z; x, z; ...' of "

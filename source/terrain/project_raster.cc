@@ -132,23 +132,21 @@ namespace talus
       const double east  = raster.west + raster.n_columns * raster.dx;
       const double north = raster.south + raster.n_rows * raster.dy;
       const double slack = raster.dx; // half a cell beyond the poles
-      AssertThrow(std::max(std::abs(raster.west), std::abs(east)) <=
-                      360. + slack &&
-                    std::max(std::abs(raster.south), std::abs(north)) <=
-                      90. + slack,
-                  ExcUser(text(place,
-                               " is set for a raster that reaches from ",
-                               raster.west,
-                               " to ",
-                               east,
-                               " and from ",
-                               raster.south,
-                               " to ",
-                               north,
-                               ", which are no longitudes and latitudes in "
-                               "degrees, and does not say what they are. "
-                               "Remove that entry if they are in metres, or "
-                               "put a file .prj beside the raster.")));
+      AssertThrow(
+        std::max(std::abs(raster.west), std::abs(east)) <= 360. + slack &&
+          std::max(std::abs(raster.south), std::abs(north)) <= 90. + slack,
+        ExcUser(text(place,
+                     " is set for a raster that reaches from ",
+                     raster.west,
+                     " to ",
+                     east,
+                     " and from ",
+                     raster.south,
+                     " to ",
+                     north,
+                     ", which are no longitudes and latitudes in degrees, and "
+                     "has no coordinate system. Remove the entry if the raster "
+                     "is in metres, or put a file .prj beside the raster.")));
     }
 
 
