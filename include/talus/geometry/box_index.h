@@ -17,8 +17,8 @@ namespace talus
   public:
     explicit BoxIndex(const std::vector<Box<dim>> &boxes = {});
 
-    /// Return the numbers, ascending, of all boxes within @p distance, m, of @p
-    /// box, and possibly of some farther boxes.
+    /// Return the numbers, ascending, of all boxes within @p distance, m, of
+    /// @p box, and possibly of some farther boxes.
     std::vector<unsigned int>
     near(const Box<dim> &box, double distance) const;
 

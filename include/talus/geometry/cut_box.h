@@ -27,8 +27,8 @@ namespace talus
   /// Return the surface in a box as plane pieces, in a fixed order. The nonzero
   /// vector_area() of a piece points to positive distance. Pieces are four
   /// times as fine if the body @p is_thin, or where the surface faces two
-  /// opposite directions within the box. Pieces in adjacent boxes match if @p
-  /// is_thin is set for all boxes, or if no box sees opposite directions.
+  /// opposite directions within the box. Pieces in adjacent boxes match if
+  /// @p is_thin is set for all boxes, or if no box sees opposite directions.
   template <int dim>
   std::vector<Facet<dim>>
   surface_pieces(const Box<dim>              &box,
@@ -56,8 +56,8 @@ namespace talus
   open_shape_integrals(const Box<dim>              &box,
                        const DistanceFunction<dim> &distance);
 
-  /// Return the values of the shape functions of open_shape_integrals() at @p
-  /// x.
+  /// Return the values of the shape functions of open_shape_integrals() at
+  /// @p x.
   template <int dim>
   std::array<double, (1u << dim)>
   shape_values_at(const Box<dim> &box, const dealii::Point<dim> &x);

@@ -36,8 +36,8 @@ namespace talus
     /// @p raster has at least two rows and columns.
     explicit HeightField(Raster raster);
 
-    /// Return height and slope at easting and northing @p x, m, relative to @p
-    /// origin (large coordinates lose no digits). Nothing outside of the
+    /// Return height and slope at easting and northing @p x, m, relative to
+    /// @p origin (large coordinates lose no digits). Nothing outside of the
     /// raster, and where any of the four values around the place is missing.
     std::optional<Value>
     at(const dealii::Point<2> &x,

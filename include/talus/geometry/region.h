@@ -106,8 +106,8 @@ namespace talus
     static void
     add_part(const Box<dim> &box, Limits limits, unsigned int depth, Sum &sum);
 
-    /// Return the limits by shapes, and by all solids that may be nearer to @p
-    /// x than @p distance, m.
+    /// Return the limits by shapes, and by all solids that may be nearer to
+    /// @p x than @p distance, m.
     Limits
     limits_near(const dealii::Point<dim> &x, double distance) const;
 

@@ -33,8 +33,8 @@ namespace talus
       surfaces_ = surfaces;
     }
 
-    /// Make the shape. Prisms and cylinders without given ends extend over @p
-    /// domain; an infinite domain makes them endless. Throws ExcUser if the
+    /// Make the shape. Prisms and cylinders without given ends extend over
+    /// @p domain; an infinite domain makes them endless. Throws ExcUser if the
     /// entries are incomplete or wrong.
     std::unique_ptr<Shape<dim>>
     make(const Box<dim> &domain) const;

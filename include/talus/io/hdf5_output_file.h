@@ -41,7 +41,8 @@ namespace talus
                    MPI_Comm                     communicator,
                    const Hdf5Options           &options = {});
 
-    /// Discard the file unless it was closed.
+    /// Remove an atomic file that was not closed; any further file without
+    /// close() is incomplete.
     ~Hdf5OutputFile();
 
     /// Complete the file, bring it to the disk and rename it to the final name.

@@ -96,7 +96,7 @@ namespace talus
 
 
 
-  /// Owner of the items in a set of cells.
+  /// Location of the items in a set of cells.
   enum class ItemsAt
   {
     vertices,

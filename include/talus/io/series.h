@@ -21,9 +21,9 @@ namespace talus
           const std::string           &format,
           Beginning                    beginning = Beginning::fresh);
 
-    /// Add the entries of the index to the state of the run, as the text @p
-    /// name: per output a line with the time [s], a blank and the name of the
-    /// file, followed by the lines of the description.
+    /// Add the entries of the index to the state of the run, as the text
+    /// @p name: per output a line with the time [s], a blank and the name of
+    /// the file, followed by the lines of the description.
     void
     list_state(const std::string &name, StateList &list);
 

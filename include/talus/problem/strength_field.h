@@ -30,8 +30,8 @@ namespace talus
 
 
 
-  /// Return the tables in @p folder for the strengths of the materials of @p
-  /// n_bodies bodies, each table once.
+  /// Return the tables in @p folder for the strengths of the materials of
+  /// @p n_bodies bodies, each table once.
   template <int dim>
   std::vector<InputFile>
   tables_of_strength(const Materials<dim>        &materials,
