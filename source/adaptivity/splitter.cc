@@ -104,8 +104,8 @@ namespace talus
 
 
 
-  // The criterion is stricter in smaller cells: if no point violates it in
-  // cells of this size, no point violates it in larger cells.
+  // The criterion is stricter in smaller cells: if no point exceeds the
+  // threshold in cells of this size, no point does in larger cells.
   template <int dim>
   bool
   Splitter<dim>::may_exceed(const Points<dim> &points,
@@ -411,13 +411,13 @@ namespace talus
     if (marked_.empty())
       return false;
     std::size_t n_children = 0;
-    for (const SplitMark &violation : marked_)
-      n_children += 1u << __builtin_popcount(violation.axes);
+    for (const SplitMark &entry : marked_)
+      n_children += 1u << __builtin_popcount(entry.axes);
     check_budget(points, points.size() - marked_.size() + n_children);
-    for (const SplitMark &violation : marked_)
+    for (const SplitMark &entry : marked_)
       {
-        points_out_of_cell.push_back(violation.point);
-        split(points, rule, violation.point, violation.axes);
+        points_out_of_cell.push_back(entry.point);
+        split(points, rule, entry.point, entry.axes);
       }
     statistics_.n_splits += marked_.size();
     statistics_.conservation_error = conservation_.relative_error();

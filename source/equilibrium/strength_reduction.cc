@@ -115,7 +115,7 @@ namespace talus
 
 
 
-  /// Both ends of the bracket must be known.
+  /// Valid only when the two ends of the bracket are known.
   bool
   StrengthReduction::is_narrow() const
   {

@@ -34,8 +34,8 @@ namespace talus
 
 
 
-  /// It ends along an axis only if the plane is a face of the lattice, and only
-  /// on one side.
+  /// The box is finite along an axis only if the plane is perpendicular to the
+  /// axis, and only on one side.
   template <int dim>
   Box<dim>
   HalfSpace<dim>::bounding_box() const
@@ -52,8 +52,8 @@ namespace talus
 
 
 
-  /// Inside, the nearest face counts; outside, all those that the place lies
-  /// beyond, so that the distance is that to an edge or a corner.
+  /// Inside, the nearest face counts; outside, all faces with the place beyond
+  /// them: the result is the distance to an edge or a corner.
   template <int dim>
   double
   BoxRegion<dim>::signed_distance(const Point<dim> &x) const
@@ -106,8 +106,8 @@ namespace talus
 
 
 
-  /// The surface of a hollow faces the centre. At the centre all directions are
-  /// as good.
+  /// The surface of a hollow faces the centre. At the centre any direction is
+  /// valid.
   template <int dim>
   Tensor<1, dim>
   Ball<dim>::normal(const Point<dim> &x) const

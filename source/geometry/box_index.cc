@@ -15,10 +15,10 @@ namespace talus
 
   namespace
   {
-    // Up to so many boxes a query costs more than a look at all of them.
+    // Up to this number of boxes a query costs more than testing all.
     constexpr unsigned int few = 4;
 
-    /// The tree takes means of the ends of boxes, which must be finite.
+    /// Return a finite box: the tree computes means of the ends of boxes.
     template <int dim>
     BoundingBox<dim>
     finite_box(const Box<dim> &box, const double margin)

@@ -11,8 +11,8 @@ namespace talus
 
   namespace
   {
-    /// A simplex with the corners inside first, and where the edges from there
-    /// to the corners outside are cut.
+    /// Simplex with the inside corners first, and the cuts of edges from inside
+    /// to outside corners.
     template <int dim>
     struct SortedSimplex
     {
@@ -30,8 +30,8 @@ namespace talus
               }
       }
 
-      /// Seen from the inside, so that both simplices at an edge get the same
-      /// place to the bit.
+      /// Return the cut of an edge, computed from the inside corner: both
+      /// simplices at the edge get bitwise the same place.
       Point<dim>
       cut(const unsigned int inside, const unsigned int outside) const
       {
@@ -66,7 +66,7 @@ namespace talus
 
 
 
-    /// The three tetrahedra between two triangles.
+    /// Append the three tetrahedra between two triangles.
     void
     add_prism(const std::array<Point<3>, 3> &a,
               const std::array<Point<3>, 3> &b,
@@ -119,7 +119,7 @@ namespace talus
     else if (sorted.n_inside > 0)
       {
         clip(sorted, result);
-        // The last corner is outside, whatever the order of the others.
+        // The last corner is always outside.
         const Tensor<1, dim> outwards = sorted.corner[dim] - result.facet[0];
         if (vector_area<dim>(result.facet) * outwards < 0.)
           std::reverse(result.facet.begin(), result.facet.end());
@@ -153,7 +153,7 @@ namespace talus
 
   namespace
   {
-    /// Vector area of the triangle (0, e, e + 1) of a polygon.
+    /// Return the vector area of the triangle (0, e, e + 1) of a polygon.
     Tensor<1, 3>
     area_of_triangle(const Facet<3> &facet, const unsigned int e)
     {
@@ -212,8 +212,8 @@ namespace talus
 
 
 
-  /// Each goes from the lower to the upper corner along the axes in one of
-  /// their orders.
+  /// Each simplex goes from the lower to the upper corner along the axes, in
+  /// one permutation of the axes.
   template <int dim>
   std::array<Simplex<dim>, dim == 2 ? 2 : 6>
   simplices_of(const Box<dim> &box)
@@ -243,7 +243,7 @@ namespace talus
   template decltype(simplices_of<2>) simplices_of<2>;
   template decltype(simplices_of<3>) simplices_of<3>;
 
-  // Facets have one of the same name.
+  // Facets have a function of the same name.
   template Point<2>
   centroid<2>(const Simplex<2> &);
   template Point<3>

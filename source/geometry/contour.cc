@@ -11,17 +11,17 @@ namespace talus
 
   namespace
   {
-    // Boxes are halved until the distance is linear in them or they are small.
-    // Over the size that was asked for: where they begin, where they end, and
-    // how linear is linear.
+    // Boxes are halved until the distance is linear within a box, or the box is
+    // small. Relative to the requested size: largest box, smallest box, and
+    // tolerance of linearity.
     constexpr double largest = 16., contour_tolerance = 0.01;
     template <int dim>
     constexpr double smallest = (dim == 2 ? 0.25 : 0.5);
 
 
 
-    /// The middle of the box, of its faces, edges, and its corners: @p i counts
-    /// the 3^dim of them.
+    /// Return place number @p i of the 3^dim corners and middles of edges,
+    /// faces and box.
     template <int dim>
     Point<dim>
     place_in(const Box<dim> &box, unsigned int i)
@@ -34,9 +34,9 @@ namespace talus
 
 
 
-    /// Whether the distance is that of a plane at all these places. As it grows
-    /// by no more than 1 m per m it is one between them, too, if its slope
-    /// there is that.
+    /// Return whether the distance agrees with the distance to a plane at all
+    /// 3^dim places. The distance grows by at most 1 m per m; therefore it is
+    /// linear between the places, too, if the slope there is 1.
     template <int dim>
     bool
     is_linear(const Box<dim>              &box,
@@ -63,7 +63,7 @@ namespace talus
 
 
 
-    /// A plane in each simplex of the box.
+    /// Append the plane part of the surface in each simplex of the box.
     template <int dim>
     void
     add_elements(const Box<dim>                   &box,
@@ -76,15 +76,15 @@ namespace talus
           for (unsigned int v = 0; v < dim + 1; ++v)
             {
               values[v] = distance(simplex[v]);
-              // Else round-off would decide whether a surface on the face of a
-              // box is in it.
+              // Otherwise round-off would decide whether a surface on the face
+              // of a box belongs to the box.
               if (std::abs(values[v]) < 1e-9 * box.length(0))
                 values[v] = 0.;
             }
           const Facet<dim> facet = clip_simplex<dim>(simplex, values).facet;
           if (facet.empty() || vector_area<dim>(facet).norm() == 0)
             continue;
-          // Quadrilaterals as two triangles.
+          // Quadrilaterals become two triangles.
           for (unsigned int i = dim - 1; i < facet.size(); ++i)
             {
               SurfaceElement<dim> element;
@@ -98,7 +98,8 @@ namespace talus
 
 
 
-    /// Passes over boxes that are farther from the surface than they are large.
+    /// Halve the box recursively, and skip boxes farther from the surface than
+    /// the size of the box.
     template <int dim>
     void
     halve(const Box<dim>                   &box,
@@ -139,8 +140,8 @@ namespace talus
           const DistanceFunction<dim> &distance,
           const double                 size)
   {
-    // Boxes from first on, of which there are n, along each axis; one more than
-    // the surface reaches.
+    // Boxes per axis: n boxes from number first on, one more on each side than
+    // the bounds of the surface.
     std::array<double, dim>       length;
     std::array<unsigned int, dim> first, n;
     unsigned int                  n_boxes = 1;

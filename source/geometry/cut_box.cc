@@ -12,12 +12,12 @@ namespace talus
 
   namespace
   {
-    // Along each axis. The surface is a plane in each part of a part, so that
-    // the area of a circle that crosses a box in an arc of half its radius is
-    // right to 2e-4 (with one part per axis: to a per cent).
+    // Parts along each axis. The surface is a plane in each simplex of a part:
+    // the area of a circle that crosses a box in an arc of half the radius has
+    // an error of 2e-4 (with one part per axis: of a per cent).
     constexpr unsigned int n_coarse_parts = 4;
 
-    // Along each axis of a box with surfaces that face each other's backs.
+    // Parts along each axis of a box with surfaces in opposite directions.
     constexpr unsigned int n_fine_parts = 16;
 
 
@@ -42,7 +42,7 @@ namespace talus
 
 
     /// Return whether the outward normals at the corners of @p box turn by more
-    /// than 120 degrees: the two sides of a wall thinner than the box, or a body
+    /// than 120 degrees: both sides of a wall thinner than the box, or a body
     /// smaller than the box, which a coarse lattice may miss.
     template <int dim>
     bool
@@ -69,12 +69,12 @@ namespace talus
 
 
 
-    /// Call action(simplex, values) for the simplices of those of @p n_parts parts
-    /// per axis of a box that the surface may be in, with the distances at the
-    /// corners; and uncut(part, distance) for the other parts, with the distance
-    /// at the middle. What is
-    /// as good as on the surface is made to be on it: else a surface on the face
-    /// of a box would have facets or none as round-off has it.
+    /// Split a box into @p n_parts parts per axis. Call action(simplex, values)
+    /// for the simplices of parts that the surface may cross, with the
+    /// distances at the corners, and uncut(part, distance) for all remaining
+    /// parts, with the distance at the middle. Distances below round-off become
+    /// zero; otherwise round-off would decide whether a surface on the face of
+    /// a box has facets.
     template <int dim, typename Action, typename Uncut>
     void
     for_each_simplex(const Box<dim>              &box,
@@ -120,7 +120,7 @@ namespace talus
 
 
     /// Add the integrals of the shape functions of @p box over a simplex, times
-    /// @p factor. The rule is exact for their products of dim linear factors.
+    /// @p factor. The rule is exact for products of dim linear factors.
     template <int dim>
     void
     add_integrals(const Box<dim>                  &box,
@@ -166,9 +166,9 @@ namespace talus
 
 
 
-  // Parts of planes: simplices are cut where the linear interpolation of the
-  // distance between their corners is zero. A bilinear one would have a surface
-  // that is no plane, and two of them where the corners have alternating signs.
+  // Plane pieces: simplices are cut where the linear interpolation of the
+  // distance is zero. A bilinear interpolation would have a curved surface, and
+  // two surfaces where the corners have alternating signs.
   template <int dim>
   std::vector<Facet<dim>>
   surface_pieces(const Box<dim>              &box,
@@ -184,7 +184,7 @@ namespace talus
       [&](const Simplex<dim>                &simplex,
           const std::array<double, dim + 1> &values) {
         const Facet<dim> facet = clip_simplex<dim>(simplex, values).facet;
-        // One corner on the surface: a facet without area.
+        // A single corner on the surface gives a facet without area.
         if (!facet.empty() && vector_area<dim>(facet).norm_square() > 0)
           pieces.push_back(facet);
       },
@@ -214,7 +214,8 @@ namespace talus
 
 
 
-  // Of the whole box less what is closed, as clip_simplex() gives that.
+  // Integral over the whole box minus the closed part, which clip_simplex()
+  // gives.
   template <int dim>
   std::array<double, (1u << dim)>
   open_shape_integrals(const Box<dim>              &box,
@@ -240,7 +241,7 @@ namespace talus
           for (const Simplex<dim> &closed : simplices_of(part))
             add_integrals(box, closed, -1., result);
       });
-    // Round-off of what is closed altogether.
+    // Removes round-off of boxes that are completely closed.
     for (double &integral : result)
       integral = std::max(0., integral);
     return result;

@@ -13,7 +13,8 @@ namespace talus
 
   namespace
   {
-    /// deal.II's functions have three variables and the time: four names.
+    /// Return the names of the four variables of a deal.II function: three
+    /// coordinates and the time.
     template <int dim>
     std::string
     variables(const std::vector<typename ExpressionSurface<dim>::Named> &others)
@@ -64,16 +65,17 @@ namespace talus
                                             const std::vector<Named> &others)
     : others_(others)
   {
-    AssertThrow(others.size() <= n_others,
-                ExcUser(text(path,
-                             " = '",
-                             expression,
-                             "' names ",
-                             others.size(),
-                             " surfaces, but at most ",
-                             n_others,
-                             " may stand in one expression. Give a part of it "
-                             "a name of its own in the section Surfaces.")));
+    AssertThrow(
+      others.size() <= n_others,
+      ExcUser(text(path,
+                   " = '",
+                   expression,
+                   "' names ",
+                   others.size(),
+                   " surfaces, but at most ",
+                   n_others,
+                   " are possible in an expression. Define a part of the "
+                   "expression as a named surface in the section Surfaces.")));
     expression_ = std::make_unique<Expression<3>>(
       path, expression, 1, constants, variables<dim>(others));
   }
@@ -105,10 +107,9 @@ namespace talus
 
 
 
-  /// The corners of the cells of a column, and the places at which these are
-  /// cut, have few places in plan, which are asked for again and again; a table
-  /// remembers the last ones. What is moved from its place by another one is
-  /// found anew when it is asked for.
+  /// The corners of the cells of a column, and the places where cells are cut,
+  /// have few distinct places in plan, which are evaluated repeatedly; a table
+  /// keeps recent results. A collision of the hash overwrites the older result.
   template <int dim>
   typename ExpressionSurface<dim>::Value
   ExpressionSurface<dim>::at(const Point<dim> &x) const
@@ -119,8 +120,8 @@ namespace talus
 
 
 
-  /// Only the expression itself is differentiated by differences: the others
-  /// know their slopes, also at the edge of a raster.
+  /// Only the expression itself is differentiated by differences: the named
+  /// surfaces have their own slopes, also at the edge of a raster.
   template <int dim>
   typename ExpressionSurface<dim>::Value
   ExpressionSurface<dim>::find(const Point<dim> &x) const
@@ -141,9 +142,9 @@ namespace talus
         arguments[n]      = value.height;
         slopes.emplace_back(n++, value.slope);
       }
-    // So small that features of flumes, millimetres, have their slope to 1e-4,
-    // and so large that heights of kilometres have theirs to 1e-7. Two
-    // evaluations are all it may cost: contact asks at each step.
+    // Small enough to resolve slopes of millimetre features of flumes to 1e-4,
+    // and large enough to resolve slopes of heights of kilometres to 1e-7. Only
+    // two evaluations, because contact evaluates surfaces in each step.
     constexpr double step = 1e-5;
     Value            result{evaluate(arguments), {}};
     for (const auto &[i, slope] : slopes)
@@ -172,8 +173,8 @@ namespace talus
 
 
 
-  /// Boxes above each other have one centre in plan, and it takes eight heights
-  /// to know the change around it: a table remembers the last ones, too.
+  /// Boxes above each other have the same centre in plan, and the change takes
+  /// eight heights: a table keeps recent results, too.
   template <int dim>
   double
   ExpressionSurface<dim>::largest_change(const Point<dim> &x,

@@ -14,8 +14,8 @@ namespace talus
 
   namespace
   {
-    /// What values and slopes at both ends of an interval are multiplied with,
-    /// to give the value within it or its derivative.
+    /// Weights of the values and slopes at both ends of an interval, for the
+    /// value or the derivative in the interval.
     struct Hermite
     {
       std::array<double, 2> value, slope;
@@ -23,7 +23,7 @@ namespace talus
 
 
 
-    /// Hermite's cubic for 0 <= t <= 1, straight on outside.
+    /// Hermite's cubic for 0 <= t <= 1, linear outside.
     Hermite
     hermite(const double t)
     {
@@ -68,7 +68,7 @@ namespace talus
 
 
 
-  /// @p row counts from the south here, so that both axes ascend.
+  /// Here @p row counts from the south: both axes ascend.
   bool
   HeightField::has_value(const int column, const int row) const
   {
@@ -86,7 +86,8 @@ namespace talus
 
 
 
-  /// Central where both neighbours along (dx, dy) have values, else one-sided.
+  /// Central difference if both neighbours along (dx, dy) have values,
+  /// otherwise one-sided.
   double
   HeightField::difference(const int column,
                           const int row,
@@ -103,7 +104,7 @@ namespace talus
 
 
 
-  /// The mixed derivative is the difference along y of those along x.
+  /// The mixed derivative is the difference along y of the differences along x.
   HeightField::Node
   HeightField::node(const int column, const int row) const
   {
@@ -120,8 +121,9 @@ namespace talus
 
 
 
-  /// By the control points of Bezier's form, of whose differences the
-  /// derivatives are weighted means, as heights are of the points themselves.
+  /// Bounds by the control points of the Bezier form: heights are weighted
+  /// means of the control points, and derivatives are weighted means of the
+  /// differences of control points.
   void
   HeightField::extend_bounds(const int column, const int row)
   {
@@ -159,8 +161,8 @@ namespace talus
 
   namespace
   {
-    /// The weights of the four values along an axis: Hermite's with the slopes
-    /// of central differences.
+    /// Return the weights of the four values along an axis: Hermite's cubic
+    /// with slopes by central differences.
     std::array<double, 4>
     weights(const Hermite &h)
     {
@@ -173,9 +175,9 @@ namespace talus
 
 
 
-  /// Where all sixteen values around the place are there, which is nearly
-  /// everywhere: points near an obstacle ask in every step. A missing one makes
-  /// the sum NaN.
+  /// Fast path, valid nearly everywhere: all sixteen values around the place
+  /// exist. Points near an obstacle evaluate the surface in every step. A
+  /// missing value makes the sum NaN.
   HeightField::Value
   HeightField::inner_value(const int    column,
                            const int    row,
@@ -209,7 +211,7 @@ namespace talus
 
 
 
-  /// Anywhere, node by node.
+  /// General path, node by node.
   HeightField::Value
   HeightField::outer_value(const int    column,
                            const int    row,
@@ -244,8 +246,8 @@ namespace talus
   std::optional<HeightField::Value>
   HeightField::at(const Point<2> &x, const Point<2> &origin) const
   {
-    // From the centre of the cell in the south-west, in cells. Round-off of a
-    // place on the edge is no reason to refuse it.
+    // Coordinates from the centre of the cell in the south-west, in cells. A
+    // place on the edge is not refused because of round-off.
     const double u = (x[0] + (origin[0] - raster_.west)) / raster_.dx - 0.5;
     const double v = (x[1] + (origin[1] - raster_.south)) / raster_.dy - 0.5;
     constexpr double outer = -0.5 - 1e-6;

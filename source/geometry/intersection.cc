@@ -51,8 +51,8 @@ namespace talus
 
 
 
-  /// Outside of one part the others need not be asked, which may not be known
-  /// there.
+  /// Outside of a part, no further parts are evaluated: they may be undefined
+  /// at @p x.
   template <int dim>
   bool
   Intersection<dim>::may_cut_ball(const Point<dim> &x,

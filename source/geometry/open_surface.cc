@@ -10,24 +10,23 @@ namespace talus
 
   namespace
   {
-    // A place nearer to a surface lies on it, in cells.
+    // Maximum distance between a surface and a place on it, in cells.
     constexpr double on_surface = 1e-7;
 
-    // Area of a piece below which round-off decides its normal, in cells.
+    // Area of a piece below which round-off dominates the normal, in cells.
     constexpr double min_piece = 1e-9;
 
-    // A piece, a quarter of a cell long, is halved so often around edges of a
-    // cover: in 3-D two halvings make all edges half as long.
+    // Maximum number of halvings of a piece, a quarter of a cell long, around
+    // edges of a cover: in 3-D two halvings make all edges half as long.
     template <int dim>
     constexpr unsigned int max_halvings = (dim == 2 ? 4 : 6);
 
-    // Cosine of the angle from the first piece within which normals are one
-    // direction.
+    // Cosine of the maximum angle to the first piece for a common direction.
     constexpr double same_direction = 0.5;
 
-    // Two directions around a convex edge are one if the vector area of both is
-    // more than this fraction of the area: 90 degrees have 0.71, the two sides of
-    // a wall 0.
+    // Two directions around a convex edge are joined if the vector area of both
+    // is more than this fraction of the area: 0.71 for 90 degrees, 0 for the
+    // two sides of a wall.
     constexpr double min_joint_vector_area = 0.6;
 
 
@@ -66,8 +65,8 @@ namespace talus
       }
 
     private:
-      /// Clip a segment or triangle. Its corners may be open and its middle
-      /// covered, which a distance that is linear excludes.
+      /// Clip a segment or triangle, halved until the distance is linear:
+      /// otherwise the middle may be covered while all corners are open.
       void
       clip_simple(const Facet<dim>        &piece,
                   const double             at_centroid,
@@ -110,8 +109,8 @@ namespace talus
         return result;
       }
 
-      /// Cut a segment or triangle where it goes from open to covered, by Sutherland
-      /// and Hodgman's rule.
+      /// Cut a segment or triangle where it changes from open to covered, by
+      /// the rule of Sutherland and Hodgman.
       void
       cut(const Facet<dim> &piece, std::vector<Facet<dim>> &result) const
       {
@@ -126,7 +125,7 @@ namespace talus
             const unsigned int j = (i + 1) % dim;
             if (open[i])
               polygon.push_back(piece[i]);
-            // A segment has one edge.
+            // A segment has a single edge.
             if (open[i] != open[j] && (dim == 3 || i == 0))
               polygon.push_back(crossing(open[i] ? piece[i] : piece[j],
                                          open[i] ? piece[j] : piece[i],
@@ -149,8 +148,8 @@ namespace talus
         return cosine > 0 && !cover_.covers_common_surface;
       }
 
-      /// Return the last open place on the way from @p open to @p covered: by
-      /// bisection, since the distance need not be linear.
+      /// Return the last open place on the way from @p open to @p covered, by
+      /// bisection, since the distance may be nonlinear.
       Point<dim>
       crossing(Point<dim>            open,
                Point<dim>            covered,
@@ -194,7 +193,7 @@ namespace talus
 
   namespace
   {
-    /// Pieces with one direction, by their indices.
+    /// Pieces with a common direction, by index.
     template <int dim>
     struct Direction
     {
@@ -216,8 +215,8 @@ namespace talus
 
 
 
-    /// Whether @p a and @p b are the sides of an edge that sticks out, which soil
-    /// goes around.
+    /// Return whether @p a and @p b are the sides of a convex edge, which soil
+    /// flows around.
     template <int dim>
     bool
     share_convex_edge(const CutSurface<dim> &a, const CutSurface<dim> &b)

@@ -73,8 +73,8 @@ namespace talus
 
 
 
-  /// Boxes of segments come in the order of their distance: what is left is
-  /// farther than the segment found as soon as a box is.
+  /// Boxes of segments come in the order of distance: the search ends at the
+  /// first box farther than the nearest segment so far.
   Pipe::Nearest
   Pipe::nearest_on_axis(const Point<3> &x) const
   {
@@ -90,7 +90,8 @@ namespace talus
           break;
         const Point<3> place  = nearest_on_segment(x, axis_[i], axis_[i + 1]);
         const double   square = place.distance_square(x);
-        // Of segments equally near the first one, whatever their order.
+        // Among segments at equal distance the first wins, independently of the
+        // order.
         if (square < least || (square == least && i < result.segment))
           {
             least  = square;
@@ -118,7 +119,7 @@ namespace talus
 
 
 
-  /// On the axis all directions across it are as good.
+  /// On the axis any direction across the axis is valid.
   std::pair<double, Tensor<1, 3>>
   Pipe::distance_and_normal(const Point<3> &x) const
   {

@@ -17,14 +17,14 @@ namespace talus
 
   namespace
   {
-    // An axis may have so many pieces, each as long as the pipe is wide.
+    // Maximum number of pieces of an axis, each as long as the pipe is wide.
     constexpr double max_n_pieces = 1e6;
 
-    // The section of a pipe that is crossed at a smaller angle is an ellipse that
-    // a disc cannot stand for.
+    // At smaller angles the section of a pipe is an ellipse that a disc cannot
+    // approximate.
     constexpr double min_angle = 45.; // degrees
 
-    // Ratio of the axes of that ellipse from which on the user is told.
+    // Ratio of the axes of the ellipse above which a remark is given.
     constexpr double round_enough = 1.01;
 
 
@@ -43,21 +43,21 @@ namespace talus
     : ParameterAcceptor(section)
     , section_(section)
   {
-    add_parameter(
-      "Route",
-      route_,
-      "Corners of the pipe's axis in plan, as x, z; x, z; ..., with "
-      "`Coordinates` = map as easting, northing [m]; or, then, the name "
-      "of a file with one line (GeoJSON; with GDAL also shapefile, GeoPackage, "
-      "KML), in degrees if a surface has a `Projection`. In 2-D the pipe is a "
-      "disc where the route crosses the section, which is z = 0, or on the map "
-      "the line of the rasters' `Section`.");
-    add_parameter(
-      "Height of axis",
-      height_of_axis_,
-      "y of the pipe's axis along its route, linear between places "
-      "that are a diameter apart: a name of Surfaces/Names, or an "
-      "expression in these names and x (, z), as mudline + 0.5 [m].");
+    add_parameter("Route",
+                  route_,
+                  "Corners of the pipe's axis in plan, as x, z; x, z; ... "
+                  "[m]. With `Coordinates` = map: as easting, northing [m], "
+                  "or the name of a file with one line (GeoJSON; with GDAL "
+                  "also shapefile, GeoPackage, KML), in degrees if a surface "
+                  "has a `Projection`. In 2-D the pipe is a disc at the "
+                  "crossing of the route and the section; the section is z = "
+                  "0, or on the map the line of the rasters' `Section`.");
+    add_parameter("Height of axis",
+                  height_of_axis_,
+                  "y of the pipe's axis along the route, linear between "
+                  "places a diameter apart: a name of Surfaces/Names, or an "
+                  "expression in surface names and x (, z), such as mudline "
+                  "+ 0.5 [m].");
   }
 
 
@@ -66,7 +66,7 @@ namespace talus
   std::vector<Point<2>>
   PipeParameters<dim>::corners(const Setting &setting) const
   {
-    // Numbers have no letter behind a point.
+    // Numbers have no letter after a point.
     const std::string ending  = std::filesystem::path(route_).extension();
     const bool        is_file = ending.size() > 1 && std::isalpha(ending[1]);
     AssertThrow(!is_file || setting.coordinates == PlanCoordinates::map,
@@ -100,23 +100,24 @@ namespace talus
   {
     Assert(setting.surfaces != nullptr, ExcMessage("There are no surfaces."));
     AssertThrow(!height_of_axis_.empty(),
-                ExcUser(path("Height of axis") +
-                        " is empty, but a pipe needs it. Give a name of "
-                        "'Surfaces/Names', or an expression in these names, as "
-                        "mudline + 0.5."));
+                ExcUser(
+                  path("Height of axis") +
+                  " is empty, but needed by a pipe. Give a name of "
+                  "'Surfaces/Names', or an expression in surface names, such "
+                  "as mudline + 0.5."));
     const auto surface =
       setting.surfaces->surface(path("Height of axis"), height_of_axis_);
-    AssertThrow(surface->is_known_at(x),
-                ExcUser(text(path("Height of axis"),
-                             " = ",
-                             height_of_axis_,
-                             " has no value at (",
-                             x,
-                             ") m of the mesh, where ",
-                             path("Route"),
-                             " leads: the raster ends there, or has no data. "
-                             "Give that part of the route only that lies on "
-                             "the raster.")));
+    AssertThrow(
+      surface->is_known_at(x),
+      ExcUser(text(path("Height of axis"),
+                   " = ",
+                   height_of_axis_,
+                   " has no value at (",
+                   x,
+                   ") m of the mesh, where ",
+                   path("Route"),
+                   " leads: the raster ends there, or has no data. Give only "
+                   "the part of the route on the raster.")));
     return surface->at(x).height;
   }
 
@@ -142,23 +143,24 @@ namespace talus
             const Point<3>     begin = in_plan(corners[i - 1]);
             const Tensor<1, 3> leg   = in_plan(corners[i]) - begin;
             const double n = std::ceil(leg.norm() / (2. * setting.radius));
-            AssertThrow(n + axis.size() <= max_n_pieces,
-                        ExcUser(
-                          text(path("Route"),
-                               " is ",
-                               leg.norm(),
-                               " m long between its corners ",
-                               i,
-                               " and ",
-                               i + 1,
-                               ", which is too long for a pipe with ",
-                               path("Radius"),
-                               " = ",
-                               setting.radius,
-                               " m: at most ",
-                               max_n_pieces,
-                               " diameters were expected. Give that part "
-                               "of the route only that lies in the mesh.")));
+            AssertThrow(
+              n + axis.size() <= max_n_pieces,
+              ExcUser(text(
+                path("Route"),
+                " is ",
+                leg.norm(),
+                " m long between its corners ",
+                i,
+                " and ",
+                i + 1,
+                ", which is too long for a pipe with ",
+                path("Radius"),
+                " = ",
+                setting.radius,
+                " m: at most ",
+                max_n_pieces,
+                " diameters were expected. Give only the part of the route "
+                "in the mesh.")));
             for (double j = 1; j <= n; ++j)
               axis.push_back(begin + j / n * leg);
           }
@@ -189,25 +191,27 @@ namespace talus
                              ". Correct it (and look at ",
                              path("Coordinates"),
                              "), or leave the pipe out.")));
-    AssertThrow(crossings.size() == 1,
-                ExcUser(text(path("Route"),
-                             " crosses the section at x = ",
-                             crossings[0].length,
-                             " m, at x = ",
-                             crossings[1].length,
-                             " m and perhaps again. A section has one obstacle "
-                             "for each crossing: give each that part of the "
-                             "route only that it crosses with.")));
-    AssertThrow(in_degrees(crossings[0]) >= min_angle,
-                ExcUser(text(path("Route"),
-                             " crosses the section at ",
-                             std::setprecision(3),
-                             in_degrees(crossings[0]),
-                             " degrees. A pipe along which the section runs is "
-                             "no disc in it: at least ",
-                             min_angle,
-                             " degrees were expected. Lay the section more "
-                             "across the route, or compute in 3-D.")));
+    AssertThrow(
+      crossings.size() == 1,
+      ExcUser(text(path("Route"),
+                   " crosses the section at x = ",
+                   crossings[0].length,
+                   " m, at x = ",
+                   crossings[1].length,
+                   " m and perhaps again. A section has one obstacle for each "
+                   "crossing: give each obstacle only the part of the route "
+                   "at the crossing.")));
+    AssertThrow(
+      in_degrees(crossings[0]) >= min_angle,
+      ExcUser(text(path("Route"),
+                   " crosses the section at ",
+                   std::setprecision(3),
+                   in_degrees(crossings[0]),
+                   " degrees. A pipe along the section is not a disc in the "
+                   "section: at least ",
+                   min_angle,
+                   " degrees were expected. Lay the section more "
+                   "across the route, or compute in 3-D.")));
     return crossings[0];
   }
 
@@ -282,16 +286,15 @@ namespace talus
     const SectionCrossing crossing = this->crossing(setting);
     if (round_enough * crossing.sine >= 1.)
       return "";
-    return text(
-      std::setprecision(3),
-      "crosses the section at ",
-      in_degrees(crossing),
-      " degrees, where the section of a pipe is an ellipse, ",
-      1. / crossing.sine,
-      " times as long as high. A disc of the pipe's radius stands for "
-      "it, so that the force is that of soil that moves square to the "
-      "pipe. Lay the section across the route, or compute in 3-D, if "
-      "that is not meant.");
+    return text(std::setprecision(3),
+                "crosses the section at ",
+                in_degrees(crossing),
+                " degrees, where the section of a pipe is an ellipse, ",
+                1. / crossing.sine,
+                " times as long as high. The ellipse is replaced by a disc "
+                "of the pipe's radius: the force is the force of soil "
+                "moving perpendicular to the pipe. For oblique motion lay "
+                "the section across the route, or compute in 3-D.");
   }
 
 

@@ -39,9 +39,9 @@ namespace talus
 
 
 
-  /// All edges are looked at: polygons have few. Where a corner is nearest,
-  /// neither of its edges alone says on which side the place lies, but the sum
-  /// of their normals does (Baerentzen and Aanaes 2005).
+  /// All edges are tested: polygons have few. At a corner neither edge alone
+  /// tells the side of the place; the sum of the normals of both edges does
+  /// (Baerentzen and Aanaes 2005).
   EdgeLine::Nearest
   EdgeLine::nearest(const Point<2> &x) const
   {
@@ -65,7 +65,7 @@ namespace talus
                                             : left_of(e);
         result.distance         = distance;
         result.on_left          = away * left > 0.;
-        // So near to the line the direction is that of the round-off.
+        // Within round-off of the line the direction would be noise.
         const bool is_on_line = distance <= 1e-12 * edge.norm();
         result.direction      = is_on_line ? left_of(e) : away / distance;
         if (is_on_line && !result.on_left)
@@ -78,7 +78,7 @@ namespace talus
 
   namespace
   {
-    /// The vertices of Boost's polygon, the first one again at the end.
+    /// Return the vertices of Boost's polygon, the first repeated at the end.
     template <typename BoostPolygon>
     std::vector<Point<2>>
     ring(const BoostPolygon &polygon)
@@ -93,16 +93,15 @@ namespace talus
 
 
 
-    /// @p vertices are closed and brought into Boost's sense of rotation here,
-    /// so that the user need not know either. A polygon that crosses itself is
-    /// refused: what lies inside of it depends on the convention.
+    /// Close @p vertices and bring them into Boost's sense of rotation, for the
+    /// convenience of the user. A polygon that crosses itself is refused: the
+    /// inside would depend on the convention.
     template <typename BoostPolygon>
     BoostPolygon
     valid_polygon(const std::string           &name,
                   const std::vector<Point<2>> &vertices)
     {
-      // Boost and not formulas of our own, as it also says why a polygon is not
-      // valid.
+      // Boost, because it also gives the reason why a polygon is not valid.
       BoostPolygon polygon;
       for (const auto &v : vertices)
         bg::append(polygon.outer(),
@@ -148,8 +147,8 @@ namespace talus
 
 
 
-  /// The edge belongs to the polygon, as the faces of a box do to a box.
-  /// A place that is no number is not contained.
+  /// The edge belongs to the polygon, like the faces of a box to the box. A
+  /// place that is NaN is not contained.
   bool
   Polygon::contains(const Point<2> &x) const
   {
@@ -158,7 +157,7 @@ namespace talus
 
 
 
-  /// Only within it points need be looked for.
+  /// Points are searched only within the box.
   Box<2>
   Polygon::bounding_box() const
   {
@@ -172,8 +171,8 @@ namespace talus
 
   namespace
   {
-    /// That the line cuts space in two. Its endless ends are followed for a
-    /// million times its size.
+    /// Check that the line divides the plane in two. The endless ends are
+    /// followed for a million times the size of the line.
     void
     check_open(const std::string &name, const std::vector<Point<2>> &vertices)
     {
@@ -205,13 +204,13 @@ namespace talus
       for (std::size_t v = 1; v + 1 < vertices.size(); ++v)
         append(vertices[v]);
       append(beyond(vertices[vertices.size() - 2], vertices.back()));
-      AssertThrow(bg::is_simple(line),
-                  ExcUser(text(name,
-                               " form a line that crosses itself, or would if "
-                               "its first and last edges went on for ever, as "
-                               "those of an open polygon do. List them in "
-                               "order along the surface, with the solid on the "
-                               "right.")));
+      AssertThrow(
+        bg::is_simple(line),
+        ExcUser(text(name,
+                     " form a line that crosses itself, possibly beyond the "
+                     "ends: the first and last edges of an open polygon are "
+                     "endless. List the vertices in order along the surface, "
+                     "with the solid on the right.")));
     }
 
 
@@ -251,8 +250,7 @@ namespace talus
 
 
 
-  /// Of no use to whoever looks for a tight one, but right for all slopes of
-  /// the endless edges.
+  /// Not a tight box, but valid for all slopes of the endless edges.
   Box<2>
   OpenPolygon::bounding_box() const
   {

@@ -12,7 +12,7 @@ namespace talus
 
   namespace
   {
-    // How often a box is halved.
+    // Number of halvings of a box.
     constexpr unsigned int min_depth = 2;
 
     template <int dim>
@@ -94,8 +94,9 @@ namespace talus
 
 
 
-  /// Drops the limits that @p box lies within, and says whether it may have a
-  /// part within all: one place tells for the whole ball around it.
+  /// Drop the limits that @p box lies within. Returns false if no part of the
+  /// box lies within all limits: the distance at the centre decides for the
+  /// whole ball around the box.
   template <int dim>
   bool
   Region<dim>::keep_those_that_cut(const Box<dim> &box, Limits &limits)
@@ -116,9 +117,9 @@ namespace talus
 
 
 
-  /// Limit by limit, each linear in what the ones before left: so where two
-  /// planes meet, the edge is exact, which it would not be for the maximum of
-  /// their distances.
+  /// The simplex is clipped by one limit after another, each linear on the
+  /// remaining parts. Edges between planes are exact, unlike for the maximum of
+  /// the distances.
   template <int dim>
   std::vector<Simplex<dim>>
   Region<dim>::clip(const Simplex<dim> &simplex,
@@ -135,8 +136,8 @@ namespace talus
             for (unsigned int v = 0; v <= dim; ++v)
               {
                 values[v] = limit.signed_distance(part[v]);
-                // Else round-off would cut slivers off at a surface that lies
-                // on a face of the lattice.
+                // Otherwise round-off would cut off slivers at a surface on a
+                // face of the lattice.
                 if (std::abs(values[v]) < tolerance)
                   values[v] = 0.;
               }
@@ -150,9 +151,9 @@ namespace talus
 
 
 
-  /// Whether the distance at the centre is the mean of those at the corners:
-  /// where a surface is curved or has a corner, and where two surfaces are
-  /// near, it is not.
+  /// Return whether the distance at the centre is the mean of the distances at
+  /// the corners. False where a surface is curved or has a corner, and where
+  /// two surfaces are near.
   template <int dim>
   bool
   Region<dim>::are_linear(const Box<dim> &box,
@@ -178,7 +179,7 @@ namespace talus
 
 
 
-  /// The mean of the squares over a simplex is known from its corners.
+  /// The mean of the squares over a simplex follows from the corners.
   template <int dim>
   void
   Region<dim>::Sum::add(const Simplex<dim> &simplex)
@@ -217,7 +218,7 @@ namespace talus
 
 
 
-  /// @p depth says how often the box was halved.
+  /// @p depth is the number of halvings so far.
   template <int dim>
   void
   Region<dim>::add_part(const Box<dim>    &box,

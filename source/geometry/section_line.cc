@@ -7,8 +7,8 @@ namespace talus
 {
   using namespace dealii;
 
-  /// A corner that lies on the other line belongs to one of its segments only,
-  /// so that no crossing is lost or found twice.
+  /// A corner on the other line belongs to only one segment: no crossing is
+  /// lost or found twice.
   std::vector<SectionCrossing>
   find_crossings(const std::vector<Point<2>> &section,
                  const std::vector<Point<2>> &route)

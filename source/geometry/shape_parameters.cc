@@ -36,16 +36,16 @@ namespace talus
       this->prm,
       Patterns::Selection(
         "|polygon|box|ball|cylinder|pipe|half-plane|terrain|layer"));
-    add_parameter(
-      "Coordinates",
-      coordinates_,
-      "'map', 3-D only but for the route of a pipe: all places of "
-      "this section are on the map. A place x, y, z is easting, "
-      "northing, height; x, z of a plan are easting, northing; x, y "
-      "of a polygon are easting, height; the ends along z are the "
-      "southern and the northern one. Expressions keep x, y, z.",
-      this->prm,
-      Patterns::Selection("mesh|map"));
+    add_parameter("Coordinates",
+                  coordinates_,
+                  "'map', in 2-D only for the route of a pipe: all places of "
+                  "this section are on the map. A place x, y, z is easting, "
+                  "northing, height; x, z in plan are easting, northing; x, "
+                  "y of a polygon are easting, height; the ends along z are "
+                  "the southern and the northern end. Expressions keep x, y, "
+                  "z.",
+                  this->prm,
+                  Patterns::Selection("mesh|map"));
     declare_parameters_of_boxes();
     declare_parameters_of_round_shapes();
     declare_parameters_of_polygon_and_half_plane();
@@ -85,8 +85,8 @@ namespace talus
                   Patterns::Double(1e-12));
     add_parameter("Inner radius",
                   inner_radius_,
-                  "Radius of the hollow in the ball or cylinder, which makes "
-                  "it a ring (in 3-D a shell or pipe) [m].",
+                  "Radius of the hollow in the ball or cylinder, for a ring "
+                  "(in 3-D a shell or pipe) [m].",
                   this->prm,
                   Patterns::Double(0.));
   }
@@ -99,15 +99,15 @@ namespace talus
   {
     add_parameter("Vertices",
                   vertices_,
-                  "Corners of the polygon in order, as x,y; x,y; ... [m]. Of "
-                  "a layer, the outline that it is limited to: in 3-D in the "
+                  "Corners of the polygon in order, as x,y; x,y; ... [m]. "
+                  "For a layer, the outline that limits the layer: in 3-D in "
                   "plan, as x,z; x,z; ...");
     add_parameter("Open",
                   is_open_,
-                  "Whether the vertices are those of a surface whose first and "
-                  "last edges go on for ever, with the solid on its right: "
-                  "below it if they are listed from left to right. false: "
-                  "those of a closed polygon.");
+                  "true: the vertices form a surface with endless first and "
+                  "last edges and the solid on the right, which is below for "
+                  "vertices from left to right. false: the vertices form a "
+                  "closed polygon.");
     add_parameter("Extent in z",
                   extent_z_,
                   "3-D only: lower and upper end of the prism over the polygon "
@@ -133,7 +133,7 @@ namespace talus
                                  "as mudline - 5 [m].";
     add_parameter("Surface",
                   surface_,
-                  "Surface of the terrain, which is all below it" + sentence);
+                  "Upper surface of the terrain" + sentence);
     add_parameter("Upper surface",
                   upper_surface_,
                   "Where the layer ends upwards" + sentence);
@@ -153,7 +153,7 @@ namespace talus
 
 
 
-  /// The route of a pipe in 2-D may be on the map: its other places are not.
+  /// In 2-D only the route of a pipe may be on the map.
   template <int dim>
   PlaceCoordinates
   ShapeParameters<dim>::coordinates() const
@@ -179,25 +179,25 @@ namespace talus
 
 
 
-  /// Made anew by whoever asks: a shape is cheap, and needs the domain for the
-  /// ends of a prism, which is known only when the mesh is.
+  /// Made anew in each call: a shape is cheap, and the ends of a prism depend
+  /// on the domain, known only after the mesh.
   template <int dim>
   std::unique_ptr<Shape<dim>>
   ShapeParameters<dim>::make(const Box<dim> &domain) const
   {
-    // A section that is listed by name but missing looks the same.
-    AssertThrow(!shape_.empty(),
-                ExcUser(text(path("Shape"),
-                             " is not given, but 'polygon', 'box', 'ball', "
-                             "'cylinder', 'pipe', 'half-plane', 'terrain' or "
-                             "'layer' is expected there. "
-                             "Add it and the entries that it needs to the "
-                             "section '",
-                             section_.substr(1),
-                             "', or the whole section, or remove the name "
-                             "from '",
-                             section_.substr(1, section_.rfind('/') - 1),
-                             "/Names'.")));
+    // Also reached for a listed section that is missing.
+    AssertThrow(
+      !shape_.empty(),
+      ExcUser(text(path("Shape"),
+                   " is not given, but 'polygon', 'box', 'ball', 'cylinder', "
+                   "'pipe', 'half-plane', 'terrain' or 'layer' is expected "
+                   "there. Add the entry and the further entries of the shape "
+                   "to the section '",
+                   section_.substr(1),
+                   "', or the whole section, or remove the name "
+                   "from '",
+                   section_.substr(1, section_.rfind('/') - 1),
+                   "/Names'.")));
     if (shape_ == "half-plane")
       return make_half_space();
     if (shape_ == "box")
@@ -244,7 +244,7 @@ namespace talus
 
 
 
-  /// The ends of a prism, which are those of the mesh unless given.
+  /// Return the ends of a prism, by default the ends of the mesh.
   template <int dim>
   std::array<double, 2>
   ShapeParameters<dim>::extent_z(const Box<dim> &domain) const
@@ -269,11 +269,12 @@ namespace talus
     const std::array<double, 2> ends = {
       {Utilities::string_to_double(z[0]), Utilities::string_to_double(z[1])}};
     AssertThrow(ends[0] < ends[1],
-                ExcUser(text(path("Extent in z"),
-                             " = '",
-                             extent_z_,
-                             "' ends before it begins; the lower end comes "
-                             "first, and it must have a length.")));
+                ExcUser(
+                  text(path("Extent in z"),
+                       " = '",
+                       extent_z_,
+                       "' ends before the beginning; give the lower end first, "
+                       "and a positive length.")));
     if (!coordinates().are_of_map())
       return ends;
     // The northern end has the smaller z.
@@ -375,7 +376,7 @@ namespace talus
 
 
 
-  /// What limits it in plan comes first: the surfaces may not be known beyond.
+  /// Limits in plan come first: the surfaces may be undefined beyond.
   template <int dim>
   std::unique_ptr<Shape<dim>>
   ShapeParameters<dim>::make_layer(const Box<dim> &domain) const
@@ -411,9 +412,9 @@ namespace talus
 
 
 
-  /// Soil that the mesh does not reach up to would be left out without a word,
-  /// other than at its bottom, where layers may go down for ever. Looked for at
-  /// some places of the top face.
+  /// Soil above the top of the mesh would be left out silently. (Below the mesh
+  /// soil may be left out, because layers may be endless.) Checked at some
+  /// places of the top face.
   template <int dim>
   void
   ShapeParameters<dim>::check_top(const Shape<dim> &layer,

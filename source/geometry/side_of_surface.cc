@@ -54,7 +54,7 @@ namespace talus
 
 
 
-  /// The tangent plane says nothing of a steep slope beside x.
+  /// The tangent plane at x does not show a steep slope beside x.
   template <int dim>
   bool
   SideOfSurface<dim>::may_cut_ball(const Point<dim> &x,

@@ -10,7 +10,7 @@ namespace talus
 
   namespace
   {
-    /// Map coordinates have more digits than a stream shows.
+    /// Map coordinates need more digits than the default of a stream.
     std::string
     digits(const double coordinate)
     {
@@ -61,7 +61,7 @@ namespace talus
   Terrain<2>::Place
   Terrain<2>::place_on_map(const Point<2> &x) const
   {
-    // The leg that x lies on; the first and the last one have no end.
+    // Leg of the line at x; the first and the last leg are endless.
     const auto beyond =
       std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, x[0]);
     const std::size_t  i   = beyond - lengths_.begin();

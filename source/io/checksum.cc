@@ -5,7 +5,7 @@
 
 namespace talus
 {
-  // Read in pieces of a megabyte: a mesh need not fit into memory.
+  // Read in blocks of a megabyte: a mesh file may exceed the memory.
   std::uint64_t
   checksum_of_file(const std::filesystem::path &path)
   {

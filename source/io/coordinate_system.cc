@@ -18,7 +18,7 @@ namespace talus
 
 
 
-  // A file or an address in place of a description is not opened.
+  // Files and addresses in place of a description are not opened.
   std::optional<OGRSpatialReference>
   spatial_reference(const std::string &words)
   {
@@ -97,14 +97,15 @@ namespace talus
       implementation_->transformation.reset(
         OGRCreateCoordinateTransformation(&*source, &*target));
     AssertThrow(implementation_->transformation,
-                ExcUser(text("GDAL has no transformation from the coordinate "
-                             "system '",
-                             from.substr(0, 60),
-                             "' to '",
-                             to.substr(0, 60),
-                             "' (",
-                             CPLGetLastErrorMsg(),
-                             "). Give the file in one that GDAL knows.")));
+                ExcUser(text(
+                  "GDAL has no transformation from the coordinate "
+                  "system '",
+                  from.substr(0, 60),
+                  "' to '",
+                  to.substr(0, 60),
+                  "' (",
+                  CPLGetLastErrorMsg(),
+                  "). Give the file in a coordinate system that GDAL knows.")));
   }
 
 

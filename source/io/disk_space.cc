@@ -9,11 +9,10 @@
 
 namespace talus
 {
-  /// fallocate() with FALLOC_FL_KEEP_SIZE takes the blocks from the file system
-  /// and leaves the size as it is, so that the library finds the file as it
-  /// expects it. posix_fallocate() would change the size and, where the file
-  /// system cannot reserve, write to each block of the file. Where it cannot,
-  /// all that can be asked is how much is free now.
+  /// fallocate() with FALLOC_FL_KEEP_SIZE reserves the blocks and keeps the
+  /// size of the file as the library expects it. posix_fallocate() would change
+  /// the size and, on file systems without reservation, write to each block.
+  /// Without reservation only the free space can be asked for.
   std::string
   reserve_disk_space(const std::filesystem::path &path,
                      const std::uint64_t          n_bytes)
@@ -25,13 +24,13 @@ namespace talus
     do
       error =
         (::fallocate(file, FALLOC_FL_KEEP_SIZE, 0, n_bytes) == 0 ? 0 : errno);
-    // A signal, as that by which a run is stopped, interrupts it.
+    // A signal, for instance to stop the run, interrupts fallocate().
     while (error == EINTR);
     ::close(file);
 
     if (error == EOPNOTSUPP || error == ENOSYS)
       {
-        // What the file has already need not be free.
+        // Bytes already in the file need no free space.
         std::error_code     ignored;
         const std::uint64_t size  = std::filesystem::file_size(path, ignored);
         const auto          space = std::filesystem::space(path, ignored);
@@ -42,7 +41,7 @@ namespace talus
 
 
 
-  /// Setting a file to the size that it has frees the blocks beyond its end.
+  /// Setting a file to its present size frees the blocks beyond the end.
   std::string
   release_disk_space(const std::filesystem::path &path)
   {

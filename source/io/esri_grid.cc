@@ -18,7 +18,7 @@ namespace talus
 
   namespace
   {
-    /// Where in the file an error is, for messages.
+    /// Line of the file, for messages.
     struct Line
     {
       const std::filesystem::path &file;
@@ -47,7 +47,7 @@ namespace talus
 
 
 
-    /// The parts of a line between blanks and the other @p separators.
+    /// Split a line at blanks, semicolons and the additional @p separators.
     std::vector<std::string_view>
     split(const std::string_view line, const std::string &separators)
     {
@@ -65,8 +65,8 @@ namespace talus
 
 
 
-    /// Without regard to the language of the user, in which 0.5 may be 0. What
-    /// is no number at all has no value; nan is one.
+    /// Parse a number, independently of the locale. Returns nothing for a text
+    /// without a number; nan is a number.
     std::optional<double>
     number(std::string_view word)
     {
@@ -85,10 +85,10 @@ namespace talus
 
 
 
-    /// What the lines before the values say, by keyword.
+    /// Numbers of the lines before the values, by keyword.
     using Header = std::map<std::string, double>;
 
-    /// One name for each of what differs between dialects; empty if unknown.
+    /// Return a common name of the keyword for all dialects; empty if unknown.
     std::string
     keyword(const std::string_view word)
     {
@@ -112,8 +112,8 @@ namespace talus
 
 
 
-    /// Whether the line belongs to the header, which it then extends. The
-    /// values begin with the first line of numbers alone.
+    /// Add the line to the header, or return false if the line does not belong
+    /// to the header. The values begin at the first line with only numbers.
     bool
     read_header_line(const Line &line, Header &header)
     {
@@ -123,7 +123,8 @@ namespace talus
           }))
         return false;
       words = split(line.content, "=:");
-      // A comma between the two is a separator, in the number a decimal point.
+      // A comma after the keyword is a separator, in the number a decimal
+      // point.
       for (auto &word : words)
         while (!word.empty() && word.back() == ',')
           word.remove_suffix(1);
@@ -154,7 +155,7 @@ namespace talus
 
 
 
-    /// The first of the keywords that is there.
+    /// Return the value of the first of @p names that the header contains.
     double
     required(const std::filesystem::path    &file,
              const Header                   &header,
@@ -163,14 +164,15 @@ namespace talus
       for (const std::string &name : names)
         if (const auto found = header.find(name); found != header.end())
           return found->second;
-      AssertThrow(false,
-                  ExcUser(text("The raster '",
-                               file.string(),
-                               "' has no line with '",
-                               names[0],
-                               "', which an Esri ASCII grid needs. Add it, or "
-                               "give a file of that format, as gdal_translate "
-                               "-of AAIGrid makes it from others.")));
+      AssertThrow(
+        false,
+        ExcUser(
+          text("The raster '",
+               file.string(),
+               "' has no line with '",
+               names[0],
+               "', which an Esri ASCII grid needs. Add the line, or "
+               "convert the raster: gdal_translate -of AAIGrid IN OUT.asc.")));
       return 0.;
     }
 
@@ -196,8 +198,8 @@ namespace talus
 
 
 
-    /// The edge of the raster: where the centre of its first cell is given, that
-    /// less half a cell.
+    /// Coordinate of the western or southern edge of the raster: as given, or
+    /// half a cell before the centre of the first cell.
     double
     edge(const std::filesystem::path &file,
          const Header                &header,
@@ -230,7 +232,7 @@ namespace talus
 
 
 
-    /// All but the values.
+    /// Build the raster without values.
     Raster
     georeference(const std::filesystem::path &file, const Header &header)
     {
@@ -248,8 +250,8 @@ namespace talus
 
 
 
-    /// Append the values of a row. Commas are decimal points if the line has as
-    /// many entries between blanks as there are columns, else separators.
+    /// Append the values of a row. Commas are decimal points if blanks separate
+    /// as many entries as there are columns, otherwise separators.
     void
     read_row(const Line &line, Raster &raster)
     {
@@ -298,7 +300,7 @@ namespace talus
   bool
   is_esri_grid(const std::filesystem::path &file)
   {
-    // A device may have no end, and to open a pipe is to wait for its writer.
+    // A device may have no end, and opening a pipe waits for a writer.
     std::error_code error;
     if (!std::filesystem::is_regular_file(file, error))
       return false;
@@ -323,8 +325,8 @@ namespace talus
 
 
 
-  // Line by line, and not number by number, so that a row that lacks a value
-  // does not shift all that follow: the sum may be right by accident.
+  // Line by line, not number by number: a missing value in a row must not shift
+  // all later values, since the total number may be right by accident.
   Raster
   read_esri_grid(const std::filesystem::path &file)
   {
@@ -336,7 +338,7 @@ namespace talus
       {
         ++line.number;
         if (line.number == 1 && line.content.rfind("\xef\xbb\xbf", 0) == 0)
-          line.content.erase(0, 3); // the mark that some put before UTF-8
+          line.content.erase(0, 3); // byte order mark of UTF-8
         if (line.content.find_first_not_of(" \t\r") == std::string::npos)
           continue;
         if (raster.n_columns == 0)
@@ -367,7 +369,7 @@ namespace talus
 
   namespace
   {
-    /// The shortest text that is read as the same number.
+    /// Return the shortest text that is read as the same number.
     std::string
     shortest(const double value)
     {
@@ -387,7 +389,7 @@ namespace talus
       out << "ncols " << raster.n_columns << "\nnrows " << raster.n_rows
           << "\nxllcorner " << shortest(raster.west) << "\nyllcorner "
           << shortest(raster.south) << '\n';
-      // Not all readers know the dialect with two sizes.
+      // Some readers do not know the dialect with two sizes.
       if (raster.dx == raster.dy)
         out << "cellsize " << shortest(raster.dx) << '\n';
       else

@@ -8,17 +8,17 @@ namespace talus
 {
   namespace
   {
-    // What the list below holds of a format.
+    // Entry of the list of formats.
     struct Format
     {
       std::string name;
-      std::string files; ///< that it makes, for the user
+      std::string files; ///< description for the user
       std::unique_ptr<FieldWriter> (*make)();
     };
 
 
 
-    /// The entry of a class of writers.
+    /// Return the entry for a class of writers.
     template <typename Writer>
     Format
     format(const std::string &name)
@@ -32,9 +32,8 @@ namespace talus
 
 
 
-    /// All formats there are.
-    /// A new format is one line here; the parameter and its documentation
-    /// follow.
+    /// Return all formats. A new format is one line here; the parameter and the
+    /// documentation follow.
     const std::vector<Format> &
     formats()
     {
@@ -47,7 +46,7 @@ namespace talus
 
 
 
-    /// A text for each format, with separators between them.
+    /// Concatenate a text for each format, with separators.
     template <typename GetText>
     std::string
     joined(const std::string &separator, const GetText &text_of)
@@ -79,7 +78,8 @@ namespace talus
 
 
 
-  /// The parameter admits known names only; this is for names from elsewhere.
+  /// The parameter admits known names only; the check is for names from
+  /// elsewhere.
   std::unique_ptr<FieldWriter>
   make_field_writer(const std::string &name)
   {

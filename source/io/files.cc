@@ -18,9 +18,9 @@ namespace talus
 
   namespace
   {
-    /// The C library's words for errno, which streams set but do not tell.
-    /// Callers set it to 0 before, so that an old error is not taken for
-    /// theirs.
+    /// Return the C library's message for errno, which streams set but do not
+    /// report. Callers set errno to 0 before the operation, to exclude older
+    /// errors.
     std::string
     reason()
     {
@@ -55,7 +55,7 @@ namespace talus
 
 
 
-  // By what the file is, not by its name: there may be links.
+  // Compares the files, not the names: there may be links.
   std::string
   clash_with_input(const std::filesystem::path &path)
   {
@@ -64,11 +64,10 @@ namespace talus
       if (std::filesystem::equivalent(path, input, ignored))
         return text("The run would write '",
                     path.string(),
-                    "', but that is '",
+                    "', which is also the input '",
                     input.string(),
-                    "', which it reads. Choose another folder with "
-                    "Output/Folder or --output, or give the input another "
-                    "name.");
+                    "'. Choose another folder with Output/Folder or --output, "
+                    "or give the input another name.");
     return "";
   }
 
@@ -100,11 +99,11 @@ namespace talus
 
 
 
-  /// Under another name first, then renamed: rename() replaces a file at once,
-  /// so a reader, and a run that is killed in between, find either the old file
-  /// or the whole new one. What has the other name goes: a link would lead to a
-  /// file of the user. It is closed before it is looked at, since a full
-  /// disk may show only there.
+  /// Write a file under another name, then rename: rename() replaces a file
+  /// atomically, and a reader, or a run killed in between, finds either the old
+  /// file or the complete new file. Any old file under the temporary name is
+  /// removed first, because a link could lead to a file of the user. The stream
+  /// is closed before the check, since a full disk may show only then.
   void
   write_file(const std::filesystem::path               &path,
              const std::function<void(std::ostream &)> &write)
@@ -138,10 +137,10 @@ namespace talus
   {
     errno                = 0;
     const int descriptor = ::open(path.c_str(), O_RDONLY);
-    // A folder is opened in the same way: to sync it keeps its names.
+    // A folder is opened in the same way; syncing a folder preserves the names.
     if (descriptor < 0)
       return reason();
-    // Some file systems cannot sync everything, and say so with EINVAL.
+    // Some file systems cannot sync everything, and return EINVAL.
     const bool        is_done = (::fsync(descriptor) == 0 || errno == EINVAL);
     const std::string error   = is_done ? "" : reason();
     ::close(descriptor);
@@ -163,8 +162,7 @@ namespace talus
 
 
 
-  /// Lines after the checkpoint are kept in a resumed run: they tell what
-  /// happened.
+  /// A resumed run keeps lines after the checkpoint: the log shows all events.
   void
   LogFile::open(const std::filesystem::path &path, const Beginning beginning)
   {
@@ -189,9 +187,10 @@ namespace talus
 
 
 
-  /// A resumed run cuts the file to the length that it had at the checkpoint,
-  /// known from the state: then the table is byte by byte that of a run without
-  /// a stop. Opened for input, too, as output alone would empty the file.
+  /// A resumed run cuts the file to the length at the checkpoint, known from
+  /// the state. The table is then byte by byte equal to the table of an
+  /// uninterrupted run. The file is opened for input, too, as output alone
+  /// would empty it.
   void
   CsvFile::open(const std::filesystem::path    &path,
                 const std::vector<std::string> &names,
@@ -205,11 +204,11 @@ namespace talus
     errno = 0;
     if (beginning == Beginning::resumed)
       {
-        // Asked before, for all tables, but it may have changed since; and what
-        // is too short would be filled up with zeros.
+        // Checked before, for all tables, but the file may have changed since,
+        // and a file that is too short would be filled up with zeros.
         const std::string sentence = cannot_resume(path, names);
         AssertThrow(sentence.empty(), ExcUser(sentence));
-        // Rows written after the checkpoint are written once more.
+        // Rows after the checkpoint are written again.
         std::error_code error;
         std::filesystem::resize_file(path, n_bytes_, error);
         errno = error.value();
@@ -226,9 +225,8 @@ namespace talus
 
 
 
-  /// A longer file is right: rows were written after the checkpoint. What
-  /// matters is that nothing before it is missing, and that the columns are the
-  /// same.
+  /// A longer file is right: the run wrote rows after the checkpoint. All rows
+  /// before the checkpoint must be present, with the same columns.
   std::string
   CsvFile::cannot_resume(const std::filesystem::path    &path,
                          const std::vector<std::string> &names) const
@@ -243,8 +241,8 @@ namespace talus
                         : text("has only ", size, " bytes"),
                   ", but it had ",
                   n_bytes_,
-                  " bytes at the checkpoint. Put back the file that belongs to "
-                  "the checkpoint, or start the run anew.");
+                  " bytes at the checkpoint. Restore the file of the "
+                  "checkpoint, or start the run anew.");
 
     // Another version of talus may have other columns.
     std::ifstream file(path);
@@ -257,8 +255,8 @@ namespace talus
         std::getline(columns, found, ',');
         if (found != name)
           return what + "has a column '" + found + "' where '" + name +
-                 "' was expected. Resume with the version of talus that wrote "
-                 "it, or start the run anew.";
+                 "' was expected. Resume with the version of talus that "
+                 "wrote the file, or start the run anew.";
       }
     return "";
   }
@@ -268,7 +266,7 @@ namespace talus
   void
   CsvFile::list_state(const std::string &name, StateList &list)
   {
-    // The file belongs to the first rank; the others have zero.
+    // The file belongs to the first rank; all higher ranks have zero.
     list.add("length of " + name, "B", n_bytes_, Reduction::sum);
   }
 
@@ -296,7 +294,7 @@ namespace talus
 
   namespace
   {
-    /// Whether a file is not there or too short; a device has no length.
+    /// Return whether a file is missing or too short; a device has no length.
     bool
     has_lost(const std::filesystem::path &path, const unsigned long n_bytes)
     {
@@ -310,17 +308,18 @@ namespace talus
 
 
 
-  /// n_bytes_ is what a checkpoint would save: bytes that the operating system
-  /// has. Looked at before: rows behind a cut would hide it.
+  /// n_bytes_ is the length for a checkpoint: bytes handed to the operating
+  /// system. The check comes first: new rows behind a cut would hide the loss.
   void
   CsvFile::flush()
   {
     AssertThrow(n_bytes_ == 0 || !has_lost(path_, n_bytes_),
-                ExcUser("The file '" + path_.string() +
-                        "', into which the run writes, was removed or cut "
-                        "short by someone else, so that its results are not "
-                        "complete. Put back what is missing and go on with "
-                        "--resume, or start anew with --overwrite."));
+                ExcUser(
+                  "The file '" + path_.string() +
+                  "', into which the run writes, was removed or cut short by "
+                  "another program: the results are not complete. Restore "
+                  "the missing part and continue with --resume, or start "
+                  "anew with --overwrite."));
     errno = 0;
     file_.flush();
     AssertThrow(file_, ExcUser(failed_write(path_)));

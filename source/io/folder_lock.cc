@@ -27,7 +27,7 @@ namespace talus
 
   namespace
   {
-    /// What stands in the lock: who has it. The beginning is enough.
+    /// Return the first 256 bytes of the lock, with the name of the owner.
     std::string
     content_of(const int file)
     {
@@ -50,7 +50,7 @@ namespace talus
 
 
 
-    /// Whether nobody but talus has written into the lock.
+    /// Return whether only talus has written into the lock.
     bool
     is_ours(const std::string &content)
     {
@@ -63,12 +63,11 @@ namespace talus
     std::string
     lock_of_others(const std::filesystem::path &path)
     {
-      return text(
-        "The output folder '",
-        path.parent_path().string(),
-        "' holds a 'lock' that no run has written, and this one would "
-        "write over it. Move it, or choose another folder with "
-        "Output/Folder or --output.");
+      return text("The output folder '",
+                  path.parent_path().string(),
+                  "' holds a file 'lock' that no run has written, and this "
+                  "run would write over the file. Move the file, or choose "
+                  "another folder with Output/Folder or --output.");
     }
 
 
@@ -80,14 +79,14 @@ namespace talus
                   path.parent_path().string(),
                   "' belongs to another run, which runs ",
                   owner.empty() ? "somewhere" : owner,
-                  ". Wait until that has ended, or choose another folder "
-                  "with Output/Folder or --output.");
+                  ". Wait for the end of the other run, or choose another "
+                  "folder with Output/Folder or --output.");
     }
 
 
 
-    /// Lock @p path; returns why that is not possible, empty if it is. Not
-    /// through a link: what it leads to is not ours.
+    /// Lock @p path. Returns the reason for a failure, or an empty text. Links
+    /// are not followed: the target may be a file of the user.
     std::string
     lock(const std::filesystem::path &path, int &file)
     {
@@ -100,8 +99,8 @@ namespace talus
         return errno == EWOULDBLOCK ? other_run(path, content_of(file)) : "";
       if (!is_ours(content_of(file)))
         return lock_of_others(path);
-      // The lock is what counts. The content only tells who has it, and may be
-      // missing, as on a full disk.
+      // The lock alone decides. The content only names the owner, and may be
+      // missing, for instance on a full disk.
       const std::string           content = process_on_host();
       [[maybe_unused]] const bool is_written =
         ::ftruncate(file, 0) == 0 &&
@@ -112,8 +111,8 @@ namespace talus
 
 
 
-  // Neither a link, which open() refuses, nor a folder is of a run. Without
-  // O_NONBLOCK it would wait for who writes into a pipe.
+  // Neither a link, which open() refuses, nor a folder belongs to a run.
+  // O_NONBLOCK, because opening a pipe would wait for a writer.
   std::string
   foreign_lock(const std::filesystem::path &folder)
   {
@@ -132,10 +131,10 @@ namespace talus
 
 
 
-  // flock() and not fcntl(): the lock goes with the open file, and not with
-  // whatever else in the program opens and closes a file of that name. The file
-  // stays when the run has ended: who removed it could remove that of a run
-  // which begins just then.
+  // flock(), not fcntl(): the lock belongs to the open file, and is not lost
+  // when the program closes another descriptor of the same file. The file stays
+  // after the run: removing it could remove the lock of a run that starts at
+  // the same moment.
   void
   FolderLock::acquire(const std::filesystem::path &folder,
                       const MPI_Comm               communicator)

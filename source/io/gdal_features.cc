@@ -66,12 +66,13 @@ namespace talus
     const GDALDatasetUniquePtr file(
       GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_VERBOSE_ERROR));
     AssertThrow(file != nullptr,
-                ExcUser(text("The file '",
-                             path.string(),
-                             "' cannot be read (",
-                             CPLGetLastErrorMsg(),
-                             "). Save it anew, or convert it: ogr2ogr "
-                             "OUT.geojson IN.")));
+                ExcUser(
+                  text("The file '",
+                       path.string(),
+                       "' cannot be read (",
+                       CPLGetLastErrorMsg(),
+                       "). Save the file anew, or convert the file: ogr2ogr "
+                       "OUT.geojson IN.")));
     MapFeatures result;
     for (OGRLayer *layer : file->GetLayers())
       {

@@ -18,11 +18,11 @@ namespace talus
 
   namespace
   {
-    /// Open a file, or a part of one by the name that GDAL gives it.
+    /// Open a file, or a part of a file by GDAL's name for the part.
     GDALDatasetUniquePtr
     open(const std::string &name)
     {
-      // GMT calls its axes x and y, and says no more about them.
+      // GMT names the axes x and y, without further description.
       const char *const options[] = {"IGNORE_XY_AXIS_NAME_CHECKS=YES", nullptr};
       return GDALDatasetUniquePtr(
         GDALDataset::Open(name.c_str(),
@@ -33,8 +33,8 @@ namespace talus
 
 
 
-    /// Return the coordinate system of a file. netCDF may say no more than the
-    /// unit of a coordinate, in an item such as lon#units=degrees_east.
+    /// Return the coordinate system of a file. netCDF may give only the unit of
+    /// a coordinate, in an item such as lon#units=degrees_east.
     std::string
     coordinate_system(GDALDataset &file)
     {
@@ -49,7 +49,7 @@ namespace talus
 
 
 
-    /// One band of a file.
+    /// Single band of a file.
     class GdalBand
     {
     public:
@@ -59,8 +59,8 @@ namespace talus
       Raster
       frame() const;
 
-      /// Read the values row by row from the north: packed numbers as what they
-      /// stand for, NaN where there is no datum.
+      /// Read the values row by row from the north: packed numbers are
+      /// unpacked, and cells without a datum become NaN.
       std::vector<double>
       values(const Raster &frame) const;
 
@@ -100,10 +100,10 @@ namespace talus
       check(file_->GetRasterCount() == 1,
             text("has ",
                  file_->GetRasterCount(),
-                 " bands, where one of heights was expected. Take one out: "
-                 "gdal_translate -b 1 IN OUT.tif."));
+                 " bands, where one band of heights was expected. Extract a "
+                 "band: gdal_translate -b 1 IN OUT.tif."));
       band_ = file_->GetRasterBand(1);
-      // As netCDF says it.
+      // netCDF's attribute.
       const char *const sense = band_->GetMetadataItem("positive");
       check(sense == nullptr || std::strcmp(sense, "down") != 0,
             "has depths, positive downwards, where heights were expected. Turn "
@@ -112,8 +112,8 @@ namespace talus
 
 
 
-    /// Open the heights among the rasters that the file has. Their names end
-    /// with that of the variable, as in NETCDF:"gebco.nc":elevation.
+    /// Open the heights among the rasters of the file. The names of the rasters
+    /// end with the name of the variable, as in NETCDF:"gebco.nc":elevation.
     void
     GdalBand::open_part()
     {
@@ -139,15 +139,16 @@ namespace talus
       check(false,
             text("has no raster of heights, but ",
                  names,
-                 ", where one, or one named elevation, z or Band1, was "
-                 "expected. Copy it to a file of its own: gdal_translate "
-                 "'NETCDF:\"IN.nc\":NAME' OUT.tif."));
+                 ", where a single raster, or a raster named elevation, z "
+                 "or Band1, was expected. Copy the heights to a separate "
+                 "file: gdal_translate 'NETCDF:\"IN.nc\":NAME' OUT.tif."));
     }
 
 
 
-    /// Of netCDF coordinates GDAL looks at the first, a middle and the last
-    /// spacing only, and where a row is missing the raster would be stretched.
+    /// Check all coordinates of netCDF axes. GDAL compares only the first, a
+    /// middle and the last spacing; the raster would be stretched where a row
+    /// is missing.
     void
     GdalBand::check_axes(const unsigned int n_columns,
                          const unsigned int n_rows) const
@@ -163,22 +164,22 @@ namespace talus
             double     first = 0., step = 0.;
             check(values == nullptr || values->IsRegularlySpaced(first, step),
                   "has coordinates '" + axis->GetName() +
-                    "' that are not evenly spaced. Bring it to an even raster "
-                    "by gdalwarp, or add the rows that are missing.");
+                    "' that are not evenly spaced. Resample the raster by "
+                    "gdalwarp, or add the missing rows.");
           }
     }
 
 
 
-    // GDAL counts from the outer corner, whatever a file says its values belong
-    // to.
+    // GDAL counts from the outer corner, whether the file gives values at
+    // centres or at corners.
     Raster
     GdalBand::frame() const
     {
       std::array<double, 6> t{};
       check(file_->GetGeoTransform(t.data()) == CE_None,
-            "does not say where it lies on the map, by cells that are evenly "
-            "spaced. Write it anew with its georeference: gdal_translate "
+            "has no georeference of evenly spaced cells on the map. "
+            "Write the raster anew with a georeference: gdal_translate "
             "-a_ullr WEST NORTH EAST SOUTH IN OUT.tif.");
       check(t[2] == 0. && t[4] == 0. && t[1] > 0. && t[5] != 0.,
             "lies askew on the map, where rows from west to east were "
@@ -226,7 +227,7 @@ namespace talus
       for (std::size_t i = 0; i < result.size(); ++i)
         if (is_known[i] == 0)
           result[i] = std::numeric_limits<double>::quiet_NaN();
-        else if (is_packed) // else -0 would become 0
+        else if (is_packed) // 1 * -0 + 0 is 0, not -0
           result[i] = scale * result[i] + offset;
       std::array<double, 6> t{};
       file_->GetGeoTransform(t.data());

@@ -15,8 +15,8 @@ namespace talus
 
 
 
-    /// The member of an object; one without content if it has none. (get_child()
-    /// returns its default by reference, which must live on.)
+    /// Return the member of an object; empty if there is none. (get_child()
+    /// returns the default by reference, which must live on.)
     const Tree &
     member(const Tree &object, const std::string &name)
     {
@@ -56,7 +56,7 @@ namespace talus
       MapFeatures::Corners corners;
       for (const auto &[key, position] : positions)
         {
-          // Behind the first two there may be a height.
+          // A height may follow the first two numbers.
           std::vector<double> numbers;
           for (const auto &[no_key, number] : position)
             numbers.push_back(number.template get_value<double>());
@@ -67,7 +67,7 @@ namespace talus
 
 
 
-    /// Return the coordinate system that @p file names: WGS 84 without a name.
+    /// Return the coordinate system named in @p file; WGS 84 by default.
     std::string
     coordinate_system(const Tree &file)
     {

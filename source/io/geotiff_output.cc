@@ -17,8 +17,8 @@ namespace talus
 
   namespace
   {
-    /// A file in the memory of this process, so that what reaches the disk goes
-    /// the way of all output.
+    /// File in the memory of this process: write_file() then brings the content
+    /// to the disk like all output.
     class FileInMemory
     {
     public:
@@ -47,7 +47,8 @@ namespace talus
 
 
 
-    /// Return whether GDAL did all of it. The rows of both begin in the north.
+    /// Write frame and values into @p dataset and return whether GDAL
+    /// succeeded. Rows of the raster and of the GeoTIFF begin in the north.
     bool
     fill(GDALDataset &dataset, const Raster &raster)
     {
@@ -87,15 +88,15 @@ namespace talus
   void
   check_geotiff(const std::string &coordinate_system)
   {
-    AssertThrow(coordinate_system.empty() ||
-                  spatial_reference(coordinate_system),
-                ExcUser(text("The coordinate system of the raster, '",
-                             coordinate_system.substr(0, 60),
-                             coordinate_system.size() > 60 ? "..." : "",
-                             "', is not known to GDAL, so that no GeoTIFF can "
-                             "be written on it. Correct it in the raster or "
-                             "the .prj file beside it, or set 'Maps/Write "
-                             "GeoTIFF' to false.")));
+    AssertThrow(
+      coordinate_system.empty() || spatial_reference(coordinate_system),
+      ExcUser(text("The coordinate system of the raster, '",
+                   coordinate_system.substr(0, 60),
+                   coordinate_system.size() > 60 ? "..." : "",
+                   "', is not known to GDAL: no GeoTIFF can be written. "
+                   "Correct the coordinate system in the raster or the .prj "
+                   "file beside the raster, or set 'Maps/Write GeoTIFF' to "
+                   "false.")));
   }
 
 
@@ -117,7 +118,7 @@ namespace talus
         GDT_Float64,
         const_cast<char **>(options)));
     const bool is_filled = dataset != nullptr && fill(*dataset, raster);
-    dataset.reset(); // only now is all of it in the file
+    dataset.reset(); // completes the file
     AssertThrow(is_filled && CPLGetLastErrorType() < CE_Failure,
                 ExcUser(failed_write(file, CPLGetLastErrorMsg())));
     write_file(file, [&](std::ostream &out) { out << memory.content(); });

@@ -16,8 +16,8 @@ namespace talus
 
 
 
-    /// Bytes of so many elements as the extents say; nothing if that is more than
-    /// @p limit. The library's own product may wrap around.
+    /// Return the size of an array in bytes; nothing above @p limit. The
+    /// library's own product may wrap around.
     std::optional<hsize_t>
     size_in_bytes(const hid_t type, const hid_t space, const hsize_t limit)
     {
@@ -51,7 +51,7 @@ namespace talus
 
 
 
-  /// Of variable length, the library would give pointers in place of a text.
+  /// For variable length the library would give pointers in place of a text.
   std::optional<std::size_t>
   length_of_text(const hid_t type, const hid_t space)
   {
@@ -63,9 +63,8 @@ namespace talus
 
 
 
-  /// Whatever was written has as many bytes in the file as it has in memory:
-  /// an array that was never written takes none, but the library would make up
-  /// its values.
+  /// A written array has as many bytes in the file as in memory. An array that
+  /// was never written takes no space, and the library would invent the values.
   bool
   is_stored(const hid_t file, const hid_t array)
   {

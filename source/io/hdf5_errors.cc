@@ -5,7 +5,8 @@ namespace talus
 {
   namespace
   {
-    /// What is in the last pair of quotes, if any, else all.
+    /// Return the text in the last pair of quotes; without quotes the whole
+    /// text.
     std::string
     last_quoted(const std::string &text)
     {
@@ -21,9 +22,9 @@ namespace talus
 
 
 
-  /// HDF5 prints its stack of errors to the terminal unless it is told
-  /// otherwise. Here the reason is kept for a sentence of ours, and what was
-  /// set before comes back with the destructor.
+  /// By default HDF5 prints a stack of errors to the terminal. Here the reason
+  /// is kept for an error message of talus, and the destructor restores the
+  /// previous setting.
   Hdf5Errors::Hdf5Errors()
   {
     H5Eget_auto2(H5E_DEFAULT, &previous_, &previous_data_);
@@ -45,8 +46,8 @@ namespace talus
     auto &errors = *static_cast<Hdf5Errors *>(data);
     if (errors.is_set_)
       return 0;
-    // The first entry is where the failure was found, deep inside; there the
-    // words of the operating system or of MPI are in quotes.
+    // The first entry is the innermost function, where the message of the
+    // operating system or of MPI stands in quotes.
     const auto keep_first =
       [](const unsigned int n, const H5E_error2_t *entry, void *reason) {
         if (n == 0 && entry->desc != nullptr)

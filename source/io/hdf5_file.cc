@@ -8,8 +8,8 @@ namespace talus
 
   namespace
   {
-    /// Nor may the library print anything when it ends: what it could not read
-    /// of a damaged file it cannot close either.
+    /// Silence the library at the end of the program, too: objects of a damaged
+    /// file that could not be read cannot be closed either.
     Hdf5Errors
     silent_errors()
     {
@@ -34,16 +34,16 @@ namespace talus
   {
     Hdf5Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
     H5Pset_fapl_mpio(access, communicator_, MPI_INFO_NULL);
-    // Metadata are read by one rank and broadcast, and written together: else
-    // each rank would ask the file system for each group and attribute.
+    // Metadata are read by one rank and broadcast, and written together;
+    // otherwise each rank would ask the file system for each group and
+    // attribute.
     H5Pset_all_coll_metadata_ops(access, true);
     H5Pset_coll_metadata_write(access, true);
-    // Without blocks that are allocated ahead and not filled: MPI-IO writes into
-    // what is left of them whatever its buffers hold, so that the files of equal
-    // runs would differ.
+    // No blocks allocated ahead: MPI-IO fills the unused part of a block with
+    // arbitrary content of its buffers, and files of equal runs would differ.
     H5Pset_meta_block_size(access, 0);
     H5Pset_small_data_block_size(access, 0);
-    // From this version on the metadata have checksums.
+    // Metadata have checksums from version 1.8 on.
     H5Pset_libver_bounds(access, H5F_LIBVER_V18, H5F_LIBVER_LATEST);
     return access;
   }
@@ -59,7 +59,7 @@ namespace talus
 
 
 
-  /// The first failure stays: what follows mostly comes of it.
+  /// The first failure stays: later failures mostly follow from the first.
   void
   Hdf5File::note_error(const bool success, const std::string &failure)
   {

@@ -17,7 +17,7 @@ namespace talus
 
 
 
-    /// Not valid if there is no such array; the same of open_attribute().
+    /// Open an array; the handle is not valid if there is none.
     Handle
     open_array(const hid_t file, const std::string &name)
     {
@@ -58,8 +58,7 @@ namespace talus
 
 
 
-  /// From an index by name, so that the order is that of the names and the same
-  /// for files that were written in another order.
+  /// An index by name makes the order independent of the order of writing.
   std::vector<std::string>
   Hdf5InputFile::names(const std::string &group)
   {
@@ -71,7 +70,7 @@ namespace talus
                         const H5L_info_t *info,
                         void             *data) -> herr_t {
       static_cast<std::vector<std::string> *>(data)->push_back(name);
-      // A link may lead out of the file, or to where it came from.
+      // A link may lead out of the file, or back to a parent group.
       return info->type == H5L_TYPE_HARD ? 0 : -1;
     };
     const Handle opened(H5Gopen2(file_, group.c_str(), H5P_DEFAULT), H5Gclose);
@@ -85,8 +84,8 @@ namespace talus
 
 
 
-  /// Numbers are converted from the file's type to that of memory, as far as the
-  /// two have the same values.
+  /// Numbers are converted from the file's type to the type in memory, which
+  /// has the same values.
   template <typename Number>
   Number
   Hdf5InputFile::read_attribute(const std::string &object,
@@ -118,7 +117,7 @@ namespace talus
     const Handle type(H5Aget_type(attribute), H5Tclose);
     const Handle space(H5Aget_space(attribute), H5Sclose);
     const auto   length = length_of_text(type, space);
-    // What the library takes of it, it has taken already.
+    // The library has already allocated memory of the same length.
     std::string value(length.value_or(0), '\0');
     check_on_all_ranks(length.has_value() &&
                          H5Aread(attribute, type, value.data()) >= 0,
@@ -202,7 +201,8 @@ namespace talus
 
 
 
-  /// What decides how the checksum is taken.
+  /// Return whether an object is a text: the kind decides how the checksum is
+  /// computed.
   bool
   Hdf5InputFile::is_text(const std::string &name)
   {
@@ -218,8 +218,8 @@ namespace talus
 
 
 
-  /// Each rank reads an equal share of the rows, whatever rank wrote them: a
-  /// large file is checked in the time of reading it once.
+  /// Each rank reads an equal number of rows, regardless of the writing ranks:
+  /// checking a large file takes the time of a single reading.
   void
   Hdf5InputFile::verify(const std::string &name)
   {

@@ -17,7 +17,7 @@ namespace talus
   {
     using Handle = Hdf5Handle;
 
-    /// So that no reader finds a file under its name that is not complete.
+    /// Return a temporary name, under which no reader looks for the file.
     std::filesystem::path
     path_while_written(std::filesystem::path path, const bool is_atomic)
     {
@@ -28,18 +28,19 @@ namespace talus
 
 
 
-    /// With what the library adds to an array for itself: the list of chunks,
-    /// attributes; and a little if the data cannot be compressed.
+    /// Add an upper bound of the library's own data for an array: list of
+    /// chunks, attributes, and an excess if the data cannot be compressed.
     std::uint64_t
     with_overhead(const std::uint64_t n_bytes)
     {
       return n_bytes + n_bytes / 50 + (1 << 14);
     }
 
-    /// What it adds to something short.
+    /// Upper bound of the library's own data for a short object, bytes.
     constexpr std::uint64_t small_overhead = 1 << 12;
 
-    /// Types in memory and, the same on all machines, in the file.
+    /// Types in memory and in the file; the latter are the same on all
+    /// machines.
     std::pair<hid_t, hid_t>
     types_of(double)
     {
@@ -86,11 +87,11 @@ namespace talus
 
 
 
-  /// The file must exist before its space can be reserved, and H5Fcreate() may
-  /// be the first to fill the disk; so space for an empty file is reserved
-  /// before. If that fails the library never sees the file. Whatever has the
-  /// name while the file is written goes: a link would lead to a file of the
-  /// user.
+  /// The file must exist before disk space can be reserved, and H5Fcreate() may
+  /// be the first call to fill the disk. Therefore space for an empty file is
+  /// reserved before; on failure the library never sees the file. Any old file
+  /// under the temporary name is removed, because a link could lead to a file
+  /// of the user.
   void
   Hdf5OutputFile::create()
   {
@@ -106,24 +107,24 @@ namespace talus
                              access_properties()),
                    H5Fclose);
     check_on_all_ranks(file_.is_valid(), "it could not be made");
-    // Again: the library has emptied the file.
+    // Once more, because the library has emptied the file.
     n_reserved_ = 0;
     reserve(0);
   }
 
 
 
-  /// In this order: all data to the operating system; the file closed on all
-  /// ranks; what was reserved and not used given back; content to the disk; and
-  /// only then the name. If the machine dies in between, the older file of that
-  /// name is whole. After each step that one rank does alone all of them agree
-  /// whether to go on.
+  /// Order: hand all data to the operating system; close the file on all ranks;
+  /// release unused reserved space; sync the content to the disk; finally
+  /// rename. If the machine crashes in between, the older file of the same name
+  /// is complete. After each step of a single rank, all ranks agree whether to
+  /// go on.
   void
   Hdf5OutputFile::close()
   {
     if (!error().empty())
       return;
-    // Flushed first, so that a full disk shows before the file is closed.
+    // Flushed before closing, to detect a full disk.
     bool success = (H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0);
     success      = file_.close() && success;
     if (!check_on_all_ranks(success, "it could not be completed"))
@@ -148,16 +149,16 @@ namespace talus
 
 
 
-  /// n_bytes_ is the size of the file at most, as all ranks count it alike, so
-  /// they agree without a message whether more must be reserved. The first rank
-  /// does it.
+  /// n_bytes_ is an upper bound of the size of the file, equal on all ranks:
+  /// the ranks agree without a message whether more must be reserved. Only the
+  /// first rank reserves.
   void
   Hdf5OutputFile::reserve(const std::uint64_t n_bytes)
   {
     n_bytes_ += n_bytes;
     if (!error().empty() || n_bytes_ <= n_reserved_)
       return;
-    // A little more: many arrays are short.
+    // A little more, because many arrays are short.
     n_reserved_ = n_bytes_ + (1 << 16);
     if (is_first_rank_)
       note_error(reserve_disk_space(part_, n_reserved_));
@@ -173,8 +174,9 @@ namespace talus
     if (!error().empty())
       return;
     const Handle properties = undated(H5P_GROUP_CREATE);
-    // Names stay in the header, which has a checksum. The other storage, for
-    // many names, has one too, but HDF5 1.10 crashes where it is wrong.
+    // Names stay in the header, which has a checksum. The alternative storage
+    // for many names has a checksum, too, but HDF5 1.10 crashes if the checksum
+    // is wrong.
     H5Pset_link_phase_change(properties, 60000, 50000);
     const Handle group(
       H5Gcreate2(file_, name.c_str(), H5P_DEFAULT, properties, H5P_DEFAULT),
@@ -185,8 +187,9 @@ namespace talus
 
 
 
-  /// All ranks give the same value, as collective metadata demand. A failure is
-  /// noted, and told with the next agreement: no rank waits for this one.
+  /// All ranks give the same value, because collective metadata require equal
+  /// values. A failure is kept until the next check_on_all_ranks(), since no
+  /// rank waits for this call.
   void
   Hdf5OutputFile::write_attribute(const std::string &object,
                                   const std::string &name,
@@ -225,9 +228,8 @@ namespace talus
 
 
 
-  /// The checksum of a part depends on the places of its values in the whole,
-  /// and the sum over the parts is that of the array, however many ranks wrote
-  /// it.
+  /// The checksum of a part depends on the positions of the values in the whole
+  /// array; the sum over the parts is independent of the number of ranks.
   template <typename Number>
   void
   Hdf5OutputFile::write(const std::string         &name,
@@ -253,10 +255,10 @@ namespace talus
 
 
 
-  /// Reserved as if nothing could be compressed, since nobody knows before.
-  /// When the array is written, n_bytes_ takes its true size, so that the next
-  /// reservations do not add up to many times the file. That size is the first
-  /// rank's word, or the ranks might count differently.
+  /// Space is reserved for uncompressed data, because the compressed size is
+  /// unknown. After writing, n_bytes_ is corrected to the true size; otherwise
+  /// the reservations would add up to a multiple of the file. All ranks use the
+  /// size found by the first rank, to count alike.
   void
   Hdf5OutputFile::write_rows(const std::string &name,
                              const hid_t        memory_type,
@@ -269,8 +271,8 @@ namespace talus
                           H5Tget_size(file_type)));
     if (!error().empty())
       return;
-    // After every step the ranks agree whether to go on: one that gave up
-    // alone would leave the others waiting for it in the next step.
+    // After every step the ranks agree whether to go on: a rank that gave up
+    // alone would leave all ranks waiting in the next step.
     const std::string failure = "the array '" + name + "' could not be written";
     Handle            array =
       create_array(name, file_type, rows.n_on_all_ranks, rows.n_columns);
@@ -287,7 +289,7 @@ namespace talus
 
 
 
-  /// With one column it has no columns at all.
+  /// An array with one column is stored as one-dimensional.
   Hdf5Handle
   Hdf5OutputFile::create_array(const std::string  &name,
                                const hid_t         type,
@@ -299,12 +301,13 @@ namespace talus
     const Handle  properties = undated(H5P_DATASET_CREATE);
     const Handle  space(H5Screate_simple(rank, extent, nullptr), H5Sclose);
     bool          success = properties.is_valid() && space.is_valid();
-    // Shuffled, first bytes of all values together and so on: signs and
-    // exponents of neighbours are alike. Level 1 of deflate is the fastest one.
+    // Shuffling stores the first bytes of all values together, and so on: signs
+    // and exponents of neighbours are similar. Level 1 of deflate is the
+    // fastest.
     if (options_.is_compressed && n_rows > 0)
       {
-        // Chunks of a quarter of a megabyte: many enough to keep the ranks
-        // busy, and each compresses about as well as the whole.
+        // Chunks of a quarter of a megabyte: enough chunks to keep the ranks
+        // busy, and each chunk compresses about as well as the whole array.
         constexpr hsize_t n_values = 1 << 16;
         const hsize_t     chunk[2] = {std::min<hsize_t>(n_rows,
                                                     n_values / n_columns),
@@ -323,8 +326,8 @@ namespace talus
 
 
 
-  /// All ranks have the values, so only the first one writes, which needs no
-  /// agreement on how rows are distributed.
+  /// All ranks have the values; only the first rank writes, and no agreement on
+  /// the distribution of rows is needed.
   void
   Hdf5OutputFile::write_known(const std::string         &name,
                               const std::vector<double> &values)
@@ -339,7 +342,7 @@ namespace talus
 
 
 
-  /// All ranks must know the length, which is part of the type.
+  /// All ranks must know the length, a part of the type.
   void
   Hdf5OutputFile::write_text(const std::string &name, const std::string &text)
   {
@@ -355,7 +358,7 @@ namespace talus
 
 
 
-  /// Making an array is collective, writing need not be.
+  /// Making an array is collective; writing need not be.
   void
   Hdf5OutputFile::write_by_first_rank(const std::string &name,
                                       const hid_t        memory_type,

@@ -13,7 +13,7 @@ namespace talus
 {
   namespace
   {
-    /// As XML wants it.
+    /// Escape the special characters of XML.
     std::string
     escaped(const std::string &text)
     {
@@ -29,12 +29,12 @@ namespace talus
 
 
 
-    /// Writes datasets, and what the index is to say of them.
+    /// Writes datasets, and collects the description for the index.
     class FileWithDescription
     {
     public:
-      /// Atomic, since ParaView may look at the folder while the run goes on.
-      /// Checksums are for files that a run is to go on from.
+      /// Atomic, since ParaView may read the folder during the run. No
+      /// checksums: a run does not resume from output files.
       FileWithDescription(const std::filesystem::path &path,
                           const MPI_Comm               communicator)
         : file(path,
@@ -44,7 +44,7 @@ namespace talus
                 /*is_atomic=*/true})
       {}
 
-      /// Write a dataset and return XDMF's reference to it.
+      /// Write a dataset and return XDMF's reference to the dataset.
       template <typename Number>
       std::string
       write(const std::string         &name,
@@ -68,9 +68,9 @@ namespace talus
                     "</DataItem>\n");
       }
 
-      /// Corners of cells are numbered over all ranks: those of this rank begin
-      /// behind those of the ranks before it. No corner is shared, so no
-      /// numbering has to be agreed on.
+      /// Write the cells. The vertices of this rank are numbered after the
+      /// vertices of lower ranks. No vertex is shared, and no agreement on a
+      /// numbering is needed.
       void
       write_mesh(const OutputCells &cells)
       {
@@ -100,13 +100,13 @@ namespace talus
                             "        </Geometry>\n");
       }
 
-      /// Rows of the points of this rank behind those of the ranks before it,
-      /// as in each other dataset: row i is the same point in all of them.
+      /// Write a field. The rows of this rank follow the rows of lower ranks,
+      /// as in all datasets: row i is the same point in each.
       void
       write_field(const OutputCells &cells, const Field &field)
       {
         const bool at_cells = (cells.items_at == ItemsAt::cells);
-        // To HDF5 a slash separates groups.
+        // For HDF5 a slash separates groups.
         std::string name = field.name;
         std::replace(name.begin(), name.end(), '/', '_');
         name = "fields/" + name;
@@ -139,9 +139,8 @@ namespace talus
 
 
 
-  /// One file per output time, whatever the number of ranks. It is on the disk
-  /// when close() has given it its name, so that nothing is left to be synced
-  /// later.
+  /// The file is on the disk when close() returns; nothing remains to be
+  /// synced.
   IndexEntry
   Hdf5Writer::write(const std::filesystem::path &folder,
                     const std::string           &base,
@@ -165,7 +164,7 @@ namespace talus
 
 
 
-  /// The library knows from the head of a file how long it must be.
+  /// The library knows the expected length from the header of a file.
   bool
   Hdf5Writer::is_complete(const std::filesystem::path &path) const
   {
@@ -177,8 +176,8 @@ namespace talus
 
 
 
-  /// Light data only, in XML; values are in the HDF5 files, to which it refers.
-  /// Files that somebody has moved away are left out of the index.
+  /// Only light data, in XML; values are in the HDF5 files named there. Files
+  /// that the user has moved away are left out of the index.
   std::filesystem::path
   Hdf5Writer::write_index(const std::filesystem::path   &folder,
                           const std::string             &name,

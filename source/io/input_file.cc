@@ -4,19 +4,19 @@
 
 namespace talus
 {
-  // By value: the list may outlive what made it.
+  // By value: the list may outlive this object.
   void
   InputFile::list_state(StateList &list) const
   {
-    list.add_text({"checksum of the " + name,
-                   [now = checksum]() { return now; },
-                   [file = *this](const std::string &saved) {
-                     AssertThrow(saved == file.checksum,
-                                 ExcUser("The " + file.kind + " '" +
-                                         file.path.string() +
-                                         "' is not the one of the run to "
-                                         "resume. Restore it, or start anew in "
-                                         "another folder."));
-                   }});
+    list.add_text(
+      {"checksum of the " + name,
+       [now = checksum]() { return now; },
+       [file = *this](const std::string &saved) {
+         AssertThrow(
+           saved == file.checksum,
+           ExcUser("The " + file.kind + " '" + file.path.string() +
+                   "' differs from the file of the run to resume. Restore the "
+                   "file, or start anew in another folder."));
+       }});
   }
 } // namespace talus

@@ -9,7 +9,8 @@
 
 namespace talus
 {
-  /// Progress is for whoever looks on; a log of a batch system is spared it.
+  /// Progress is shown only on a terminal, and not in the log of a batch
+  /// system.
   bool
   stdout_is_terminal()
   {
@@ -18,8 +19,8 @@ namespace talus
 
 
 
-  /// The first rank alone has the file. What was said before is on the terminal
-  /// only.
+  /// Only the first rank has the file. Earlier messages are only on the
+  /// terminal.
   void
   Log::open(const std::filesystem::path &folder, const Beginning beginning)
   {
@@ -31,8 +32,8 @@ namespace talus
 
 
 
-  /// Results are printed in any case, information only to a terminal; the file
-  /// has both.
+  /// Results are always printed, information only on a terminal; the file has
+  /// both levels.
   void
   Log::say(const LogLevel level, const std::string &sentence)
   {

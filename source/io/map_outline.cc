@@ -42,11 +42,12 @@ namespace talus
                              " polygons, where one was expected. Save one "
                              "outline to a file of its own.")));
     AssertThrow(found.polygons[0].size() == 1,
-                ExcUser(text(name,
-                             "has a polygon of ",
-                             found.polygons[0].size(),
-                             " rings, where one was expected: the outline, "
-                             "without holes. Remove the others.")));
+                ExcUser(
+                  text(name,
+                       "has a polygon of ",
+                       found.polygons[0].size(),
+                       " rings, where one was expected: the outline, without "
+                       "holes. Remove the holes.")));
     MapOutline outline{found.polygons[0][0], found.coordinate_system};
     if (outline.corners.size() > 1 &&
         outline.corners.front() == outline.corners.back())

@@ -14,8 +14,8 @@ namespace talus
   using namespace dealii;
   namespace fs = std::filesystem;
 
-  // All names stand here, and not with those who write the files: what an earlier
-  // run has written this one need not write.
+  // All names are listed here, not with the writers: an earlier run may have
+  // written files that the present run does not write.
   bool
   is_output_name(const std::string &file_name)
   {
@@ -44,8 +44,8 @@ namespace talus
 
 
 
-    /// The files of this type in a folder, or what links lead to, that bear such
-    /// names, with @p ending behind.
+    /// Return the files of @p type in a folder, or the targets of links, that
+    /// are named as outputs followed by @p ending.
     std::vector<fs::path>
     outputs_in(const fs::path     &folder,
                const std::string  &ending = "",
@@ -73,8 +73,9 @@ namespace talus
 
   namespace
   {
-    /// By making one that goes at once: permissions do not tell it of root, nor
-    /// of file systems that take no files, such as /proc.
+    /// Return whether a folder can be written, by making and removing a
+    /// subfolder: permissions are no answer for root, nor on file systems
+    /// without new files, such as /proc.
     bool
     can_hold_folders(const fs::path &folder)
     {
@@ -88,7 +89,7 @@ namespace talus
 
 
 
-  // What is there of the path decides.
+  // Checks the existing part of the path.
   void
   check_can_be_made(const fs::path &folder)
   {
@@ -119,21 +120,22 @@ namespace talus
         fs::symlink_status(record).type() != fs::file_type::not_found;
       if (!is_there || is_run_record(record))
         return "";
-      return text(
-        "The output folder '",
-        record.parent_path().string(),
-        "' holds a file 'parameters.prm' that no run has written or "
-        "somebody has changed, and this run would write over it. Move "
-        "it",
-        beginning == Beginning::resumed
-          ? ", and go on with it or another parameter file."
-          : ", or choose another folder with Output/Folder or "
-            "--output.");
+      return text("The output folder '",
+                  record.parent_path().string(),
+                  "' holds a file 'parameters.prm' that no run has written "
+                  "or somebody has changed, and this run would write over "
+                  "the file. Move the file",
+                  beginning == Beginning::resumed
+                    ? ", and resume with the moved file or another parameter "
+                      "file."
+                    : ", or choose another folder with Output/Folder or "
+                      "--output.");
     }
 
 
 
-    /// Where no run has left its record: nobody knows whose results they are.
+    /// Return an error for results without the record of a run: the owner is
+    /// unknown.
     std::string
     results_without_a_run(const fs::path &folder)
     {
@@ -144,9 +146,10 @@ namespace talus
                   folder.string(),
                   "' holds '",
                   found.front().string(),
-                  "', which is named as the output of a run, but no "
-                  "'parameters.prm' of one, so that it may be yours. Move it, "
-                  "or choose another folder with Output/Folder or --output.");
+                  "', named like the output of a run, but no "
+                  "'parameters.prm' of a run: the file may be yours. Move "
+                  "the file, or choose another folder with Output/Folder or "
+                  "--output.");
     }
   } // namespace
 
@@ -154,7 +157,7 @@ namespace talus
 
   namespace
   {
-    /// To open a pipe is to wait for who reads it.
+    /// Return an error for pipes: opening a pipe would wait for a reader.
     std::string
     pipe_of_others(const fs::path &folder)
     {
@@ -166,8 +169,9 @@ namespace talus
                   folder.string(),
                   "' holds a pipe '",
                   found.front().string(),
-                  "', where the run writes a file of that name. Remove it, or "
-                  "choose another folder with Output/Folder or --output.");
+                  "', where the run writes a file of the same name. Remove "
+                  "the pipe, or choose another folder with Output/Folder or "
+                  "--output.");
     }
   } // namespace
 

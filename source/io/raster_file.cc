@@ -21,8 +21,8 @@ namespace talus
     void
     check_readable(const std::filesystem::path &file)
     {
-      // Not of a device or a pipe: what is read once is gone, or has no end, and
-      // to open a pipe is to wait for who writes it.
+      // Devices and pipes are refused: content can be read only once, or has no
+      // end, and opening a pipe waits for a writer.
       std::error_code error;
       AssertThrow(std::filesystem::is_regular_file(file, error) &&
                     std::ifstream(file).peek() != EOF,
@@ -34,8 +34,9 @@ namespace talus
 
 
 
-    /// The map of a raster whose format has no place for it: what GIS keep in a
-    /// file of the same name that ends with .prj. Empty if there is none.
+    /// Return the coordinate system of a raster whose format has no place for
+    /// it, from the file of the same name with the ending .prj, as in a GIS.
+    /// Empty if there is none.
     std::string
     system_beside(std::filesystem::path file)
     {
@@ -51,9 +52,9 @@ namespace talus
 
 
 
-    /// A number such as 9.97e36 marks cells without a datum, but not all files
-    /// say so, and it would be taken for a mountain. And squares of coordinates
-    /// must not overflow.
+    /// Refuse implausible numbers. A number such as 9.97e36 may mark cells
+    /// without a datum, without a declaration in the file, and would be taken
+    /// for a mountain. Squares of coordinates must not overflow.
     void
     check_magnitudes(const std::filesystem::path &file, const Raster &raster)
     {
@@ -63,19 +64,20 @@ namespace talus
                                      return std::abs(height) > 1e6;
                                    });
       const std::size_t i  = it - raster.values.begin();
-      AssertThrow(it == raster.values.end(),
-                  ExcUser(text("The raster '",
-                               file.string(),
-                               "' has the height ",
-                               *it,
-                               " m in row ",
-                               i / raster.n_columns + 1,
-                               ", column ",
-                               i % raster.n_columns + 1,
-                               ". If that marks cells without a datum, say so "
-                               "in the head of the file: nodata_value ",
-                               *it,
-                               ".")));
+      AssertThrow(
+        it == raster.values.end(),
+        ExcUser(text("The raster '",
+                     file.string(),
+                     "' has the height ",
+                     *it,
+                     " m in row ",
+                     i / raster.n_columns + 1,
+                     ", column ",
+                     i % raster.n_columns + 1,
+                     ". If the number marks cells without a datum, declare the "
+                     "mark in the head of the file: nodata_value ",
+                     *it,
+                     ".")));
       const double farthest = std::max({std::abs(raster.west),
                                         std::abs(raster.south),
                                         raster.n_columns * raster.dx,
@@ -91,7 +93,7 @@ namespace talus
 
 
 
-    /// Length with one digit that is close to @p size.
+    /// Return @p size rounded to one significant digit.
     double
     rounded(const double size)
     {
@@ -101,8 +103,8 @@ namespace talus
 
 
 
-    /// Return the command that brings a raster to @p map, a code of EPSG, in
-    /// cells of the same size.
+    /// Return the command that projects a raster to @p map, a code of EPSG,
+    /// with the same cell size.
     std::string
     command(const std::filesystem::path &file,
             const Raster                &raster,
@@ -125,7 +127,7 @@ namespace talus
 
 
 
-    /// Return the zone of UTM that the middle of the raster lies in.
+    /// Return the UTM zone at the middle of the raster.
     UtmZone
     zone_of(const Raster &raster)
     {
@@ -171,22 +173,24 @@ namespace talus
     const std::string target = map.empty() ? zone.epsg_code() : map;
     AssertThrow(
       false,
-      ExcUser(text(
-        "The raster '",
-        file.string(),
-        unit == MapUnit::other ? "' is not in metres" : "' is in degrees",
-        ": its cells are ",
-        raster.dx,
-        " wide, and it reaches from ",
-        raster.west,
-        " to ",
-        raster.west + raster.n_columns * raster.dx,
-        ". A map in metres was expected. ",
-        is_built_with_gdal()
-          ? "Set `Projection` = " + zone.name() + ", or project it yourself: "
-          : "Project it yourself, and remove a `Projection` (this talus was "
-            "built without GDAL, which would follow that entry): ",
-        command(file, raster, target),
-        ".")));
+      ExcUser(
+        text("The raster '",
+             file.string(),
+             unit == MapUnit::other ? "' is not in metres" : "' is in degrees",
+             ": its cells are ",
+             raster.dx,
+             " wide, and it reaches from ",
+             raster.west,
+             " to ",
+             raster.west + raster.n_columns * raster.dx,
+             ". A map in metres was expected. ",
+             is_built_with_gdal()
+               ? "Set `Projection` = " + zone.name() +
+                   ", or project the raster yourself: "
+               : "Project the raster yourself, and remove a `Projection` "
+                 "(this talus was built without GDAL, which the entry "
+                 "needs): ",
+             command(file, raster, target),
+             ".")));
   }
 } // namespace talus

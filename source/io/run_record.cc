@@ -17,7 +17,7 @@ namespace talus
 
   namespace
   {
-    /// Of records without a checksum, as they were before.
+    /// First line of older records, without a checksum.
     const std::string old_first_line =
       "# The parameters of this run as they were understood by";
 
@@ -27,20 +27,20 @@ namespace talus
 
 
 
-    /// How the last line of a record begins, which tells whether somebody has
-    /// changed what stands before it.
+    /// Beginning of the last line of a record; the checksum behind it detects
+    /// changes by the user.
     const std::string last_line = "# CRC-32 of all before this line: ";
   } // namespace
 
 
 
-  /// One line per library that results may depend on, as a comment in a
-  /// parameter file (@p prefix).
+  /// A line per library that can affect the results; @p prefix makes each line
+  /// a comment of a parameter file.
   std::string
   versions(const std::string &prefix)
   {
-    // The libraries' own numbers at compile time; HDF5's is asked for at run
-    // time, as its library checks that the two agree.
+    // Versions at compile time. The version of HDF5 is asked for at run time,
+    // because the library itself checks the agreement of both.
     unsigned int hdf5[3];
     H5get_libversion(&hdf5[0], &hdf5[1], &hdf5[2]);
     const auto line = [&prefix](const auto &...words) {
@@ -71,7 +71,7 @@ namespace talus
 
 
 
-  /// In the order of the declarations and with defaults, so that it can be run
+  /// In the order of the declarations and with defaults: the text can be run
   /// again and compared line by line.
   std::string
   parameters_as_text(const ParameterHandler &parameters)
@@ -85,8 +85,7 @@ namespace talus
 
 
 
-  /// Without date and host: two runs with the same parameters have the same
-  /// file.
+  /// Without date and host: runs with the same parameters have the same file.
   void
   write_run_record(const std::filesystem::path &path,
                    const ParameterHandler      &parameters)
@@ -100,8 +99,8 @@ namespace talus
 
 
 
-  // What somebody has changed is theirs. A pipe would have to be read a second
-  // time.
+  // A changed record belongs to the user. Pipes are excluded: the content can
+  // be read only once.
   bool
   is_run_record(const std::filesystem::path &path)
   {

@@ -32,8 +32,8 @@ namespace talus
 
 
   /// As text, since a list of names and times has no fixed length. 17 digits
-  /// give each double back as it was. Lines of a description begin with a
-  /// blank, those of an entry do not.
+  /// restore each double exactly. Lines of a description begin with a blank,
+  /// lines of an entry do not.
   void
   FieldSeries::list_state(const std::string &name, StateList &list)
   {
@@ -55,12 +55,12 @@ namespace talus
             IndexEntry         entry;
             std::istringstream words(line);
             words >> entry.time >> entry.file;
-            AssertThrow(line[0] != ' ' && words,
-                        ExcUser("The list '" + name +
-                                "' of the checkpoint has '" + line +
-                                "' where the time and the name of a file were "
-                                "expected. Remove this checkpoint so that the "
-                                "one before it is used."));
+            AssertThrow(
+              line[0] != ' ' && words,
+              ExcUser(
+                "The list '" + name + "' of the checkpoint has '" + line +
+                "' where the time and the name of a file were expected. "
+                "Remove this checkpoint, to use the previous checkpoint."));
             entries_.push_back(entry);
           }
     };
@@ -69,10 +69,10 @@ namespace talus
 
 
 
-  /// The number of the output is that of the entries, so a resumed run
-  /// overwrites files from after its checkpoint. The index is written after the
-  /// files that it names, each time as a whole: ParaView finds no name without
-  /// a file.
+  /// The number of the output is the number of entries: a resumed run
+  /// overwrites files from after the checkpoint. The index is written after the
+  /// files of the index, each time as a whole: ParaView finds no name without a
+  /// file.
   void
   FieldSeries::write(const OutputCells &cells)
   {
@@ -108,13 +108,13 @@ namespace talus
 
 
 
-  /// Once per checkpoint, not per file: to wait for the disk often takes longer
-  /// than to write.
+  /// Once per checkpoint, not per file: waiting for the disk often takes longer
+  /// than writing.
   void
   FieldSeries::sync()
   {
-    // The index was written once for each time. A file that is not there any
-    // more was moved by somebody.
+    // The index was written once for each time. A missing file was moved by the
+    // user.
     std::sort(unsynced_.begin(), unsynced_.end());
     unsynced_.erase(std::unique(unsynced_.begin(), unsynced_.end()),
                     unsynced_.end());

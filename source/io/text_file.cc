@@ -7,9 +7,9 @@
 
 namespace talus
 {
-  // What a file is must be known before it is opened: to open a pipe is to wait
-  // for who writes it. And a pipe, or a file of nothing but holes, may have more
-  // bytes than the memory, hence the limit.
+  // The type of the file is checked before opening: opening a pipe waits for a
+  // writer. A pipe or a sparse file may have more bytes than the memory, hence
+  // the limit.
   std::optional<std::string>
   read_text_file(const std::filesystem::path &file, const Pipes pipes)
   {

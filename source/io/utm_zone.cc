@@ -48,13 +48,13 @@ namespace talus
                      parts[2] == "S"}
         .epsg_code();
     AssertThrow(false,
-                ExcUser(text(path,
-                             " = '",
-                             name,
-                             "' was found, where a UTM zone from 1 to 60 and "
-                             "its hemisphere were expected, as UTM 33N or UTM "
-                             "33S, or the code of a map, as EPSG:3575. Correct "
-                             "it.")));
+                ExcUser(text(
+                  path,
+                  " = '",
+                  name,
+                  "' was found, where a UTM zone from 1 to 60 and a "
+                  "hemisphere were expected, such as UTM 33N or UTM 33S, or "
+                  "the code of a map, such as EPSG:3575. Correct the entry.")));
     return "";
   }
 } // namespace talus

@@ -16,7 +16,7 @@ namespace talus
   {
     using Bytes = std::vector<unsigned char>;
 
-    /// The bytes as zlib packs them at this level; level 0 only wraps them.
+    /// Compress bytes with zlib at @p level; level 0 only wraps.
     Bytes
     pack(const unsigned char *bytes, const std::size_t n, const int level)
     {
@@ -30,9 +30,10 @@ namespace talus
 
 
 
-    /// Most computed numbers are noise to zlib: they would take most of the time
-    /// of an output, and become a tenth smaller. They are only wrapped. A sample
-    /// from the middle of the array tells which they are.
+    /// Return the level for zlib. Most computed numbers look like noise to
+    /// zlib: compression would take most of the time of an output and save a
+    /// tenth. Noise is only wrapped. A sample from the middle of the array
+    /// decides.
     int
     level_for(const unsigned char *bytes, const std::size_t n)
     {
@@ -46,10 +47,10 @@ namespace talus
 
 
 
-  // deal.II's takes as long as the compression, and makes copies.
-  /// Three bytes become four digits; the last group is filled up with '='.
-  /// Digits go through a buffer, since a call of the stream for each would take
-  /// longer than the conversion.
+  // Own conversion: deal.II's takes as long as the compression, and makes
+  // copies. Three bytes become four digits; the last group is filled up with
+  // '='. Digits go through a buffer, since a call of the stream per digit would
+  // take longer than the conversion.
   void
   write_base64(std::ostream        &out,
                const unsigned char *bytes,
@@ -82,9 +83,9 @@ namespace talus
 
 
   /// VTK's format "binary" with a compressor: a header of four 32-bit numbers
-  /// (blocks, size of a block, size of the last one, compressed size), then the
-  /// data, each in base64 by itself. All is one block, so that no list of sizes
-  /// is needed.
+  /// (blocks, size of a block, size of the last block, compressed size), then
+  /// the data, header and data each in base64. A single block needs no list of
+  /// sizes.
   template <typename Number>
   void
   write_vtu_array(std::ostream &out, const std::vector<Number> &values)

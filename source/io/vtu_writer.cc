@@ -21,7 +21,7 @@ namespace talus
     const std::string byte_order = "LittleEndian";
 #endif
 
-    /// An element DataArray with its @p attributes.
+    /// Write an element DataArray with @p attributes.
     template <typename Number>
     void
     write_array(std::ostream              &out,
@@ -35,7 +35,7 @@ namespace talus
 
 
 
-    /// Of the places in these cells.
+    /// Return the number type of the vertices.
     std::string
     type_of_places(const OutputCells &cells)
     {
@@ -44,7 +44,7 @@ namespace talus
 
 
 
-    /// Type, name and number of components of a field.
+    /// Return type, name and number of components of a field.
     std::string
     attributes_of(const OutputCells &cells, const Field &field)
     {
@@ -59,8 +59,9 @@ namespace talus
 
 
 
-    /// Vertices cell by cell: the corners of cell c are the vertices from c
-    /// times their number on, in VTK's order by corners_of_cells().
+    /// Write vertices and cells. Vertices are ordered by cell: the corners of
+    /// cell c begin at c times the number of corners, in the order of
+    /// corners_of_cells().
     void
     write_geometry(std::ostream &out, const OutputCells &cells)
     {
@@ -89,7 +90,7 @@ namespace talus
 
 
 
-    /// Kind of data that ParaView is to take the fields for.
+    /// Return the kind of data for ParaView.
     std::string
     data_of(const OutputCells &cells)
     {
@@ -98,14 +99,13 @@ namespace talus
 
 
 
-    /// What names the files of all ranks.
+    /// Write the file that lists the files of all ranks.
     void
     write_pvtu(std::ostream                   &out,
                const OutputCells              &cells,
                const std::vector<std::string> &pieces)
     {
-      // The fields of the first rank are those of all, so this needs no
-      // message.
+      // All ranks have the same fields as the first rank; no message is needed.
       const std::string data = data_of(cells);
       out << "<?xml version=\"1.0\"?>\n"
              "<VTKFile type=\"PUnstructuredGrid\" version=\"0.1\" "
@@ -131,7 +131,7 @@ namespace talus
 
 
 
-  /// TIME and CYCLE are names that VTK's readers know.
+  /// VTK's readers know the names TIME and CYCLE.
   void
   write_vtu(std::ostream &out, const OutputCells &cells)
   {
@@ -162,9 +162,8 @@ namespace talus
 
 
 
-  /// A file per rank, without any message between them but for who writes one;
-  /// HDF5 makes one file for all. write_file() makes each of them complete or
-  /// not at all.
+  /// A file per rank; the only message tells which ranks write. (HDF5 makes a
+  /// common file.) write_file() makes each file complete or not at all.
   IndexEntry
   VtuWriter::write(const std::filesystem::path        &folder,
                    const std::string                  &base,
@@ -183,7 +182,7 @@ namespace talus
     };
 
     // ParaView has no use for files without cells: only ranks with cells write
-    // one, the first if nobody has any.
+    // a file, or the first rank if there are no cells.
     const auto n_cells = Utilities::MPI::all_gather(communicator, cells.size());
     const bool nobody  = std::all_of(n_cells.begin(),
                                     n_cells.end(),
@@ -191,7 +190,8 @@ namespace talus
     const auto writes  = [&](const unsigned int r) {
       return n_cells[r] > 0 || (nobody && r == 0);
     };
-    // Nothing is written twice: each rank has the cells of its own points.
+    // Nothing is written twice: each rank has the cells of the points on the
+    // rank.
     if (writes(rank))
       write(piece(rank), [&](std::ostream &out) { write_vtu(out, cells); });
     if (n_ranks == 1)
@@ -209,8 +209,8 @@ namespace talus
 
 
 
-  /// The pieces from the file that names them, as write_pvtu() has written it:
-  /// ranks without cells had none.
+  /// Reads the names of the parts from the file of write_pvtu(): ranks without
+  /// cells have no part.
   std::vector<std::string>
   VtuWriter::files_of(const std::filesystem::path &folder,
                       const IndexEntry            &entry) const
@@ -230,7 +230,7 @@ namespace talus
 
 
 
-  /// By the tag that closes the whole.
+  /// Looks for the closing tag at the end.
   bool
   VtuWriter::is_complete(const std::filesystem::path &path) const
   {
@@ -244,7 +244,7 @@ namespace talus
 
 
 
-  // deal.II's function of this kind writes the date into the file and keeps
+  // deal.II's function for the index writes the date into the file and keeps
   // only 12 digits of the times.
   std::filesystem::path
   VtuWriter::write_index(const std::filesystem::path   &folder,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// What talus does in place of the files that are compiled with GDAL only: it
-// refuses, with the command that converts a file.
+// Replaces the files that need GDAL: every function refuses, with the command
+// that converts a file.
 #include <talus/base/errors.h>
 #include <talus/io/coordinate_system.h>
 #include <talus/io/gdal_features.h>
@@ -12,7 +12,7 @@ namespace talus
 
   namespace
   {
-    /// Throw ExcUser: @p found, and what to do.
+    /// Throw ExcUser with the finding @p found and the remedy.
     void
     refuse_without_gdal(const std::string &found, const std::string &command)
     {
@@ -34,7 +34,7 @@ namespace talus
 
 
 
-  // The first word of well-known text, of two versions, in a file .prj.
+  // Well-known text of degrees begins with GEOGCS or GEOGCRS.
   MapUnit
   map_unit(const std::string &coordinate_system)
   {

@@ -249,7 +249,7 @@ namespace talus
 
 
 
-  /// Both schedules are queried before anything is written, because reached()
+  /// The two schedules are queried before any output, because reached()
   /// returns true only once. Output times depend only on the simulated time, so
   /// all ranks agree without a message.
   template <int dim>

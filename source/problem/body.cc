@@ -12,8 +12,7 @@ namespace talus
 {
   using namespace dealii;
 
-  /// Each body has a section named after it, which its shape and initial state
-  /// share.
+  /// Each body has a section named after it, shared by shape and initial state.
   template <int dim>
   Body<dim>::Body(const std::string &name)
     : ParameterAcceptor("/Bodies/" + name)
@@ -27,29 +26,31 @@ namespace talus
     add_parameter("Points per cell and axis",
                   points_per_cell_,
                   "Number of material points along each axis of a cell: one "
-                  "number for all axes, or one for each, separated by commas.",
+                  "number for all axes, or one number per axis, separated by "
+                  "commas.",
                   this->prm,
                   Patterns::List(Patterns::Integer(1, 16), 1, dim));
     add_parameter("Filling",
                   filling_,
-                  "'clipped': boxes of points cut by the surface of the body; "
-                  "the points lie at the centroids of what is left, and the "
-                  "mass is that of the shape. 'centres': whole boxes, those "
-                  "whose centre lies in the body, so that its surface is a "
-                  "staircase and its volume right to the size of a point.",
+                  "'clipped': boxes of points are cut by the surface of the "
+                  "body; points lie at the centroids of the parts inside, "
+                  "and the mass equals the mass of the shape. 'centres': "
+                  "whole boxes with centres in the body; the surface is a "
+                  "staircase, and the volume accurate to the size of a point.",
                   this->prm,
                   Patterns::Selection("clipped|centres"));
     add_parameter("Cut by obstacles",
                   cut_by_obstacles_,
-                  "Whether what of the body lies inside of obstacles is "
-                  "removed, so that it is filled down to them. false: that is "
-                  "an error.");
+                  "true: parts of the body inside obstacles are removed, and "
+                  "the body is filled down to the obstacles. false: a body "
+                  "inside an obstacle is an error.");
   }
 
 
 
-  /// @p domain is that of the parameters: faces that moved to make room for
-  /// large cells are no place for soil. A shape that has no end ends there.
+  /// @p domain is the domain of the parameters: faces moved outwards to make
+  /// room for large cells do not extend the room for soil. Endless shapes end
+  /// at the domain.
   template <int dim>
   Box<dim>
   Body<dim>::bounding_box(const Box<dim> &domain) const
@@ -68,8 +69,8 @@ namespace talus
 
 
 
-  /// The tolerance lets a body end on a face of the mesh whatever the round-off
-  /// of both.
+  /// The tolerance admits a body that ends on a face of the mesh up to
+  /// round-off.
   template <int dim>
   void
   Body<dim>::check_inside(const Box<dim> &box, const Box<dim> &domain) const
@@ -101,8 +102,8 @@ namespace talus
 
 
 
-  /// A point at rest and undeformed (F = I), without stress. @p density in
-  /// kg/m^3.
+  /// Append a point at rest, undeformed (F = I) and without stress. @p density
+  /// in kg/m^3.
   template <int dim>
   void
   Body<dim>::add_point(Points<dim>         &points,
@@ -129,9 +130,9 @@ namespace talus
 
 
 
-  /// Two bodies that overlap would put twice the mass into the same place,
-  /// which no later check would notice. Looked at by the points there are, in
-  /// the order of Bodies/Names. Each rank looks at its own: all know the shape.
+  /// Check for overlap with earlier bodies in the order of Bodies/Names: an
+  /// overlap would double the mass, and no later check would notice. Each rank
+  /// tests the existing points on the rank; all ranks know the shape.
   template <int dim>
   void
   Body<dim>::check_apart(const Region<dim> &region,
@@ -153,8 +154,8 @@ namespace talus
 
 
 
-  /// Contact with a surface that is already deep in the soil would throw it
-  /// out. The half of a box that a centre may be off is none.
+  /// Check for points deep inside of solids, where contact would throw the soil
+  /// out. Half a diagonal of a box is tolerated, for filling by centres.
   template <int dim>
   void
   Body<dim>::check_clear_of(const Solids                     &solids,
@@ -184,7 +185,7 @@ namespace talus
 
 
 
-  /// One number for all axes, or one for each.
+  /// Return the number of points per axis, from one number or one per axis.
   template <int dim>
   std::array<unsigned int, dim>
   Body<dim>::points_per_axis() const
@@ -206,7 +207,7 @@ namespace talus
 
   namespace
   {
-    /// Of all ranks, m^dim. Collective.
+    /// Return the volume of the points of all ranks, m^dim. Collective.
     template <int dim>
     double
     volume_of(const std::vector<NewPoint<dim>> &points,
@@ -226,9 +227,9 @@ namespace talus
 
 
 
-  /// @p others are the points of the bodies before this one. What obstacles take
-  /// is the difference to a filling without them, so that no volume is lost
-  /// unseen, whatever the filling. Collective.
+  /// Make the points. @p others are the points of earlier bodies. The volume
+  /// removed by obstacles is the difference to a filling without obstacles: no
+  /// volume is lost unnoticed, with any filling. Collective.
   template <int dim>
   typename Body<dim>::Places
   Body<dim>::places_of_points(const Grid<dim>   &grid,
@@ -240,7 +241,7 @@ namespace talus
     const BoxRegion<dim> mesh(domain);
     const Box<dim> bounds = bounding_box(domain), box = shape->bounding_box();
     Region<dim>    region(*shape);
-    // A shape without end must not reach into cells that were added far away.
+    // An endless shape must not reach into cells added far away.
     if (!(box.lower == bounds.lower && box.upper == bounds.upper))
       region.restrict_to(mesh);
     const auto fill = [&]() {
@@ -271,8 +272,9 @@ namespace talus
 
   namespace
   {
-    /// Empty if it is less than a millionth: where a body lies on an obstacle,
-    /// the two surfaces differ by the error of their parts. Volumes in m^dim.
+    /// Return a note; empty below a millionth: where a body lies on an
+    /// obstacle, the two surfaces differ by the error of the piecewise planes.
+    /// Volumes in m^dim.
     template <int dim>
     std::string
     note_of_cut(const std::string &name, const double uncut, const double left)
@@ -288,7 +290,7 @@ namespace talus
                   name,
                   "', ",
                   100. * lost / uncut,
-                  " % of it: no soil is put into them.");
+                  " % of the body: no soil is put into obstacles.");
     }
   } // namespace
 
@@ -296,8 +298,9 @@ namespace talus
 
   namespace
   {
-    /// Before memory runs out the user is told; points may be more in the end,
-    /// and the mesh is not counted: what is refused here cannot work. Collective.
+    /// Report insufficient memory before it runs out. The estimate is a lower
+    /// bound: splitting may add points, and the mesh is not counted.
+    /// Collective.
     template <int dim>
     void
     check_memory(const Grid<dim>   &grid,
@@ -317,7 +320,7 @@ namespace talus
                                bytes / 1e9,
                                " GB of memory on each rank, where ",
                                grid.memory_per_rank() / 1e9,
-                               " GB are to be had. ",
+                               " GB are available. ",
                                fewer_points_advice)));
     }
   } // namespace
@@ -336,7 +339,7 @@ namespace talus
     check_memory(grid, points.size() + places.points.size(), name_);
     for (const NewPoint<dim> &place : places.points)
       add_point(points, index, place, density);
-    // A rank may well have none, but one of them must have some.
+    // Single ranks may have no points.
     AssertThrow(Utilities::MPI::max(places.points.size(), grid.communicator()) >
                   0,
                 ExcUser(text("The body '",

@@ -14,16 +14,17 @@ namespace talus
 
   namespace
   {
-    // Below, top and base of a layer move with the same nodes.
+    // In thinner layers, top and base move with the same nodes.
     constexpr double n_cells_to_shear = 2.;
 
-    /// BodyColumn of cells over the plan: body, number along x, number along z.
+    /// Column of cells above the plan: body, number along x, number along z.
     using BodyColumn = std::array<long, 3>;
 
 
 
-    /// Thickness of the points of this rank in each column, in cells. Points of
-    /// a cell lie in one column, as columns are as wide as the smallest cells.
+    /// Return the thickness of the points on this rank in each column, in
+    /// cells. Columns are as wide as the smallest cells, and points of a cell
+    /// lie in one column.
     template <int dim>
     std::map<BodyColumn, double>
     columns_of_rank(const Points<dim>         &points,
@@ -47,8 +48,8 @@ namespace talus
 
 
 
-    /// Add up the parts of columns that ranks share: each column at the rank that
-    /// its numbers give. Collective.
+    /// Sum columns shared between ranks; the numbers of a column determine the
+    /// receiving rank. Collective.
     std::map<BodyColumn, double>
     whole_columns(const std::map<BodyColumn, double> &parts,
                   const MPI_Comm                      communicator)
@@ -130,9 +131,9 @@ namespace talus
                body.n_cells,
                " cells of ",
                body.cell_size,
-               " m thick where it is thickest, less than two: its top and its "
-               "base move with the same nodes, so that it hardly shears. Cells "
-               "of ",
+               " m thick where it is thickest, less than two: top and "
+               "base move with the same nodes, and the body hardly "
+               "shears. Cells of ",
                body.n_cells / n_cells_to_shear * body.cell_size,
                " m or less there, by 'Grid/Cell size' or 'Grid/Refinement "
                "boxes', resolve it."));

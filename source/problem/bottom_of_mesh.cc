@@ -8,8 +8,8 @@ namespace talus
 {
   using namespace dealii;
 
-  // Without a word a run would end where the soil gets there, perhaps after
-  // days. It need not get there, so this is no error.
+  // Not an error, because the soil may never get there. Without the note a run
+  // would end unexpectedly, perhaps after days.
   template <int dim>
   std::string
   note_on_bottom(const Obstacles<dim> &obstacles,
@@ -21,7 +21,7 @@ namespace talus
         const Shape<dim> &shape = obstacles[k].shape();
         if (dynamic_cast<const SideOfSurface<dim> *>(&shape) == nullptr)
           continue;
-        double     depth = 0.; // of the surface below the bottom, m
+        double     depth = 0.; // depth of the surface below the bottom, m
         Point<dim> deepest;
         for (const Point<dim> &x : plan_places(domain, cell_size))
           if (obstacles.signed_distance(x) > 0.)

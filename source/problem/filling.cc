@@ -15,24 +15,24 @@ namespace talus
 
   namespace
   {
-    /// Points that are much lighter than their neighbours become unstable: what
-    /// is less than this of a box is no point of its own.
+    /// Minimum volume fraction of a box for a point: points much lighter than
+    /// the neighbours become unstable.
     constexpr double min_fraction = 0.2;
 
-    /// What is less than this of a box is not soil but round-off, far below the
-    /// error of the parts: where a layer ends its two surfaces go on as one, and
-    /// what lies between them there would be points of some grams.
+    /// Volume fraction of a box below which soil counts as round-off, far below
+    /// the error of the parts: beyond the end of a layer both surfaces
+    /// coincide, and round-off between them would make points of some grams.
     constexpr double round_off_fraction = 1e-5;
 
-    /// The same of what has no soil around that could take it: where the two
-    /// surfaces of a layer go on as one and are curved, the pockets between them
-    /// are as thick as the error of the parts, a thousandth of a box.
+    /// Volume fraction of a box below which soil without neighbours is dropped:
+    /// where the coinciding surfaces of a layer are curved, the pockets between
+    /// them are as thick as the error of the parts, a thousandth of a box.
     constexpr double error_fraction = 1e-3;
 
 
 
-    /// Most cells of the mesh are far from the body, and are passed over at
-    /// once.
+    /// Return whether a cell may contain soil; most cells of the mesh are far
+    /// from the body.
     template <int dim>
     bool
     overlap(const Cell<dim> &cell, const Box<dim> &bounds)
@@ -46,7 +46,7 @@ namespace talus
 
 
 
-    /// Of the boxes into which a cell is cut, @p n along each axis.
+    /// Return the lengths of the boxes of a cell, @p n along each axis.
     template <int dim>
     Tensor<1, dim>
     lattice_lengths(const Cell<dim>                     &cell,
@@ -60,7 +60,7 @@ namespace talus
 
 
 
-    /// Their centres, the first axis fastest.
+    /// Return the centres of the boxes of a cell, the first axis fastest.
     template <int dim>
     std::vector<Point<dim>>
     lattice_of(const Cell<dim> &cell, const std::array<unsigned int, dim> &n)
@@ -86,9 +86,9 @@ namespace talus
 
 
 
-    /// The places of points are some tenth of what the points will take, but to
-    /// collect them may take all memory, too. All ranks together have at least
-    /// that of this machine.
+    /// Check the memory for places. Places take about a tenth of the memory of
+    /// the points, but may fill the memory while they are collected. All ranks
+    /// together have at least the memory of this machine.
     template <int dim>
     void
     check_memory(const Grid<dim>  &grid,
@@ -103,16 +103,16 @@ namespace talus
                                n_points,
                                " points, which take more than the ",
                                memory / 1e9,
-                               " GB of memory that are to be had. ",
+                               " GB of available memory. ",
                                fewer_points_advice)));
     }
   } // namespace
 
 
 
-  /// No box is cut by the surface of the body: its volume is right only to the
-  /// size of a point, but all boxes tile their cells and the weights begin
-  /// without gaps and overlaps.
+  /// Boxes are not cut by the surface of the body: the volume is accurate only
+  /// to the size of a point, but the boxes tile the cells, and the weights
+  /// begin without gaps and overlaps.
   template <int dim>
   std::vector<NewPoint<dim>>
   filling_by_centres(const Grid<dim>                     &grid,
@@ -127,7 +127,8 @@ namespace talus
           for (const Point<dim> &x : lattice_of<dim>(cell, n))
             if (region.contains(x))
               result.push_back({x, lattice_lengths<dim>(cell, n)});
-          // In the run a point takes more than five times that.
+          // In the run a point takes more than five times the memory of a
+          // place.
           check_memory(grid, result.size(), 5. * sizeof(NewPoint<dim>));
         }
     return result;
@@ -137,18 +138,17 @@ namespace talus
 
   namespace
   {
-    /// What is given to a box: cell and box that get it, cell and box that give
-    /// it, cells by the keys that all ranks know them by; volume, m^dim,
-    /// centroid and variance. Sorted, they are in the same order for any number
-    /// of ranks.
+    /// Sliver given to a box: receiving cell and box, giving cell and box
+    /// (cells by global keys); volume, m^dim, centroid and variance. The sorted
+    /// order is independent of the number of ranks.
     template <int dim>
     using SliverTransfer =
       std::pair<std::array<unsigned long, 4>, std::array<double, 1 + 2 * dim>>;
 
 
 
-    /// The boxes of the lattice in the cells that this rank knows, and what of
-    /// them lies in the region: of ghosts, too, since shapes are known to all.
+    /// Boxes of the lattice in the cells known to this rank, ghosts included,
+    /// with the part of each box in the region. All ranks know the shapes.
     template <int dim>
     class ClippedBoxes
     {
@@ -158,11 +158,11 @@ namespace talus
                    const Box<dim>                      &bounds,
                    const std::array<unsigned int, dim> &n);
 
-      /// Give slivers to their neighbours. Collective.
+      /// Give slivers to neighbours. Collective.
       void
       merge_slivers();
 
-      /// What there is now.
+      /// Return points for the present parts.
       std::vector<NewPoint<dim>>
       points() const;
 
@@ -190,9 +190,9 @@ namespace talus
 
       const Grid<dim>              &grid_;
       std::array<unsigned int, dim> n_;
-      // By cell; a cell without any is missing.
-      std::map<unsigned int, Parts> parts_; // at first, which decides
-      // Of the cells that have given or received a sliver.
+      // By cell; cells without parts are missing.
+      std::map<unsigned int, Parts> parts_; // before merging
+      // Present parts of the cells that have given or received a sliver.
       std::map<unsigned int, Parts> now_;
     };
 
@@ -214,7 +214,7 @@ namespace talus
             continue;
           Parts parts = parts_of_cell(cell, region);
           n_boxes += parts.size();
-          // The points are made while the parts are there.
+          // The points are made while the parts still exist.
           check_memory(grid,
                        n_boxes,
                        sizeof(PartInside<dim>) + sizeof(NewPoint<dim>));
@@ -225,8 +225,9 @@ namespace talus
 
 
 
-    /// None if nothing lies inside. A whole box has its centre to the bit, so
-    /// that bodies made of whole boxes are the same as if filled by centres.
+    /// Return the parts of the boxes of a cell, none if the cell is outside. A
+    /// whole box gets the exact centre: bodies of whole boxes equal a filling
+    /// by centres bit by bit.
     template <int dim>
     typename ClippedBoxes<dim>::Parts
     ClippedBoxes<dim>::parts_of_cell(const Cell<dim>   &cell,
@@ -273,8 +274,8 @@ namespace talus
 
 
 
-    /// Cells of this rank or ghosts that share a corner with @p cell; those
-    /// across a periodic face do not.
+    /// Return the cells, owned or ghosts, that share a corner with @p cell,
+    /// except across periodic faces.
     template <int dim>
     std::vector<unsigned int>
     ClippedBoxes<dim>::cells_around(const unsigned int cell) const
@@ -305,9 +306,9 @@ namespace talus
 
 
 
-    /// Cell and box; invalid_unsigned_int if there is none. Of two that are as
-    /// near the one in the cell with the smaller key, which does not depend on
-    /// the ranks.
+    /// Return cell and box of the nearest kept part; invalid_unsigned_int if
+    /// there is none. At equal distance the smaller key of the cell wins,
+    /// independently of the ranks.
     template <int dim>
     std::pair<unsigned int, unsigned int>
     ClippedBoxes<dim>::nearest_kept(const Point<dim>  &x,
@@ -337,8 +338,8 @@ namespace talus
 
 
 
-    /// The box around of which most lies inside, if that is so much more than of
-    /// this one that the two could not be neighbours.
+    /// Return cell and box of the largest part around, if so much larger than
+    /// part @p box that both could not be neighbouring points.
     template <int dim>
     std::pair<unsigned int, unsigned int>
     ClippedBoxes<dim>::largest_neighbour(const unsigned int cell,
@@ -364,8 +365,8 @@ namespace talus
 
 
 
-    /// Parts of the boxes of @p cell now, copied from those at first when they
-    /// change for the first time.
+    /// Return the present parts of @p cell, copied from the initial parts at
+    /// the first change.
     template <int dim>
     typename ClippedBoxes<dim>::Parts &
     ClippedBoxes<dim>::changing_parts(const unsigned int cell)
@@ -375,10 +376,11 @@ namespace talus
 
 
 
-    /// By the rank that gets them; what is taken is no longer there. Where soil
-    /// thins out so slowly that no kept box is around, slivers go to the largest
-    /// one, from where they may go on. They only go to boxes that had more at
-    /// first, and so come to an end. Soil that is thin everywhere stays.
+    /// Remove the slivers on this rank and return them, by receiving rank.
+    /// Where soil thins out so slowly that there is no kept box around, slivers
+    /// go to the largest box and possibly further. Each receiver was initially
+    /// larger than the giver, and therefore the process ends. Soil that is thin
+    /// everywhere stays.
     template <int dim>
     std::map<unsigned int, std::vector<SliverTransfer<dim>>>
     ClippedBoxes<dim>::take_slivers()
@@ -416,8 +418,8 @@ namespace talus
 
 
 
-    /// The owner of a sliver knows all cells around it and decides, so that
-    /// nobody need know what lies beyond the ghosts.
+    /// The owner of a sliver knows all surrounding cells and decides; no rank
+    /// needs cells beyond the ghosts.
     template <int dim>
     void
     ClippedBoxes<dim>::merge_slivers()
@@ -449,8 +451,8 @@ namespace talus
         {
           PartInside<dim> &part =
             changing_parts(grid_.cell_of_key(names[0]))[names[1]];
-          // Steiner: the variance of two parts is theirs and that of their
-          // centroids.
+          // Steiner: the variance of two parts is the mean variance plus the
+          // variance of the two centroids.
           const double share = numbers[0] / (part.volume + numbers[0]);
           for (unsigned int d = 0; d < dim; ++d)
             {
@@ -466,9 +468,9 @@ namespace talus
 
 
 
-    /// Those of a box with the volume and the ratios of the second moments of
-    /// @p part. What is cut along an axis keeps its other lengths, so that soil
-    /// that ends on a plane across an axis is tiled as before.
+    /// Return the lengths of a box with the volume of @p part and the ratios of
+    /// the second moments. A part cut along one axis keeps the other lengths:
+    /// soil that ends on a plane across an axis is still tiled.
     template <int dim>
     Tensor<1, dim>
     lengths_of(const PartInside<dim> &part)

@@ -16,22 +16,22 @@ namespace talus
 
   namespace
   {
-    /// The undeformed box of a point, by centre and lengths, m, and the density
-    /// that gives weight, kg/m^3.
+    /// Undeformed box of a point, by centre and lengths, m, and the density for
+    /// the weight, kg/m^3.
     template <int dim>
     struct Brick
     {
       std::array<double, dim> centre, length;
       double                  density;
 
-      /// In an order that does not depend on who has it.
+      /// Order independent of the distribution to ranks.
       bool
       operator<(const Brick &other) const
       {
         return centre < other.centre;
       }
 
-      /// For the message between ranks.
+      /// Serialization for messages between ranks.
       template <typename Archive>
       void
       serialize(Archive &archive, const unsigned int)
@@ -42,7 +42,7 @@ namespace talus
 
 
 
-    /// From the initial place and the reference length: the soil as it is
+    /// Return the brick at the initial place with the reference length: soil
     /// without displacement.
     template <int dim>
     Brick<dim>
@@ -62,15 +62,14 @@ namespace talus
 
 
 
-    /// Bricks by columns of the width of the widest one, so that what lies above
-    /// a brick is in its column or in those beside.
+    /// Bricks sorted into columns as wide as the widest brick: everything above
+    /// a brick is in the same or an adjacent column.
     template <int dim>
     class SoilColumns
     {
     public:
-      // With columns as wide as the widest brick a sum goes over three (nine)
-      // of them, and not over all bricks. Within a column bricks are sorted, so
-      // that sums do not depend on the ranks that they came from.
+      // A sum visits three (nine) columns, not all bricks. Bricks are sorted
+      // within a column, to make sums independent of the ranks.
       explicit SoilColumns(const std::vector<Brick<dim>> &bricks)
       {
         for (const auto &brick : bricks)
@@ -83,8 +82,8 @@ namespace talus
           std::sort(column.second.begin(), column.second.end());
       }
 
-      /// Mass per area, kg/m^2, above the centre of @p brick, its own upper
-      /// half included: the mean over its width.
+      /// Return the mass per area, kg/m^2, above the centre of @p brick,
+      /// including the upper half of the brick: the mean over the width.
       double
       mass_above(const Brick<dim> &brick) const
       {
@@ -104,7 +103,7 @@ namespace talus
     private:
       using Place = std::array<long, 2>;
 
-      /// The column, by the centre of the brick.
+      /// Return the column at the centre of the brick.
       Place
       place(const Brick<dim> &brick) const
       {
@@ -114,13 +113,13 @@ namespace talus
         return {{index(0), dim == 3 ? index(dim - 1) : 0}};
       }
 
-      /// Share of @p other that lies above the centre of @p brick, per area of
+      /// Return the mass of @p other above the centre of @p brick, per area of
       /// @p brick, kg/m^2.
       static double
       mass_above(const Brick<dim> &brick, const Brick<dim> &other)
       {
-        // Nothing of what lies below, all of what lies above, a part of what
-        // has the same height.
+        // Vertical part: nothing of bricks below, all of bricks above, a part
+        // of bricks at the same height.
         const double top  = other.centre[1] + 0.5 * other.length[1];
         double       mass = other.density *
                       std::clamp(top - brick.centre[1], 0., other.length[1]);
@@ -129,8 +128,8 @@ namespace talus
             {
               const double distance =
                 std::abs(brick.centre[d] - other.centre[d]);
-              // Along the other axes the part of the width of @p brick that the
-              // other one covers.
+              // Horizontal part: fraction of the width of @p brick covered by
+              // @p other.
               const double common =
                 0.5 * (brick.length[d] + other.length[d]) - distance;
               mass *= std::clamp(common,
@@ -148,11 +147,11 @@ namespace talus
 
 
 
-  /// Where the boxes of the points end counts, not where the shape of the body
-  /// does: then boxes of one size have nodal forces that vanish to round-off
-  /// (doc/method.md, section 11). What lies above a point may be on any rank,
-  /// so all ranks get all bricks: 2 dim + 1 doubles for each point of the run,
-  /// once at its start. Collective.
+  /// The ends of the boxes count, not the ends of the shape of the body: boxes
+  /// of one size then have nodal forces that vanish to round-off
+  /// (doc/method.md, section 11). Soil above a point may be on any rank, and
+  /// all ranks get all bricks: 2 dim + 1 doubles per point of the run, once at
+  /// the start. Collective.
   template <int dim>
   std::vector<double>
   overburden(const Points<dim>         &points,
@@ -175,8 +174,7 @@ namespace talus
 
   namespace
   {
-    /// K0 stress is that of the undeformed ground under its weight: without
-    /// either there is none.
+    /// Check the prerequisites of K0 stress: undeformed ground, and gravity.
     template <int dim>
     void
     check(const std::vector<std::unique_ptr<Body<dim>>> &bodies,
@@ -190,19 +188,19 @@ namespace talus
                             "/Initial displacement', too, and the weight above "
                             "a point is taken without displacement. Remove one "
                             "of the two."));
-      AssertThrow(gravity.norm() > 0.,
-                  ExcUser("'Bodies/" + name +
-                          "/K0' is given, but there is no gravity at t = 0, so "
-                          "that the soil has no weight. Set 'Gravity/Ramp "
-                          "time' to 0 and 'Gravity/Magnitude' to more than 0, "
-                          "or remove the entry."));
+      AssertThrow(
+        gravity.norm() > 0.,
+        ExcUser("'Bodies/" + name +
+                "/K0' is given, but there is no gravity at t = 0, and the "
+                "soil has no weight. Set 'Gravity/Ramp time' to 0 and "
+                "'Gravity/Magnitude' to more than 0, or remove the entry."));
     }
 
 
 
-    /// sigma_yy = g_y M, sigma_xx = sigma_zz = K0 sigma_yy, sigma_xy = g_x M:
-    /// what an infinite slope has, with y across the layer (doc/method.md,
-    /// section 11).
+    /// Stress of an infinite slope with y across the layer (doc/method.md,
+    /// section 11): sigma_yy = g_y M, sigma_xx = sigma_zz = K0 sigma_yy,
+    /// sigma_xy = g_x M.
     template <int dim>
     Stress<dim, double>
     stress_at_rest(const double          mass_above,
@@ -218,8 +216,8 @@ namespace talus
 
 
 
-    /// The same in layers with the unit @p normal, from the mass per horizontal
-    /// area.
+    /// Stress in layers with the unit @p normal, from the mass per horizontal
+    /// area, kg/m^2.
     template <int dim>
     Stress<dim, double>
     stress_at_rest(const double          mass_above,
@@ -227,12 +225,12 @@ namespace talus
                    const Tensor<1, dim> &gravity,
                    const Tensor<1, dim> &normal)
     {
-      // By area of the layer, which is 1/n_y of the horizontal one.
+      // Per area of the layer, 1/n_y times the horizontal area.
       const double         mass   = mass_above * normal[1];
       const double         across = mass * (gravity * normal);
       const Tensor<1, dim> along  = mass * gravity - across * normal;
       Stress<dim, double>  sigma{};
-      sigma[2] = K0 * across; // out of the plane, in 2-D
+      sigma[2] = K0 * across; // out of the plane in 2-D
       for (unsigned int i = 0; i < dim; ++i)
         for (unsigned int j = i; j < dim; ++j)
           sigma[stress_index<dim>(i, j)] =
@@ -244,8 +242,8 @@ namespace talus
 
 
 
-    /// sqrt(s:s/2) of the deviator s, Pa: what the shear strength is compared
-    /// with.
+    /// Return sqrt(s:s/2) of the deviator s, Pa, comparable with the shear
+    /// strength.
     template <int dim>
     double
     shear_stress(const Stress<dim, double> &sigma)
@@ -260,8 +258,8 @@ namespace talus
 
 
 
-    /// A note, not an error: the stress is returned to the yield surface in the
-    /// first step, but the soil then starts out of balance.
+    /// Return a note, not an error: the first step returns the stress to the
+    /// yield surface, but the soil starts out of balance.
     std::string
     note_of_yielding(const std::string &name,
                      const double       n_points,
@@ -274,9 +272,9 @@ namespace talus
                   " of its points: the shear stress is up to ",
                   std::setprecision(6),
                   ratio,
-                  " times the strength. There it is returned to the strength "
-                  "in the first steps, and the body starts to move. A slope "
-                  "that is to be at rest needs more strength or a 'Bodies/",
+                  " times the strength. The first steps return the stress to "
+                  "the strength, and the body starts to move. A slope at "
+                  "rest needs more strength or a 'Bodies/",
                   name,
                   "/K0' closer to 1.");
     }
@@ -284,9 +282,8 @@ namespace talus
 
 
 
-  /// For each body with K0 the stress from the mass above it, of all bodies;
-  /// found once for all of them. Returns notes for the log. Collective, also
-  /// for ranks without points.
+  /// The mass above the points, of all bodies, is computed once for all bodies
+  /// with K0. Collective, also for ranks without points.
   template <int dim>
   std::vector<std::string>
   set_geostatic_stress(Points<dim>                                   &points,

@@ -16,23 +16,25 @@ namespace talus
   {
     add_parameter("File",
                   file_,
-                  "CSV file of what the ground does in time, its path from the "
-                  "folder of the parameter file; empty for none. The first "
-                  "line names the columns: 'time [s]' and any of 'horizontal "
-                  "[m/s^2]' (acceleration of the ground, positive down the "
-                  "slope), 'vertical [m/s^2]' (upwards), in 3-D 'across "
-                  "[m/s^2]' (along z), and 'gravity factor [-]', which gravity "
-                  "is multiplied with. Linear between the rows; outside of "
-                  "them accelerations are zero and gravity stays.");
+                  "CSV file with the motion of the ground in time, with a "
+                  "path from the folder of the parameter file; empty for "
+                  "none. The first line names the columns: 'time [s]' and "
+                  "any of 'horizontal [m/s^2]' (acceleration of the ground, "
+                  "positive down the slope), 'vertical [m/s^2]' (upwards), "
+                  "in 3-D 'across [m/s^2]' (along z), and 'gravity factor "
+                  "[-]' (multiplier of gravity). Linear between the rows; "
+                  "before and after the rows accelerations are zero and "
+                  "gravity is constant.");
     add_parameter("Start time",
                   start_time_,
-                  "Time of the run at which that of the table is zero [s].",
+                  "Time of the run at which the time of the table is zero "
+                  "[s].",
                   this->prm,
                   Patterns::Double());
     add_parameter("Factor",
                   factor_,
-                  "What the accelerations of the table are multiplied with "
-                  "[-], to scale a record.",
+                  "Multiplier of the accelerations of the table [-], to "
+                  "scale a record.",
                   this->prm,
                   Patterns::Double());
   }
@@ -41,8 +43,9 @@ namespace talus
 
   namespace
   {
-    /// Throw ExcUser if a column of accelerations does nothing, or lets the ground
-    /// jump into motion at @p begin, s of the run, with its first value @p first.
+    /// Throw ExcUser if a column of accelerations has no effect, or lets the
+    /// ground jump into motion at time @p begin of the run, s, with the first
+    /// value @p first.
     void
     check_accelerations(const std::string           &column,
                         const double                 factor,
@@ -51,41 +54,43 @@ namespace talus
                         const std::filesystem::path &table)
     {
       AssertThrow(factor != 0.,
-                  ExcUser("'Ground motion/Factor' is 0, so that the "
-                          "accelerations of the table '" +
-                          table.string() +
-                          "' do nothing. Give another factor, or remove their "
-                          "columns."));
-      AssertThrow(begin <= 0. || first == 0.,
-                  ExcUser(text("The table '",
-                               table.string(),
-                               "' begins at t = ",
-                               begin,
-                               " s of the run with ",
-                               factor * first,
-                               " m/s^2 in the column '",
-                               column,
-                               "', so that the ground would jump into "
-                               "motion. Put a row with zeros before it, or "
-                               "let it begin with the run ('Ground "
-                               "motion/Start time').")));
+                  ExcUser(
+                    "'Ground motion/Factor' is 0: the accelerations of the "
+                    "table '" +
+                    table.string() +
+                    "' have no effect. Give another factor, or remove the "
+                    "columns of accelerations."));
+      AssertThrow(
+        begin <= 0. || first == 0.,
+        ExcUser(text("The table '",
+                     table.string(),
+                     "' begins at t = ",
+                     begin,
+                     " s of the run with ",
+                     factor * first,
+                     " m/s^2 in the column '",
+                     column,
+                     "': the ground would jump into motion. Insert a row with "
+                     "zeros before the first row, or let the table begin with "
+                     "the run ('Ground motion/Start time').")));
     }
   } // namespace
 
 
 
-  /// Reads the table. One that begins after the start of the run must begin
-  /// with zeros: outside of the table the ground rests, so that it would else
-  /// jump. A table that ends with the ground in acceleration is not refused.
+  /// A table that begins after the start of the run must begin with zeros: the
+  /// ground rests outside of the table, and would jump otherwise. The final
+  /// acceleration of a table may be nonzero.
   template <int dim>
   void
   GroundMotion<dim>::prepare(const double end_time)
   {
     table_.reset();
     AssertThrow(!file_.empty() || (start_time_ == 0. && factor_ == 1.),
-                ExcUser("The section 'Ground motion' has entries, but 'Ground "
-                        "motion/File' is empty, so that the ground rests. Give "
-                        "a table or remove the section."));
+                ExcUser(
+                  "The section 'Ground motion' has entries, but 'Ground "
+                  "motion/File' is empty, and the ground rests. Give a table "
+                  "or remove the section."));
     if (file_.empty())
       return;
     std::vector<std::string>    columns = {"horizontal [m/s^2]",
@@ -94,7 +99,7 @@ namespace talus
                                            "gravity factor [-]"};
     const std::filesystem::path path    = folder_ / file_;
     table_ = std::make_unique<TimeTable>(path, columns);
-    // A column that would be ignored is an error: the user expects it to act.
+    // A column without effect is an error: the user expects an effect.
     AssertThrow(dim == 3 || !table_->has(across),
                 ExcUser("The table '" + path.string() + "' has a column '" +
                         columns[across] +
@@ -110,7 +115,7 @@ namespace talus
                             begin,
                             table_->value(column, table_->first_time()),
                             path);
-    // Gravity keeps its outermost values.
+    // Gravity is constant outside of the table.
     AssertThrow(table_->has(gravity) ||
                   (begin < end_time && start_time_ + table_->last_time() > 0.),
                 ExcUser(text("The table '",
@@ -128,8 +133,9 @@ namespace talus
 
 
 
+  /// Return the acceleration of the ground, m/s^2, at time @p t of the run.
   /// Zero outside of the table, where interpolation would keep the outermost
-  /// value. Acceleration of the ground, m/s^2, at the time @p t of the run.
+  /// value.
   template <int dim>
   double
   GroundMotion<dim>::component(const Column column, const double t) const
@@ -143,9 +149,9 @@ namespace talus
 
 
 
-  /// Records are horizontal and vertical, the mesh is turned by the slope
-  /// angle: from the one into the other axes by a rotation, a_x = a_h cos - a_v
-  /// sin and a_y = a_h sin + a_v cos (doc/method.md, section 11).
+  /// Records are horizontal and vertical, and the mesh is turned by the slope
+  /// angle: a_x = a_h cos - a_v sin and a_y = a_h sin + a_v cos (doc/method.md,
+  /// section 11).
   template <int dim>
   Tensor<1, dim>
   GroundMotion<dim>::acceleration(const double t, const double angle) const
@@ -163,8 +169,7 @@ namespace talus
 
 
 
-  /// Unlike accelerations it keeps its outermost values: gravity does not go
-  /// away.
+  /// Unlike accelerations, gravity keeps the outermost values.
   template <int dim>
   double
   GroundMotion<dim>::gravity_factor(const double t) const

@@ -11,12 +11,13 @@ namespace talus
 
   namespace
   {
-    /// A displacement that brings soil to less of its volume, or to its inverse
-    /// times as much, is a mistake: the time step or the soil would be gone.
+    /// Minimum ratio of deformed to initial volume; the maximum is the inverse.
+    /// A displacement beyond is a mistake, with a vanishing time step or
+    /// vanishing soil.
     constexpr double min_volume_ratio = 0.01;
 
-    /// Derivative of component @p i along @p axis at t = 0, by central
-    /// differences over three steps of @p delta on each side.
+    /// Return the derivative of component @p i along @p axis at t = 0, by
+    /// central differences over three steps of @p delta on each side.
     template <int dim>
     double
     derivative(Expression<dim>   &expression,
@@ -43,48 +44,47 @@ namespace talus
 
 
 
-  /// Entries are those of the body, in whose section they stand (@p section).
+  /// The entries stand in the section of the body, @p section.
   template <int dim>
   InitialState<dim>::InitialState(const std::string &section)
     : ParameterAcceptor(section)
     , section_(section)
   {
-    add_parameter(
-      "Initial displacement",
-      displacement_,
-      "Expressions in x, y, (z,) t for the components of the displacement at "
-      "t = 0, separated by semicolons [m]; empty for none. x, y, z are the "
-      "place without it, in all initial fields. Deformation gradient and boxes "
-      "follow, and with hyperelastic laws the stress.");
-    add_parameter(
-      "Initial velocity",
-      velocity_,
-      "Expressions in x, y, (z,) t for the components of the "
-      "velocity, separated by semicolons [m/s]; empty for rest. t is the "
-      "time it belongs to, see "
-      "'Initial velocity time'.");
+    add_parameter("Initial displacement",
+                  displacement_,
+                  "Expressions in x, y, (z,) t for the components of the "
+                  "displacement at t = 0, separated by semicolons [m]; empty "
+                  "for none. x, y, z are the place before the displacement, "
+                  "in all initial fields. Deformation gradient and boxes are "
+                  "set accordingly, and with hyperelastic laws the stress.");
+    add_parameter("Initial velocity",
+                  velocity_,
+                  "Expressions in x, y, (z,) t for the components of the "
+                  "velocity, separated by semicolons [m/s]; empty for rest. "
+                  "t is the time of the velocity, see 'Initial velocity "
+                  "time'.");
     add_parameter(
       "Initial stress",
       stress_,
       "Expressions in x, y, (z,) t for the Cauchy stress, tension "
       "positive [Pa]: in 2-D xx; yy; zz; xy, in 3-D xx; yy; zz; xy; "
       "xz; yz. Empty for none. Only for laws in rate form.");
-    add_parameter(
-      "K0",
-      K0_,
-      "Coefficient of earth pressure at rest [-]: start with the stress of "
-      "ground at rest under the weight of all that lies above, along y, with "
-      "stresses along the layer of K0 times that across it and, on a slope, "
-      "the shear stress of an infinite slope. Layers follow the ground: the "
-      "bottom of the mesh, or a seabed that is an obstacle. Empty: without. "
-      "Only for laws in rate form.",
-      this->prm,
-      Patterns::List(Patterns::Double(0.), 0, 1));
+    add_parameter("K0",
+                  K0_,
+                  "Coefficient of earth pressure at rest [-]: start with the "
+                  "stress of ground at rest under the weight of all soil "
+                  "above, along y. Stresses along the layer are K0 times the "
+                  "stress across the layer; on a slope the shear stress of "
+                  "an infinite slope is added. Layers follow the ground: the "
+                  "bottom of the mesh, or a seabed that is an obstacle. "
+                  "Empty: no such stress. Only for laws in rate form.",
+                  this->prm,
+                  Patterns::List(Patterns::Double(0.), 0, 1));
   }
 
 
 
-  /// For messages: the entry as the user finds it in the parameter file.
+  /// Return the name of an entry in the parameter file, for messages.
   template <int dim>
   std::string
   InitialState<dim>::path(const std::string &entry) const
@@ -94,8 +94,8 @@ namespace talus
 
 
 
-  /// Entries that contradict each other, or the law. Of a hyperelastic law the
-  /// first step would overwrite any stress.
+  /// Refuse entries that contradict each other, or the law. With a hyperelastic
+  /// law the first step would overwrite any stress.
   template <int dim>
   void
   InitialState<dim>::check(const MaterialModel<dim> &law) const
@@ -106,20 +106,20 @@ namespace talus
                              path("K0"),
                              " are given, but a body starts with one stress. "
                              "Remove one of the two.")));
-    AssertThrow((stress_.empty() && K0_.empty()) || !law.is_hyperelastic(),
-                ExcUser(text(path(K0_.empty() ? "Initial stress" : "K0"),
-                             " is given, but the stress of the body's material "
-                             "follows from its deformation alone. Remove it, "
-                             "prescribe 'Initial displacement', or choose a "
-                             "law in rate form ('linear elastic', 'von "
-                             "Mises').")));
+    AssertThrow(
+      (stress_.empty() && K0_.empty()) || !law.is_hyperelastic(),
+      ExcUser(text(path(K0_.empty() ? "Initial stress" : "K0"),
+                   " is given, but the stress of the body's material follows "
+                   "from the deformation alone. Remove the entry, prescribe "
+                   "'Initial displacement', or choose a law in rate form "
+                   "('linear elastic', 'von Mises').")));
   }
 
 
 
-  /// Points go to X + u and F = I + du/dX, so that with hyperelastic laws the
-  /// stress follows. Central differences of the expression, as the user gives u
-  /// only, and its derivatives by hand would be one more place for errors.
+  /// Move points to X + u and set F = I + du/dX, from which hyperelastic laws
+  /// compute the stress. Central differences, because the user gives only u,
+  /// and derivatives by hand would be a source of errors.
   template <int dim>
   void
   InitialState<dim>::displace(Points<dim>       &points,
@@ -136,8 +136,8 @@ namespace talus
         // The undeformed place: positions are about to change.
         const Point<dim>    X = load_place(points, points.initial_position, p);
         Matrix<dim, double> F = identity<dim, double>();
-        // The step of the differences belongs to the size of the point along
-        // the axis.
+        // The step of the differences is relative to the size of the point
+        // along the axis.
         for (unsigned int i = 0; i < dim; ++i)
           {
             points.data(points.position, i)[p] =
@@ -146,8 +146,8 @@ namespace talus
               F[i][j] += derivative(
                 u, X, i, j, 0.01 * points.data(points.reference_length, j)[p]);
           }
-        // Volumes that are not positive would fail in the first step, with less
-        // to say.
+        // Nonpositive volumes would fail in the first step with a less helpful
+        // message.
         AssertThrow(determinant(F) > 0,
                     ExcUser(text(path("Initial displacement"),
                                  " = '",
@@ -179,7 +179,7 @@ namespace talus
 
 
 
-  /// A function of the undeformed place, as all initial fields.
+  /// Stress is a function of the undeformed place, like all initial fields.
   template <int dim>
   void
   InitialState<dim>::set_stress(Points<dim>       &points,
@@ -201,9 +201,9 @@ namespace talus
 
 
 
-  /// Stress first, then displacement, then what follows from it: stretch of the
-  /// boxes and, for laws by state, the stress, by the law's own update with a
-  /// step without strain. Rate laws keep the stress that they were given.
+  /// Stress first, then displacement, then dependent columns: stretch of the
+  /// boxes and, for hyperelastic laws, the stress, by the law's own update with
+  /// a step without strain. Rate laws keep the given stress.
   template <int dim>
   void
   InitialState<dim>::deform(Points<dim>              &points,
@@ -222,7 +222,7 @@ namespace talus
     if (!law.is_hyperelastic())
       return;
     StepWorkspace<dim> workspace;
-    // Velocity gradients of zero, for these points.
+    // Velocity gradients of zero for the points [begin, end).
     workspace.reinit(begin, end);
     for (unsigned int i = 0; i < dim; ++i)
       for (unsigned int j = 0; j < dim; ++j)
@@ -232,8 +232,8 @@ namespace talus
 
 
 
-  /// By body, not by range: when the time of the velocity is known points are
-  /// sorted and those of a body are no longer next to each other.
+  /// By body, not by range: points may be sorted when the time of the velocity
+  /// is known, and the points of a body are no longer contiguous.
   template <int dim>
   void
   InitialState<dim>::set_velocity(Points<dim>       &points,

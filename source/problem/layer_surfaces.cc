@@ -13,13 +13,13 @@ namespace talus
 
   namespace
   {
-    /// Thickness that is round-off, in cells: where a layer ends its two surfaces
-    /// may go on as one.
+    /// Thickness that counts as round-off, in cells: beyond the end of a layer
+    /// both surfaces may coincide.
     constexpr double thickness_of_round_off = 1e-5;
 
 
 
-    /// The shape of a layer: what limits it in plan, and its two surfaces.
+    /// Shape of a layer: limits in plan, and two surfaces.
     template <int dim>
     class Layer
     {
@@ -33,7 +33,7 @@ namespace talus
             outline_.push_back(part);
       }
 
-      /// Other shapes have no two surfaces.
+      /// Return whether the shape has two surfaces.
       bool
       is_layer() const
       {
@@ -50,13 +50,13 @@ namespace talus
                            });
       }
 
-      /// Height of the upper surface above the lower one at @p x, m; negative
-      /// where they have crossed.
+      /// Return the height of the upper above the lower surface at @p x, m;
+      /// negative where the surfaces have crossed.
       double
       thickness(const Point<dim> &x) const
       {
-        // The distances are those from the tangent planes above x, and the
-        // vertical ones have opposite signs.
+        // Distances are to tangent planes at x; the vertical distances to both
+        // surfaces have opposite signs.
         double sum = 0.;
         for (const auto *side : sides_)
           {
@@ -86,7 +86,7 @@ namespace talus
       return "";
     double       largest = -std::numeric_limits<double>::infinity();
     double       least   = -largest;
-    Point<dim>   place; // of the least thickness
+    Point<dim>   place; // of the minimum thickness
     unsigned int n_places = 0, n_crossed = 0;
     for (const Point<dim> &x : plan_places(domain, cell_size))
       if (layer.is_in_plan(x))
@@ -103,29 +103,30 @@ namespace talus
         }
     const std::string section = "Bodies/" + body.name();
     AssertThrow(n_places == 0 || largest > thickness_of_round_off * cell_size,
-                ExcUser(text("The layer '",
-                             body.name(),
-                             "' has no thickness: '",
-                             section,
-                             "/Upper surface' is at most ",
-                             largest,
-                             " m above '",
-                             section,
-                             "/Lower surface', where soil needs room between "
-                             "the two. Correct one of them.")));
+                ExcUser(
+                  text("The layer '",
+                       body.name(),
+                       "' has no thickness: '",
+                       section,
+                       "/Upper surface' is at most ",
+                       largest,
+                       " m above '",
+                       section,
+                       "/Lower surface', without space for soil in between. "
+                       "Correct one of the surfaces.")));
     if (n_crossed == 0)
       return "";
     return text(std::setprecision(4),
                 "The lower surface of the layer '",
                 body.name(),
-                "' lies above its upper one over ",
+                "' lies above the upper surface over ",
                 100. * n_crossed / n_places,
                 " % of the plan, by up to ",
                 -least,
                 " m, at x = ",
                 place[0],
                 dim == 3 ? text(" m, z = ", place[dim - 1]) : "",
-                " m: there is no soil there. If that is not meant, correct '",
+                " m: there is no soil there. To avoid the gap, correct '",
                 section,
                 "/Upper surface' or '",
                 section,

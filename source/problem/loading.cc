@@ -21,23 +21,23 @@ namespace talus
     add_parameter("Slope angle",
                   slope_angle,
                   "Angle by which the mesh is turned against the horizontal "
-                  "[degrees]: gravity points along (sin, -cos), so that x "
-                  "points down the slope.",
+                  "[degrees]: gravity points along (sin, -cos), and x points "
+                  "down the slope.",
                   this->prm,
                   Patterns::Double(-90., 90.));
     add_parameter("Ramp time",
                   ramp_time,
-                  "Time over which gravity grows from 0 to its magnitude, "
-                  "smoothly by half a cosine [s]; 0 for full gravity from the "
-                  "start.",
+                  "Time over which gravity grows from 0 to the full "
+                  "magnitude, smoothly by half a cosine [s]; 0 for full "
+                  "gravity from the start.",
                   this->prm,
                   Patterns::Double(0.));
   }
 
 
 
-  /// "material" is for forces, as of manufactured solutions, that are given at
-  /// the place that a piece of soil had at the start.
+  /// "material" is for forces at the initial place of the soil, for instance of
+  /// manufactured solutions.
   template <int dim>
   Loading<dim>::BodyForce::BodyForce()
     : ParameterAcceptor("/Body force")
@@ -48,8 +48,8 @@ namespace talus
                   "(z,) t, separated by semicolons [m/s^2]; empty for none.");
     add_parameter("Coordinates",
                   coordinates,
-                  "What x, y, z are: 'spatial' (where the point is now) or "
-                  "'material' (where it was at the start, without initial "
+                  "Meaning of x, y, z: 'spatial' (present place of the "
+                  "point) or 'material' (place at the start, without initial "
                   "displacement).",
                   this->prm,
                   Patterns::Selection("spatial|material"));
@@ -64,7 +64,7 @@ namespace talus
 
 
 
-  /// In radians.
+  /// Return the slope angle in radians.
   template <int dim>
   double
   Loading<dim>::slope_angle() const
@@ -88,9 +88,9 @@ namespace talus
 
 
 
-  /// Half a cosine begins and ends without a jump in its rate, so that it
-  /// excites waves less than a linear ramp. Times what the table of the ground
-  /// motion says.
+  /// Half a cosine begins and ends without a jump in the rate, and excites less
+  /// waves than a linear ramp. Multiplied by the gravity factor of the ground
+  /// motion.
   template <int dim>
   double
   Loading<dim>::share_of_gravity(const double t) const
@@ -104,9 +104,9 @@ namespace talus
 
 
 
-  /// full_ is the acceleration that the submerged weight gives to the whole
-  /// mass of a body: buoyancy takes off weight, not inertia. It does not change
-  /// in a run, so each step only scales it.
+  /// full_ is the acceleration of the whole mass of a body under the submerged
+  /// weight: buoyancy reduces weight, not inertia. full_ is constant in a run;
+  /// each step only scales the accelerations.
   template <int dim>
   void
   Loading<dim>::prepare(const Materials<dim> &materials,
@@ -130,14 +130,13 @@ namespace talus
 
 
 
-  /// Accelerations at the time @p t for all points. One vector per body serves
-  /// if they do not vary in space; only a body force makes a row per point
-  /// necessary.
+  /// Accelerations at time @p t for all points. A vector per body suffices if
+  /// they do not vary in space; only a body force needs a row per point.
   template <int dim>
   void
   Loading<dim>::update(const Points<dim> &points, const double t)
   {
-    // The inertia of the whole mass, not of the submerged one, resists.
+    // The inertia of the whole mass resists, not of the submerged mass.
     const Tensor<1, dim> ground = ground_motion_.acceleration(t, slope_angle());
     const double         share  = share_of_gravity(t);
     for (unsigned int b = 0; b < full_.size(); ++b)

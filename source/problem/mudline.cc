@@ -19,8 +19,8 @@ namespace talus
 
 
 
-  /// A height by which one may go down from @p x without passing into soil: the
-  /// largest ball around x, by halving, that no surface cuts.
+  /// Return a height free of soil below @p x, m: the radius of the largest ball
+  /// around x, by halving, that no surface cuts.
   template <int dim>
   double
   Mudline<dim>::clear_height(const Point<dim> &x) const
@@ -34,9 +34,10 @@ namespace talus
 
 
 
-  /// Height of the uppermost soil above @p bottom in the vertical through @p x,
-  /// m; none if there is no soil. The search goes down in steps that cannot pass
-  /// the surface, or are a ten-thousandth of the mesh, and ends by bisection.
+  /// Return the height of the uppermost soil above @p bottom in the vertical
+  /// through @p x, m; none without soil. The search descends in steps that
+  /// cannot pass the surface, or of a ten-thousandth of the mesh, and ends by
+  /// bisection.
   template <int dim>
   std::optional<double>
   Mudline<dim>::highest_soil(const Point<dim> &x, const double bottom) const
@@ -63,7 +64,7 @@ namespace talus
 
 
 
-  /// At x itself round-off may say that it is outside: then the depth is 0.
+  /// Round-off may place x itself outside of the soil: the depth is then 0.
   template <int dim>
   double
   Mudline<dim>::depth(const Point<dim> &x) const

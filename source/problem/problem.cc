@@ -18,9 +18,9 @@ namespace talus
 {
   using namespace dealii;
 
-  /// Names of bodies and materials must be known before the parameters are
-  /// declared, as each has a section of its own: they come from the tolerant
-  /// first pass over the parameter file.
+  /// Names of bodies and materials must be known before the declaration of
+  /// parameters, because each has a separate section: the names come from the
+  /// tolerant first pass over the parameter file.
   template <int dim>
   Problem<dim>::Problem(const ParameterPreview &preview)
     : ParameterAcceptor("/")
@@ -56,20 +56,19 @@ namespace talus
       this->prm,
       Patterns::Selection("start|half step"));
     enter_subsection("Bodies");
-    add_parameter(
-      "Names",
-      listed_names_,
-      "Names of the bodies, separated by commas; each has a section "
-      "of that name.");
+    add_parameter("Names",
+                  listed_names_,
+                  "Names of the bodies, separated by commas; each body has a "
+                  "section of the same name.");
     leave_subsection();
   }
 
 
 
-  /// What follows from the parameters alone, before there is a mesh; a resumed
-  /// run goes through it, too. The order: laws are given to bodies, the trigger
-  /// is checked against them, and then columns are added, which must be all
-  /// there before the first point is.
+  /// Consequences of the parameters alone, before there is a mesh; also called
+  /// in a resumed run. Order: laws are assigned to bodies, the trigger is
+  /// checked against the laws, and then columns are added. All columns must
+  /// exist before the first point.
   template <int dim>
   void
   Problem<dim>::prepare(Points<dim>    &points,
@@ -77,7 +76,7 @@ namespace talus
                         const double    end_time,
                         const Point<3> &origin)
   {
-    constants_.values(); // throws, also where no expression needs them
+    constants_.values(); // throws, even without an expression
     surfaces_.prepare(constants_, folder_, origin);
     for (const auto &body : bodies_)
       body->use_surfaces(surfaces_);
@@ -91,7 +90,7 @@ namespace talus
                   materials,
                   boundaries.has_seabed() || obstacles.limit_shear_stress(),
                   end_time);
-    // The strength factor is a column only if somebody changes strengths.
+    // The strength factor is a column only if strengths change.
     materials.add_columns(points,
                           trigger.changes_strength() || changes_strength);
     trigger.add_columns(points);
@@ -102,12 +101,11 @@ namespace talus
 
 
 
-  /// Body by body, as columns of a body depend on its law. Strength and K0
-  /// stress come after the last body: they need the depth below, and the weight
-  /// of, all. Displaced points
-  /// and those of clipped bodies may have left the cells of their rank, and go
-  /// to their owners. The trigger chooses its points at the end, by the
-  /// undeformed places. Collective.
+  /// Body by body, as columns of a body depend on the law. Strength and K0
+  /// stress come after the last body, because they need the depth below, and
+  /// the weight of, all bodies. Displaced points and points of clipped bodies
+  /// may have left the cells of the rank, and are sent to the owners. Finally
+  /// the trigger chooses points by the undeformed places. Collective.
   template <int dim>
   void
   Problem<dim>::create_points(State<dim> &state)
@@ -125,8 +123,8 @@ namespace talus
                                 state.grid.cell_size()),
            bodies_[b]->create_points(
              state.grid, b, material.density(), points, obstacles.shapes())});
-        // At t = 0; set_velocity() sets it anew where it belongs to half a step
-        // before.
+        // At t = 0; set_velocity() corrects the velocity for half a step before
+        // the start.
         initial.set_velocity(points, b, 0., constants_);
         initial.deform(points,
                        begin,
@@ -160,7 +158,7 @@ namespace talus
 
 
 
-  /// Empty ones are left out.
+  /// Append remarks; empty remarks are left out.
   template <int dim>
   void
   Problem<dim>::add_remarks(const std::vector<std::string> &remarks)
@@ -173,7 +171,8 @@ namespace talus
 
 
 
-  /// Bodies and obstacles against each other and against the cells. Collective.
+  /// Check bodies and obstacles against each other and against the cells.
+  /// Collective.
   template <int dim>
   void
   Problem<dim>::look_at_geometry(const State<dim> &state)
@@ -196,14 +195,14 @@ namespace talus
     add_remarks(surfaces_.notes_on_rising(from, to));
     thickness_of_bodies_ = measure_thickness(state.points, bodies_, state.grid);
     add_remarks(notes_on_thickness(thickness_of_bodies_));
-    // Face 2 is the bottom, in both dimensions.
+    // Face 2 is the bottom in 2-D and 3-D.
     if (boundaries.is_free(2))
       add_remarks({note_on_bottom(obstacles, domain, state.grid.cell_size())});
   }
 
 
 
-  /// From the parameters alone, so that a resumed run has the same.
+  /// From the parameters alone: a resumed run has the same mudline.
   template <int dim>
   void
   Problem<dim>::find_mudline(const Grid<dim> &grid)
@@ -237,7 +236,7 @@ namespace talus
 
 
 
-  /// For velocities of the time @p t, s.
+  /// Set velocities at time @p t, s.
   template <int dim>
   void
   Problem<dim>::set_velocity(Points<dim> &points, const double t) const
@@ -248,8 +247,8 @@ namespace talus
 
 
 
-  /// A free face holds nothing, so it may lie farther out than asked for. At a
-  /// face of outflow the place says which soil is counted.
+  /// A free face carries no load, and may lie farther out than requested. The
+  /// place of an outflow face decides which soil is counted.
   template <int dim>
   std::array<bool, 2 * dim>
   Problem<dim>::faces_that_may_move() const
@@ -273,7 +272,7 @@ namespace talus
 
 
 
-  /// From this the mass follows below which a node carries nothing.
+  /// The minimum mass of an active node follows from the minimum density.
   template <int dim>
   double
   Problem<dim>::min_density() const
@@ -286,8 +285,7 @@ namespace talus
 
 
 
-  /// In the order of their numbers, as the column "body" of the points has
-  /// them.
+  /// In the order of the column "body" of the points.
   template <int dim>
   std::vector<std::string>
   Problem<dim>::names_of_bodies() const
@@ -300,7 +298,7 @@ namespace talus
 
 
 
-  /// Where the mesh must be fine before there are points.
+  /// The mesh must be fine in the boxes before there are points.
   template <int dim>
   std::vector<Box<dim>>
   Problem<dim>::bounding_boxes(const Box<dim> &domain) const
@@ -313,8 +311,8 @@ namespace talus
 
 
 
-  /// By the number of the body. The transfer gets this and no law: the two
-  /// rooms do not know each other.
+  /// By the number of the body. The transfer gets only the flags: the rooms
+  /// transfer and materials do not include each other.
   template <int dim>
   std::vector<bool>
   Problem<dim>::bodies_with_bbar() const
@@ -353,7 +351,7 @@ namespace talus
 
 
 
-  /// The cell size, as softening depends on it.
+  /// The cell size is needed because softening depends on it.
   template <int dim>
   std::vector<std::string>
   Problem<dim>::remarks(const double cell_size) const

@@ -13,8 +13,8 @@ namespace talus
 
   namespace
   {
-    /// The table in @p file, checked: what is no table, or has no end, is found
-    /// before a run that is resumed asks for its checksum.
+    /// Return the checked table in @p file: an invalid or endless file is found
+    /// before a resumed run asks for the checksum.
     TimeTable
     strength_table(const std::filesystem::path &file)
     {
@@ -25,7 +25,7 @@ namespace talus
 
 
 
-    /// The strength of one material as a function of place and depth.
+    /// Strength of a material as a function of place and depth.
     template <int dim>
     class StrengthField
     {
@@ -35,7 +35,7 @@ namespace talus
                     const Constants             &constants,
                     const std::filesystem::path &folder);
 
-      /// At @p x, @p depth below the mudline, m; Pa.
+      /// Return the strength at @p x, @p depth below the mudline, m; Pa.
       double
       at(const Point<dim> &x, double depth);
 
@@ -100,7 +100,8 @@ namespace talus
 
 
 
-    /// What a law of one strength says in its check().
+    /// Check softening for a range of strengths, as a law of constant strength
+    /// does in check().
     template <int dim>
     void
     check_softening(const std::string        &path,
@@ -108,18 +109,19 @@ namespace talus
                     const StrengthRange      &range)
     {
       const double largest = material.largest_strength_factor(range);
-      AssertThrow(largest >= 1.,
-                  ExcUser(text(path,
-                               " is from ",
-                               range.least,
-                               " Pa to ",
-                               range.largest,
-                               " Pa, but somewhere the soil would soften "
-                               "faster than it can unload elastically: it "
-                               "would have to do so ",
-                               1. / largest,
-                               " times more slowly. Let it soften over more "
-                               "strain, or make it stiffer.")));
+      AssertThrow(
+        largest >= 1.,
+        ExcUser(
+          text(path,
+               " is from ",
+               range.least,
+               " Pa to ",
+               range.largest,
+               " Pa, but somewhere the soil would soften faster than "
+               "elastic unloading permits: the softening would have to be ",
+               1. / largest,
+               " times slower. Let the soil soften over more strain, or "
+               "increase the stiffness.")));
     }
   } // namespace
 
@@ -142,7 +144,7 @@ namespace talus
     for (unsigned int b = 0; b < bodies.size(); ++b)
       {
         const MaterialModel<dim> &material = materials.of_body(b);
-        // Elastic soil has none, and the column stays 0.
+        // Elastic soil has no strength, and the column stays 0.
         if (material.undrained_strength() == nullptr)
           continue;
         const std::string path =

@@ -18,12 +18,13 @@ namespace talus
 
   namespace
   {
-    // column_of_time stands for the time among the numbers of the known ones.
+    // Stands for the time among the numbers of known columns.
     const unsigned int column_of_time = numbers::invalid_unsigned_int;
 
 
 
-    /// The whole file, byte by byte, since its checksum is state.
+    /// Return the whole file, byte by byte, since the checksum belongs to the
+    /// state.
     std::string
     read_file(const std::filesystem::path &file)
     {
@@ -39,9 +40,8 @@ namespace talus
 
 
 
-    /// The parts between commas, without blanks around them; also empty ones.
-    /// The comma put behind the line makes an empty last entry one that is
-    /// seen.
+    /// Return the parts between commas, trimmed, including empty parts. The
+    /// comma appended to the line makes an empty last entry visible.
     std::vector<std::string>
     split_at_commas(const std::string &line)
     {
@@ -55,10 +55,10 @@ namespace talus
 
 
 
-  /// CSV as spreadsheets and scripts write it: comments with #, empty lines,
-  /// blanks, the mark of UTF-8 and line ends of Windows are passed over; all
-  /// else that is not a number is an error with the number of its line. Two
-  /// rows at least, or there is nothing to interpolate between.
+  /// CSV as written by spreadsheets and scripts: comments with #, empty lines,
+  /// blanks, the byte order mark of UTF-8 and line ends of Windows are skipped;
+  /// everything else without a number is an error with the number of the line.
+  /// At least two rows, for interpolation.
   TimeTable::TimeTable(const std::filesystem::path               &file,
                        const std::vector<std::string>            &known_columns,
                        const std::pair<std::string, std::string> &abscissa)
@@ -74,7 +74,7 @@ namespace talus
       {
         ++number;
         if (number == 1 && line.rfind("\xef\xbb\xbf", 0) == 0)
-          line.erase(0, 3); // the mark that some programs put before UTF-8
+          line.erase(0, 3); // byte order mark of UTF-8
         line = Utilities::trim(line);
         if (line.empty() || line[0] == '#')
           continue;
@@ -96,9 +96,9 @@ namespace talus
 
 
 
-  /// Columns may come in any order. known_of_read_ has, for each column of the
-  /// file, its number among the known ones. An unknown name is an error: a
-  /// misspelt column would else be left out without a word.
+  /// Columns may come in any order. For each column of the file known_of_read_
+  /// has the number among the known columns. An unknown name is an error: a
+  /// misspelt column would otherwise be ignored silently.
   void
   TimeTable::read_header(const std::string              &line,
                          const std::string              &place,
@@ -137,9 +137,8 @@ namespace talus
 
 
 
-  /// One number per column of the header. Times ascend strictly, so that
-  /// value() never divides by zero and a jump cannot be hidden in two rows of
-  /// one time.
+  /// One number per column of the header. Times ascend strictly: value() never
+  /// divides by zero, and no jump is hidden in two rows of equal time.
   void
   TimeTable::read_row(const std::string &line, const std::string &place)
   {
@@ -154,7 +153,8 @@ namespace talus
                              "commas.")));
     for (unsigned int i = 0; i < entries.size(); ++i)
       {
-        // strtod() stops at what is no number; it must have come to the end.
+        // strtod() stops at the first invalid character; the whole entry must
+        // be used.
         char        *end    = nullptr;
         const double number = std::strtod(entries[i].c_str(), &end);
         AssertThrow(!entries[i].empty() && *end == '\0' &&
@@ -187,8 +187,8 @@ namespace talus
 
 
 
-  /// Linear between the rows, constant outside of them. By bisection: a record
-  /// has thousands of rows, and each step asks.
+  /// Linear between the rows, constant outside. By bisection, because a record
+  /// has thousands of rows and each step needs a value.
   double
   TimeTable::value(const unsigned int column, const double t) const
   {

@@ -17,7 +17,7 @@ namespace talus
   Trigger<dim>::Trigger()
     : ParameterAcceptor("/Trigger")
   {
-    // Fractions are between 0 and 1 all alike.
+    // All fractions are between 0 and 1.
     const auto add_fraction = [this](const std::string &name,
                                      double            &value,
                                      const std::string &sentence) {
@@ -30,35 +30,35 @@ namespace talus
                   Patterns::Double(0.));
     add_parameter("Duration",
                   duration_,
-                  "Time over which it falls, smoothly by half a cosine [s]; 0: "
-                  "at once, in the step after the start time.",
+                  "Time over which the strength falls, smoothly by half a "
+                  "cosine [s]; 0: at once, in the step after the start time.",
                   this->prm,
                   Patterns::Double(0.));
     add_fraction("Strength fraction",
                  strength_fraction_,
-                 "Fraction of its strength that soil is left with [-], without "
-                 "viscosity; 1: it keeps its strength.");
+                 "Fraction of the strength that remains in the end [-], "
+                 "without viscosity; 1: the strength stays.");
     add_parameter("Bodies",
                   names_of_bodies_,
                   "Names of the bodies whose soil becomes weaker, separated by "
                   "commas; empty: all whose law has a strength.");
     add_parameter("Region",
                   region_,
-                  "Expression in x, y (, z) that is positive where the soil of "
-                  "these bodies becomes weaker, for instance 0.5 - y for a "
-                  "weak layer; x, y, z is the initial place, without initial "
+                  "Expression in x, y (, z), positive where the soil of the "
+                  "bodies becomes weaker, for instance 0.5 - y for a weak "
+                  "layer; x, y, z is the initial place, without initial "
                   "displacement. Empty: everywhere.");
     add_fraction("Seabed shear stress fraction",
                  seabed_fraction_,
                  "Fraction of `Maximum shear stress` of the seabed and of "
-                 "obstacles that is left [-]; friction coefficients stay. 1: "
-                 "all of it.");
+                 "obstacles that remains in the end [-]; friction "
+                 "coefficients stay. 1: no reduction.");
   }
 
 
 
-  /// What a user has written and what would have no effect is an error each: a
-  /// trigger that never acts is seen only when the run is over.
+  /// Entries without effect are errors: a trigger that never acts would be
+  /// noticed only at the end of the run.
   template <int dim>
   void
   Trigger<dim>::check(const std::vector<std::string> &names_of_bodies,
@@ -90,18 +90,18 @@ namespace talus
                        "the entry.")));
     AssertThrow(changes_strength() ||
                   (names_of_bodies_.empty() && region_.empty()),
-                ExcUser("'Trigger/Bodies' or 'Trigger/Region' is given, but "
-                        "'Trigger/Strength fraction' is 1, so that no soil "
-                        "becomes weaker. Set it to less than 1 or remove the "
-                        "entries."));
+                ExcUser(
+                  "'Trigger/Bodies' or 'Trigger/Region' is given, but "
+                  "'Trigger/Strength fraction' is 1: no soil becomes weaker. "
+                  "Set the fraction to less than 1 or remove the entries."));
     if (changes_strength())
       check_bodies(names_of_bodies, materials);
   }
 
 
 
-  /// Sets weakens_body_: the listed bodies or, without a list, all that have a
-  /// strength. A listed body without strength is an error, an unlisted one is
+  /// Set weakens_body_: the listed bodies or, without a list, all bodies with a
+  /// strength. A listed body without strength is an error, an unlisted body is
   /// not.
   template <int dim>
   void
@@ -110,7 +110,7 @@ namespace talus
   {
     weakens_body_.assign(names_of_bodies.size(), false);
     for (unsigned int b = 0; b < names_of_bodies.size(); ++b)
-      // Without a list, all that can become weaker.
+      // Without a list, all bodies with a strength.
       weakens_body_[b] =
         names_of_bodies_.empty() && materials.of_body(b).has_strength();
     const std::string advice =
@@ -134,7 +134,7 @@ namespace talus
                             "remove the body from the list."));
         weakens_body_[b] = true;
       }
-    // Without a list and without any law that has a strength nothing is left.
+    // Without a list, and without any law with a strength, nothing is left.
     AssertThrow(std::count(weakens_body_.begin(), weakens_body_.end(), true) >
                   0,
                 ExcUser("All bodies are made of materials as that of section " +
@@ -144,8 +144,8 @@ namespace talus
 
 
 
-  /// State of the points, so that checkpoints, ranks and splits keep it; copied
-  /// to children.
+  /// A column of the points is kept by checkpoints, ranks and splits; copied to
+  /// children.
   template <int dim>
   void
   Trigger<dim>::add_columns(Points<dim> &points)
@@ -156,9 +156,8 @@ namespace talus
 
 
 
-  // Chosen once: a child may lie across the edge of the region, and at
-  // periodic faces initial places are shifted.
-  /// Collective.
+  // Points are chosen once: a child may lie across the edge of the region, and
+  // initial places are shifted at periodic faces. Collective.
   template <int dim>
   void
   Trigger<dim>::choose_points(Points<dim>     &points,
@@ -187,16 +186,17 @@ namespace talus
         n_weakened += is_weakened;
       }
     AssertThrow(Utilities::MPI::sum(n_weakened, communicator) > 0.,
-                ExcUser("'Trigger/Region' = '" + region_ +
-                        "' is positive at no point of the bodies that are to "
-                        "become weaker. Give an expression that is positive "
-                        "where the weak soil lies, or leave it empty."));
+                ExcUser(
+                  "'Trigger/Region' = '" + region_ +
+                  "' is positive at no point of the bodies to be weakened. "
+                  "Give an expression that is positive in the weak soil, or "
+                  "leave the entry empty."));
   }
 
 
 
-  /// 0 before the start, 1 after the end, half a cosine between. With no
-  /// duration it jumps in the first step that ends after the start time.
+  /// 0 before the start, 1 after the end, half a cosine in between. Without
+  /// duration, a jump in the first step that ends after the start time.
   template <int dim>
   double
   Trigger<dim>::progress(const double t) const
@@ -210,10 +210,9 @@ namespace talus
 
 
 
-  /// The factor at the time @p now, the end of the step, s. Nothing is done
-  /// while it does not change, which is nearly always: the loop over the points
-  /// would cost each step of the run. It is set, not multiplied, so that it
-  /// does not drift.
+  /// The factor at time @p now, the end of the step, s. Skipped while the
+  /// factor is constant, nearly always: the loop over the points would cost
+  /// time in each step. The factor is assigned, not multiplied, to avoid drift.
   template <int dim>
   void
   Trigger<dim>::update(Points<dim>       &points,
@@ -223,8 +222,7 @@ namespace talus
   {
     if (!changes_strength() || progress(before) == progress(now))
       return;
-    // f = 1 - (1 - f_end) progress at the points that were chosen, 1 at all
-    // others.
+    // f = 1 - (1 - f_end) progress at the chosen points, 1 elsewhere.
     const double  lost     = progress(now) * (1. - strength_fraction_);
     const double *weakened = points.data(weakened_);
     double       *factor   = points.data(strength_factor);
@@ -234,7 +232,7 @@ namespace talus
 
 
 
-  /// A sentence for the log, empty without a trigger.
+  /// Return a sentence for the log, empty without a trigger.
   template <int dim>
   std::string
   Trigger<dim>::note() const

@@ -15,14 +15,14 @@ namespace talus
                const std::string     &remedy)
   {
     const MapUnit unit = map_unit(coordinate_system);
-    AssertThrow(!map.empty() || unit == MapUnit::metres ||
-                  unit == MapUnit::unknown,
-                ExcUser(text(file,
-                             unit == MapUnit::degrees ? " is in degrees"
-                                                      : " is not in metres",
-                             ". Say to which map it is to be brought: ",
-                             remedy,
-                             ", such as UTM 33N.")));
+    AssertThrow(
+      !map.empty() || unit == MapUnit::metres || unit == MapUnit::unknown,
+      ExcUser(
+        text(file,
+             unit == MapUnit::degrees ? " is in degrees" : " is not in metres",
+             ". Name the map to which the file is to be projected: ",
+             remedy,
+             ", such as UTM 33N.")));
     if (!map.empty())
       MapTransformation(unit == MapUnit::unknown ? wgs_84 : coordinate_system,
                         map)

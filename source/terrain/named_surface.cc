@@ -41,28 +41,29 @@ namespace talus
                   "`Outline`.");
     add_parameter("Projection",
                   projection_,
-                  "The map in metres that the file is brought to on reading, "
-                  "and that 'Grid/Origin' and `Section` are on: zone and "
-                  "hemisphere as UTM 33N or UTM 33S, or EPSG:3575, a code of "
-                  "the EPSG registry. A file that does not say its coordinate "
-                  "system is then in degrees (WGS 84). Needs a talus that was "
-                  "built with GDAL. Empty: the file is in metres.");
+                  "Map in metres to which the file is projected on reading, "
+                  "and which is the map of 'Grid/Origin' and `Section`: zone "
+                  "and hemisphere as UTM 33N or UTM 33S, or a code of the "
+                  "EPSG registry as EPSG:3575. A file without a coordinate "
+                  "system is then taken to be in degrees (WGS 84). Needs "
+                  "talus built with GDAL. Empty: the file is in metres.");
     add_parameter("Cell size",
                   cell_size_,
-                  "Of the raster on that map [m]; 0: the smaller side that its "
-                  "cells have in its middle.",
+                  "Cell size of the projected raster on the map of "
+                  "`Projection` [m]; 0: the shorter side of the cell in the "
+                  "middle of the raster, measured on the map.",
                   this->prm,
                   Patterns::Double(0.));
     add_parameter("Section",
                   section_,
-                  "2-D only: corners of the line on the map that the surface "
-                  "is cut along, as easting,northing; easting,northing; ... "
-                  "[m]. x is the length along it, and it goes on straight "
-                  "beyond both ends.");
+                  "2-D only: corners of the line on the map along which the "
+                  "surface is cut, as easting,northing; easting,northing; "
+                  "... [m]. x is the length along the line, which extends "
+                  "straight beyond both ends.");
     add_parameter("Expression",
                   expression_,
-                  "In place of a file: the height as an expression in x (, z) "
-                  "and the surfaces listed before this one [m].");
+                  "In place of a file: the height as an expression in x (, "
+                  "z) and the surfaces listed before this surface [m].");
     add_parameter("Outline",
                   outline_,
                   "3-D only, in place of a file: corners 'x, z; x, z; ...' of "
@@ -82,8 +83,8 @@ namespace talus
 
   namespace
   {
-    /// Throw ExcUser if the line through @p corners in the plan turns back or
-    /// meets itself: then two places x of the section lie at one of the map.
+    /// Throw ExcUser if the line through @p corners in plan turns back or meets
+    /// itself: two places x of the section would lie at one place of the map.
     void
     check_section(const std::string &path, const std::vector<Point<2>> &corners)
     {
@@ -122,7 +123,7 @@ namespace talus
     for (const auto &corner : Utilities::split_string_list(section_, ';'))
       {
         const auto numbers = Utilities::split_string_list(corner, ',');
-        // Squares of larger ones would overflow.
+        // Squares of larger numbers would overflow.
         const Patterns::Double number(-1e9, 1e9);
         AssertThrow(
           numbers.size() == 2 && number.match(numbers[0]) &&
@@ -176,7 +177,7 @@ namespace talus
 
 
 
-  /// Projected, if there is a map to bring it to.
+  /// Read the raster, and project the raster if there is a map.
   template <int dim>
   Raster
   NamedSurface<dim>::read_file(const std::filesystem::path &file) const

@@ -20,18 +20,18 @@ namespace talus
 
   namespace
   {
-    /// Of both axes at once, along which a cell of the raster is short.
+    /// Size and distortion of a cell, the extremes over both axes.
     struct CellSize
     {
-      double on_map;   ///< the smaller side, as the map has it, m
-      double too_long; ///< the larger share by which the map is wrong [-]
+      double on_map;   ///< shorter side on the map, m
+      double too_long; ///< larger relative error of lengths on the map [-]
     };
 
 
 
-    /// Return the length of the way between two close places, longitude and
-    /// latitude, on the ellipsoid of WGS 84, by its radii of curvature along the
-    /// meridian and across (@cite snyder1987, eqs. 4-18, 4-20), m.
+    /// Return the distance between two close places, longitude and latitude, on
+    /// the ellipsoid of WGS 84, by the radii of curvature along the meridian
+    /// and across (@cite snyder1987, eqs. 4-18, 4-20), m.
     double
     length_on_ellipsoid(const Point<2> &from, const Point<2> &to)
     {
@@ -48,7 +48,7 @@ namespace talus
 
 
 
-    /// From the coordinates of a raster to those of a map.
+    /// Transformations between a raster, a map and degrees.
     struct ToMap
     {
       ToMap(const Raster &raster, const std::string &map)
@@ -97,7 +97,8 @@ namespace talus
 
 
 
-    /// Corners of the cells along the edges, since these are bent on the map.
+    /// Return corners of the cells along the edges: straight edges are bent on
+    /// the map.
     std::vector<Point<2>>
     outline(const Raster &raster)
     {
@@ -124,30 +125,28 @@ namespace talus
 
 
 
-    /// Of a raster that does not say what its coordinates are.
+    /// Check that a raster without coordinate system may be in degrees.
     void
     check_degrees(const Raster &raster, const std::string &place)
     {
       const double east  = raster.west + raster.n_columns * raster.dx;
       const double north = raster.south + raster.n_rows * raster.dy;
       const double slack = raster.dx; // half a cell beyond the poles
-      AssertThrow(std::max(std::abs(raster.west), std::abs(east)) <=
-                      360. + slack &&
-                    std::max(std::abs(raster.south), std::abs(north)) <=
-                      90. + slack,
-                  ExcUser(text(place,
-                               " is set for a raster that reaches from ",
-                               raster.west,
-                               " to ",
-                               east,
-                               " and from ",
-                               raster.south,
-                               " to ",
-                               north,
-                               ", which are no longitudes and latitudes in "
-                               "degrees, and does not say what they are. "
-                               "Remove that entry if they are in metres, or "
-                               "put a file .prj beside the raster.")));
+      AssertThrow(
+        std::max(std::abs(raster.west), std::abs(east)) <= 360. + slack &&
+          std::max(std::abs(raster.south), std::abs(north)) <= 90. + slack,
+        ExcUser(text(place,
+                     " is set for a raster that reaches from ",
+                     raster.west,
+                     " to ",
+                     east,
+                     " and from ",
+                     raster.south,
+                     " to ",
+                     north,
+                     ", which are no longitudes and latitudes in degrees, and "
+                     "has no coordinate system. Remove the entry if the raster "
+                     "is in metres, or put a file .prj beside the raster.")));
     }
 
 
@@ -182,8 +181,8 @@ namespace talus
 
 
 
-    /// Return cells of this size that cover the outline on the map @p corners,
-    /// without values.
+    /// Return cells of size @p spacing that cover the outline @p corners on the
+    /// map, without values.
     Raster
     frame(const std::vector<Point<2>> &corners,
           const double                 spacing,
@@ -221,11 +220,11 @@ namespace talus
 
 
 
-  // Backwards, from each centre of the new cells to the old ones: so values are
-  // interpolated in the raster's own lattice, and half a cell is half a cell.
-  // GDAL's warper has a cubic kernel, too, but where cells of the map are larger
-  // than those of the raster along one axis, beside its edges and beside cells
-  // without data it does not bring back a plane.
+  // Backwards, from each centre of a new cell to the old cells: values are
+  // interpolated in the lattice of the raster, without a shift by half a cell.
+  // GDAL's warper has a cubic kernel, too, but does not reproduce a plane
+  // beside the edges, beside cells without data, and where cells of the map are
+  // larger than cells of the raster along one axis.
   Raster
   project_raster(Raster             raster,
                  const std::string &map,
@@ -259,7 +258,7 @@ namespace talus
         transformation.from_map.transform(row);
         for (Point<2> x : row)
           {
-            // A raster may count its longitudes from 0 to 360.
+            // Longitudes of a raster may count from 0 to 360.
             if (is_in_degrees)
               x[0] += 360. * std::round((centre[0] - x[0]) / 360.);
             const auto value = heights.at(x);

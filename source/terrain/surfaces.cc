@@ -24,9 +24,9 @@ namespace talus
     add_parameter("Names",
                   listed_names_,
                   "Names of the surfaces (mudline, slip surface, boundary of "
-                  "a layer) that terrains, layers and other surfaces are "
-                  "described by, separated by commas; each has a section of "
-                  "that name. Empty: none.");
+                  "a layer) for use in terrains, layers and further "
+                  "surfaces, separated by commas; each surface has a section "
+                  "of the same name. Empty: none.");
     for (const std::string &name : names)
       named_.push_back(std::make_unique<NamedSurface<dim>>(name));
   }
@@ -43,7 +43,7 @@ namespace talus
 
 
 
-    /// The words of an expression: names of surfaces among them.
+    /// Return the words of an expression, with names of surfaces among them.
     std::set<std::string>
     words_of(const std::string &expression)
     {
@@ -62,26 +62,27 @@ namespace talus
 
 
 
-    /// In expressions a name must be one word, and not one that means something
-    /// else.
+    /// Check a name: in expressions a name must be a single word without
+    /// another meaning.
     void
     check_name(const std::string &name)
     {
       static const std::set<std::string> taken = {"x", "y", "z", "t", "pi"};
-      AssertThrow(!name.empty() && !std::isdigit(name[0]) &&
-                    std::all_of(name.begin(), name.end(), is_part_of_name) &&
-                    taken.count(name) == 0,
-                  ExcUser(text("'Surfaces/Names' lists '",
-                               name,
-                               "', where a word of letters, digits and '_' "
-                               "was expected that expressions can name, other "
-                               "than x, y, z, t, pi. Choose another one.")));
+      AssertThrow(
+        !name.empty() && !std::isdigit(name[0]) &&
+          std::all_of(name.begin(), name.end(), is_part_of_name) &&
+          taken.count(name) == 0,
+        ExcUser(text("'Surfaces/Names' lists '",
+                     name,
+                     "', where a word of letters, digits and '_' was expected, "
+                     "for use in expressions, except x, y, z, t, pi. Choose "
+                     "another name.")));
     }
   } // namespace
 
 
 
-  // In the order in which they are listed, so that nothing goes in circles.
+  // In the order of the list, without circular references.
   template <int dim>
   void
   Surfaces<dim>::prepare(const Constants             &constants,
@@ -143,15 +144,17 @@ namespace talus
     for (const auto &named : named_)
       if (named->has_file())
         {
-          AssertThrow(first == nullptr || named->section() == first->section(),
-                      ExcUser(text(path,
-                                   " is on the map, but the rasters are cut "
-                                   "along two lines, ",
-                                   first->path("Section"),
-                                   " and ",
-                                   named->path("Section"),
-                                   ", so that a place of the map may have two "
-                                   "x. Make the two the same.")));
+          AssertThrow(
+            first == nullptr || named->section() == first->section(),
+            ExcUser(
+              text(path,
+                   " is on the map, but the rasters are cut "
+                   "along two lines, ",
+                   first->path("Section"),
+                   " and ",
+                   named->path("Section"),
+                   ": a place of the map may have two x. Use the same line "
+                   "for all rasters.")));
           if (first == nullptr)
             first = named.get();
         }
@@ -190,7 +193,7 @@ namespace talus
                  map(),
                  path + ": the line of '" + file + "'",
                  "`Projection` of a surface");
-    // The log asks again for what it says of the route.
+    // The log reads a route again.
     std::string name = "route " + file;
     std::replace(name.begin(), name.end(), '/', ' ');
     if (std::none_of(routes_.begin(),
@@ -258,8 +261,8 @@ namespace talus
                  last,
                  " m at x = ",
                  to,
-                 " m, where the soil lies, so that soil slides towards smaller "
-                 "x. If that is not meant, list the corners of ",
+                 " m, where the soil lies: soil slides towards smaller x. "
+                 "To reverse the section, list the corners of ",
                  named_[k]->path("Section"),
                  " in the other order."));
       }

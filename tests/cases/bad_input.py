@@ -400,13 +400,13 @@ class BadInput(Case):
             self.run_limited(1100000, "0.02",
                              "Bodies/block/Points per cell and axis=16"),
             "With the body 'block' there would be 2560000 points",
-            "some 0.6656 GB", "GB are to be had", "'Points per cell and axis'")
+            "some 0.6656 GB", "GB are available", "'Points per cell and axis'")
         # Their places alone are too much.
         for filling in ("centres", "clipped"):
             self.assert_refused(
                 self.run_limited(1100000, "0.01", "Bodies/block/Points per cell "
                                  "and axis=16", f"Bodies/block/Filling={filling}"),
-                "There would be more than", "GB of memory that are to be had",
+                "There would be more than", "GB of available memory",
                 "'Points per cell and axis'")
 
     def test_points_of_two_bodies_that_fit(self):

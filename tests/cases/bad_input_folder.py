@@ -139,7 +139,7 @@ class BadInputFolder(Case):
         self.assert_untouched()
         self.assert_refused(self.run_talus("--output", "results",
                                            "results/parameters.prm"),
-                            "results/parameters.prm", "which it reads")
+                            "results/parameters.prm", "which is also the input")
         self.assert_untouched()
 
     def test_ground_motion_that_would_be_written_over(self):
@@ -148,7 +148,7 @@ class BadInputFolder(Case):
         self.earlier["statistics.csv"] = table
         self.assert_refused(
             self.run_file(settings=["Ground motion/File=results/statistics.csv"]),
-            "statistics.csv", "which it reads", "--output")
+            "statistics.csv", "which is also the input", "--output")
         self.assert_untouched()
 
     def test_ground_motion_with_the_name_of_a_file_that_is_being_written(self):
@@ -159,7 +159,7 @@ class BadInputFolder(Case):
             self.earlier[name] = table
             self.assert_refused(
                 self.run_file(settings=[f"Ground motion/File=results/{name}"]),
-                name, "which it reads", "--output")
+                name, "which is also the input", "--output")
             self.assert_untouched()
 
     def test_record_of_an_earlier_run_is_a_parameter_file(self):
@@ -184,7 +184,7 @@ class BadInputFolder(Case):
                                 "somebody has changed", "--output")
             self.assert_refused(self.run_talus("--output", "results",
                                                "results/parameters.prm"),
-                                "results/parameters.prm", "which it reads")
+                                "results/parameters.prm", "which is also the input")
             self.assertEqual(record.read_text(), mine)
 
     def test_record_that_was_changed_is_in_the_way_of_resuming(self):
@@ -193,7 +193,7 @@ class BadInputFolder(Case):
         record = self.results / "parameters.prm"
         record.write_text(record.read_text() + "# mine\n")
         result = self.resume(0.2)
-        self.assert_refused(result, "somebody has changed", "go on with it")
+        self.assert_refused(result, "somebody has changed", "resume with the moved file")
         self.assertNotIn("--output", result.stderr)
         record.rename(self.folder / "case.prm")
         self.assertEqual(self.resume(0.2).returncode, 0)
@@ -209,7 +209,7 @@ class BadInputFolder(Case):
                 ("lock", "mine", [], "no run has written"),
                 ("statistics.csv", table,
                  ["--set", "Ground motion/File=results/statistics.csv"],
-                 "which it reads"),
+                 "which is also the input"),
                 ("parameters.prm", GOOD, [], "no run has written"),
                 ("parameters.prm", None, [], "may be yours")):
             before = self.earlier.get(name)
@@ -518,7 +518,7 @@ class BadInputFolder(Case):
         (self.results / "parameters.prm").write_text(GOOD)
         self.earlier["parameters.prm"] = GOOD
         self.assert_refused(self.run_talus("--output", "results", "a.prm"),
-                            "results/parameters.prm", "which it reads")
+                            "results/parameters.prm", "which is also the input")
         self.assert_untouched()
 
     def test_pipe(self):

@@ -104,7 +104,7 @@ class BadInputMotion(Case):
         (self.folder / "rest.csv").write_text(
             "time [s],horizontal [m/s^2]\n0,0\n1,1\n")
         self.refuse_set(["Ground motion/File=rest.csv", "Ground motion/Factor=0"],
-                        "'Ground motion/Factor' is 0", "rest.csv", "do nothing")
+                        "'Ground motion/Factor' is 0", "rest.csv", "have no effect")
         self.refuse_set(["Ground motion/File=missing.csv"], "missing.csv",
                         "cannot be read", "folder of the parameter file")
         self.refuse_set(["Ground motion/File=."], "cannot be read")

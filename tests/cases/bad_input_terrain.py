@@ -155,7 +155,7 @@ class BadInputTerrain(Case):
                 (clay[:1], "`Poisson's ratio` is 0.3", "0.45 to 0.49"),
                 (["Materials/Names=clay, sand"],
                  "No body is made of the material of section /Materials/sand"),
-                (self.layer("2-0.5*x", "0.5*x-0.2"), "lies above its upper one",
+                (self.layer("2-0.5*x", "0.5*x-0.2"), "lies above the upper surface",
                  "by up to 0.3 m, at x = 2.5 m"),
                 (self.layer("1.5", "0"), "'block' is 1.5 cells of 1 m thick"),
                 (pipe + ["Obstacles/pipe/Centre=2,-1.2", "Grid/Lower corner=0,-4"],

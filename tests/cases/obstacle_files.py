@@ -187,7 +187,7 @@ class ObstacleFiles(Case):
                  "Bodies/block/Vertices=0,-0.5;2,-0.5;2,0.5;0,0.5",
                  "Obstacles/plane/Normal=0,1"])
             self.assertIn("The obstacles take 1 m^2 of the body 'block', 50 % "
-                          "of it", (folder / "log.txt").read_text())
+                          "of the body", (folder / "log.txt").read_text())
             with open(folder / "statistics.csv") as lines:
                 mass = float(next(csv.DictReader(lines))["mass [kg]"])
             self.assertAlmostEqual(mass, 2000 * (2 - 1), delta=1e-6)

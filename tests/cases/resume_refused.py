@@ -115,8 +115,8 @@ class ResumeRefused(Case):
         self.assert_ends(self.run_talus("run", ["End time=0.1"] + settings))
         self.before = self.content("run", [])
         record.write_text("time [s],horizontal [m/s^2]\n0,0\n1,2\n")
-        self.refuse(settings, "The table", "record.csv", "not the one",
-                    "Restore it")
+        self.refuse(settings, "The table", "record.csv", "differs from the file",
+                    "Restore the file")
 
     def test_files_that_changed(self):
         """A surface, and a strength that is read at the start alone."""
@@ -139,8 +139,8 @@ class ResumeRefused(Case):
         for file, of, *change in ((raster, "raster", "-1 -1\n-1", "-1 -1\n-2"),
                                   (strength, "table", "2600", "2601")):
             file.write_text(contents[file].replace(*change))
-            self.refuse(settings, f"The {of} '{file}' is not the one",
-                        "Restore it")
+            self.refuse(settings, f"The {of} '{file}' differs from the file",
+                        "Restore the file")
             file.unlink()
             self.refuse(settings, str(file))
             file.write_text(contents[file])

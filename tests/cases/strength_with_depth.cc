@@ -224,6 +224,6 @@ TEST(StrengthWithDepth, WhatCannotBeIsSaid)
                    clay + "Law=Bingham",
                    clay + "Remoulded strength ratio=0.2",
                    clay + "Plastic shear strain to remould=0.5"})
-              .find("would soften faster than it can unload"),
+              .find("would soften faster than elastic unloading"),
             std::string::npos);
 }

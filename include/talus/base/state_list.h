@@ -55,7 +55,7 @@ namespace talus
       std::string                                      name;
       std::string                                      columns; ///< with units
       unsigned int                                     n_columns;
-      std::function<std::vector<double>()>             get; ///< of this rank
+      std::function<std::vector<double>()>             get; ///< local rows
       std::function<void(const std::vector<double> &)> set; ///< all rows
     };
 

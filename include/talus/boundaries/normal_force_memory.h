@@ -39,10 +39,10 @@ namespace talus
   private:
     struct Mean
     {
-      unsigned long key;       ///< of the place of the node
-      unsigned int  face;      ///< of the mesh
+      unsigned long key;       ///< place of the node
+      unsigned int  face;      ///< face of the mesh
       double        force = 0; ///< N
-      unsigned long step  = 0; ///< of the last update(); 0: none
+      unsigned long step  = 0; ///< last update(); 0: none
     };
 
     std::vector<double>
@@ -54,7 +54,7 @@ namespace talus
 
     std::vector<Mean> means_;
     std::array<std::unordered_map<unsigned int, unsigned int>, 2 * dim>
-                  index_; ///< of a node among the means, by face
+                  index_; ///< number of the mean of a node, by face
     unsigned long step_ = 1;
     std::vector<double>
       restored_; ///< rows of a checkpoint, until they are taken

@@ -32,8 +32,8 @@ namespace talus
     std::uint64_t step      = 0;
     double        time      = 0; ///< s
     double        end_time  = 0; ///< planned end of the run, s
-    std::string   version;       ///< of talus
-    std::string   revision;      ///< of git
+    std::string   version;       ///< version of talus
+    std::string   revision;      ///< git revision
   };
 
   void

@@ -26,7 +26,7 @@ namespace talus
   {
     double                 normal = 0;         ///< along the normal, N s, >= 0
     dealii::Tensor<1, dim> tangential;         ///< along the facet, N s
-    double                 effective_mass = 0; ///< of the soil, kg; 0: no soil
+    double                 effective_mass = 0; ///< mass of soil, kg; 0: none
     double mean_normal = 0; ///< running mean of `normal`, limits friction, N s
 
     bool

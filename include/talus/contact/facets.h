@@ -24,10 +24,10 @@ namespace talus
     static constexpr unsigned int n_nodes = power(2, dim);
 
     unsigned int                      cell;
-    unsigned long                     key; ///< of the cell, same on all ranks
+    unsigned long                     key; ///< global key of the cell
     unsigned int                      obstacle;
     unsigned int                      number; ///< by direction of the normal
-    std::array<unsigned int, n_nodes> node;   ///< of the cell
+    std::array<unsigned int, n_nodes> node;   ///< nodes of the cell
     std::array<double, n_nodes>       shape_value; ///< at the centroid, by node
     dealii::Point<dim>                centroid;    ///< m
     dealii::Tensor<1, dim>            normal; ///< mean, out of the obstacle

@@ -84,7 +84,7 @@ namespace talus
     Box<dim>              domain_;
     const Obstacles<dim> *obstacles_;
     Members               members_; ///< numbers of the obstacles of the ground
-    BoxIndex<dim>         index_;   ///< of the members, by their place there
+    BoxIndex<dim>         index_;   ///< index of the members in members_
   };
 } // namespace talus
 

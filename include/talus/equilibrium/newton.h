@@ -33,7 +33,7 @@ namespace talus
     struct Parameters
     {
       StrainMeasure measure            = StrainMeasure::small;
-      double        tolerance          = 1e-8; ///< of the residual [-]
+      double        tolerance          = 1e-8; ///< relative residual [-]
       unsigned int  largest_iterations = 30;
       double        ghost_penalty      = 0.01; ///< gamma [-]
       bool          is_well_balanced   = true; ///< at small strain only

@@ -93,7 +93,7 @@ namespace talus
     struct Contact
     {
       unsigned int           node;
-      unsigned long          key; ///< of the place of the node
+      unsigned long          key; ///< place of the node
       unsigned int           k;   ///< index among the active nodes
       unsigned int           face;
       unsigned char          walls; ///< components held by walls, as bits
@@ -117,7 +117,7 @@ namespace talus
                       const dealii::Tensor<1, dim> &u,
                       double                        weight) const;
 
-    static constexpr unsigned int n_columns = 4 + 2 * dim; ///< of rows()
+    static constexpr unsigned int n_columns = 4 + 2 * dim; ///< in rows()
 
     std::vector<Contact> contacts_;
     std::vector<double>  restored_; ///< rows from a checkpoint

@@ -92,7 +92,7 @@ namespace talus
     {
       std::vector<double> field;        ///< displacements, m
       double              largest;      ///< component over all ranks, m
-      unsigned int        n_iterations; ///< of the linear solver
+      unsigned int        n_iterations; ///< by the linear solver
       std::string         failure;      ///< end of a sentence; empty: solved
     };
 

@@ -102,7 +102,7 @@ namespace talus
       restored_ = rows;
     }
 
-    static constexpr unsigned int n_columns = 6; ///< of rows()
+    static constexpr unsigned int n_columns = 6; ///< in rows()
 
   private:
     static constexpr unsigned int n_nodes = ContactFacet<dim>::n_nodes;
@@ -123,14 +123,14 @@ namespace talus
       dealii::Point<dim>                place; ///< centroid, m
       dealii::Tensor<1, dim>            normal;
       double                            area = 0; ///< in contact, m^(dim-1)
-      double                 stiffness = 0; ///< of the spring, N/m; 0: no soil
-      double                 gap       = 0; ///< at the start of the step, m
-      double                 opened    = 0; ///< see Memory, m
-      CoulombLimit           limit;         ///< of friction
+      double                 stiffness       = 0; ///< spring, N/m; 0: no soil
+      double                 gap    = 0; ///< at the start of the step, m
+      double                 opened = 0; ///< see Memory, m
+      CoulombLimit           limit;      ///< limit of friction
       Force                  given, found;
       bool                   is_closed = false, slips = false;
-      dealii::Tensor<1, dim> direction;   ///< of friction while slipping
-      double                 cut = 0;     ///< friction over spring force [-]
+      dealii::Tensor<1, dim> direction; ///< direction of friction when slipping
+      double                 cut = 0;   ///< friction over spring force [-]
       bool sticks_first          = false; ///< next tangent as if it stuck
     };
 

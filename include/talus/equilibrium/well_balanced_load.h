@@ -91,7 +91,7 @@ namespace talus
     std::vector<double>                 forces_;
     std::vector<double>                 volume_;   ///< by point, m^dim
     std::vector<double>                 pressure_; ///< by point, Pa
-    std::vector<dealii::Tensor<1, dim>> gradient_; ///< of pressure, Pa/m
+    std::vector<dealii::Tensor<1, dim>> gradient_; ///< pressure gradient, Pa/m
   };
 } // namespace talus
 

@@ -13,8 +13,8 @@ namespace talus
   class HalfSpace : public Shape<dim>
   {
   public:
-    /// @p point lies on the plane; @p normal, of any length but zero, points
-    /// out of the solid.
+    /// @p point lies on the plane; @p normal, of any nonzero length, points out
+    /// of the solid.
     HalfSpace(const dealii::Point<dim>     &point,
               const dealii::Tensor<1, dim> &normal);
 
@@ -37,7 +37,7 @@ namespace talus
 
 
 
-  /// Box along the axes, which may be infinite.
+  /// Box along the axes, possibly infinite.
   template <int dim>
   class BoxRegion : public Shape<dim>
   {
@@ -70,12 +70,12 @@ namespace talus
 
 
 
-  /// Disc in 2-D, sphere in 3-D, or what is left of it around a hollow.
+  /// Disc in 2-D, sphere in 3-D, optionally with a concentric hollow.
   template <int dim>
   class Ball : public Shape<dim>
   {
   public:
-    /// Radii in m; @p inner_radius is that of the hollow, 0 for none.
+    /// Radii in m; @p inner_radius is the radius of the hollow, 0 for none.
     Ball(const dealii::Point<dim> &centre,
          const double              radius,
          const double              inner_radius = 0.)
@@ -111,7 +111,7 @@ namespace talus
   class Prism : public Shape<3>
   {
   public:
-    /// From @p z_lower to @p z_upper, m, which may be infinite.
+    /// From @p z_lower to @p z_upper, m, possibly infinite.
     Prism(std::unique_ptr<const Shape<2>> base, double z_lower, double z_upper);
 
     double
@@ -127,7 +127,7 @@ namespace talus
     bounding_box() const override;
 
   private:
-    /// Distance to the nearer end, m: negative between the two.
+    /// Distance to the nearer end, m: negative between both ends.
     double
     distance_to_ends(double z) const;
 

@@ -9,16 +9,16 @@
 
 namespace talus
 {
-  /// Index of many boxes by place: which of them are near a place is found
-  /// without looking at all. Boxes may be infinite.
+  /// Index of many boxes by place: finds boxes near a place without testing
+  /// all. Boxes may be infinite.
   template <int dim>
   class BoxIndex
   {
   public:
     explicit BoxIndex(const std::vector<Box<dim>> &boxes = {});
 
-    /// Return the numbers, ascending, of all boxes that are nowhere farther than
-    /// @p distance, m, from @p box, and perhaps some others.
+    /// Return the numbers, ascending, of all boxes within @p distance, m, of
+    /// @p box, and possibly of some farther boxes.
     std::vector<unsigned int>
     near(const Box<dim> &box, double distance) const;
 

@@ -17,33 +17,34 @@ namespace talus
   template <int dim>
   using Simplex = std::array<dealii::Point<dim>, dim + 1>;
 
-  /// Part of a plane: the ends of a segment (2-D) or the corners of a triangle
-  /// or plane quadrilateral (3-D) in order.
+  /// Part of a plane: the ends of a segment (2-D), or the corners of a triangle
+  /// or plane quadrilateral in order (3-D).
   template <int dim>
   using Facet =
     boost::container::static_vector<dealii::Point<dim>, dim == 2 ? 2 : 4>;
 
-  /// What clip_simplex() leaves of a simplex.
+  /// Result of clip_simplex().
   template <int dim>
   struct ClippedSimplex
   {
     /// Simplices that tile the part where the function is not positive.
     boost::container::static_vector<Simplex<dim>, dim == 2 ? 2 : 3> parts;
-    /// Where the function is zero; empty if it has one sign.
+    /// Part of the plane where the function is zero; empty if all values have
+    /// the same sign.
     Facet<dim> facet;
   };
 
-  /// Cut a simplex by the zero of the linear function that has @p values at its
-  /// corners. Zero counts as negative; a face of the simplex on which the
-  /// function is zero is a facet of the simplex in which it is positive, and of
-  /// that one alone. The facet's vector_area() points to where the function is
-  /// positive. Give negative values for the other side.
+  /// Cut a simplex by the zero of the linear function with @p values at the
+  /// corners. Zero counts as negative; a face on which the function is zero is
+  /// a facet only of the simplex where the function is positive. The facet's
+  /// vector_area() points to positive values. Give negative values to obtain
+  /// the opposite part.
   template <int dim>
   ClippedSimplex<dim>
   clip_simplex(const Simplex<dim>                &simplex,
                const std::array<double, dim + 1> &values);
 
-  /// Area in 2-D, m^dim, not negative.
+  /// Return the volume, in 2-D the area, m^dim, not negative.
   template <int dim>
   double
   volume(const Simplex<dim> &simplex);
@@ -52,19 +53,20 @@ namespace talus
   dealii::Point<dim>
   centroid(const Simplex<dim> &simplex);
 
-  /// Integral of the normal, m^(dim-1): on the left of a segment, and of a
-  /// polygon where its corners are seen counter-clockwise from.
+  /// Return the integral of the normal, m^(dim-1). The normal points to the
+  /// left of a segment, and to the side of a polygon from which the corners
+  /// appear counter-clockwise.
   template <int dim>
   dealii::Tensor<1, dim>
   vector_area(const Facet<dim> &facet);
 
-  /// Of a facet that is no point.
+  /// Return the centroid of a facet with positive area.
   template <int dim>
   dealii::Point<dim>
   centroid(const Facet<dim> &facet);
 
-  /// The 2 triangles or 6 tetrahedra around a diagonal of @p box that tile it
-  /// (Kuhn's), so that boxes side by side match at their faces.
+  /// Return the 2 triangles or 6 tetrahedra around a diagonal that tile @p box
+  /// (Kuhn's tiling). Faces of adjacent boxes match.
   template <int dim>
   std::array<Simplex<dim>, dim == 2 ? 2 : 6>
   simplices_of(const Box<dim> &box);

@@ -8,18 +8,18 @@
 
 namespace talus
 {
-  /// Ends of a segment (2-D) or corners of a triangle (3-D). On its left, or
-  /// where its corners are seen counter-clockwise from, the distance is
-  /// positive.
+  /// Ends of a segment (2-D) or corners of a triangle (3-D). The distance is
+  /// positive on the left of the segment, and on the side from which the
+  /// corners appear counter-clockwise.
   template <int dim>
   using SurfaceElement = std::array<dealii::Point<dim>, dim>;
 
-  /// The surface in a box on which a distance is zero, to be drawn. Where it is
-  /// curved, with radii of @p size, m, or more (in 3-D three times that), it is
-  /// right to a fiftieth of it; edges and corners are cut off by half of it at
-  /// most. Plane parts have few elements, whatever the size; there may be gaps of
-  /// a fiftieth of it between elements. What is smaller than half of it may be
-  /// missed. @p bounds, a box around the surface, saves a search where it is not.
+  /// Return the surface in a box on which a distance is zero, for plots. Where
+  /// radii of curvature are at least @p size, m (in 3-D three times @p size),
+  /// the error is at most size/50. Edges and corners are cut off by at most
+  /// size/2; features smaller than size/2 may be missed. Plane parts have few
+  /// elements, with gaps of up to size/50 between elements. @p bounds, a box
+  /// around the surface, reduces the search.
   template <int dim>
   std::vector<SurfaceElement<dim>>
   contour(const Box<dim>              &box,

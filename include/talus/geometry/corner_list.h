@@ -9,8 +9,8 @@
 
 namespace talus
 {
-  /// Return the corners of a line or polygon that the parameter @p path lists as
-  /// "a,b; a,b; ...". Throws ExcUser, naming the parameter.
+  /// Return the corners of a line or polygon, listed in the parameter @p path
+  /// as "a,b; a,b; ...". Throws ExcUser with the name of the parameter.
   std::vector<dealii::Point<2>>
   parse_corners(const std::string &path, const std::string &list);
 } // namespace talus

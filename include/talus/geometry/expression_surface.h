@@ -14,8 +14,8 @@
 
 namespace talus
 {
-  /// A surface by an expression in x (and z) and the heights of other surfaces:
-  /// "mudline - 5".
+  /// Surface given by an expression in x (and z) and the heights of named
+  /// surfaces: "mudline - 5".
   template <int dim>
   class ExpressionSurface : public Surface<dim>
   {
@@ -23,12 +23,12 @@ namespace talus
     using typename Surface<dim>::Value;
     using Named = std::pair<std::string, std::shared_ptr<const Surface<dim>>>;
 
-    /// How many others there may be in one expression.
+    /// Maximum number of named surfaces in an expression.
     static constexpr unsigned int n_others = 4 - (dim - 1);
 
-    /// @p path of the parameter, for messages. @p others are those whose names
-    /// stand in the expression, n_others at most. Throws ExcUser if the
-    /// expression cannot be understood.
+    /// Throws ExcUser if the expression is not valid.
+    /// @param path name of the parameter, for messages
+    /// @param others named surfaces in the expression, at most n_others
     ExpressionSurface(const std::string        &path,
                       const std::string        &expression,
                       const Constants          &constants,
@@ -40,12 +40,12 @@ namespace talus
     bool
     is_known_at(const dealii::Point<dim> &x) const override;
 
-    /// By the heights at some places around, and half as much again.
+    /// Estimate from the heights at some surrounding places, times 1.5.
     double
     largest_change(const dealii::Point<dim> &x, double distance) const override;
 
   private:
-    /// x (and z), then the heights of the others, then zeros.
+    /// x (and z), then the heights of the named surfaces, then zeros.
     using Arguments = std::array<double, 4>;
 
     double
@@ -57,14 +57,14 @@ namespace talus
     double
     find_largest_change(const dealii::Point<dim> &x, double distance) const;
 
-    /// What was found last for some numbers, by their hash: a table of 2^15.
+    /// Results of the most recent arguments: a hash table with 2^15 entries.
     template <std::size_t n, typename T>
     class LastFound
     {
     public:
       using Key = std::array<double, n>;
 
-      /// What find() returns for this key, if it is not known.
+      /// Return the stored result for @p key, or the result of @p find.
       template <typename Find>
       const T &
       get(const Key &key, const Find &find);

@@ -10,13 +10,13 @@
 
 namespace talus
 {
-  /// The surface through the values of a raster, with continuous slopes:
-  /// between the centres of the cells it is cubic along each axis, with the
-  /// slopes of central differences (Catmull and Rom's splines). A bilinear one
-  /// has kinks, and soil that slides over a kink meets an impact. Beside the
-  /// edge of the raster, and beside cells without data, differences are
-  /// one-sided, so that planes are exact everywhere; over the outer half of the
-  /// outermost cells the surface goes on straight.
+  /// Surface through the values of a raster, with continuous slopes: between
+  /// the centres of the cells cubic along each axis, with slopes by central
+  /// differences (Catmull-Rom splines). A bilinear surface has kinks, and soil
+  /// sliding over a kink meets an impact. At the edge of the raster, and beside
+  /// cells without data, differences are one-sided: planes are exact
+  /// everywhere. Over the outer half of the outermost cells the surface is
+  /// extended linearly.
   class HeightField
   {
   public:
@@ -26,24 +26,24 @@ namespace talus
       dealii::Tensor<1, 2> slope;  ///< along easting and northing [-]
     };
 
-    /// What bounds the surface.
+    /// Bounds of height and slope.
     struct Bounds
     {
       double lowest, highest; ///< m
       double slope;           ///< largest [-]
     };
 
-    /// At least two rows and columns.
+    /// @p raster has at least two rows and columns.
     explicit HeightField(Raster raster);
 
-    /// At easting and northing @p x, m, counted from @p origin, so that large
-    /// coordinates lose no digits; nothing outside of the raster, and where one
-    /// of the four values around the place is missing.
+    /// Return height and slope at easting and northing @p x, m, relative to
+    /// @p origin (large coordinates lose no digits). Nothing outside of the
+    /// raster, and where any of the four values around the place is missing.
     std::optional<Value>
     at(const dealii::Point<2> &x,
        const dealii::Point<2> &origin = dealii::Point<2>()) const;
 
-    /// Of all of the surface; not the closest ones.
+    /// Return bounds of the whole surface, not necessarily the closest bounds.
     const Bounds &
     bounds() const
     {

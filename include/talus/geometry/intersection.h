@@ -9,8 +9,9 @@
 
 namespace talus
 {
-  /// What lies in all of some shapes, one at least. The distance is the largest
-  /// of theirs: a lower bound outside, where the nearest place is an edge.
+  /// Intersection of at least one shape. The distance is the maximum of the
+  /// distances to the shapes: a lower bound outside, where the nearest place is
+  /// an edge.
   template <int dim>
   class Intersection : public Shape<dim>
   {

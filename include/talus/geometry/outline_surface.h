@@ -7,17 +7,17 @@
 
 namespace talus
 {
-  /// The distance from an outline in plan as a surface: at each place inside of
-  /// the outline the height is the distance to it, m, outside minus the
-  /// distance. With it expressions describe what lies within an outline, such as
-  /// a release area with sides of 45 degrees, 15 m deep:
-  /// "mudline - min(15, max(0, outline))".
+  /// Distance from an outline in plan as a surface: inside of the outline the
+  /// height is the distance to the outline, m, outside minus the distance. With
+  /// the outline expressions describe limited areas, for instance a release
+  /// area with sides of 45 degrees, 15 m deep: "mudline - min(15, max(0,
+  /// outline))".
   class OutlineSurface : public Surface<3>
   {
   public:
     /// @p corners in the x-z plane of the mesh, m, in either sense. Throws
-    /// ExcUser, starting with @p name, if the outline intersects itself or has no
-    /// area.
+    /// ExcUser, starting with @p name, if the outline intersects itself or has
+    /// no area.
     OutlineSurface(const std::string                   &name,
                    const std::vector<dealii::Point<2>> &corners)
       : polygon_(name, corners)

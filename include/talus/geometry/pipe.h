@@ -13,13 +13,12 @@
 
 namespace talus
 {
-  /// Round pipe along a polyline: cylinders that are joined, and end, with
-  /// spheres of the same radius. All that is no farther from the polyline than
-  /// the radius.
+  /// Round pipe along a polyline: all places within the radius of the polyline,
+  /// cylinders with spheres of the same radius at the joints and ends.
   class Pipe : public Shape<3>
   {
   public:
-    /// @p axis has two corners at least, neighbours differ; m.
+    /// @p axis has at least two corners, m; neighbours differ.
     Pipe(std::vector<dealii::Point<3>> axis, double radius);
 
     double
@@ -44,8 +43,7 @@ namespace talus
     }
 
   private:
-    /// A place on the axis and the segment it lies on, from that corner to the
-    /// next.
+    /// Place on the axis and the number of the segment at the place.
     struct Nearest
     {
       dealii::Point<3> place;

@@ -15,34 +15,34 @@
 
 namespace talus
 {
-  /// Entries of a shape that describe a pipe: its route in plan and the height of
-  /// its axis above a surface. In 3-D the shape follows the route; in 2-D it is
-  /// the disc where the route crosses the section.
+  /// Entries of a shape for a pipe: route in plan and height of the axis above
+  /// a surface. In 3-D the shape follows the route; in 2-D the shape is the
+  /// disc where the route crosses the section.
   template <int dim>
   class PipeParameters : public dealii::ParameterAcceptor
   {
   public:
-    /// @p section as that of ShapeParameters, which has other entries, too.
+    /// @p section of the parent ShapeParameters, which has further entries.
     explicit PipeParameters(const std::string &section);
 
-    /// Data for a pipe from other entries of the obstacle.
+    /// Data for a pipe from further entries of the obstacle.
     struct Setting
     {
-      PlanCoordinates           coordinates; ///< of the route
+      PlanCoordinates           coordinates; ///< coordinates of the route
       double                    radius;      ///< m
-      const SurfaceSource<dim> *surfaces;    ///< that the height may name
+      const SurfaceSource<dim> *surfaces;    ///< surfaces for the height
     };
 
-    /// Make the shape. Throws ExcUser if the entries describe none.
+    /// Make the shape. Throws ExcUser if the entries are incomplete or wrong.
     std::unique_ptr<Shape<dim>>
     make(const Setting &setting) const;
 
-    /// Return the end of a sentence of the log that begins with the name of the
-    /// pipe and says where the pipe lies.
+    /// Return the end of a sentence for the log with the place of the pipe; the
+    /// sentence begins with the name of the pipe.
     std::string
     place_in_words(const Setting &setting) const;
 
-    /// Return the end of a remark that begins with the name of the pipe, if the
+    /// Return the end of a remark, beginning with the name of the pipe, if the
     /// disc in the section only approximates the pipe; empty otherwise.
     std::string
     remark(const Setting &setting) const;

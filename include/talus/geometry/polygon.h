@@ -13,25 +13,24 @@
 
 namespace talus
 {
-  /// A line of straight edges: the one place where the distance to it is
-  /// computed.
+  /// Line of straight edges: the only computation of distances to edges.
   class EdgeLine
   {
   public:
-    /// Where the line is nearest to a place.
+    /// Distance and direction from the nearest place on the line.
     struct Nearest
     {
       /// Distance, m, never negative.
       double distance;
-      /// Unit vector from the line to the place; if that lies on the line, the
-      /// normal on its left.
+      /// Unit vector from the line to the place; for a place on the line, the
+      /// normal to the left.
       dealii::Tensor<1, 2> direction;
-      /// Whether the place lies on the left of the line, seen along it.
+      /// Whether the place lies on the left of the line, seen along the line.
       bool on_left;
     };
 
-    /// @p vertices follow each other; those of a closed line end where they
-    /// begin. The edges at the ends of an open one are endless.
+    /// @p vertices in order; a closed line repeats the first vertex at the end.
+    /// The first and last edges of an open line are endless.
     EdgeLine(const std::vector<dealii::Point<2>> &vertices, bool is_closed);
 
     Nearest
@@ -41,7 +40,7 @@ namespace talus
     /// Unit vector to the left of edge @p e.
     dealii::Tensor<1, 2>
     left_of(std::size_t e) const;
-    /// Left at vertex @p v: the sum of those of the edges that meet there.
+    /// Vector to the left at vertex @p v: the sum of the vectors of both edges.
     dealii::Tensor<1, 2>
     left_at(std::size_t v) const;
 
@@ -55,8 +54,8 @@ namespace talus
   class Polygon : public Shape<2>
   {
   public:
-    /// @p vertices are listed in either sense, the last one need not repeat the
-    /// first. Throws ExcUser, starting with @p name, if the polygon intersects
+    /// @p vertices in either sense, the first vertex optionally repeated at the
+    /// end. Throws ExcUser, starting with @p name, if the polygon intersects
     /// itself or has no area.
     Polygon(const std::string                   &name,
             const std::vector<dealii::Point<2>> &vertices);
@@ -81,14 +80,13 @@ namespace talus
 
 
 
-  /// Everything on the right of a line of straight edges whose first and last
-  /// go on for ever: below a seabed that is listed from left to right.
+  /// Everything on the right of a line of straight edges with endless first and
+  /// last edges: below a seabed with vertices from left to right.
   class OpenPolygon : public Shape<2>
   {
   public:
     /// Throws ExcUser, starting with @p name, if there are less than two
-    /// vertices, two that follow each other coincide, or the line crosses
-    /// itself.
+    /// vertices, two successive vertices coincide, or the line crosses itself.
     OpenPolygon(const std::string                   &name,
                 const std::vector<dealii::Point<2>> &vertices);
 

@@ -10,26 +10,26 @@
 
 namespace talus
 {
-  /// The part of something that lies in a region.
+  /// Part of a box inside a region.
   template <int dim>
   struct PartInside
   {
     double             volume = 0.; ///< m^dim
-    dealii::Point<dim> centroid;    ///< if the volume is not 0
-    /// Mean square of the distance from the centroid along each axis, m^2: a
-    /// twelfth of that of the length if the part is a box.
+    dealii::Point<dim> centroid;    ///< undefined for volume 0
+    /// Mean square of the distance from the centroid along each axis, m^2: for
+    /// a box a twelfth of the squared length.
     dealii::Tensor<1, dim> variance;
   };
 
 
 
-  /// What lies in all of some shapes and outside of some others. The shapes
-  /// must live as long as the region.
+  /// Intersection of some shapes minus some solids. The shapes must outlive the
+  /// region.
   template <int dim>
   class Region
   {
   public:
-    /// All of space.
+    /// Unbounded region, before any restrict_to().
     Region() = default;
 
     explicit Region(const Shape<dim> &shape)
@@ -44,30 +44,31 @@ namespace talus
         limits_.push_back({part, 1.});
     }
 
-    /// Cut away @p solids, which are all there are.
+    /// Cut away @p solids, replacing solids of earlier calls.
     void
     cut_away(const std::vector<const Shape<dim> *> &solids);
 
-    /// The surfaces of shapes and solids belong to it.
+    /// Return whether the region contains @p x; the surfaces of shapes and
+    /// solids belong to the region.
     bool
     contains(const dealii::Point<dim> &x) const;
 
-    /// Largest of the distances to the surfaces, m: not positive if and only if
-    /// the region contains @p x, up to round-off.
+    /// Return the largest of the distances to the surfaces, m: not positive if
+    /// and only if the region contains @p x, up to round-off.
     double
     signed_distance(const dealii::Point<dim> &x) const;
 
-    /// How much of @p box lies in the region, from signed distances that are
-    /// linear on simplices. The box is halved until they are so to a thousandth
-    /// of it, twice at least, and where surfaces have corners six times at
-    /// most (in 3-D four). So planes are exact, curved surfaces right to a
-    /// thousandth of the box, and what is thicker than an eighth of it is not
-    /// missed.
+    /// Return the part of @p box in the region, from signed distances that are
+    /// linear on simplices. The box is halved at least twice, until the
+    /// distances are linear to a thousandth of the box, and near corners of
+    /// surfaces at most six times (3-D: four). Planes are exact, curved
+    /// surfaces have an error of a thousandth of the box, and nothing thicker
+    /// than an eighth of the box is missed.
     PartInside<dim>
     part_inside(const Box<dim> &box) const;
 
   private:
-    /// A shape that the region lies in (sign 1) or outside of (sign -1).
+    /// Shape around the region (sign 1), or cut out of the region (sign -1).
     struct Limit
     {
       double
@@ -82,7 +83,7 @@ namespace talus
 
     using Limits = std::vector<Limit>;
 
-    /// Moments of what was found so far, about a place near it.
+    /// Moments of the parts so far, about a place near the box.
     struct Sum
     {
       void
@@ -91,7 +92,7 @@ namespace talus
       add(const Box<dim> &box);
 
       dealii::Point<dim>     origin;
-      double                 tolerance; ///< of distances, m
+      double                 tolerance; ///< tolerance of distances, m
       double                 volume = 0.;
       dealii::Tensor<1, dim> first, second;
     };
@@ -105,14 +106,14 @@ namespace talus
     static void
     add_part(const Box<dim> &box, Limits limits, unsigned int depth, Sum &sum);
 
-    /// Add the solids that may be nearer to @p x than @p distance, m, to the
-    /// limits by shapes.
+    /// Return the limits by shapes, and by all solids that may be nearer to
+    /// @p x than @p distance, m.
     Limits
     limits_near(const dealii::Point<dim> &x, double distance) const;
 
     Limits                          limits_; ///< shapes
     std::vector<const Shape<dim> *> solids_;
-    BoxIndex<dim>                   index_; ///< of the solids
+    BoxIndex<dim>                   index_; ///< index of the solids
   };
 } // namespace talus
 

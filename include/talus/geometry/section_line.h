@@ -12,14 +12,16 @@ namespace talus
   struct SectionCrossing
   {
     double length; ///< along the section, from its first corner, m
-    double sine;   ///< of the angle between the two, positive [-]
+    double sine;   ///< sine of the angle between route and section, positive
+                   ///< [-]
   };
 
 
 
-  /// Return all places, in the order of the route, where a route crosses the line
-  /// of a section, which goes on straight beyond its ends. Both are given by
-  /// their corners in the same plan, m, two at least; neighbours differ.
+  /// Return all places, in the order of the route, where a route crosses the
+  /// line of a section. The section extends straight beyond both ends. Both
+  /// lines are given by at least two corners in the same plan, m; neighbours
+  /// differ.
   std::vector<SectionCrossing>
   find_crossings(const std::vector<dealii::Point<2>> &section,
                  const std::vector<dealii::Point<2>> &route);

@@ -13,8 +13,8 @@
 
 namespace talus
 {
-  /// Region of space that a body fills at the start, or that an obstacle keeps
-  /// free of soil.
+  /// Region of space: initially filled by a body, or kept free of soil by an
+  /// obstacle.
   template <int dim>
   class Shape
   {
@@ -26,50 +26,51 @@ namespace talus
     signed_distance(const dealii::Point<dim> &x) const = 0;
 
     /// Unit vector along which signed_distance() grows: the outward normal at
-    /// the place of the surface that is nearest to @p x. Where several are
-    /// equally near it is that of one of them.
+    /// the place of the surface nearest to @p x. If several places are equally
+    /// near, the normal of any one of them.
     virtual dealii::Tensor<1, dim>
     normal(const dealii::Point<dim> &x) const = 0;
 
-    /// Both at once, where whoever asks needs both.
+    /// Return signed_distance() and normal() together, at lower cost.
     virtual std::pair<double, dealii::Tensor<1, dim>>
     distance_and_normal(const dealii::Point<dim> &x) const
     {
       return {signed_distance(x), normal(x)};
     }
 
-    /// The surface belongs to the shape; a place that is no number does not.
+    /// Return whether the shape, including the surface, contains @p x; false
+    /// for NaN.
     virtual bool
     contains(const dealii::Point<dim> &x) const
     {
       return signed_distance(x) <= 0.;
     }
 
-    /// Smallest axis-aligned box around the shape; infinite where it has no
-    /// end.
+    /// Smallest axis-aligned box around the shape, infinite along endless
+    /// directions.
     virtual Box<dim>
     bounding_box() const = 0;
 
-    /// Whether the surface may be nearer to @p x than @p radius, m. If not, the
-    /// whole ball is on one side. Not all shapes know the Euclidean distance far
-    /// from their surface.
+    /// Return whether the surface may be nearer to @p x than @p radius, m. If
+    /// not, the whole ball is on one side. Some shapes do not know the
+    /// Euclidean distance far from the surface.
     virtual bool
     may_cut_ball(const dealii::Point<dim> &x, const double radius) const
     {
       return std::abs(signed_distance(x)) < radius;
     }
 
-    /// Width across the shape, m, where this is the same along all directions but
-    /// one, which may be oblique, as of a pipe. Infinite for all other shapes, of
-    /// which the bounding box tells how thin they are.
+    /// Width across the shape, m, if equal in all directions but one, for
+    /// instance of a pipe in any direction. Infinite for all remaining shapes,
+    /// whose thickness follows from the bounding box.
     virtual double
     width() const
     {
       return std::numeric_limits<double>::infinity();
     }
 
-    /// Shapes whose intersection this is: itself, or those that meet in sharp
-    /// edges.
+    /// Shapes whose intersection is this shape: the shape itself, or parts that
+    /// meet in sharp edges.
     virtual std::vector<const Shape *>
     parts() const
     {

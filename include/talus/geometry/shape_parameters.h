@@ -16,26 +16,26 @@
 
 namespace talus
 {
-  /// The entries that describe a shape, in the section of whoever has it.
-  /// Entries that the shape does not use are ignored.
+  /// Parameters of a shape, in the section of a body or obstacle. Entries that
+  /// the shape does not use are ignored.
   template <int dim>
   class ShapeParameters : public dealii::ParameterAcceptor
   {
   public:
-    /// @p section, as /Bodies/NAME, may have other entries, too.
+    /// @p section, for instance /Bodies/NAME, may have further entries.
     explicit ShapeParameters(const std::string &section);
 
-    /// The surfaces that terrains and layers may name: to be set, after parsing,
-    /// before the first shape is made. They must live as long as this.
+    /// Set the surfaces for terrains and layers, after parsing and before the
+    /// first make(). @p surfaces must outlive this object.
     void
     use_surfaces(const SurfaceSource<dim> *surfaces)
     {
       surfaces_ = surfaces;
     }
 
-    /// The shape, whose prisms and cylinders end where @p domain does unless
-    /// their ends are given: for endless ones it is infinite. Throws ExcUser
-    /// if the entries describe none.
+    /// Make the shape. Prisms and cylinders without given ends extend over
+    /// @p domain; an infinite domain makes them endless. Throws ExcUser if the
+    /// entries are incomplete or wrong.
     std::unique_ptr<Shape<dim>>
     make(const Box<dim> &domain) const;
 
@@ -43,16 +43,17 @@ namespace talus
     PlaceCoordinates
     coordinates() const;
 
-    /// Return the end of a sentence of the log that begins with the name of the
-    /// shape and says where the shape lies; empty if the parameters say so.
+    /// Return the end of a sentence for the log with the place of the shape,
+    /// beginning with the name of the shape; empty if the parameters give the
+    /// place.
     std::string
     place_in_words() const
     {
       return is_pipe() ? pipe_.place_in_words(setting_of_pipe()) : "";
     }
 
-    /// Return the end of a remark that begins with the name of the shape, if the
-    /// shape only approximates the shape the user asked for; empty otherwise.
+    /// Return the end of a remark, beginning with the name of the shape, if the
+    /// shape only approximates the requested shape; empty otherwise.
     std::string
     remark() const
     {
@@ -80,7 +81,7 @@ namespace talus
     void
     declare_parameters_of_surfaces();
 
-    /// In elevation, or of an outline in plan; in the axes of the mesh.
+    /// Corners in elevation, or of an outline in plan; in the axes of the mesh.
     std::vector<dealii::Point<2>>
     vertices(bool are_in_plan) const;
     std::array<double, 2>
@@ -104,7 +105,7 @@ namespace talus
 
     std::string               section_;
     PipeParameters<dim>       pipe_;
-    std::string               shape_       = ""; ///< there is none by default
+    std::string               shape_       = ""; ///< no default
     std::string               coordinates_ = "mesh";
     std::string               vertices_    = "";
     bool                      is_open_     = false;

@@ -9,9 +9,9 @@
 
 namespace talus
 {
-  /// Everything below a surface y = b(x, z), or everything above it. The
-  /// distance is that of the tangent plane, (y - b)/sqrt(1 + |grad b|^2): right
-  /// near the surface and for planes everywhere.
+  /// Everything below or above a surface y = b(x, z). The distance is measured
+  /// to the tangent plane, (y - b)/sqrt(1 + |grad b|^2): accurate near the
+  /// surface, and everywhere for planes.
   template <int dim>
   class SideOfSurface : public Shape<dim>
   {
@@ -36,7 +36,7 @@ namespace talus
     std::pair<double, dealii::Tensor<1, dim>>
     distance_and_normal(const dealii::Point<dim> &x) const override;
 
-    /// Without end.
+    /// Infinite box.
     Box<dim>
     bounding_box() const override;
 

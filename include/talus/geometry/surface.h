@@ -10,8 +10,8 @@
 
 namespace talus
 {
-  /// A surface with one height y at each place of the plan (x in 2-D, x and z
-  /// in 3-D): a seabed, a boundary between layers.
+  /// Surface with one height y at each place of the plan (x in 2-D, x and z in
+  /// 3-D): a seabed, a boundary between layers.
   template <int dim>
   class Surface
   {
@@ -24,33 +24,32 @@ namespace talus
 
     virtual ~Surface() = default;
 
-    /// At the place of @p x in the plan. Throws ExcUser if the surface is not
-    /// known there.
+    /// Return height and slope at the place of @p x in plan. Throws ExcUser
+    /// where the surface is undefined.
     virtual Value
     at(const dealii::Point<dim> &x) const = 0;
 
-    /// Whether it is known there.
+    /// Return whether the surface is defined at the place of @p x in plan.
     virtual bool
     is_known_at(const dealii::Point<dim> &x) const = 0;
 
-    /// How much the height changes, at most, up to @p distance from @p x in
-    /// plan, m.
+    /// Return an upper bound of the change of the height within @p distance, m,
+    /// of @p x in plan, m.
     virtual double
     largest_change(const dealii::Point<dim> &x, double distance) const = 0;
   };
 
 
 
-  /// Looks up surfaces by the names that the user has given them, and knows where
-  /// the mesh lies on the map.
+  /// Looks up surfaces by name, and knows the place of the mesh on the map.
   template <int dim>
   class SurfaceSource
   {
   public:
     virtual ~SurfaceSource() = default;
 
-    /// The surface that @p expression describes by names, x (and z), as
-    /// "mudline - 5"; @p path is the parameter, for messages. Throws ExcUser.
+    /// Return the surface for an @p expression in names, x (and z), as "mudline
+    /// - 5"; @p path is the parameter, for messages. Throws ExcUser.
     virtual std::shared_ptr<const Surface<dim>>
     surface(const std::string &path, const std::string &expression) const = 0;
 
@@ -58,15 +57,16 @@ namespace talus
     virtual const dealii::Point<3> &
     origin() const = 0;
 
-    /// In 2-D, corners on the map, easting and northing in m, of the line along
-    /// which the rasters are cut; x is the length along it. Throws ExcUser, naming
-    /// the parameter @p path that needs it, if there is not one for all rasters.
+    /// In 2-D, return the corners on the map, easting and northing in m, of the
+    /// line along which the rasters are cut; x is the length along the line.
+    /// Throws ExcUser, naming the parameter @p path, unless all rasters share
+    /// one line.
     virtual std::vector<dealii::Point<2>>
     section(const std::string &path) const = 0;
 
     /// Return the corners on the map, easting and northing in m, of the line in
-    /// @p file, a file of a GIS in the folder of the parameters. Throws ExcUser, naming the
-    /// parameter @p path, if the file cannot be read or has no line.
+    /// @p file, a GIS file in the folder of the parameters. Throws ExcUser,
+    /// naming the parameter @p path, if the file cannot be read or has no line.
     virtual std::vector<dealii::Point<2>>
     read_route(const std::string &path, const std::string &file) const = 0;
   };

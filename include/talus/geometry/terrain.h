@@ -13,20 +13,22 @@
 
 namespace talus
 {
-  /// The surface of a raster, in the axes of the mesh. In 3-D, x is the easting
-  /// and -z the northing, so that x, y (up) and z are right-handed: z points
-  /// south. In 2-D it is the section along a line on the map, and x the length
-  /// along that; it goes on straight beyond its ends.
+  /// Surface of a raster in the axes of the mesh. In 3-D, x is the easting and
+  /// -z the northing: x, y (up) and z are right-handed, and z points south. In
+  /// 2-D the surface is the section along a line on the map, and x the length
+  /// along the line, which extends straight beyond both ends.
   template <int dim>
   class Terrain : public Surface<dim>
   {
   public:
     using typename Surface<dim>::Value;
 
-    /// @p name of the file is for messages. @p origin: easting, northing and
-    /// height of the mesh's origin on the map, m; in 2-D only the height counts.
-    /// @p section: corners of the line, in 2-D two at least, no two in a row
-    /// the same.
+    /// @param heights surface on the map
+    /// @param name of the file, for messages
+    /// @param origin easting, northing and height of the mesh's origin on the
+    ///   map, m; in 2-D only the height counts
+    /// @param section corners of the line: in 2-D at least two, successive
+    ///   corners differ
     Terrain(std::shared_ptr<const HeightField>   heights,
             const std::string                   &name,
             const dealii::Point<3>              &origin,
@@ -52,7 +54,7 @@ namespace talus
     }
 
   private:
-    /// A place on the map, and where the axes of the mesh go there.
+    /// Place on the map, with the directions of the axes of the mesh.
     struct Place
     {
       dealii::Point<2>                      x, origin; ///< x from there
@@ -66,7 +68,8 @@ namespace talus
     std::string                        name_;
     dealii::Point<3>                   origin_;
     std::vector<dealii::Point<2>>      section_;
-    std::vector<double>                lengths_; ///< along it, to each corner
+    std::vector<double>                lengths_; ///< length of the line up to
+                                                 ///< each corner
   };
 } // namespace talus
 

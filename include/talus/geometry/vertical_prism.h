@@ -9,11 +9,11 @@
 
 namespace talus
 {
-  /// What lies above and below an outline in the plan, without end.
+  /// Endless vertical prism above and below an outline in plan.
   class VerticalPrism : public Shape<3>
   {
   public:
-    /// @p outline has x as its first axis and z as its second.
+    /// The first axis of @p outline is x, the second z.
     explicit VerticalPrism(std::unique_ptr<const Shape<2>> outline)
       : outline_(std::move(outline))
     {}

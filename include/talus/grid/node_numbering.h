@@ -112,7 +112,7 @@ namespace talus
     std::vector<unsigned int> interface_nodes_;
     std::vector<HangingNode>  hanging_nodes_;
     std::map<dealii::types::global_dof_index, dealii::types::global_dof_index>
-      twins_; ///< of nodes on upper periodic faces
+      twins_; ///< twin of each node on an upper periodic face
   };
 } // namespace talus
 

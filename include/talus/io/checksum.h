@@ -12,8 +12,8 @@
 
 namespace talus
 {
-  /// A bijection of 64-bit numbers in which every bit of the result depends on
-  /// every bit of the argument (the finaliser of splitmix64).
+  /// Bijection of 64-bit numbers: every bit of the result depends on every bit
+  /// of the argument (the finaliser of splitmix64).
   inline std::uint64_t
   mix(std::uint64_t z)
   {
@@ -24,10 +24,10 @@ namespace talus
 
 
 
-  /// Checksum of the values @p first, @p first + 1, ... of an array. Those of
-  /// the parts of an array, added modulo 2^64, are that of the whole, so every
-  /// rank can do its part, whatever the parts are. One changed value always
-  /// shows: mix() is a bijection.
+  /// Checksum of an array whose values have the numbers @p first, @p first + 1,
+  /// ... in a larger array. The checksums of the parts, added modulo 2^64, are
+  /// the checksum of the whole, so each rank can sum any part. A single changed
+  /// value always changes the sum, because mix() is a bijection.
   inline std::uint64_t
   checksum(const std::vector<double> &values, const std::uint64_t first)
   {
@@ -54,7 +54,7 @@ namespace talus
 
 
 
-  /// CRC-32 of a file, the same as that of its content as a text.
+  /// CRC-32 of a file: equals the checksum of the content as a text.
   std::uint64_t
   checksum_of_file(const std::filesystem::path &path);
 } // namespace talus

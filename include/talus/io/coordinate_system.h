@@ -41,9 +41,9 @@ namespace talus
 
 
   /// Return the text of a file .prj, by which a GIS knows the map of the raster
-  /// beside it: @p coordinate_system in Esri's dialect of well-known text. A
-  /// text that GDAL does not know is returned unchanged; the result is empty for
-  /// a code (EPSG:32633) that GDAL does not know.
+  /// beside the file: @p coordinate_system in Esri's dialect of well-known
+  /// text. A text unknown to GDAL is returned unchanged; the result is empty
+  /// for a code (EPSG:32633) unknown to GDAL.
   std::string
   well_known_text(const std::string &coordinate_system);
 
@@ -58,8 +58,8 @@ namespace talus
     MapTransformation(const std::string &from, const std::string &to);
 
     /// Transform @p places: longitude and latitude, degrees, or easting and
-    /// northing, m. Infinite where the other system has no such place; the
-    /// resulting longitudes are between -180 and 180 degrees.
+    /// northing, m. The result is infinite where the target system has no place
+    /// for a point; resulting longitudes are between -180 and 180 degrees.
     void
     transform(std::vector<dealii::Point<2>> &places) const;
 

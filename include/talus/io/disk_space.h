@@ -8,18 +8,20 @@
 
 namespace talus
 {
-  /// See that the file @p path, made if it is not there, can grow to
-  /// @p n_bytes, without changing its size. Returns why not, empty if it can.
+  /// Check whether the file @p path can grow to @p n_bytes, and make the file
+  /// if there is none; its size stays. Returns the reason for a failure, or an
+  /// empty text.
   ///
-  /// For libraries that do not survive a full disk. The space is taken from
-  /// others where the file system can do that; elsewhere it was there a moment
-  /// ago.
+  /// For libraries that do not survive a full disk. The space is reserved where
+  /// the file system can reserve; elsewhere only the free space is compared,
+  /// and another program may still use it.
   std::string
   reserve_disk_space(const std::filesystem::path &path, std::uint64_t n_bytes);
 
 
 
-  /// Give back what the file did not use. Returns why that failed, if it did.
+  /// Release reserved space behind the end of the file. Returns the reason for
+  /// a failure, or an empty text.
   std::string
   release_disk_space(const std::filesystem::path &path);
 } // namespace talus

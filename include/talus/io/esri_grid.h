@@ -9,27 +9,27 @@
 namespace talus
 {
   /// Return whether the first line of @p file has a keyword of an Esri ASCII
-  /// grid; false for what is no regular file.
+  /// grid; false unless the file is regular.
   bool
   is_esri_grid(const std::filesystem::path &file);
 
 
 
   /// Read an Esri ASCII grid (.asc): lines of a keyword and a number, in any
-  /// order and case (`ncols`, `nrows`; `xllcorner` or `xllcenter`, the same of
-  /// y; `cellsize`, or `dx` and `dy`; `nodata_value` or `nodata`), and then one
-  /// line for each row of values, the northernmost first. Also read are: numbers
-  /// before their keywords, commas or semicolons between numbers, commas in the
-  /// place of the decimal point, `nan` as a value or as what stands for none.
-  /// Throws ExcUser, naming file and line, if a keyword is missing, unknown or
-  /// there twice, a row is too short or too long, or an entry is no number.
+  /// order and case (`ncols`, `nrows`; `xllcorner` or `xllcenter`, likewise for
+  /// y; `cellsize`, or `dx` and `dy`; `nodata_value` or `nodata`), followed by
+  /// a line for each row of values, the northernmost first. Also read are:
+  /// numbers before their keywords, commas or semicolons between numbers,
+  /// decimal commas, `nan` as a value or as the mark of missing values. Throws
+  /// ExcUser with file and line if a keyword is missing, unknown or repeated, a
+  /// row is too short or too long, or an entry is no number.
   Raster
   read_esri_grid(const std::filesystem::path &file);
 
 
 
-  /// Write an Esri ASCII grid, with as many digits as bring back every bit.
-  /// Throws ExcUser if that fails.
+  /// Write an Esri ASCII grid with enough digits to restore every bit. Throws
+  /// ExcUser on failure.
   void
   write_esri_grid(const std::filesystem::path &file, const Raster &raster);
 } // namespace talus

@@ -13,27 +13,28 @@
 
 namespace talus
 {
-  /// What the index of a series is to say of one output time.
+  /// Entry of the index of a series, for one output time.
   struct IndexEntry
   {
     double      time; ///< s
-    std::string file; ///< the one that ParaView is to open
-    /// What the format needs besides; whole lines, each beginning with a blank.
+    std::string file; ///< file for ParaView to open
+    /// Further lines of the index, each beginning with a blank.
     std::string description;
   };
 
 
 
-  /// A format of output files.
+  /// Base class of the formats of output files.
   class FieldWriter
   {
   public:
     virtual ~FieldWriter() = default;
 
-    /// Write the cells of all ranks into the folder, to one or several files
-    /// whose names begin with @p base. Appends to @p unsynced what this rank
-    /// wrote and did not bring to the disk. Collective. Throws ExcUser if it
-    /// fails.
+    /// Write the cells of all ranks into @p folder. Collective. Throws ExcUser
+    /// on failure.
+    /// @param base first part of the names of the files
+    /// @param unsynced files written by this rank and not yet synced to the
+    ///   disk are appended
     virtual IndexEntry
     write(const std::filesystem::path        &folder,
           const std::string                  &base,
@@ -41,8 +42,8 @@ namespace talus
           const OutputCells                  &cells,
           std::vector<std::filesystem::path> &unsynced) const = 0;
 
-    /// The names of all files in @p folder that an output consists of, as far
-    /// as those that are there tell.
+    /// Return the names of all files in @p folder for an output. Names that
+    /// only a lost file contains are missing.
     virtual std::vector<std::string>
     files_of(const std::filesystem::path & /*folder*/,
              const IndexEntry &entry) const
@@ -50,17 +51,17 @@ namespace talus
       return {entry.file};
     }
 
-    /// Whether a file of files_of() has its end, as it was written.
+    /// Return whether a file of files_of() is complete up to the end.
     virtual bool
     is_complete(const std::filesystem::path &path) const = 0;
 
-    /// The name of the file that write_index() writes for this series.
+    /// Return the name of the file that write_index() writes for a series.
     virtual std::string
     index_name(const std::string &name) const = 0;
 
-    /// Write the file NAME.* that gives ParaView the times of these outputs,
-    /// all in @p folder, and return its path; for one rank. Throws ExcUser if
-    /// that fails.
+    /// Write the file NAME.* that gives ParaView the times of the outputs, all
+    /// in @p folder, and return the path. For the first rank only. Throws
+    /// ExcUser on failure.
     virtual std::filesystem::path
     write_index(const std::filesystem::path   &folder,
                 const std::string             &name,
@@ -69,15 +70,18 @@ namespace talus
 
 
 
-  /// The names of all formats, as deal.II's Patterns::Selection wants them.
+  /// Return the names of all formats, separated as in deal.II's
+  /// Patterns::Selection.
   std::string
   field_format_names();
 
-  /// What there is to say of the formats, for the user.
+  /// Return the description of the formats for the documentation of a
+  /// parameter.
   std::string
   field_format_documentation();
 
-  /// The writer of the format with this name. Throws ExcUser if there is none.
+  /// Make the writer of the named format. Throws ExcUser if the name is
+  /// unknown.
   std::unique_ptr<FieldWriter>
   make_field_writer(const std::string &format);
 } // namespace talus

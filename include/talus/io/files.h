@@ -12,7 +12,7 @@
 
 namespace talus
 {
-  /// Whether a run begins at its start or goes on from a checkpoint.
+  /// Whether a run begins at the start or continues from a checkpoint.
   enum class Beginning
   {
     fresh,
@@ -21,38 +21,37 @@ namespace talus
 
 
 
-  /// Make the folder (and those above it) unless it is there. Throws ExcUser
-  /// if that fails.
+  /// Make the folder and missing parent folders. Throws ExcUser on failure.
   void
   make_folder(const std::filesystem::path &folder);
 
 
 
-  /// Remember a file that the run reads, such as its parameters: no output is
-  /// written over it.
+  /// Register a file that the run reads, for instance the parameters: no output
+  /// may overwrite a registered file.
   void
   protect_input(const std::filesystem::path &path);
 
 
 
-  /// Why @p path cannot be written, a sentence, if it is such a file, under
-  /// whatever name; else empty.
+  /// Return the reason why @p path must not be written, a sentence, if the path
+  /// leads to a registered input, under any name; otherwise empty.
   std::string
   clash_with_input(const std::filesystem::path &path);
 
 
 
-  /// Throw ExcUser if @p path is such a file.
+  /// Throw ExcUser if @p path leads to a registered input.
   void
   check_not_input(const std::filesystem::path &path);
 
 
 
-  /// Make the file @p path from what @p write puts into the stream: all of it
-  /// or, with ExcUser, nothing; an older file of that name survives a failure.
-  /// If the machine dies, not only the program, the new file may be found
-  /// empty, unless it was brought to the disk by sync_to_disk(). That waits for
-  /// the disk, often longer than a file takes to write.
+  /// Write the file @p path with the content that @p write puts into the
+  /// stream: completely or, with ExcUser, not at all. An older file of the same
+  /// name survives a failure. After a crash of the machine the new file may be
+  /// empty unless sync_to_disk() was called, which often takes longer than
+  /// writing.
   void
   write_file(const std::filesystem::path               &path,
              const std::function<void(std::ostream &)> &write);
@@ -60,29 +59,28 @@ namespace talus
 
 
   /// Bring the content of a file, or the names in a folder, to the disk.
-  /// Returns why that failed, empty if it did not.
+  /// Returns the reason for a failure, or an empty text.
   std::string
   sync_to_disk(const std::filesystem::path &path);
 
 
 
-  /// The sentence that says that the file @p path could not be written.
+  /// Return the error message for a file @p path that could not be written.
   std::string
   failed_write(const std::filesystem::path &path, const std::string &reason);
 
 
 
-  /// A text that grows line by line.
+  /// Text file to which lines are appended.
   class LogFile
   {
   public:
-    /// Start a new file, or append to it in a resumed run. Throws ExcUser if
-    /// that fails.
+    /// Start a new file, or append in a resumed run. Throws ExcUser on failure.
     void
     open(const std::filesystem::path &path,
          Beginning                    beginning = Beginning::fresh);
 
-    /// Append a line, at once. Throws ExcUser if that fails.
+    /// Append a line immediately. Throws ExcUser on failure.
     void
     add_line(const std::string &line);
 
@@ -93,19 +91,20 @@ namespace talus
 
 
 
-  /// A table that grows row by row, comma separated, 16 significant digits.
+  /// Table in a file, to which rows are appended: comma separated, 16
+  /// significant digits.
   class CsvFile
   {
   public:
-    /// Start a new file with one header line; in a resumed run go on behind
-    /// what the file held at the checkpoint. Throws ExcUser if that fails.
+    /// Start a new file with a header line; in a resumed run continue after the
+    /// rows that the file had at the checkpoint. Throws ExcUser on failure.
     void
     open(const std::filesystem::path    &path,
          const std::vector<std::string> &names,
          Beginning                       beginning = Beginning::fresh);
 
-    /// Why the run cannot go on with the file @p path, which should have these
-    /// columns, from the checkpoint that was loaded; empty if it can.
+    /// Return the reason why the resumed run cannot continue the file @p path
+    /// with the columns @p names from the loaded checkpoint; otherwise empty.
     std::string
     cannot_resume(const std::filesystem::path    &path,
                   const std::vector<std::string> &names) const;
@@ -114,16 +113,16 @@ namespace talus
     void
     list_state(const std::string &name, StateList &list);
 
-    /// Append a row; it is in the file only after flush().
+    /// Append a row. The row is in the file only after flush().
     void
     add_row(const std::vector<double> &values);
 
-    /// Hand all rows to the operating system, so that a reader sees them while
-    /// the simulation runs. Throws ExcUser if that fails.
+    /// Hand all rows to the operating system, visible for readers during the
+    /// run. Throws ExcUser on failure.
     void
     flush();
 
-    /// Bring all rows to the disk. Throws ExcUser if that fails.
+    /// Bring all rows to the disk. Throws ExcUser on failure.
     void
     sync();
 

@@ -8,9 +8,9 @@
 
 namespace talus
 {
-  /// That no other run writes into an output folder as long as this object
-  /// lives. The first rank locks the file `lock` in the folder; the operating
-  /// system takes the lock back when the program ends, however it ends.
+  /// Exclusive lock on an output folder for the lifetime of this object. The
+  /// first rank locks the file `lock` in the folder; the operating system
+  /// releases the lock at any end of the program.
   class FolderLock
   {
   public:
@@ -20,9 +20,9 @@ namespace talus
     FolderLock &
     operator=(const FolderLock &) = delete;
 
-    /// Make the folder if it is not there, and lock it. Throws ExcUser if
-    /// another run has it; the sentence says on which host, and which process.
-    /// Where the file system knows no locks there is none. Collective.
+    /// Make the folder if there is none, and lock it. Throws ExcUser if another
+    /// run has the lock, naming host and process. There is no lock on file
+    /// systems without locks. Collective.
     void
     acquire(const std::filesystem::path &folder, MPI_Comm communicator);
 
@@ -32,8 +32,9 @@ namespace talus
 
 
 
-  /// Why a run must not write into the folder, a sentence, if it holds a `lock`
-  /// that no run has written; else empty. For the first rank.
+  /// Return the reason why a run must not write into the folder, a sentence, if
+  /// a file `lock` in the folder was not written by a run; otherwise empty. For
+  /// the first rank.
   std::string
   foreign_lock(const std::filesystem::path &folder);
 } // namespace talus

@@ -11,8 +11,8 @@
 
 namespace talus
 {
-  /// Silence GDAL for the lifetime of this object: GDAL does not print errors,
-  /// and CPLGetLastErrorMsg() returns the words of the last one.
+  /// Silence GDAL for the lifetime of this object: GDAL prints no errors, and
+  /// CPLGetLastErrorMsg() returns the last message.
   struct QuietGdal
   {
     QuietGdal()
@@ -31,16 +31,16 @@ namespace talus
 
 
 
-  /// Return the coordinate system that @p words describe (see
-  /// Raster::coordinate_system), with longitude and easting as its first axis.
-  /// Nothing if GDAL does not know it.
+  /// Return the coordinate system described by @p words (see
+  /// Raster::coordinate_system), with longitude or easting as the first axis.
+  /// Nothing if GDAL does not know the system.
   std::optional<OGRSpatialReference>
   spatial_reference(const std::string &words);
 
 
 
-  /// Return @p system as well-known text, in the dialect that @p options name;
-  /// empty if the system has no text in it.
+  /// Return @p system as well-known text in the dialect given by @p options;
+  /// empty if the system has no text in the dialect.
   std::string
   export_to_text(const OGRSpatialReference &system,
                  const char *const         *options = nullptr);

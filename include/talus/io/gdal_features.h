@@ -9,17 +9,17 @@
 namespace talus
 {
   /// Return whether GDAL reads vectors (points, lines, polygons) from @p file,
-  /// and no raster. Without GDAL: whether the file is named as a shapefile, a
-  /// GeoPackage or KML.
+  /// and no raster. Without GDAL: whether the file has the ending of a
+  /// shapefile, a GeoPackage or KML.
   bool
   has_gdal_features(const std::filesystem::path &file);
 
 
 
-  /// Read the polygons and lines of all layers of a file of any format that GDAL reads,
-  /// curved edges as many short ones; all in the coordinate system of the last
-  /// layer with any. Throws ExcUser if the file cannot be read, or if talus
-  /// was built without GDAL.
+  /// Read the polygons and lines of all layers of a file, in any format that
+  /// GDAL reads. Curved edges become many short edges. The coordinate system is
+  /// taken from the last layer with a polygon or line. Throws ExcUser if the
+  /// file cannot be read, or if talus was built without GDAL.
   MapFeatures
   read_gdal_features(const std::filesystem::path &file);
 } // namespace talus

@@ -8,15 +8,15 @@
 
 namespace talus
 {
-  /// Return whether the name of a file says that it is GeoJSON.
+  /// Return whether the name of a file is a name of GeoJSON.
   bool
   is_geojson(const std::filesystem::path &path);
 
 
 
-  /// Read all polygons and lines of a GeoJSON file, in longitude and latitude (WGS 84) as
-  /// the standard (RFC 7946) has it, or in the coordinate system that the member
-  /// `crs` of the file names. Throws ExcUser if the file cannot be read.
+  /// Read all polygons and lines of a GeoJSON file, in longitude and latitude
+  /// (WGS 84, RFC 7946), or in the coordinate system of the member `crs` of the
+  /// file. Throws ExcUser if the file cannot be read.
   MapFeatures
   read_geojson(const std::filesystem::path &path);
 } // namespace talus

@@ -9,21 +9,21 @@
 
 namespace talus
 {
-  // A file may have been damaged or made by others: what it claims to hold is
-  // compared with what is expected, and with its size, before memory is taken or
-  // anything is read.
+  // A file may be damaged or made by another program: size and type of each
+  // object are compared with the expectation, and with the size of the file,
+  // before memory is allocated or data are read.
 
-  /// Whether an attribute is one number of exactly this type.
+  /// Return whether an attribute is a single number of exactly @p type.
   bool
   is_number(hid_t attribute, hid_t type);
 
-  /// Length of the one text that an attribute or an array is; nothing if it is
-  /// something else.
+  /// Return the length of the text in an attribute or array; nothing unless the
+  /// object is a single text.
   std::optional<std::size_t>
   length_of_text(hid_t type, hid_t space);
 
-  /// Whether all values that an array claims to have are in the file, in one
-  /// piece, and not in chunks, elsewhere or nowhere.
+  /// Return whether all values of an array are stored in the file contiguously,
+  /// neither in chunks nor in external files.
   bool
   is_stored(hid_t file, hid_t array);
 } // namespace talus

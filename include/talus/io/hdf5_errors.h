@@ -8,10 +8,10 @@
 
 namespace talus
 {
-  /// While such an object lives, the HDF5 library tells it about every failure
-  /// instead of printing pages to the terminal; whoever holds it has to look at
-  /// the return codes. (Asking the library afterwards is too late: its next
-  /// call, were it only to close something, forgets the failure.)
+  /// Catch failures of the HDF5 library for the lifetime of this object, in
+  /// place of pages on the terminal. Callers must check the return codes.
+  /// (Asking the library afterwards is too late: the next call, even to close
+  /// an object, forgets the failure.)
   class Hdf5Errors
   {
   public:
@@ -22,7 +22,7 @@ namespace talus
     Hdf5Errors &
     operator=(const Hdf5Errors &) = delete;
 
-    /// Why the first call failed that did, as well as the library knows.
+    /// Return the library's reason for the first failure.
     const std::string &
     reason() const
     {

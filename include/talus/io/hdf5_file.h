@@ -14,18 +14,18 @@
 
 namespace talus
 {
-  /// What an HDF5 file that all ranks write together and one that they read
-  /// together have in common. All calls are collective.
+  /// Common part of HDF5 files that all ranks write together or read together.
+  /// All calls are collective.
   ///
-  /// Like a stream a file remembers its first failure, on whichever rank that
-  /// was: all ranks then know it, and all further calls do nothing. Whoever
-  /// writes looks at error() after Hdf5OutputFile::close(), whoever reads before
-  /// using what was read.
+  /// Like a stream, a file keeps the first failure, from any rank: all ranks
+  /// then know the failure, and all further calls do nothing. Check error()
+  /// after Hdf5OutputFile::close() when writing, before using the data when
+  /// reading.
   ///
-  /// (deal.II's own classes look at the return codes of the library in Debug
-  /// only; its DataOutBase::write_hdf5_parallel() keeps three of the nine
+  /// (deal.II's own classes check the return codes of the library only in
+  /// Debug. DataOutBase::write_hdf5_parallel() keeps three of the nine
   /// components of a tensor, refuses names with a slash as in "m/s", fails if
-  /// no rank has any data, and writes in place.)
+  /// no rank has data, and writes in place.)
   class Hdf5File
   {
   public:
@@ -33,8 +33,8 @@ namespace talus
     Hdf5File &
     operator=(const Hdf5File &) = delete;
 
-    /// What went wrong first, as a clause without full stop; empty if nothing
-    /// did.
+    /// Return the first failure, as a clause without full stop; empty without
+    /// failure.
     const std::string &
     error() const
     {
@@ -53,8 +53,8 @@ namespace talus
       return communicator_;
     }
 
-    /// Where the rows of this rank, @p n_rows, begin among those of all, and
-    /// how many there are on all ranks.
+    /// Return the first row of this rank, which has @p n_rows, among the rows
+    /// of all ranks, and the total number of rows.
     std::pair<std::uint64_t, std::uint64_t>
     first_and_total(std::uint64_t n_rows) const;
 
@@ -62,20 +62,20 @@ namespace talus
     Hdf5File(const std::filesystem::path &path, MPI_Comm communicator);
     ~Hdf5File() = default;
 
-    /// How the ranks open the file.
+    /// Return the properties with which the ranks open the file.
     Hdf5Handle
     access_properties() const;
 
-    /// Keep in mind what failed on this rank, nothing if that is empty, until
-    /// the next agreement: enough where no rank waits for this one.
+    /// Keep a failure on this rank (none if the text is empty) until the next
+    /// check_on_all_ranks(). Sufficient where no rank waits for this rank.
     void
     note_error(const std::string &failure);
-    /// The same of a call to the library, with its reason, unless it had
-    /// @p success.
+    /// Keep the failure of a call to the library, with the library's reason,
+    /// unless @p success.
     void
     note_error(bool success, const std::string &failure);
 
-    /// Tell all ranks of the first failure. Returns whether there is none.
+    /// Tell all ranks the first failure. Returns whether there is none.
     bool
     check_on_all_ranks();
     bool

@@ -10,8 +10,8 @@
 
 namespace talus
 {
-  /// An object of the HDF5 library, closed when it goes out of scope. Most
-  /// functions of the library return a negative number if they fail.
+  /// Object of the HDF5 library, closed at the end of its scope. Most functions
+  /// of the library return a negative number on failure.
   class Hdf5Handle
   {
   public:
@@ -42,14 +42,14 @@ namespace talus
       close();
     }
 
-    /// Whether there is an object.
+    /// Return whether there is an object.
     bool
     is_valid() const
     {
       return id_ >= 0;
     }
 
-    /// Close it now; false if there is none, or if that fails.
+    /// Close the object now; false without object and on failure.
     bool
     close()
     {
@@ -69,7 +69,7 @@ namespace talus
 
 
 
-  /// Properties of a new file, group or dataset that keeps no dates.
+  /// Properties of a new file, group or dataset without dates.
   inline Hdf5Handle
   undated(const hid_t kind)
   {
@@ -81,8 +81,8 @@ namespace talus
 
 
 
-  /// The type of a text of the length of this one. (HDF5 has none of length
-  /// zero.)
+  /// Return the type of a text as long as @p text; HDF5 has no type of length
+  /// zero.
   inline Hdf5Handle
   text_type(const std::string &text)
   {

@@ -8,16 +8,16 @@
 
 namespace talus
 {
-  /// An HDF5 file that all ranks read together.
+  /// HDF5 file that all ranks read together.
   ///
-  /// What it claims to hold is compared with what is expected before anything
-  /// of it is read: it may be damaged, or made by others.
+  /// A file may be damaged or made by another program: size and type of each
+  /// object are compared with the expectation before data are read.
   class Hdf5InputFile : public Hdf5File
   {
   public:
     Hdf5InputFile(const std::filesystem::path &path, MPI_Comm communicator);
 
-    /// What is in a group, by name, sorted.
+    /// Return the names of the objects in a group, sorted.
     std::vector<std::string>
     names(const std::string &group);
 
@@ -42,19 +42,20 @@ namespace talus
                                            H5T_STD_U64LE);
     }
 
-    /// Number of rows and columns of an array of doubles that is all in the file
-    /// and not compressed; zero after an error.
+    /// Return the number of rows and columns of an array of doubles, stored
+    /// completely and without compression; zero after an error.
     std::pair<std::uint64_t, unsigned int>
     shape(const std::string &name);
 
-    /// Rows [first, first + n_rows) of an array; each rank may ask for others.
+    /// Read rows [first, first + n_rows) of an array; ranges may differ by
+    /// rank.
     std::vector<double>
     read(const std::string &name, std::uint64_t first, std::uint64_t n_rows);
 
     std::string
     read_text(const std::string &name);
 
-    /// Compare the array or text with its checksum.
+    /// Compare the array or text with the stored checksum.
     void
     verify(const std::string &name);
 

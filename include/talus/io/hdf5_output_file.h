@@ -8,32 +8,32 @@
 
 namespace talus
 {
-  /// What a new HDF5 file is to be.
+  /// Properties of a new HDF5 file.
   struct Hdf5Options
   {
     /// Arrays of doubles and texts get an attribute `checksum`; see checksum.h.
     bool has_checksums = true;
     /// Arrays are compressed.
     bool is_compressed = false;
-    /// The file has its name only from close() on, when all of it was written
-    /// and is on the disk. If anything fails before, an older file of that name
-    /// survives and nothing else is left.
+    /// The file gets the final name only in close(), when the whole content is
+    /// on the disk. On failure before, an older file of the same name survives,
+    /// and nothing else is left.
     bool is_atomic = false;
   };
 
 
 
-  /// A new HDF5 file, over an older one of its name, that all ranks write
-  /// together.
+  /// New HDF5 file that all ranks write together, replacing an older file of
+  /// the same name.
   ///
-  /// The HDF5 library does not survive a full disk: with one rank it crashes at
-  /// the end of the program, with several it waits for ever. Therefore the
-  /// space for each array is reserved before it is written, as if it could not
-  /// be compressed.
+  /// The HDF5 library does not survive a full disk: with one rank the library
+  /// crashes at the end of the program, with several ranks it waits for ever.
+  /// Therefore disk space for each array is reserved before writing, as if the
+  /// data could not be compressed.
   ///
   /// There are no dates in the file: the same data on the same number of ranks
-  /// give the same bytes. Its own metadata have checksums (HDF5 1.8 or later
-  /// reads it).
+  /// give the same bytes. The library's metadata have checksums (readable with
+  /// HDF5 1.8 or later).
   class Hdf5OutputFile : public Hdf5File
   {
   public:
@@ -41,10 +41,11 @@ namespace talus
                    MPI_Comm                     communicator,
                    const Hdf5Options           &options = {});
 
-    /// A file that was not closed is not complete.
+    /// Remove an atomic file that was not closed; any further file without
+    /// close() is incomplete.
     ~Hdf5OutputFile();
 
-    /// Complete the file, bring it to the disk and give it its name.
+    /// Complete the file, bring it to the disk and rename it to the final name.
     void
     close();
 
@@ -52,7 +53,7 @@ namespace talus
     void
     create_group(const std::string &name);
 
-    /// Attribute of the group or array @p object; "/" is the file.
+    /// Set an attribute of the group or array @p object; "/" is the file.
     void
     set_attribute(const std::string &object,
                   const std::string &name,
@@ -72,21 +73,22 @@ namespace talus
       write_attribute(object, name, H5T_NATIVE_UINT64, H5T_STD_U64LE, &value);
     }
 
-    /// Write an array of double, float or std::int64_t (with one column: a
-    /// list) whose rows are those of the first rank, then those of the second,
-    /// ...; a rank may have none. @p rows are this rank's, row by row.
+    /// Write an array of double, float or std::int64_t; an array with one
+    /// column is a list. The rows of the first rank come first, followed by the
+    /// second rank, and further; a rank may have none. @p rows are the rows of
+    /// this rank.
     template <typename Number>
     void
     write(const std::string         &name,
           const std::vector<Number> &rows,
           unsigned int               n_columns);
 
-    /// Write a short array without columns that all ranks know: no message but
-    /// for disk space, now and then.
+    /// Write a short array without columns that all ranks know. Without
+    /// messages, except for the occasional reservation of disk space.
     void
     write_known(const std::string &name, const std::vector<double> &values);
 
-    /// The text of the first rank as an array of characters.
+    /// Write the text of the first rank as an array of characters.
     void
     write_text(const std::string &name, const std::string &text);
 
@@ -94,13 +96,13 @@ namespace talus
     /// Rows of this rank within an array.
     struct Rows
     {
-      std::uint64_t first; ///< among those of all ranks
+      std::uint64_t first; ///< among the rows of all ranks
       std::uint64_t n;
       std::uint64_t n_on_all_ranks;
       unsigned int  n_columns;
     };
 
-    /// Reserve disk space for this many bytes more.
+    /// Reserve disk space for @p n_bytes more.
     void
     reserve(std::uint64_t n_bytes);
 
@@ -129,7 +131,7 @@ namespace talus
                                                 hid_t              memory_type,
                                                 hid_t              file_type,
                                                 const void        *value);
-    const std::filesystem::path part_; ///< its name while it is written
+    const std::filesystem::path part_; ///< name during writing
     const bool                  is_first_rank_;
     const Hdf5Options           options_;
     std::uint64_t               n_bytes_    = 0; ///< size of the file, at most

@@ -8,8 +8,8 @@
 
 namespace talus
 {
-  /// Write or read (@p transfer is H5Dwrite or H5Dread) the rows
-  /// [first, first + n_rows) of an array. Returns whether that worked.
+  /// Write or read (@p transfer is H5Dwrite or H5Dread) the rows [first, first
+  /// + n_rows) of an array. Returns whether the transfer succeeded.
   template <typename Transfer, typename Values>
   bool
   transfer_rows(const Transfer transfer,
@@ -36,7 +36,7 @@ namespace talus
          ? H5Sselect_none(memory_space) + H5Sselect_none(file_space)
          : H5Sselect_hyperslab(
              file_space, H5S_SELECT_SET, start, nullptr, count, nullptr));
-    // Even if that failed: the others are in this call, too.
+    // Also after a failed selection, because all ranks take part in the call.
     const herr_t status =
       transfer(array, type, memory_space, file_space, together, values);
     return selected >= 0 && status >= 0;

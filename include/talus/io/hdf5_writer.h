@@ -6,14 +6,14 @@
 
 namespace talus
 {
-  /// One HDF5 file base.h5 per output time, whatever the number of ranks. The
-  /// index is NAME.xdmf.
+  /// Format with a single HDF5 file base.h5 per output time for any number of
+  /// ranks. The index is NAME.xdmf.
   ///
-  /// Group "mesh" has the datasets "vertices", x, y, z [m], and "cells", the
-  /// rows of "vertices" that make up each cell, in VTK's order; its attribute
-  /// "type" is that of XDMF. Group "fields" has a dataset per field, named as
-  /// the field without its unit; attributes are "name" (with unit), "unit" and
-  /// "at", which says whether a row is a vertex or a cell.
+  /// Group "mesh" has the datasets "vertices" (x, y, z [m]) and "cells" (rows
+  /// of "vertices" that make up each cell, in VTK's order; attribute "type" is
+  /// the type of XDMF). Group "fields" has a dataset per field, named after the
+  /// field without unit; attributes are "name" (with unit), "unit" and "at"
+  /// (whether a row is a vertex or a cell).
   class Hdf5Writer : public FieldWriter
   {
   public:
@@ -37,7 +37,7 @@ namespace talus
       return name + ".xdmf";
     }
 
-    /// Files that are no longer there are left out.
+    /// Write the index. Files that no longer exist are left out.
     std::filesystem::path
     write_index(const std::filesystem::path   &folder,
                 const std::string             &name,

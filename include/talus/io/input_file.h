@@ -9,16 +9,18 @@
 
 namespace talus
 {
-  /// A file beside the parameters that the results depend on. The comparison of
-  /// parameters sees its path alone, so its checksum is state of the run.
+  /// Input file that affects the results, besides the parameters. The
+  /// comparison of parameters sees only the path; therefore the checksum
+  /// belongs to the state of the run.
   struct InputFile
   {
-    std::string           name; ///< of what is read from it, without slashes
+    std::string           name; ///< for messages, without slashes
     std::string           kind; ///< for messages: table, raster
     std::filesystem::path path;
-    std::string           checksum; ///< of what was read
+    std::string           checksum; ///< checksum of the content as read
 
-    /// Loading throws ExcUser if the file is not the one of the run to resume.
+    /// Add the checksum to the state of the run. Loading throws ExcUser if the
+    /// file differs from the file of the run to resume.
     void
     list_state(StateList &list) const;
   };

@@ -10,42 +10,41 @@
 
 namespace talus
 {
-  /// True if standard output is a terminal.
+  /// Return whether standard output is a terminal.
   bool
   stdout_is_terminal();
 
 
 
-  /// Who is to see a sentence.
+  /// Readers of a sentence.
   enum class LogLevel
   {
-    detail, ///< who reads log.txt
-    info,   ///< and who watches the run on a terminal
-    result  ///< and who keeps its standard output
+    detail, ///< readers of log.txt
+    info,   ///< also users who watch the run on a terminal
+    result  ///< also readers of the standard output of a batch system
   };
 
 
 
-  /// What a run has to say, written by the first rank: to log.txt, as soon as
-  /// that is open, and to standard output.
+  /// Messages of a run, written by the first rank: to log.txt from open() on,
+  /// and to standard output.
   class Log
   {
   public:
-    /// Open log.txt in @p folder, on the first rank. Throws ExcUser if that
-    /// fails.
+    /// Open log.txt in @p folder on the first rank. Throws ExcUser on failure.
     void
     open(const std::filesystem::path &folder, Beginning beginning);
 
     void
     say(LogLevel level, const std::string &sentence);
 
-    /// Say what the user may not have meant, or what the results suffer from:
-    /// "Remark 3: ...", on standard output in any case. Remarks are numbered
-    /// through the run, resumed or not.
+    /// Report a possible mistake in the input, or an impairment of the results:
+    /// "Remark 3: ...", always on standard output. The numbers continue in a
+    /// resumed run.
     void
     remark(const std::string &sentence);
 
-    /// Return "1 remark" or the like; empty if there are none. For the first
+    /// Return "1 remark" or "N remarks"; empty if there are none. For the first
     /// rank.
     std::string
     count_of_remarks() const;
@@ -54,7 +53,7 @@ namespace talus
     void
     list_state(StateList &list)
     {
-      // Remarks are counted by the first rank; the others have zero.
+      // Remarks are counted by the first rank; all higher ranks have zero.
       list.add("remarks", "-", n_remarks_, Reduction::sum);
     }
 

@@ -10,7 +10,7 @@
 
 namespace talus
 {
-  /// All polygons and lines of a file of a GIS.
+  /// All polygons and lines of a GIS file.
   struct MapFeatures
   {
     using Corners = std::vector<dealii::Point<2>>;
@@ -27,7 +27,8 @@ namespace talus
   /// Area in plan.
   struct MapOutline
   {
-    std::vector<dealii::Point<2>> corners; ///< the last one is not the first
+    std::vector<dealii::Point<2>> corners; ///< first corner not repeated at the
+                                           ///< end
     /// As Raster::coordinate_system.
     std::string coordinate_system;
   };
@@ -44,21 +45,22 @@ namespace talus
 
 
 
-  /// Return whether @p file contains outlines, not a raster: GeoJSON by its name,
-  /// other formats by their content (without GDAL by their names).
+  /// Return whether @p file contains outlines, not a raster. GeoJSON is known
+  /// by the name, all further formats by the content (without GDAL by the
+  /// name).
   bool
   is_outline_file(const std::filesystem::path &file);
 
 
 
-  /// Read the one polygon, without holes, of a GeoJSON file or, with GDAL, of
-  /// any file of vectors. Throws ExcUser if @p file cannot be read, or contains
-  /// no polygon, several polygons, or a hole.
+  /// Read the polygon of a GeoJSON file or, with GDAL, of any file of vectors.
+  /// Throws ExcUser if @p file cannot be read, or contains no polygon, several
+  /// polygons, or a hole.
   MapOutline
   read_outline(const std::filesystem::path &file);
 
-  /// Read the one line of a file as for read_outline(). Throws ExcUser if @p file
-  /// cannot be read, or contains no line or several lines.
+  /// Read the line of a file, in the formats of read_outline(). Throws ExcUser
+  /// if @p file cannot be read, or contains no line or several lines.
   MapLine
   read_line(const std::filesystem::path &file);
 } // namespace talus

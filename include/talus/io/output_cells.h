@@ -16,8 +16,8 @@
 
 namespace talus
 {
-  /// How ParaView is to read the components of a field, and how many columns
-  /// they take in a file.
+  /// Kind of a field for ParaView; the value is the number of columns in a
+  /// file.
   enum class FieldKind
   {
     scalar = 1,
@@ -27,16 +27,16 @@ namespace talus
 
 
 
-  /// A field of an output file, and how to get its values.
+  /// Field of an output file, with a function for the values.
   struct Field
   {
     std::string name;
-    std::string unit; ///< empty if there is none to tell
+    std::string unit; ///< empty if there is no unit to print
     FieldKind   kind;
-    /// Write the components at item @p i (a point, a node) to @p values, where
-    /// zeros are.
+    /// Write the components at item @p i (a point, a node) to @p values, which
+    /// are initially zero.
     std::function<void(unsigned int i, double *values)> evaluate;
-    /// Whether the values are places in the mesh, as vertices are.
+    /// Whether the values are places in the mesh, like vertices.
     bool is_place = false;
   };
 
@@ -50,7 +50,7 @@ namespace talus
 
 
 
-  /// Name and unit for formats that have one text for both: "velocity [m/s]".
+  /// Return name and unit for formats with a common text, "velocity [m/s]".
   inline std::string
   name_with_unit(const Field &field)
   {
@@ -60,7 +60,7 @@ namespace talus
 
 
 
-  /// Values of the field at these items, n_columns() for each.
+  /// Return the values of the field at @p items, n_columns() for each item.
   template <typename Number>
   std::vector<Number>
   values_of(const Field &field, const std::vector<unsigned int> &items)
@@ -78,11 +78,11 @@ namespace talus
 
 
 
-  /// Whether single precision would lose what a picture needs of the places in
-  /// this mesh. It has 24 bits: where the largest coordinate is 2^13 cells or
-  /// more, a corner of a box would move by up to 1/2048 of a cell, and by half a
-  /// metre at 5 000 km. Of the mesh, not of the soil, so that all files of a run
-  /// have the same types.
+  /// Return whether single precision is too coarse for places in the mesh.
+  /// Single precision has 24 bits: where the largest coordinate is 2^13 cells
+  /// or more, a corner of a box would move by up to 1/2048 of a cell, and by
+  /// half a metre at 5 000 km. Decided by the mesh, not by the soil: all files
+  /// of a run have the same types.
   template <int dim>
   bool
   places_need_double(const Box<dim> &domain, const double cell_size)
@@ -96,7 +96,7 @@ namespace talus
 
 
 
-  /// What the items of a set of cells belong to.
+  /// Location of the items in a set of cells.
   enum class ItemsAt
   {
     vertices,
@@ -105,7 +105,7 @@ namespace talus
 
 
 
-  /// All cells of a file have the same shape.
+  /// Common shape of all cells of a file.
   enum class CellShape
   {
     vertex,
@@ -117,7 +117,7 @@ namespace talus
 
 
 
-  /// What the formats have to know of a shape.
+  /// Properties of a shape for the formats.
   struct CellShapeFacts
   {
     unsigned int n_vertices;
@@ -141,15 +141,15 @@ namespace talus
 
 
 
-  /// That of a cell of the mesh.
+  /// Shape of a cell of the mesh.
   template <int dim>
   constexpr CellShape box_shape = (dim == 2 ? CellShape::quad : CellShape::hex);
 
 
 
-  /// This rank's share of what one output time shows, whatever the format:
-  /// cells of one shape that share no vertices, and the items (points, nodes,
-  /// facets) whose fields they carry.
+  /// Content of an output time on this rank, for any format: cells of equal
+  /// shape without common vertices, and the items (points, nodes, facets) with
+  /// the fields of the cells.
   struct OutputCells
   {
     OutputCells(std::vector<Field>  fields,
@@ -197,18 +197,19 @@ namespace talus
     CellShape          shape;
     double             time; ///< s
     unsigned long      step;
-    /// Else in single precision, as all other fields.
+    /// Write places in double precision. All fields without places are in
+    /// single precision.
     bool places_in_double;
-    /// x, y, z of each vertex, m; z = 0 in 2-D. Cell by cell; those of quads and
-    /// hexes in deal.II's order.
+    /// x, y, z of each vertex, m; z = 0 in 2-D. Ordered by cell; vertices of
+    /// quads and hexes are in deal.II's order.
     std::vector<double>       vertices;
     std::vector<unsigned int> items; ///< one per vertex or per cell
   };
 
 
 
-  /// Call @p use with the coordinates of the vertices in the precision in which
-  /// they are to be written, and return what it returns.
+  /// Call @p use with the coordinates of the vertices in the precision of the
+  /// output, and return the result of @p use.
   template <typename Function>
   auto
   with_vertices(const OutputCells &cells, const Function &use)
@@ -221,7 +222,8 @@ namespace talus
 
 
 
-  /// The same with the values of a field.
+  /// Call @p use with the values of a field in the precision of the output, and
+  /// return the result of @p use.
   template <typename Function>
   auto
   with_values(const OutputCells &cells, const Field &field, const Function &use)
@@ -233,9 +235,8 @@ namespace talus
 
 
 
-  /// Cell by cell the numbers of its vertices, in VTK's order, if the first
-  /// vertex of all has the number @p first. deal.II counts lexicographically,
-  /// VTK around each quad.
+  /// Return the numbers of the vertices of each cell in VTK's order, counted
+  /// from @p first. deal.II counts lexicographically, VTK around each quad.
   template <typename Number>
   std::vector<Number>
   corners_of_cells(const OutputCells &cells, const Number first = 0)

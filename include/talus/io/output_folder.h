@@ -9,39 +9,40 @@
 
 namespace talus
 {
-  /// Whether a run may write a file of this name into its output folder.
+  /// Return whether a run may write a file of the given name into the output
+  /// folder.
   bool
   is_output_name(const std::string &file_name);
 
 
 
-  /// Throw ExcUser if the folder is not there and cannot be made, or cannot be
-  /// written. Leaves nothing there.
+  /// Throw ExcUser if the folder does not exist and cannot be made, or cannot
+  /// be written. Leaves no file behind.
   void
   check_can_be_made(const std::filesystem::path &folder);
 
 
 
-  /// Why a run must not write into the folder, a sentence: it holds files that
-  /// would be written over but are not of a run, be it what this one reads (see
-  /// protect_input()) or files of the user. Empty if there is no reason. For the
-  /// first rank.
+  /// Return the reason why a run must not write into the folder, a sentence:
+  /// files in the folder would be overwritten that no run has written, either
+  /// inputs of the present run (see protect_input()) or files of the user.
+  /// Empty without a reason. For the first rank.
   std::string
   foreign_file(const std::filesystem::path &folder, Beginning beginning);
 
 
 
-  /// Remove what an earlier run left in the folder but for parameters.prm, so that
-  /// nothing of it looks as if it were of the new one; its checkpoints are not
-  /// touched. For the first rank.
+  /// Remove the results of an earlier run from the folder, except
+  /// parameters.prm and the checkpoints: no old result may look like a new
+  /// result. For the first rank.
   void
   remove_earlier_results(const std::filesystem::path &folder);
 
 
 
-  /// Remove what a run that was killed or failed left beside its results: files
-  /// that it was about to write, NAME.part, and the last state before an error,
-  /// which is not that of the run that goes on. For the first rank.
+  /// Remove remains of a killed or failed run: unfinished files NAME.part, and
+  /// the last state before an error, which does not belong to the continued
+  /// run. For the first rank.
   void
   remove_remains(const std::filesystem::path &folder);
 } // namespace talus

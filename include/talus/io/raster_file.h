@@ -10,18 +10,18 @@
 namespace talus
 {
   /// Read a raster: an Esri ASCII grid, with the coordinate system of the file
-  /// .prj beside it, or any format that GDAL reads; in the coordinates of the
-  /// file, which may be degrees. Throws ExcUser, naming the file, if it cannot be
-  /// read.
+  /// .prj beside it, or any format that GDAL reads. Coordinates are as in the
+  /// file, possibly degrees. Throws ExcUser with the file name if the raster
+  /// cannot be read.
   Raster
   read_raster(const std::filesystem::path &file);
 
 
 
-  /// Throw ExcUser, with the command that projects @p file, if talus cannot
-  /// compute on this raster: if it is not in metres and @p map is empty, or if
-  /// it has to be brought to @p map (EPSG:32633) and talus was built without
-  /// GDAL.
+  /// Throw ExcUser with the command to project @p file if talus cannot compute
+  /// on the raster: if the raster is not in metres and @p map is empty, or if
+  /// the raster has to be projected to @p map (EPSG:32633) and talus was built
+  /// without GDAL.
   void
   check_projection(const std::filesystem::path &file,
                    const Raster                &raster,

@@ -9,29 +9,29 @@
 
 namespace talus
 {
-  /// Version of talus and of the libraries under it, one per line, each line
+  /// Return the versions of talus and of the libraries, one per line, each line
   /// after @p prefix.
   std::string
   versions(const std::string &prefix = "");
 
 
 
-  /// The parameters as understood, defaults included, without documentation.
+  /// Return the parameters as understood, with defaults, without documentation.
   std::string
   parameters_as_text(const dealii::ParameterHandler &parameters);
 
 
 
-  /// Write the parameters as understood, defaults included, to the file
-  /// @p path, which talus can read again; its head says which talus and which
-  /// libraries understood them. Throws ExcUser if the file cannot be written.
+  /// Write the parameters as understood, with defaults, to the file @p path, in
+  /// a form that talus can read again; the header lists the versions of talus
+  /// and of the libraries. Throws ExcUser if the file cannot be written.
   void
   write_run_record(const std::filesystem::path    &path,
                    const dealii::ParameterHandler &parameters);
 
 
 
-  /// Whether @p path is such a record, unchanged.
+  /// Return whether @p path is an unchanged file of write_run_record().
   bool
   is_run_record(const std::filesystem::path &path);
 } // namespace talus

@@ -7,12 +7,13 @@
 
 namespace talus
 {
-  /// A sequence of outputs over time, name-0000.*, name-0001.*, ..., and an
-  /// index that gives ParaView their times.
+  /// Sequence of outputs over time, name-0000.*, name-0001.*, ..., with an
+  /// index that gives ParaView the times.
   class FieldSeries
   {
   public:
-    /// Start anew, or go on after the files that were there at the checkpoint.
+    /// Start a new series, or continue after the files present at the
+    /// checkpoint.
     void
     begin(const std::filesystem::path &folder,
           const std::string           &name,
@@ -20,34 +21,34 @@ namespace talus
           const std::string           &format,
           Beginning                    beginning = Beginning::fresh);
 
-    /// Add what the index says to the state of the run, as the text @p name:
-    /// per output a line with the time [s], a space and the name of the file,
-    /// then the lines that describe it.
+    /// Add the entries of the index to the state of the run, as the text
+    /// @p name: per output a line with the time [s], a blank and the name of
+    /// the file, followed by the lines of the description.
     void
     list_state(const std::string &name, StateList &list);
 
-    /// Whether there are no files so far, nor at the checkpoint.
+    /// Return whether there are no files, including files before a resumed run.
     bool
     is_empty() const
     {
       return entries_.empty();
     }
 
-    /// Write the files of the next output time; collective. Throws ExcUser if
-    /// that fails.
+    /// Write the files of the next output time. Collective. Throws ExcUser on
+    /// failure.
     void
     write(const OutputCells &cells);
 
-    /// Names of the files in the index, and of the index, that somebody has
-    /// removed from the folder, and of files that were cut short; also before begin(). To be asked on the first
-    /// rank.
+    /// Return the names of files that were removed from the folder or cut
+    /// short: the index and all files of the index. Also before begin(). For
+    /// the first rank.
     std::vector<std::string>
     missing_files(const std::filesystem::path &folder,
                   const std::string           &name,
                   const std::string           &format) const;
 
-    /// Bring all files that this rank wrote to the disk. Throws ExcUser if that
-    /// fails.
+    /// Sync all files that this rank wrote to the disk. Throws ExcUser on
+    /// failure.
     void
     sync();
 

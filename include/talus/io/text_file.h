@@ -8,7 +8,7 @@
 
 namespace talus
 {
-  /// Whether a text may come from a pipe, as `<(command)` of a shell makes one.
+  /// Whether a text may come from a pipe, such as `<(command)` of a shell.
   enum class Pipes
   {
     refused,
@@ -17,9 +17,9 @@ namespace talus
 
 
 
-  /// All bytes of a text that the user has given; nothing if there is no such
-  /// file, or none that can be read: a folder, a device. Throws ExcUser if it is
-  /// longer than any such text.
+  /// Return all bytes of a text given by the user; nothing if there is no file
+  /// or the file cannot be read (a folder, a device). Throws ExcUser above 100
+  /// MB.
   std::optional<std::string>
   read_text_file(const std::filesystem::path &file,
                  Pipes                        pipes = Pipes::refused);

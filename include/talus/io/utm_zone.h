@@ -12,11 +12,11 @@ namespace talus
     unsigned int number; ///< 1 to 60
     bool         is_south;
 
-    /// Zone and hemisphere, UTM 33N.
+    /// Return zone and hemisphere, UTM 33N.
     std::string
     name() const;
 
-    /// Code of the map, EPSG:32633.
+    /// Return the code of the map, EPSG:32633.
     std::string
     epsg_code() const;
   };
@@ -29,10 +29,10 @@ namespace talus
 
 
 
-  /// Return the code, EPSG:32633, of the map that the user calls @p name:
-  /// `UTM 33N` or `UTM 33S`, zone and hemisphere (the letter is not a band of
-  /// latitude, where S lies in the north), or the code itself. Throws ExcUser,
-  /// naming the parameter @p path, if the name is neither.
+  /// Return the code, EPSG:32633, of the map with the user's @p name: `UTM 33N`
+  /// or `UTM 33S`, zone and hemisphere (the letter is not a band of latitude,
+  /// where S lies in the north), or the code itself. Throws ExcUser, with the
+  /// parameter @p path, for all further names.
   std::string
   epsg_code(const std::string &path, const std::string &name);
 } // namespace talus

@@ -14,9 +14,10 @@ namespace talus
 
 
 
-  /// Write the content of a DataArray of VTK's XML files with format="binary" and
-  /// compressor="vtkZLibDataCompressor": base64 of the four numbers 1, size,
-  /// size and compressed size [bytes], then base64 of the compressed values.
+  /// Write the content of a DataArray of VTK's XML files with format="binary"
+  /// and compressor="vtkZLibDataCompressor": base64 of the four numbers 1,
+  /// size, size and compressed size [bytes], followed by base64 of the
+  /// compressed values.
   template <typename Number>
   void
   write_vtu_array(std::ostream &out, const std::vector<Number> &values);

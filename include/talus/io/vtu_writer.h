@@ -8,8 +8,9 @@
 
 namespace talus
 {
-  /// Files of VTK: with one rank base.vtu; with several one base.R.vtu per rank
-  /// R that has cells, and base.pvtu. The index is NAME.pvd.
+  /// Format of VTK: with one rank a file base.vtu; with several ranks
+  /// base.R.vtu for each rank R with cells, and base.pvtu. The index is
+  /// NAME.pvd.
   class VtuWriter : public FieldWriter
   {
   public:
@@ -45,10 +46,10 @@ namespace talus
 
 
 
-  /// Write the cells of this rank as a whole VTU file: single precision,
-  /// compressed, without date. The fields become cell or point data, whichever
-  /// their items are at. (deal.II's writer knows point data only, so that each
-  /// box would hold its values at every corner.)
+  /// Write the cells of this rank as a complete VTU file: single precision,
+  /// compressed, without date. The fields become cell or point data according
+  /// to OutputCells::items_at. (deal.II's writer has point data only, and each
+  /// box would hold the values at every corner.)
   void
   write_vtu(std::ostream &out, const OutputCells &cells);
 } // namespace talus

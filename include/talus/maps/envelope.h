@@ -39,7 +39,7 @@ namespace talus
     double mass               = 0; ///< current, per plan area, kg/m^2
     double thickness_at_start = 0; ///< m
     Peak   max_thickness;          ///< m
-    Peak   speed;                  ///< of the depth-mean velocity, m/s
+    Peak   speed;                  ///< depth-mean speed, m/s
     Peak   momentum_flux;          ///< N/m
     Peak   bed_shear_stress;       ///< Pa
     Peak   impact_pressure;        ///< Pa
@@ -61,7 +61,7 @@ namespace talus
       /// pressure do not count: thin soil flying ahead would give the
       /// largest values.
       double              smallest_thickness = 0;
-      std::vector<double> arrival_thresholds; ///< of thickness, m
+      std::vector<double> arrival_thresholds; ///< thickness, m
       ImpactFormula       impact;
     };
 

@@ -51,7 +51,7 @@ namespace talus
   {
     unsigned int item;
     unsigned int column;
-    double       share; ///< of the volume of the box [-]
+    double       share; ///< fraction of the box volume [-]
   };
 
 

@@ -73,10 +73,10 @@ namespace talus
     Motion<dim, Number>          motion;
     StrainIncrement<dim, Number> strain;
     ElasticTrial<dim, Number>    elastic;
-    Number                       shear_stress; ///< of the trial, Pa
+    Number                       shear_stress; ///< trial shear stress, Pa
     Number                       old_strain;   ///< plastic shear, before
     Number                       strength;     ///< at the start of the step, Pa
-    Number                       loss; ///< that remoulding can cause, Pa
+    Number                       loss; ///< largest loss by remoulding, Pa
   };
 
 

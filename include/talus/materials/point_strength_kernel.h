@@ -15,7 +15,7 @@ namespace talus
   struct PointStrength
   {
     Number factor;    ///< strength factor [-]
-    Number strength;  ///< of the point over the strength of the flow rule [-]
+    Number strength;  ///< point strength over flow-rule strength [-]
     Number stiffness; ///< moduli of the point over the moduli of the law [-]
   };
 

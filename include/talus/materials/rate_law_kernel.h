@@ -14,7 +14,7 @@ namespace talus
   struct Flow
   {
     Number removed;   ///< fraction of the trial deviator removed [-]
-    Number increment; ///< of the plastic variable [-]
+    Number increment; ///< increment of the plastic variable [-]
   };
 
 

@@ -9,7 +9,7 @@ namespace talus
   /// Softening in simple shear of a material without a length scale.
   struct Softening
   {
-    std::string section;       ///< of the material in the parameter file
+    std::string section;       ///< section of the material in the parameters
     double      strain;        ///< plastic shear strain to lose `share_of_loss`
     double      work;          ///< above the remaining strength, J/m^3
     std::string share_of_loss; ///< "all", or for example "95 %"

@@ -35,7 +35,7 @@ namespace talus
     Modulus modulus;     ///< elastic shear modulus G, Pa
     double  consistency; ///< K >= 0, Pa s^n
     double  exponent;    ///< n > 0 [-]
-    double  decay;       ///< of the strength lost by remoulding, per plastic
+    double  decay;       ///< rate of strength loss by remoulding, per plastic
                          ///< shear strain; 0: no remoulding
     double dt;           ///< time step, s
   };

@@ -12,8 +12,8 @@ namespace talus
   /// Soil in a column of cells of size h (`Grid/Cell size`).
   struct ProfileColumn
   {
-    double x;         ///< of the column's centre, m
-    double z;         ///< of the column's centre, m; 0 in 2-D
+    double x;         ///< centre of the column, m
+    double z;         ///< centre of the column, m; 0 in 2-D
     double ground;    ///< height of the ground below the soil, m
     double lowest;    ///< bottom of the lowest box, m
     double highest;   ///< top of the highest box, m

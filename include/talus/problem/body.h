@@ -17,31 +17,31 @@
 
 namespace talus
 {
-  /// A body of one material: where it is at the start and how it starts.
+  /// Body of one material: shape and initial state.
   template <int dim>
   class Body : public dealii::ParameterAcceptor
   {
   public:
     explicit Body(const std::string &name);
 
-    /// To be called before the body is asked for its shape.
+    /// Set the surfaces for the shape. Call before any query of the shape.
     void
     use_surfaces(const SurfaceSource<dim> &surfaces)
     {
       shape_.use_surfaces(&surfaces);
     }
 
-    /// Solids in whose inside there is no soil.
+    /// Solids that exclude soil.
     using Solids = std::vector<const Shape<dim> *>;
 
-    /// Fill the body with points: the given number per axis in each cell of the
-    /// mesh, by the centres or clipped by the surface of the body, and of
-    /// @p solids unless the parameters forbid it. Sets everything that does not
-    /// depend on the material but mass, which is @p density times the volume,
-    /// and the id. Points of a clipped body may lie in cells of other ranks.
-    /// Throws ExcUser if the body does not lie in the mesh, gets no points, or
-    /// lies where other bodies or solids are. Returns a note for the log on what
-    /// the solids took of the body; empty if nothing. Collective.
+    /// Fill the body with points: a given number per axis in each cell of the
+    /// mesh, by centres or clipped by the surface of the body, and by @p solids
+    /// unless the parameters forbid it. Sets all columns independent of the
+    /// material, with the mass as @p density times volume, but not the id.
+    /// Points of a clipped body may lie in cells of other ranks. Throws ExcUser
+    /// if the body is not inside the mesh, gets no points, or overlaps other
+    /// bodies or solids. Returns a note for the log on the volume removed by
+    /// solids; empty if none. Collective.
     std::string
     create_points(const Grid<dim> &grid,
                   unsigned int     index,
@@ -59,14 +59,14 @@ namespace talus
     Box<dim>
     bounding_box(const Box<dim> &domain) const;
 
-    /// Its shape in a mesh that fills @p domain.
+    /// Shape of the body in a mesh that fills @p domain.
     std::unique_ptr<Shape<dim>>
     shape(const Box<dim> &domain) const
     {
       return shape_.make(domain);
     }
 
-    /// How it is displaced, moves and is stressed at the start.
+    /// Displacement, velocity and stress of the body at the start.
     const InitialState<dim> &
     initial_state() const
     {
@@ -101,8 +101,8 @@ namespace talus
                    const std::vector<NewPoint<dim>> &points) const;
     std::array<unsigned int, dim>
     points_per_axis() const;
-    /// Those of this rank, and volumes of all, m^dim: what they fill, and what
-    /// they would fill without solids. 0 where there are none.
+    /// Points on this rank, and total volumes over all ranks, m^dim: with
+    /// solids cut away, and without. Volumes are 0 without solids.
     struct Places
     {
       std::vector<NewPoint<dim>> points;

@@ -12,17 +12,17 @@
 
 namespace talus
 {
-  /// Thickness of a body in the vertical where it is thickest, without what
-  /// obstacles have taken of it.
+  /// Maximum vertical thickness of a body, without the parts removed by
+  /// obstacles.
   struct BodyThickness
   {
     std::string body;
-    double      cell_size; ///< smallest cells that the mesh may have there, m
+    double      cell_size; ///< smallest cells in the body, m
     double      n_cells;   ///< across the thickness [-]
   };
 
-  /// Return the thickness of each body from the volumes of its points above the
-  /// cells of the plan. Collective.
+  /// Return the thickness of each body, from the volumes of the points above
+  /// the cells of the plan. Collective.
   template <int dim>
   std::vector<BodyThickness>
   measure_thickness(const Points<dim>                             &points,

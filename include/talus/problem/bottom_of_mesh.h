@@ -9,10 +9,10 @@
 
 namespace talus
 {
-  /// A sentence for the log if a terrain among the @p obstacles goes below the
-  /// bottom of the mesh, which fills @p domain and whose bottom face is free,
-  /// where no other obstacle is: soil that comes there is lost. Looked for in
-  /// distances of @p cell_size, m. Empty if there is no such place.
+  /// Return a note for the log if a terrain among @p obstacles goes below the
+  /// bottom of the mesh, which fills @p domain and has a free bottom face: soil
+  /// is lost there. Places inside other obstacles are excluded; places are
+  /// tested at distances of @p cell_size, m. Empty if there is no such place.
   template <int dim>
   std::string
   note_on_bottom(const Obstacles<dim> &obstacles,

@@ -10,18 +10,17 @@
 
 namespace talus
 {
-  /// What a material point takes in a run, bytes, as it was measured
-  /// (doc/cluster.md).
+  /// Measured memory of a material point in a run, bytes (doc/cluster.md).
   template <int dim>
   constexpr double bytes_per_point = (dim == 2 ? 260. : 530.);
 
-  /// What to do where points would take too much.
+  /// Advice for too many points.
   constexpr const char *fewer_points_advice =
     "Lower 'Points per cell and axis', choose a larger 'Grid/Cell size', or "
     "take "
     "more ranks on more machines.";
 
-  /// A point that is to be made, and the lengths of its box, m.
+  /// Place of a new point, and the lengths of the box, m.
   template <int dim>
   struct NewPoint
   {
@@ -29,10 +28,11 @@ namespace talus
     dealii::Tensor<1, dim> length;
   };
 
-  /// Points at the centres of those boxes of the lattice of @p n per cell and
-  /// axis whose centre lies in @p region, which lies in @p bounds. For the
-  /// owned cells, in smaller cells there are smaller boxes. Throws ExcUser, on
-  /// one rank alone, before its points take more than all memory.
+  /// Return points at the centres of the boxes, of a lattice with @p n boxes
+  /// per cell and axis, whose centres lie in @p region. @p bounds is a box
+  /// around the region. Only owned cells are filled; smaller cells have smaller
+  /// boxes. Throws ExcUser, on a single rank, before the points exceed the
+  /// total memory.
   template <int dim>
   std::vector<NewPoint<dim>>
   filling_by_centres(const Grid<dim>                     &grid,
@@ -40,14 +40,15 @@ namespace talus
                      const Box<dim>                      &bounds,
                      const std::array<unsigned int, dim> &n);
 
-  /// Points whose volumes add up to that of @p region: one for each box of the
-  /// lattice of which at least a fifth lies in the region, at the centroid of
-  /// that part. What lies in other boxes is added to the nearest of these
-  /// points, in the same cell or one that touches it, with its moments; without
-  /// such a neighbour to the largest point around, if that is more than five
-  /// times as large, so that no point is much lighter than those around it. For
-  /// the owned cells; a point may come to lie in a cell of somebody else. Does
-  /// not depend on the ranks. Throws as filling_by_centres(). Collective.
+  /// Return points with the total volume of @p region: one point for each box
+  /// of the lattice with at least a fifth of the volume in the region, at the
+  /// centroid of the part inside. Smaller parts are added, with the moments, to
+  /// the nearest point in the same cell or a touching cell; without a
+  /// neighbour, to the largest point around, if more than five times as large.
+  /// No point is then much lighter than the neighbours. Only owned cells are
+  /// filled; a point may lie in a cell of another rank. The result is
+  /// independent of the number of ranks. Throws as filling_by_centres().
+  /// Collective.
   template <int dim>
   std::vector<NewPoint<dim>>
   clipped_filling(const Grid<dim>                     &grid,

@@ -13,9 +13,10 @@
 
 namespace talus
 {
-  /// The ground accelerates as a table says, for instance the record of an
-  /// earthquake, and gravity may change in time. The mesh is fixed to the
-  /// ground, so that in its frame all soil feels minus that acceleration.
+  /// Motion of the ground from a table, for instance the record of an
+  /// earthquake, and gravity variable in time. The mesh is fixed to the ground:
+  /// in the frame of the mesh the soil feels minus the acceleration of the
+  /// ground.
   template <int dim>
   class GroundMotion : public dealii::ParameterAcceptor
   {
@@ -23,20 +24,20 @@ namespace talus
     /// Paths of tables start in @p folder.
     explicit GroundMotion(const std::filesystem::path &folder);
 
-    /// To be called after parsing; reads the table. Throws ExcUser if it cannot
-    /// be used, if the ground would jump into motion in the middle of the run, or
-    /// would move only after its end, s.
+    /// Read the table; call after parsing. Throws ExcUser if the table cannot
+    /// be used, if the ground would jump into motion in the middle of the run,
+    /// or would move only after @p end_time, s.
     void
     prepare(double end_time);
 
-    /// Acceleration of the ground at time @p t, s, in m/s^2 along the axes of a
-    /// mesh whose x axis points down a slope of @p angle (radians): zero before
-    /// the first and after the last row.
+    /// Return the acceleration of the ground at time @p t, s, in m/s^2 along
+    /// the axes of a mesh whose x axis points down a slope of @p angle
+    /// (radians). Zero before the first and after the last row.
     dealii::Tensor<1, dim>
     acceleration(double t, double angle) const;
 
-    /// What gravity is multiplied with at time @p t, s [-]: before the first and
-    /// after the last row as there.
+    /// Return the multiplier of gravity at time @p t, s [-]: constant before
+    /// the first and after the last row.
     double
     gravity_factor(double t) const;
 
@@ -47,7 +48,7 @@ namespace talus
       return table_ ? start_time_ + table_->last_time() : 0.;
     }
 
-    /// The table, if there is one, must be the same when the run is resumed.
+    /// Add the table, if any, to the state: a resumed run needs the same table.
     void
     list_state(StateList &list) const;
 

@@ -13,17 +13,17 @@
 
 namespace talus
 {
-  /// How a body is displaced, moves and is stressed at the start, by
-  /// expressions in the places X of its points before the displacement.
+  /// Displacement, velocity and stress of a body at the start, given by
+  /// expressions in the places X of the points before the displacement.
   template <int dim>
   class InitialState : public dealii::ParameterAcceptor
   {
   public:
-    /// @p section is that of the body, for example "/Bodies/slide".
+    /// @p section of the body, for example "/Bodies/slide".
     explicit InitialState(const std::string &section);
 
-    /// Throw ExcUser if a stress is prescribed twice, or although that of
-    /// @p law follows from the deformation.
+    /// Throw ExcUser if a stress is prescribed twice, or prescribed although
+    /// the stress of @p law follows from the deformation.
     void
     check(const MaterialModel<dim> &law) const;
 
@@ -33,7 +33,8 @@ namespace talus
       return !displacement_.empty();
     }
 
-    /// True if it starts with the stress of ground at rest under its weight.
+    /// Return whether the body starts with the stress of ground at rest under
+    /// its weight.
     bool
     has_stress_at_rest() const
     {
@@ -47,10 +48,10 @@ namespace talus
       return K0_.front();
     }
 
-    /// Move the points [begin, end) by the displacement at t = 0 and set their
-    /// deformation gradient, the stretch of their boxes and their stress. The
-    /// gradient of the displacement is taken by differences of sixth order,
-    /// exact to about 1e-12. Throws ExcUser if a point is turned inside out.
+    /// Move the points [begin, end) by the displacement at t = 0, and set
+    /// deformation gradient, stretch of the boxes and stress. The gradient of
+    /// the displacement is taken by differences of sixth order, with errors of
+    /// about 1e-12. Throws ExcUser if a point is turned inside out.
     void
     deform(Points<dim>              &points,
            unsigned int              begin,
@@ -59,7 +60,7 @@ namespace talus
            BoxRule                   rule,
            const Constants          &constants) const;
 
-    /// Set the velocity of the points of body @p index, that of time @p t, s.
+    /// Set the velocity of the points of body @p index at time @p t, s.
     void
     set_velocity(Points<dim>     &points,
                  unsigned int     index,
@@ -84,7 +85,7 @@ namespace talus
     std::string displacement_ = "";
     std::string velocity_     = "";
     std::string stress_       = "";
-    // One number, or none where the user gave nothing.
+    // Single number, or empty without a user value.
     std::vector<double> K0_;
   };
 } // namespace talus

@@ -9,9 +9,9 @@
 namespace talus
 {
   /// Compare the two surfaces of a body that is a layer, in a mesh that fills
-  /// @p domain, at places @p cell_size apart, m. Throws ExcUser if the layer has
-  /// no thickness anywhere. Returns a remark if its lower surface lies above its
-  /// upper one somewhere; empty if not, and for bodies of other shapes.
+  /// @p domain, at places @p cell_size apart, m. Throws ExcUser if the layer
+  /// has no thickness anywhere. Returns a remark if the lower surface lies
+  /// above the upper surface somewhere; empty otherwise, and for other shapes.
   template <int dim>
   std::string
   check_layer_surfaces(const Body<dim> &body,

@@ -15,8 +15,8 @@
 
 namespace talus
 {
-  /// Gravity, turned by the slope angle, the motion of the ground, and a body
-  /// force by expression.
+  /// Gravity, turned by the slope angle, motion of the ground, and a body force
+  /// by expression.
   template <int dim>
   class Loading
   {
@@ -24,16 +24,15 @@ namespace talus
     /// Paths of tables start in @p folder.
     explicit Loading(const std::filesystem::path &folder);
 
-    /// To be called after parsing: gravity of each of @p n_bodies bodies, in a
-    /// run to @p end_time, s. Throws ExcUser.
+    /// Compute gravity for each of @p n_bodies bodies, in a run to @p end_time,
+    /// s. Call after parsing. Throws ExcUser.
     void
     prepare(const Materials<dim> &materials,
             unsigned int          n_bodies,
             const Constants      &constants,
             double                end_time);
 
-    /// Set the accelerations at time @p t, s; to be called before loads() are
-    /// used.
+    /// Set the accelerations at time @p t, s. Call before loads().
     void
     update(const Points<dim> &points, double t);
 
@@ -43,17 +42,17 @@ namespace talus
       return loads_;
     }
 
-    /// Acceleration of gravity when it is full, m/s^2: x points down the slope,
-    /// y away from it.
+    /// Acceleration of full gravity, m/s^2; x points down the slope, y away
+    /// from the slope.
     dealii::Tensor<1, dim>
     gravity() const;
 
-    /// Share of it that acts at time @p t, s.
+    /// Ratio of gravity at time @p t, s, to full gravity [-].
     double
     share_of_gravity(double t) const;
 
-    /// When the accelerations stop to change in time, s; infinity if there is a
-    /// body force by expression.
+    /// Time after which accelerations are constant, s; infinity with a body
+    /// force by expression.
     double
     time_of_last_change() const
     {

@@ -10,8 +10,8 @@
 
 namespace talus
 {
-  /// The upper surface of the soil at the start: where, coming down from the top
-  /// of the mesh along y, one first meets a body.
+  /// Upper surface of the soil at the start: the first soil met on the way down
+  /// from the top of the mesh along y.
   template <int dim>
   class Mudline
   {
@@ -24,13 +24,13 @@ namespace talus
       , domain_(domain)
     {}
 
-    /// Depth below it of @p x in a body, m, right to 1e-12 of the mesh; 0 if
-    /// there is no soil from @p x upwards.
+    /// Return the depth of @p x, in a body, below the mudline, m, accurate to
+    /// 1e-12 of the mesh; 0 without soil from @p x upwards.
     double
     depth(const dealii::Point<dim> &x) const;
 
-    /// Height of the mudline in the vertical through @p x, m, with the accuracy
-    /// of depth(); not a number if this vertical meets no soil in the mesh.
+    /// Return the height of the mudline in the vertical through @p x, m, with
+    /// the accuracy of depth(); NaN if the vertical has no soil in the mesh.
     double
     height(const dealii::Point<dim> &x) const;
 
@@ -48,7 +48,7 @@ namespace talus
 
 
 
-  /// That of @p bodies in a mesh that fills @p domain.
+  /// Return the mudline of @p bodies in a mesh that fills @p domain.
   template <int dim>
   Mudline<dim>
   mudline_of(const std::vector<std::unique_ptr<Body<dim>>> &bodies,

@@ -10,16 +10,16 @@
 
 namespace talus
 {
-  /// What must be known before the parameters can be declared.
+  /// Data needed before the parameters can be declared.
   struct ParameterPreview
   {
     unsigned int              dimension = 2;
     std::vector<std::string>  bodies;
-    std::vector<std::string>  obstacles; ///< may be none
-    std::vector<std::string>  surfaces;  ///< may be none
+    std::vector<std::string>  obstacles; ///< possibly empty
+    std::vector<std::string>  surfaces;  ///< possibly empty
     std::vector<MaterialName> materials;
-    std::filesystem::path     folder;  ///< of the parameter file
-    std::vector<std::string>  remarks; ///< on what the file says
+    std::filesystem::path     folder;  ///< folder of the parameter file
+    std::vector<std::string>  remarks; ///< remarks on the content of the file
   };
 } // namespace talus
 

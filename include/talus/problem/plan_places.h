@@ -9,7 +9,7 @@
 namespace talus
 {
   /// Return places on the bottom of @p domain, about @p distance apart, m: the
-  /// centres of the cells of its plan.
+  /// centres of the cells of a lattice in plan.
   template <int dim>
   std::vector<dealii::Point<dim>>
   plan_places(const Box<dim> &domain, double distance);

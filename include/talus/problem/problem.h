@@ -27,25 +27,28 @@
 
 namespace talus
 {
-  /// What is simulated: bodies of soil and what they are made of, what bounds
-  /// and loads them, and what sets them in motion.
+  /// Physical problem: bodies of soil with materials, boundaries and loads, and
+  /// the trigger of the motion.
   template <int dim>
   class Problem : public dealii::ParameterAcceptor
   {
   public:
     explicit Problem(const ParameterPreview &preview);
 
-    /// To be called after parsing. Throws ExcUser if parameters contradict each
-    /// other. Declares the columns that laws and trigger need, and that of the
-    /// strength factor also if somebody else @p changes_strength. @p origin of the
-    /// mesh on the map: easting, northing, height, m.
+    /// Prepare all parts; call after parsing. Declares the columns needed by
+    /// laws and trigger. Throws ExcUser if parameters contradict each other.
+    /// @param points get the columns
+    /// @param changes_strength whether a further object needs the strength
+    ///   factor
+    /// @param end_time end of the run, s
+    /// @param origin of the mesh on the map: easting, northing, height, m
     void
     prepare(Points<dim>            &points,
             bool                    changes_strength,
             double                  end_time,
             const dealii::Point<3> &origin);
 
-    /// Open the accounts of all that exchanges energy with the soil; to be called
+    /// Open the accounts of all parts that exchange energy with the soil. Call
     /// after prepare().
     void
     open_accounts(Accounts<dim> &accounts)
@@ -54,28 +57,30 @@ namespace talus
       accounts.open_energy("gravity work", Accounts<dim>::EnergyKind::supplied);
     }
 
-    /// Fill the bodies with points and set all they start with. Points are in
-    /// no order then. Collective.
+    /// Fill the bodies with points and set the initial state. Points are
+    /// unordered afterwards. Collective.
     void
     create_points(State<dim> &state);
 
-    /// Set the velocities that the points start with to those of time @p t, s.
+    /// Set the initial velocities of the points to the velocities at time @p t,
+    /// s.
     void
     set_velocity(Points<dim> &points, double t) const;
 
-    /// Whether these are those of half a step before the start.
+    /// Return whether initial velocities are given half a step before the
+    /// start.
     bool
     has_velocity_of_half_step() const
     {
       return initial_velocity_time_ == "half step";
     }
 
-    /// Whether each face of the mesh may be moved outwards: those that are free,
-    /// and not of outflow.
+    /// Return for each face of the mesh whether the face may be moved outwards:
+    /// free faces without outflow.
     std::array<bool, 2 * dim>
     faces_that_may_move() const;
 
-    /// The least of the bodies, kg/m^3.
+    /// Minimum density of the bodies, kg/m^3.
     double
     min_density() const;
 
@@ -86,15 +91,15 @@ namespace talus
     std::vector<Box<dim>>
     bounding_boxes(const Box<dim> &domain) const;
 
-    /// For which bodies the dilatation is averaged over the cells.
+    /// Return for each body whether the dilatation is averaged over the cells.
     std::vector<bool>
     bodies_with_bbar() const;
 
-    /// Whether a body is made of a hyperelastic law.
+    /// Return whether a body is made of a hyperelastic law.
     bool
     has_hyperelastic_body() const;
 
-    /// Whether soil can slide on something: a face that is a seabed, or an
+    /// Return whether soil can slide on a surface: a seabed face, or an
     /// obstacle.
     bool
     has_seabed() const
@@ -102,8 +107,8 @@ namespace talus
       return boundaries.has_seabed() || !obstacles.empty();
     }
 
-    /// From now on all that resists sliding there is @p factor times its
-    /// parameter [-].
+    /// Multiply all resistance to sliding on seabed and obstacles by @p factor
+    /// [-], relative to the parameters.
     void
     scale_seabed_strength(const double factor)
     {
@@ -111,19 +116,18 @@ namespace talus
       obstacles.scale_strength(factor);
     }
 
-    /// When loads and strengths stop to change in time, s; infinity if an
-    /// obstacle moves, or where walls or tractions follow expressions.
+    /// Time after which loads and strengths are constant, s; infinity if an
+    /// obstacle moves, or if walls or tractions follow expressions.
     double
     time_of_last_change() const;
 
-    /// Sentences for the log at the start of a run: what follows from the
-    /// parameters, as meant.
+    /// Return sentences for the log at the start of a run: intended
+    /// consequences of the parameters.
     std::vector<std::string>
     facts() const;
 
-    /// Sentences on what the user may not have meant, or what the results
-    /// suffer from, on cells of @p cell_size m. To be called after
-    /// create_points().
+    /// Return remarks on possible mistakes in the input, and on impairments of
+    /// the results, for cells of @p cell_size, m. Call after create_points().
     std::vector<std::string>
     remarks(double cell_size) const;
 
@@ -134,8 +138,8 @@ namespace talus
       return thickness_of_bodies_;
     }
 
-    /// Find what depends on cells and nodes; to be called after each change of
-    /// the mesh or its partition. Collective.
+    /// Update all data that depend on cells and nodes. Call after each change
+    /// of the mesh or of the partition. Collective.
     void
     locate(const Grid<dim> &grid)
     {
@@ -143,9 +147,9 @@ namespace talus
       interactions.prepare(grid);
     }
 
-    /// Height of the mudline of the start, m, in the vertical through a place,
-    /// not a number where there is no soil. Empty if points do not start where
-    /// their bodies are. To be called after locate().
+    /// Return a function for the height of the initial mudline, m, in the
+    /// vertical through a place; NaN where there is no soil. Empty if bodies
+    /// are displaced at the start. Call after locate().
     std::function<double(const dealii::Point<dim> &)>
     mudline() const;
 
@@ -181,30 +185,32 @@ namespace talus
     void
     find_mudline(const Grid<dim> &grid);
 
-    Constants                               constants_;
-    std::filesystem::path                   folder_; ///< of the parameters
+    Constants             constants_;
+    std::filesystem::path folder_; ///< folder of the
+                                   ///< parameters
     std::string                             initial_velocity_time_ = "start";
     std::vector<std::string>                listed_names_;
     Surfaces<dim>                           surfaces_;
     std::vector<std::unique_ptr<Body<dim>>> bodies_;
     std::vector<InputFile>                  strength_tables_;
-    std::shared_ptr<const Mudline<dim>>     mudline_; ///< of the start
-    std::vector<std::string>                remarks_; ///< on the initial state
-    std::vector<BodyThickness>              thickness_of_bodies_;
+    std::shared_ptr<const Mudline<dim>>     mudline_; ///< mudline at the start
+    std::vector<std::string>                remarks_; ///< remarks on the
+                                                      ///< initial state
+    std::vector<BodyThickness> thickness_of_bodies_;
 
   public:
-    // The parts, for those who work with them.
+    // Parts of the problem, for direct use.
     Materials<dim> materials;
     Obstacles<dim> obstacles;
     Loading<dim>   loading;
     Trigger<dim>   trigger;
 
-    /// Everything that acts at the nodes; the references below lead to those
-    /// members of the list that other parts of the program ask by themselves.
+    /// All interactions at the nodes; the references below lead to members of
+    /// the list that are used directly.
     NodalInteractions<dim> interactions;
     Boundaries<dim>       &boundaries;
     SeabedCoverage<dim>   &seabed_coverage;
-    FacetContact<dim>     &contact; ///< with the obstacles
+    FacetContact<dim>     &contact; ///< contact with obstacles
     Damping<dim>          &damping;
     Water<dim>            &water;
   };

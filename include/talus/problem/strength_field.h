@@ -14,9 +14,10 @@ namespace talus
 {
   /// Set the column `undrained shear strength` of all points, if there is one:
   /// by the number, the expression of place and depth, or the table of the
-  /// material of each body. Bodies lie in a mesh that fills @p domain; tables
-  /// are in @p folder. Throws ExcUser if the strength of a point is not
-  /// positive, or softening is too quick for its stiffness. Collective.
+  /// material of each body. Throws ExcUser if the strength of a point is not
+  /// positive, or softening is too fast for the stiffness. Collective.
+  /// @param folder folder of the tables
+  /// @param domain domain of the mesh
   template <int dim>
   void
   set_undrained_strength(Points<dim>                                   &points,
@@ -29,8 +30,8 @@ namespace talus
 
 
 
-  /// The tables, in @p folder, that strengths of the materials of @p n_bodies
-  /// bodies are in, each once.
+  /// Return the tables in @p folder for the strengths of the materials of
+  /// @p n_bodies bodies, each table once.
   template <int dim>
   std::vector<InputFile>
   tables_of_strength(const Materials<dim>        &materials,

@@ -9,7 +9,7 @@
 
 namespace talus
 {
-  /// Lets the trigger weaken seabeds and surfaces of obstacles: multiplies the
+  /// Weakens seabeds and surfaces of obstacles by the trigger: multiplies the
   /// maximum shear stresses by the trigger's factor at the end of the step, as
   /// the trigger does with the strength of the points.
   template <int dim>

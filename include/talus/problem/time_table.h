@@ -9,25 +9,24 @@
 
 namespace talus
 {
-  /// Quantities as functions of time, given by the rows of a CSV file. Its first
-  /// line names the columns, each with its unit: `time [s]` and some of those
-  /// that the reader knows, in any order. Empty lines and those that begin with
-  /// # do not count. Between the rows the values are linear in time. In the place
-  /// of the time there may be another quantity, as the depth.
+  /// Quantities as functions of time, given by the rows of a CSV file. The
+  /// first line names the columns with units: `time [s]` and some of the known
+  /// columns, in any order. Empty lines and lines beginning with # are ignored.
+  /// Values are linear in time between the rows. The abscissa may be another
+  /// quantity, for instance the depth.
   class TimeTable
   {
   public:
-    /// Read the file. Throws ExcUser, naming file and line, if it cannot be
-    /// read, if a column is missing, unknown or there twice, if an entry is not
-    /// a finite number, if times do not ascend, or if there are less than two
-    /// rows.
-    /// @p abscissa is what values are functions of: its name, and its unit.
+    /// Read the file. Throws ExcUser, with file and line, if it cannot be read,
+    /// if a column is missing, unknown or repeated, if an entry is not a finite
+    /// number, if times do not ascend, or if there are less than two rows.
+    /// @param abscissa name and unit of the abscissa
     TimeTable(const std::filesystem::path               &file,
               const std::vector<std::string>            &known_columns,
               const std::pair<std::string, std::string> &abscissa = {"time",
                                                                      "s"});
 
-    /// True if the file has column @p column of those that are known.
+    /// Return whether the file has the known column @p column.
     bool
     has(const unsigned int column) const
     {
@@ -46,11 +45,12 @@ namespace talus
       return times_.back();
     }
 
-    /// Value at time @p t, s; before the first and after the last row as there.
+    /// Return the value at time @p t, s; constant before the first and after
+    /// the last row.
     double
     value(unsigned int column, double t) const;
 
-    /// Checksum of the file's content.
+    /// Checksum of the content of the file.
     const std::string &
     checksum() const
     {
@@ -70,7 +70,8 @@ namespace talus
     void
     read_row(const std::string &line, const std::string &place);
 
-    std::string                      name_, unit_;   ///< of the abscissa
+    std::string name_, unit_;                        ///< name and unit of the
+                                                     ///< abscissa
     std::vector<double>              times_;         ///< s
     std::vector<std::vector<double>> values_;        ///< by known column
     std::vector<unsigned int>        known_of_read_; ///< invalid: the time

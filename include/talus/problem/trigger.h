@@ -13,60 +13,65 @@
 
 namespace talus
 {
-  /// What sets a slope that is at rest in motion: within a given time the
-  /// strength of some soil, or the shear stress that the seabed bears, falls to
-  /// a fraction. How far it has fallen is a function of time alone, so that a
-  /// resumed run goes on as it would have.
+  /// Trigger of the motion of a slope at rest: within a given time the strength
+  /// of some soil, or the maximum shear stress of the seabed, falls to a
+  /// fraction. The progress is a function of time alone: a resumed run
+  /// continues unchanged.
   template <int dim>
   class Trigger : public dealii::ParameterAcceptor
   {
   public:
     Trigger();
 
-    /// To be called after parsing. Throws ExcUser if the parameters contradict
-    /// each other or what they are to act on: the bodies, their materials,
-    /// whether a seabed or obstacle limits the shear stress, and the end time, s.
+    /// Call after parsing. Throws ExcUser if the parameters contradict each
+    /// other, the bodies, the materials or the limits of shear stress.
+    /// @param names_of_bodies all bodies
+    /// @param materials materials of the bodies
+    /// @param has_shear_stress_limit whether a seabed or obstacle limits the
+    ///   shear stress
+    /// @param end_time end of the run, s
     void
     check(const std::vector<std::string> &names_of_bodies,
           const Materials<dim>           &materials,
           bool                            has_shear_stress_limit,
           double                          end_time);
 
-    /// True if it needs the strength factor of the points.
+    /// Return whether the trigger needs the strength factor of the points.
     bool
     changes_strength() const
     {
       return strength_fraction_ != 1.;
     }
 
-    /// Declare the column that says which points become weaker, if any do.
+    /// Declare the column that marks the weakened points, if any.
     void
     add_columns(Points<dim> &points);
 
-    /// Decide, by the initial places of the newly made points, which of them
-    /// become weaker; children of a split follow their parent. Throws ExcUser
-    /// if none does. Collective.
+    /// Mark the points to be weakened, by the initial places of the new points;
+    /// children of a split follow the parent. Throws ExcUser if there is no
+    /// point to be weakened. Collective.
     void
     choose_points(Points<dim>     &points,
                   const Constants &constants,
                   MPI_Comm         communicator) const;
 
-    /// Set the strength factors, in column @p strength_factor, to those of time
-    /// @p now, s, if they differ from those of time @p before.
+    /// Set the strength factors at time @p now, s, unless unchanged since time
+    /// @p before, s. @p strength_factor is the column of the points.
     void
     update(Points<dim> &points,
            unsigned int strength_factor,
            double       before,
            double       now) const;
 
-    /// Share of its maximum shear stress that the seabed bears at time @p t, s.
+    /// Fraction of the maximum shear stress of the seabed at time @p t, s [-].
     double
     seabed_factor(const double t) const
     {
       return 1. - progress(t) * (1. - seabed_fraction_);
     }
 
-    /// When strengths have fallen as far as they will, s; 0 without a trigger.
+    /// Time at which strengths have reached the final values, s; 0 without a
+    /// trigger.
     double
     end_time() const
     {
@@ -75,12 +80,12 @@ namespace talus
                : 0.;
     }
 
-    /// What the log should say of it: a sentence, or nothing.
+    /// Return a sentence on the trigger for the log, or nothing.
     std::string
     note() const;
 
   private:
-    /// How far strengths have fallen at time @p t, s: from 0 to 1.
+    /// Progress of the loss of strength at time @p t, s: from 0 to 1 [-].
     double
     progress(double t) const;
     void

@@ -31,7 +31,7 @@ namespace talus
     note(const State<dim> &state, const Problem<dim> &problem) const;
 
   private:
-    std::vector<double> square_; ///< of the displacement by point
+    std::vector<double> square_; ///< squared displacement by point
   };
 } // namespace talus
 

@@ -68,9 +68,9 @@ namespace talus
     double ratio_    = 1e-3;
     double duration_ = 5.; ///< s
 
-    double next_look_   = 0.; ///< of the next check, s
-    double peak_energy_ = 0.; ///< of the grid, J
-    double energy_      = 0.; ///< of the grid at the last check, J
+    double next_look_   = 0.; ///< time of the next check, s
+    double peak_energy_ = 0.; ///< maximum kinetic energy of the grid, J
+    double energy_      = 0.; ///< grid energy at the last check, J
     double quiet_since_ = std::numeric_limits<double>::max(); ///< time, s
     Extent extent_; ///< at the time quiet_since_
     bool   has_slid_   = false;

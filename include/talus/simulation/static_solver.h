@@ -82,7 +82,7 @@ namespace talus
     /// State of points and contact, modified by a search.
     struct Saved
     {
-      std::vector<std::vector<double>> columns; ///< of the points
+      std::vector<std::vector<double>> columns; ///< columns of the points
       StaticContact<dim>               contact;
       std::vector<double>              facet_forces;
     };

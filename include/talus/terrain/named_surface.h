@@ -15,7 +15,7 @@
 
 namespace talus
 {
-  /// A surface that the user has given a name to: the raster of a file, an
+  /// Surface with a name given by the user: the raster of a file, an
   /// expression, or the distance from an outline.
   template <int dim>
   class NamedSurface : public dealii::ParameterAcceptor
@@ -29,7 +29,8 @@ namespace talus
       return name_;
     }
 
-    /// Whether it is an expression, which may name others.
+    /// Return whether the surface is an expression, possibly in earlier
+    /// surfaces.
     bool
     is_expression() const
     {
@@ -42,7 +43,7 @@ namespace talus
       return !file_.empty();
     }
 
-    /// Of the raster, from @p folder.
+    /// Return the path of the file, from @p folder.
     std::filesystem::path
     file(const std::filesystem::path &folder) const
     {
@@ -55,8 +56,8 @@ namespace talus
       return expression_;
     }
 
-    /// Return the map that the file is brought to, in the user's words; empty if
-    /// it is used as it is.
+    /// Return the name of the map to which the file is projected; empty if the
+    /// file is used unchanged.
     const std::string &
     projection() const
     {
@@ -69,23 +70,23 @@ namespace talus
       return "'Surfaces/" + name_ + "/" + entry + "'";
     }
 
-    /// Throw ExcUser unless the user has said in one way what the surface is.
+    /// Throw ExcUser unless exactly one description of the surface is given.
     void
     check_entries() const;
 
-    /// Read the raster, from @p folder, or the outline. @p origin of the mesh on
-    /// the map: easting, northing, height, m. Throws ExcUser.
+    /// Read the raster, from @p folder, or the outline. @p origin of the mesh
+    /// on the map: easting, northing, height, m. Throws ExcUser.
     std::shared_ptr<const Surface<dim>>
     read(const std::filesystem::path &folder,
          const dealii::Point<3>      &origin) const;
 
-    /// Corners of the line on the map along which the raster is cut, 2-D only.
-    /// Throws ExcUser if it is none.
+    /// Return the corners of the line on the map along which the raster is cut,
+    /// 2-D only. Throws ExcUser if the entry is no line.
     std::vector<dealii::Point<2>>
     section() const;
 
-    /// Return the code of the map in `Projection`; empty if there is none. Throws
-    /// ExcUser if it is no map in metres.
+    /// Return the code of the map in `Projection`; empty without the entry.
+    /// Throws ExcUser unless the map is in metres.
     std::string
     map() const;
 

@@ -10,10 +10,11 @@
 
 namespace talus
 {
-  /// Place in the axes of the mesh, m, with y = 0, from the text @p place of the
-  /// parameter @p entry: 'x' in 2-D, 'x, z' or 'easting, northing' in 3-D, all in
-  /// m. @p origin is that of the mesh on the map. Throws ExcUser, naming the
-  /// entry, if these are not the numbers expected.
+  /// Return the place in the axes of the mesh, m, with y = 0, from the text
+  /// @p place of the parameter @p entry: 'x' in 2-D, 'x, z' or 'easting,
+  /// northing' in 3-D, all in m. @p origin of the mesh on the map. Throws
+  /// ExcUser, with the name of the entry, unless @p place lists the expected
+  /// numbers.
   template <int dim>
   dealii::Point<dim>
   parse_plan_place(const std::string      &entry,

@@ -16,9 +16,8 @@
 
 namespace talus
 {
-  /// The surfaces of a case, section Surfaces, which may have none: seabeds,
-  /// slip surfaces, boundaries between layers, for whatever is described by
-  /// them.
+  /// Surfaces of a case, section Surfaces, possibly none: seabeds, slip
+  /// surfaces, boundaries between layers, for use in shapes and expressions.
   template <int dim>
   class Surfaces : public dealii::ParameterAcceptor, public SurfaceSource<dim>
   {
@@ -26,8 +25,8 @@ namespace talus
     /// @p names must be known before the parameters are declared.
     explicit Surfaces(const std::vector<std::string> &names);
 
-    /// To be called after parsing: reads the files, from @p folder. @p origin of
-    /// the mesh on the map: easting, northing, height, m. Throws ExcUser.
+    /// Read the files, from @p folder; call after parsing. @p origin of the
+    /// mesh on the map: easting, northing, height, m. Throws ExcUser.
     void
     prepare(const Constants             &constants,
             const std::filesystem::path &folder,
@@ -49,27 +48,27 @@ namespace talus
     std::vector<dealii::Point<2>>
     read_route(const std::string &path, const std::string &file) const override;
 
-    /// Sentences for the log: where projected rasters lie on the map.
+    /// Return sentences for the log on the places of projected rasters on the
+    /// map.
     std::vector<std::string>
     notes() const;
 
-    /// In 2-D, a remark for each section of a raster that rises from x = @p from
-    /// to @p to, the range of the soil, m.
+    /// In 2-D, return a remark for each section of a raster that rises from x =
+    /// @p from to @p to, the range of the soil, m.
     std::vector<std::string>
     notes_on_rising(double from, double to) const;
 
-    /// Rasters and routes must be the same when the run is resumed.
+    /// Add rasters and routes to the state: a resumed run needs the same files.
     void
     list_state(StateList &list) const;
 
-    /// The raster that the surface @p name was read from; without a name, that
-    /// of the first surface that has one. Null if there is none.
+    /// Return the raster of the surface @p name; without a name, of the first
+    /// surface with a raster. Null if there is none.
     const Raster *
     raster(const std::string &name = "") const;
 
   private:
-    /// Return the code of the map that files are brought to; empty if there is
-    /// none.
+    /// Return the code of the map of projected files; empty if there is none.
     std::string
     map() const;
 
@@ -80,7 +79,7 @@ namespace talus
     std::vector<typename ExpressionSurface<dim>::Named> surfaces_;
     std::filesystem::path                               folder_;
     std::vector<InputFile>                              files_;
-    mutable std::vector<InputFile> routes_; ///< that were read
+    mutable std::vector<InputFile> routes_; ///< routes read so far
   };
 } // namespace talus
 

@@ -18,13 +18,13 @@ namespace talus
   public:
     struct OutgoingPoint
     {
-      unsigned int index; ///< of the point
+      unsigned int index; ///< index of the point
       unsigned int cell;  ///< ghost cell
     };
 
     struct IncomingPoint
     {
-      unsigned int index; ///< of the appended point
+      unsigned int index; ///< index of the appended point
       unsigned int cell;  ///< owned cell
     };
 

@@ -66,7 +66,7 @@ namespace talus
     /// Plane of the bed near a point.
     struct Plane
     {
-      double                 distance; ///< of the point, m
+      double                 distance; ///< distance of the point, m
       dealii::Tensor<1, dim> normal;   ///< out of the bed
     };
 

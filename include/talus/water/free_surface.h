@@ -18,12 +18,12 @@ namespace talus
   {
     static constexpr unsigned int n_nodes = power(2, dim);
 
-    std::array<unsigned int, n_nodes> node;  ///< of the cell
-    std::array<double, n_nodes>       share; ///< of the force, by node [-]
+    std::array<unsigned int, n_nodes> node;  ///< nodes of the cell
+    std::array<double, n_nodes>       share; ///< fraction of the force [-]
     dealii::Tensor<1, dim> vector_area; ///< integral of the outward normal,
                                         ///< m^(dim-1)
     dealii::Tensor<1, dim> normal;      ///< unit, outwards, from cells around
-    dealii::Tensor<1, dim> velocity;    ///< of the soil, before the step, m/s
+    dealii::Tensor<1, dim> velocity;    ///< soil velocity before step, m/s
   };
 
 

@@ -264,7 +264,7 @@ namespace gdal_raster_test
   TEST_F(GdalRasterTest, RefusesGeotiffThatIsNoMapInMetres)
   {
     write_tiff(path, nullptr);
-    expect_refused("where it lies on the map");
+    expect_refused("has no georeference");
     const Frame turned = {{12000., 200., 10., 42300., 10., -100.}};
     write_tiff(path, &turned);
     expect_refused("lies askew");
@@ -331,7 +331,7 @@ namespace gdal_raster_test
   TEST_F(GdalRasterTest, RefusesNetcdfWithoutHeights)
   {
     NetcdfWriter(path, "x", {1., 2., 4.}, "y", {1., 2.}).add("z", GDT_Float64);
-    expect_refused("cells that are evenly spaced");
+    expect_refused("evenly spaced cells");
     // A column is missing, where GDAL itself does not look.
     std::vector<double> x(15);
     std::iota(x.begin(), x.begin() + 10, 0.);

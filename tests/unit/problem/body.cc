@@ -201,7 +201,7 @@ namespace
     expect(error<2>({box("0.1, 0.1", "0.2, 0.2") + centres}), "got no points");
     expect(error<2>({box("2, 0", "1, 1")}), "must lie above");
     expect(error<3>({polygon("0,0; 1,0; 1,1; 0,1") + "set Extent in z = 3, 1"}),
-           "'Bodies/0/Extent in z' = '3, 1' ends before it begins");
+           "'Bodies/0/Extent in z' = '3, 1' ends before the beginning");
     expect(error<3>({box("0, 0, 0", "1, 1, 1") +
                      "set Points per cell and axis = 2, 3"}),
            "lists 2 numbers; give one, or one for each of the 3 axes");
@@ -361,8 +361,8 @@ namespace
     WithBodies<2>      all({box("0, 0", "4, 2") + clipped});
     EXPECT_EQ(
       fill_down_to(bed, all),
-      "The obstacles take 4 m^2 of the body '0', 50 % of it: no soil is "
-      "put into them.");
+      "The obstacles take 4 m^2 of the body '0', 50 % of the body: no soil "
+      "is put into obstacles.");
     EXPECT_NEAR(all.sum(all.points.reference_volume), 4. * (2. - 1.), 1e-12);
     for (unsigned int p = 0; p < all.points.size(); ++p)
       EXPECT_GT(bed.signed_distance(Point<2>(all.get(all.points.position, p))),

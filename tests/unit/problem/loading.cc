@@ -178,7 +178,7 @@ namespace
     };
     expect(error(shaken, "time [s],horizontal [m/s^2]\n0,1\n1,0\n"),
            "begins at t = 10 s of the run with 2 m/s^2 in the column "
-           "'horizontal [m/s^2]', so that the ground would jump into motion");
+           "'horizontal [m/s^2]': the ground would jump into motion");
     expect(error(shaken, "time [s],across [m/s^2]\n0,0\n1,1\n"),
            "but the simulation is two-dimensional");
     expect(error(in_section("Ground motion", "set Factor = 2"), ""),

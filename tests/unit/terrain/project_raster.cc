@@ -72,7 +72,7 @@ TEST(UtmZone, Codes)
         error([&] { epsg_code("'Projection'", name); });
       EXPECT_NE(sentence.find("'Projection' = '" + name +
                               "' was found, where a "
-                              "UTM zone from 1 to 60 and its hemisphere"),
+                              "UTM zone from 1 to 60 and a hemisphere"),
                 std::string::npos)
         << sentence;
     }
