@@ -5,6 +5,7 @@
 #include <talus/io/input_file.h>
 #include <talus/materials/materials.h>
 #include <talus/problem/body.h>
+#include <talus/problem/inputs.h>
 
 #include <filesystem>
 #include <memory>
@@ -15,17 +16,16 @@ namespace talus
   /// Set the column `undrained shear strength` of all points, if there is one:
   /// by the number, the expression of place and depth, or the table of the
   /// material of each body. Bodies lie in a mesh that fills @p domain; tables
-  /// are in @p folder. Throws ExcUser if the strength of a point is not
-  /// positive, or softening is too quick for its stiffness. Collective.
+  /// are in the folder of @p inputs. Throws ExcUser if the strength of a point
+  /// is not positive, or softening is too quick for its stiffness. Collective.
   template <int dim>
   void
   set_undrained_strength(Points<dim>                                   &points,
                          const std::vector<std::unique_ptr<Body<dim>>> &bodies,
-                         const Materials<dim>        &materials,
-                         const Constants             &constants,
-                         const std::filesystem::path &folder,
-                         const Box<dim>              &domain,
-                         MPI_Comm                     communicator);
+                         const Materials<dim> &materials,
+                         const Inputs<dim>    &inputs,
+                         const Box<dim>       &domain,
+                         MPI_Comm              communicator);
 
 
 
