@@ -273,19 +273,17 @@ namespace talus
     UnsplitPoints count;
     if (!enabled_)
       return count;
-    for (const Segment &segment : points.segments())
-      for (unsigned int p = segment.begin; p < segment.end; ++p)
-        {
-          double             cell_size;
-          const unsigned int axes =
-            required_axes(points, grid, p, rule, segment.cell, cell_size);
-          if (axes == 0)
-            count.at_length_limit += is_stretched(points, p);
-          else if (points.data(points.generation)[p] >= maximum_generation_)
-            ++count.at_generation_limit;
-          else if (!children_may_stay(points, p, axes, cell_size, grid, rule))
-            ++count.at_mesh_limit;
-        }
+    points.for_each_point([&](const Segment &segment, const unsigned int p) {
+      double             cell_size;
+      const unsigned int axes =
+        required_axes(points, grid, p, rule, segment.cell, cell_size);
+      if (axes == 0)
+        count.at_length_limit += is_stretched(points, p);
+      else if (points.data(points.generation)[p] >= maximum_generation_)
+        ++count.at_generation_limit;
+      else if (!children_may_stay(points, p, axes, cell_size, grid, rule))
+        ++count.at_mesh_limit;
+    });
     for (unsigned long *number : {&count.at_generation_limit,
                                   &count.at_mesh_limit,
                                   &count.at_length_limit})
@@ -369,17 +367,16 @@ namespace talus
       return cell.size * (cell.uniform ? 1. : 0.5);
     };
     double least = std::numeric_limits<double>::max(), most = 0;
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+    for (const Segment &segment : points.segments(batch))
       {
-        const double size = min_size(points.segments()[s]);
+        const double size = min_size(segment);
         least             = std::min(least, size);
         most              = std::max(most, size);
       }
     if (least == most && !may_exceed(points, batch.begin, batch.end, least))
       return;
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+    for (const Segment &segment : points.segments(batch))
       {
-        const Segment &segment = points.segments()[s];
         if (!may_exceed(points, segment.begin, segment.end, min_size(segment)))
           continue;
         for (unsigned int p = segment.begin; p < segment.end; ++p)

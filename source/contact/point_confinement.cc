@@ -50,21 +50,19 @@ namespace talus
     if (obstacles_.empty())
       return;
     const Points<dim> &points = state.points;
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
-      note_contained(state, points.segments()[s]);
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+    for (const Segment &segment : points.segments(batch))
+      note_contained(state, segment);
+    for (const Segment &segment : points.segments(batch))
       facets_.for_each_in_cell(
-        points.segments()[s].cell, [&](const ContactFacet<dim> &facet) {
-          for (unsigned int p = points.segments()[s].begin;
-               p < points.segments()[s].end;
-               ++p)
+        segment.cell, [&](const ContactFacet<dim> &facet) {
+          for (unsigned int p = segment.begin; p < segment.end; ++p)
             {
               const Point<dim> x = load_place(points, points.position, p);
               const double     later =
                 2. * state.time_step *
                 (load_vector(points, points.velocity, p) * facet.normal);
               const Tensor<1, dim> half =
-                half_lengths_in_cell(state, points.segments()[s].cell, p);
+                half_lengths_in_cell(state, segment.cell, p);
               if (distance_from_plane(facet, x) + std::min(0., later) <
                   facet.deviation + support_of_box(half, facet.normal))
                 candidates_.push_back({p, facet.obstacle, &facet, x, half});

@@ -182,11 +182,7 @@ namespace talus
     {
       const Points<dim> &points = state.points;
       if (state.constants.box_shape.rule == BoxRule::convected_domain)
-        return points.data(points.reference_volume)[p] *
-               determinant(load_matrix<dim, double>(points,
-                                                    points.deformation_gradient,
-                                                    p)) /
-               (2. * half[axis]);
+        return volume_of_points<dim, double>(points, p) / (2. * half[axis]);
       double area = 1.;
       for (unsigned int d = 0; d < dim; ++d)
         if (d != axis)

@@ -92,16 +92,11 @@ namespace talus
     const Points<dim> &points = problem.state.points;
     volumes_.resize(points.size());
     volumes_of_mean_.resize(points.size());
-    for (const Segment &segment : points.segments())
-      for (unsigned int p = segment.begin; p < segment.end; ++p)
-        {
-          volumes_[p] =
-            points.data(points.reference_volume)[p] *
-            determinant(
-              load_matrix<dim, double>(points, points.deformation_gradient, p));
-          volumes_of_mean_[p] =
-            problem.transfer.uses_bbar(segment.body) ? volumes_[p] : 0.;
-        }
+    points.for_each_point([&](const Segment &segment, const unsigned int p) {
+      volumes_[p] = volume_of_points<dim, double>(points, p);
+      volumes_of_mean_[p] =
+        problem.transfer.uses_bbar(segment.body) ? volumes_[p] : 0.;
+    });
   }
 
 

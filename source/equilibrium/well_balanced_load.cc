@@ -100,16 +100,11 @@ namespace talus
   {
     const Points<dim>  &points = problem.state.points;
     std::vector<double> sums(2, 0.); // weight, volume
-    for (const Segment &segment : points.segments())
-      for (unsigned int p = segment.begin; p < segment.end; ++p)
-        {
-          sums[0] -= points.data(points.mass)[p] *
-                     problem.loads.acceleration_of_body[segment.body][1];
-          sums[1] +=
-            points.data(points.reference_volume)[p] *
-            determinant(
-              load_matrix<dim, double>(points, points.deformation_gradient, p));
-        }
+    points.for_each_point([&](const Segment &segment, const unsigned int p) {
+      sums[0] -= points.data(points.mass)[p] *
+                 problem.loads.acceleration_of_body[segment.body][1];
+      sums[1] += volume_of_points<dim, double>(points, p);
+    });
     Utilities::MPI::sum(sums, problem.state.grid.communicator(), sums);
     return sums[1] > 0. ? sums[0] / sums[1] : 0.;
   }
@@ -128,10 +123,7 @@ namespace talus
     gradient_.resize(points.size());
     for (unsigned int p = 0; p < points.size(); ++p)
       {
-        volume_[p] =
-          points.data(points.reference_volume)[p] *
-          determinant(
-            load_matrix<dim, double>(points, points.deformation_gradient, p));
+        volume_[p]          = volume_of_points<dim, double>(points, p);
         const auto   x      = load_place(points, points.position, p);
         const double height = problem.mudline(x);
         // Also true if the height is not a number.

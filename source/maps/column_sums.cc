@@ -51,12 +51,11 @@ namespace talus
   bool
   ColumnSums<dim>::may_reach(const State<dim> &state, const Batch &batch) const
   {
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+    for (const Segment &segment : state.points.segments(batch))
       {
-        const Cell<dim> &cell =
-          state.grid.cells()[state.points.segments()[s].cell];
-        const double margin = 0.5 * longest_box(state, cell.size);
-        Box<dim>     reach  = cell.box();
+        const Cell<dim> &cell   = state.grid.cells()[segment.cell];
+        const double     margin = 0.5 * longest_box(state, cell.size);
+        Box<dim>         reach  = cell.box();
         for (unsigned int d = 0; d < dim; ++d)
           {
             reach.lower[d] -= margin;
@@ -99,10 +98,9 @@ namespace talus
           for (unsigned int i = 0; i < n; ++i)
             half[i] = 0.5 * length[i] * stretch[i];
       }
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+    for (const Segment &segment : points.segments(batch))
       {
-        const Segment &segment = points.segments()[s];
-        const double   longest =
+        const double longest =
           longest_box(state, state.grid.cells()[segment.cell].size);
         for (unsigned int p = segment.begin; p < segment.end; ++p)
           if (rule == BoxRule::convected_domain)

@@ -94,25 +94,22 @@ namespace talus
       for_each_box(const State<dim> &state, const Action &action) const
       {
         const Points<dim> &points = state.points;
-        for (const Segment &segment : points.segments())
-          for (unsigned int p = segment.begin; p < segment.end; ++p)
+        points.for_each_point([&](const Segment     &segment,
+                                  const unsigned int p) {
+          const double half_cell = 0.5 * state.grid.cells()[segment.cell].size;
+          const auto   half =
+            half_lengths_of_box(points, state.constants.box_shape, p);
+          Columns first, last;
+          for (unsigned int d = 0; d < dim - 1; ++d)
             {
-              const double half_cell =
-                0.5 * state.grid.cells()[segment.cell].size;
-              const auto half =
-                half_lengths_of_box(points, state.constants.box_shape, p);
-              Columns first, last;
-              for (unsigned int d = 0; d < dim - 1; ++d)
-                {
-                  const unsigned int a = axis(d);
-                  const double       x =
-                    points.data(points.position, a)[p] - origin_[a];
-                  const double reach = std::min(half[a], half_cell);
-                  first[d] = std::lround(std::ceil((x - reach) / width_ - 0.5));
-                  last[d] = std::lround(std::floor((x + reach) / width_ - 0.5));
-                }
-              action(first, last);
+              const unsigned int a = axis(d);
+              const double x = points.data(points.position, a)[p] - origin_[a];
+              const double reach = std::min(half[a], half_cell);
+              first[d] = std::lround(std::ceil((x - reach) / width_ - 0.5));
+              last[d]  = std::lround(std::floor((x + reach) / width_ - 0.5));
             }
+          action(first, last);
+        });
       }
 
       /// Determine the range of columns under the boxes of all ranks.

@@ -79,9 +79,7 @@ namespace talus
               const double support = support_of_box(
                 half_lengths_of_box(points, state.constants.box_shape, p),
                 normal);
-              const double v = points.data(points.reference_volume)[p] *
-                               determinant(load_matrix<dim, double>(
-                                 points, points.deformation_gradient, p));
+              const double v     = volume_of_points<dim, double>(points, p);
               Penetration &own   = result[k];
               const double depth = -distance / cell.size;
               if (depth > smallest_depth)

@@ -24,8 +24,8 @@ namespace talus
   template <int dim>
   Problem<dim>::Problem(const ParameterPreview &preview)
     : ParameterAcceptor("/")
-    , folder_(preview.folder)
-    , surfaces_(preview.surfaces)
+    , inputs_(preview)
+    , bodies_(preview.bodies)
     , remarks_(preview.remarks)
     , materials(preview.materials)
     , obstacles(preview.obstacles)
@@ -43,24 +43,6 @@ namespace talus
     interactions.template add<SurfaceWeakening<dim>>(trigger,
                                                      boundaries,
                                                      obstacles);
-
-    for (const std::string &name : preview.bodies)
-      bodies_.push_back(std::make_unique<Body<dim>>(name));
-    add_parameter(
-      "Initial velocity time",
-      initial_velocity_time_,
-      "Velocities live between the steps. 'start': take the initial "
-      "velocity at t = 0; 'half step': at t = -dt/2, which keeps "
-      "second order where the acceleration is not zero at the "
-      "start.",
-      this->prm,
-      Patterns::Selection("start|half step"));
-    enter_subsection("Bodies");
-    add_parameter("Names",
-                  listed_names_,
-                  "Names of the bodies, separated by commas; each body has a "
-                  "section of the same name.");
-    leave_subsection();
   }
 
 
@@ -76,16 +58,12 @@ namespace talus
                         const double    end_time,
                         const Point<3> &origin)
   {
-    constants_.values(); // throws, even without an expression
-    surfaces_.prepare(constants_, folder_, origin);
-    for (const auto &body : bodies_)
-      body->use_surfaces(surfaces_);
-    const std::vector<std::string> names = names_of_bodies();
-    std::vector<std::string>       materials_of_bodies;
-    for (const auto &body : bodies_)
-      materials_of_bodies.push_back(body->material());
-    materials.assign(names, materials_of_bodies);
-    strength_tables_ = tables_of_strength(materials, bodies_.size(), folder_);
+    inputs_.prepare(origin);
+    bodies_.use_surfaces(inputs_.surfaces);
+    const std::vector<std::string> names = bodies_.names();
+    materials.assign(names, bodies_.names_of_materials());
+    inputs_.strength_tables =
+      tables_of_strength(materials, bodies_.size(), inputs_.folder);
     trigger.check(names,
                   materials,
                   boundaries.has_seabed() || obstacles.limit_shear_stress(),
@@ -94,9 +72,9 @@ namespace talus
     materials.add_columns(points,
                           trigger.changes_strength() || changes_strength);
     trigger.add_columns(points);
-    loading.prepare(materials, bodies_.size(), constants_, end_time);
-    boundaries.parse(constants_);
-    obstacles.prepare(constants_, &surfaces_);
+    loading.prepare(materials, bodies_.size(), inputs_.constants, end_time);
+    boundaries.parse(inputs_.constants);
+    obstacles.prepare(inputs_.constants, &inputs_.surfaces);
   }
 
 
@@ -114,46 +92,44 @@ namespace talus
     for (unsigned int b = 0; b < bodies_.size(); ++b)
       {
         const MaterialModel<dim> &material = materials.of_body(b);
-        const InitialState<dim>  &initial  = bodies_[b]->initial_state();
+        const Body<dim>          &body     = *bodies_.list()[b];
+        const InitialState<dim>  &initial  = body.initial_state();
         const unsigned int        begin    = points.size();
         initial.check(material);
         add_remarks(
-          {check_layer_surfaces(*bodies_[b],
+          {check_layer_surfaces(body,
                                 state.grid.domain_before_growth(),
                                 state.grid.cell_size()),
-           bodies_[b]->create_points(
+           body.create_points(
              state.grid, b, material.density(), points, obstacles.shapes())});
         // At t = 0; set_velocity() corrects the velocity for half a step before
         // the start.
-        initial.set_velocity(points, b, 0., constants_);
+        initial.set_velocity(points, b, 0., inputs_.constants);
         initial.deform(points,
                        begin,
                        points.size(),
                        material,
                        state.constants.box_shape.rule,
-                       constants_);
+                       inputs_.constants);
         material.initialize(points, begin, points.size());
       }
     set_undrained_strength(points,
-                           bodies_,
+                           bodies_.list(),
                            materials,
-                           constants_,
-                           folder_,
+                           inputs_,
                            state.grid.domain_before_growth(),
                            state.communicator());
     add_remarks(
       set_geostatic_stress(points,
-                           bodies_,
+                           bodies_.list(),
                            materials,
                            loading.share_of_gravity(0.) * loading.gravity(),
                            Ground<dim>(state.grid.domain(), &obstacles),
                            state.communicator()));
     look_at_geometry(state);
-    if (std::any_of(bodies_.begin(), bodies_.end(), [](const auto &body) {
-          return body->initial_state().is_displaced() || body->is_clipped();
-        }))
+    if (bodies_.may_leave_cells())
       send_points_to_owners(points, state.grid);
-    trigger.choose_points(points, constants_, state.communicator());
+    trigger.choose_points(points, inputs_.constants, state.communicator());
   }
 
 
@@ -184,17 +160,16 @@ namespace talus
     bool   has_strength = false;
     double from = domain.upper[0], to = domain.lower[0]; // x of the soil
     for (unsigned int b = 0; b < bodies_.size(); ++b)
+      has_strength |= materials.of_body(b).has_strength();
+    for (const Box<dim> &box : bodies_.bounding_boxes(domain))
       {
-        has_strength |= materials.of_body(b).has_strength();
-        const Box<dim> box = bodies_[b]->bounding_box(domain);
-        from               = std::min(from, box.lower[0]);
-        to                 = std::max(to, box.upper[0]);
+        from = std::min(from, box.lower[0]);
+        to   = std::max(to, box.upper[0]);
       }
     if (has_strength)
       add_remarks(notes_on_uncapped_beds(obstacles));
-    add_remarks(surfaces_.notes_on_rising(from, to));
-    thickness_of_bodies_ = measure_thickness(state.points, bodies_, state.grid);
-    add_remarks(notes_on_thickness(thickness_of_bodies_));
+    add_remarks(inputs_.surfaces.notes_on_rising(from, to));
+    add_remarks(bodies_.measure_thickness(state.points, state.grid));
     // Face 2 is the bottom in 2-D and 3-D.
     if (boundaries.is_free(2))
       add_remarks({note_on_bottom(obstacles, domain, state.grid.cell_size())});
@@ -207,48 +182,18 @@ namespace talus
   void
   Problem<dim>::find_mudline(const Grid<dim> &grid)
   {
-    if (mudline_)
+    const auto depth = bodies_.find_mudline(grid.domain_before_growth());
+    if (!depth || (!obstacles.depend_on_depth() &&
+                   !boundaries.seabed().depends_on_depth()))
       return;
-    mudline_ = std::make_shared<const Mudline<dim>>(
-      mudline_of(bodies_, grid.domain_before_growth()));
-    if (!obstacles.depend_on_depth() && !boundaries.seabed().depends_on_depth())
-      return;
-    const auto depth = [mudline = mudline_](const Point<dim> &x) {
-      return mudline->depth(x);
-    };
     obstacles.set_depth(depth);
     boundaries.set_depth(depth);
   }
 
 
 
-  template <int dim>
-  std::function<double(const Point<dim> &)>
-  Problem<dim>::mudline() const
-  {
-    if (std::any_of(bodies_.begin(), bodies_.end(), [](const auto &body) {
-          return body->initial_state().is_displaced();
-        }))
-      return {};
-    return
-      [mudline = mudline_](const Point<dim> &x) { return mudline->height(x); };
-  }
-
-
-
-  /// Set velocities at time @p t, s.
-  template <int dim>
-  void
-  Problem<dim>::set_velocity(Points<dim> &points, const double t) const
-  {
-    for (unsigned int b = 0; b < bodies_.size(); ++b)
-      bodies_[b]->initial_state().set_velocity(points, b, t, constants_);
-  }
-
-
-
-  /// A free face carries no load, and may lie farther out than requested. The
-  /// place of an outflow face decides which soil is counted.
+  /// A free face holds nothing, so it may lie farther out than asked for. At a
+  /// face of outflow the place says which soil is counted.
   template <int dim>
   std::array<bool, 2 * dim>
   Problem<dim>::faces_that_may_move() const
@@ -285,34 +230,8 @@ namespace talus
 
 
 
-  /// In the order of the column "body" of the points.
-  template <int dim>
-  std::vector<std::string>
-  Problem<dim>::names_of_bodies() const
-  {
-    std::vector<std::string> names;
-    for (const auto &body : bodies_)
-      names.push_back(body->name());
-    return names;
-  }
-
-
-
-  /// The mesh must be fine in the boxes before there are points.
-  template <int dim>
-  std::vector<Box<dim>>
-  Problem<dim>::bounding_boxes(const Box<dim> &domain) const
-  {
-    std::vector<Box<dim>> boxes;
-    for (const auto &body : bodies_)
-      boxes.push_back(body->bounding_box(domain));
-    return boxes;
-  }
-
-
-
-  /// By the number of the body. The transfer gets only the flags: the rooms
-  /// transfer and materials do not include each other.
+  /// By the number of the body. The transfer gets this and no law: the two
+  /// rooms do not know each other.
   template <int dim>
   std::vector<bool>
   Problem<dim>::bodies_with_bbar() const
@@ -341,7 +260,7 @@ namespace talus
   std::vector<std::string>
   Problem<dim>::facts() const
   {
-    std::vector<std::string> result = surfaces_.notes();
+    std::vector<std::string> result = inputs_.surfaces.notes();
     if (const std::string note = trigger.note(); !note.empty())
       result.push_back(note);
     const auto on_obstacles = obstacles.facts();

@@ -131,11 +131,10 @@ namespace talus
   void
   set_undrained_strength(Points<dim>                                   &points,
                          const std::vector<std::unique_ptr<Body<dim>>> &bodies,
-                         const Materials<dim>        &materials,
-                         const Constants             &constants,
-                         const std::filesystem::path &folder,
-                         const Box<dim>              &domain,
-                         const MPI_Comm               communicator)
+                         const Materials<dim> &materials,
+                         const Inputs<dim>    &inputs,
+                         const Box<dim>       &domain,
+                         const MPI_Comm        communicator)
   {
     const unsigned int column = materials.undrained_strength();
     if (column == numbers::invalid_unsigned_int)
@@ -151,8 +150,8 @@ namespace talus
           "'" + material.section().substr(1) + "/Undrained shear strength'";
         StrengthField<dim> field(path,
                                  *material.undrained_strength(),
-                                 constants,
-                                 folder);
+                                 inputs.constants,
+                                 inputs.folder);
         for (unsigned int p = 0; p < points.size(); ++p)
           if (points.data(points.body)[p] == b)
             {

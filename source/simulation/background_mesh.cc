@@ -103,7 +103,7 @@ namespace talus
                    " cells is being made."));
     if (mesh_tracking_.is_enabled())
       mesh_tracking_.adapt(
-        grid, problem_.bounding_boxes(grid.domain_before_growth()));
+        grid, problem_.bodies().bounding_boxes(grid.domain_before_growth()));
     else
       grid.refine();
     prepare();

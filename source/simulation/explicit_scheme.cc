@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/simulation/explicit_scheme.h>
+#include <talus/simulation/null_space_filter.h>
 #include <talus/transfer/large_deformation.h>
 
 #include <deal.II/base/mpi.h>
@@ -94,10 +95,10 @@ namespace talus
   void
   ExplicitScheme<dim>::filter()
   {
-    if (!filter_.is_due(state_.step))
+    if (!transfer_.scheme().filters(state_.step))
       return;
     PhaseTimer::Scope scope(timer_, "filter");
-    filter_.apply(state_, transfer_);
+    filter_null_space(state_, transfer_);
   }
 
 
@@ -125,12 +126,7 @@ namespace talus
                            transfer_.box_shape());
       timer_.lap(PhaseTimer::time_step);
       transfer_.apply_bbar_to_stress(state_.points, state_.workspace, batch);
-      transfer_.scatter(state_.points,
-                        state_.workspace,
-                        batch,
-                        state_.grid,
-                        problem_.loading.loads(),
-                        state_.nodes);
+      transfer_.scatter(state_.with(problem_.loading.loads()), batch);
       timer_.lap(PhaseTimer::points_to_grid);
     });
   }
@@ -216,13 +212,8 @@ namespace talus
     state_.points.for_each_batch([&](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
       confinement_.note(state_, batch);
-      gravity_work += transfer_.gather(state_.nodes,
-                                       state_.grid,
-                                       problem_.loading.loads(),
-                                       state_.points,
-                                       state_.workspace,
-                                       batch,
-                                       dt);
+      gravity_work +=
+        transfer_.gather(state_.with(problem_.loading.loads()), batch, dt);
       confinement_.confine(state_);
       transfer_.apply_bbar_to_dilatation(state_.points,
                                          state_.workspace,

@@ -99,7 +99,7 @@ namespace talus
                           const Problem<dim> &problem) const
   {
     const Points<dim> &points  = state.points;
-    const auto         mudline = problem.mudline();
+    const auto         mudline = problem.bodies().mudline();
     const double       h       = state.grid.finest_size();
     MotionSums         sums;
     for (unsigned int p = 0; p < square_.size() && mudline; ++p)

@@ -9,38 +9,6 @@ namespace talus
 {
   using namespace dealii;
 
-  template <int dim>
-  NullSpaceFilter<dim>::NullSpaceFilter()
-    : ParameterAcceptor("/Transfer")
-  {
-    add_parameter(
-      "Scheme",
-      scheme_,
-      "Update of the velocities of the points. 'FLIP': points add the "
-      "increments of the grid, and velocities that the grid cannot see stay "
-      "for ever. 'filtered FLIP': in addition, at a fixed interval, XPIC "
-      "removes the velocities that the grid cannot see, and where B-bar is on "
-      "the mean stress of each point is replaced by the cell mean.",
-      this->prm,
-      Patterns::Selection("FLIP|filtered FLIP"));
-    add_parameter("Filter interval",
-                  interval_,
-                  "Number of steps between two filterings [-]. A smaller "
-                  "number damps more; near 1/(CFL number) noise has no time to "
-                  "grow in between.",
-                  this->prm,
-                  Patterns::Integer(1));
-    add_parameter(
-      "Filter order",
-      order_,
-      "Number m of passes to the grid and back in XPIC(m) [-]. A larger number "
-      "keeps more of the shortest waves; 1 is PIC.",
-      this->prm,
-      Patterns::Integer(1, 20));
-  }
-
-
-
   namespace
   {
     /// Replace the mean stress of each point by the cell mean and keep the
@@ -78,33 +46,25 @@ namespace talus
     {
       // Forces are summed, too, but have no effect in a time step of length
       // zero.
-      const double time_step = 0., flip_fraction = 0.;
+      const double time_step = 0.;
       Loads<dim>   none;
       none.acceleration_of_body.resize(transfer.n_bodies());
+      const StepContext<dim> context = state.with(none);
       state.nodes.clear();
       state.points.for_each_batch([&](const Batch &batch) {
         state.workspace.reinit(batch.begin, batch.end);
         std::fill_n(state.workspace.mean_stress_shift(),
                     batch.end - batch.begin,
                     0.);
-        transfer.scatter(
-          state.points, state.workspace, batch, state.grid, none, state.nodes);
+        transfer.scatter(context, batch);
       });
       state.nodes.sum_over_ranks(state.grid);
       state.nodes.update_momentum(time_step, state.constants.mass_cutoff);
       state.nodes.share_with_ghosts(state.grid);
-      // With zero time step and zero FLIP fraction only the velocities of the
-      // points change: they become the velocity of the grid.
+      // Only the velocities of the points change.
       state.points.for_each_batch([&](const Batch &batch) {
         state.workspace.reinit(batch.begin, batch.end);
-        transfer.gather(state.nodes,
-                        state.grid,
-                        none,
-                        state.points,
-                        state.workspace,
-                        batch,
-                        time_step,
-                        flip_fraction);
+        transfer.gather(context, batch, time_step, pic);
       });
     }
   } // namespace
@@ -123,8 +83,7 @@ namespace talus
   // momentum.
   template <int dim>
   void
-  NullSpaceFilter<dim>::apply(State<dim>          &state,
-                              const Transfer<dim> &transfer) const
+  filter_null_space(State<dim> &state, const Transfer<dim> &transfer)
   {
     Points<dim> &points = state.points;
     filter_mean_stress(points, state.workspace, transfer);
@@ -136,7 +95,7 @@ namespace talus
         unseen[d].assign(v, v + n);
         seen[d].assign(n, 0.);
       }
-    for (unsigned int pass = 0; pass < order_; ++pass)
+    for (unsigned int pass = 0; pass < transfer.scheme().filter_order(); ++pass)
       {
         pass_to_grid_and_back(state, transfer);
         for (unsigned int d = 0; d < dim; ++d)
@@ -161,6 +120,6 @@ namespace talus
 
 
 
-  template class NullSpaceFilter<2>;
-  template class NullSpaceFilter<3>;
+  template decltype(filter_null_space<2>) filter_null_space<2>;
+  template decltype(filter_null_space<3>) filter_null_space<3>;
 } // namespace talus

@@ -151,7 +151,7 @@ namespace talus
 
     mesh_.insert_points();
     // The first time step is known only when the points are in their cells.
-    if (problem_.has_velocity_of_half_step())
+    if (problem_.bodies().have_velocity_of_half_step())
       problem_.set_velocity(points,
                             -0.5 * std::min(scheme_.stable_time_step(),
                                             end_time_ - state_.time));
@@ -421,7 +421,7 @@ namespace talus
     else
       note_start(LogLevel::result);
     if (const std::string sentence =
-          sentence_on_thinnest(problem_.thickness_of_bodies());
+          sentence_on_thinnest(problem_.bodies().thickness());
         !sentence.empty())
       log_.say(LogLevel::result, sentence);
     if (!static_stages_.stages().contain(Stage::dynamics) ||

@@ -75,7 +75,7 @@ namespace talus
             problem_.loading.loads(),
             problem_.contact,
             problem_.seabed_coverage,
-            problem_.mudline()};
+            problem_.bodies().mudline()};
   }
 
 

@@ -107,7 +107,7 @@ namespace talus
   void
   StaticStages<dim>::check() const
   {
-    const std::vector<std::string> names_of_bodies = problem_.names_of_bodies();
+    const std::vector<std::string> names_of_bodies = problem_.bodies().names();
     if (stages_.contain(Stage::equilibrium))
       equilibrium().check(problem_.materials, names_of_bodies);
     AssertThrow(!stages_.has_static() ||

@@ -200,12 +200,11 @@ namespace talus
                                           end,
                                           &wave_modulus_[begin - batch.begin]);
                                       });
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
+    for (const Segment &segment : points.segments(batch))
       {
         // Stores whole registers; the next segment overwrites the excess.
-        using Number                = Simd<simd_width>;
-        const Segment &segment      = points.segments()[s];
-        const Number   inverse_size = 1. / grid.cells()[segment.cell].size;
+        using Number              = Simd<simd_width>;
+        const Number inverse_size = 1. / grid.cells()[segment.cell].size;
         for (unsigned int p = segment.begin; p < segment.end; p += simd_width)
           store(&inverse_cell_size_[p - batch.begin], inverse_size);
       }

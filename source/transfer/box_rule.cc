@@ -280,17 +280,14 @@ namespace talus
                       const BoxShape    &shape)
   {
     unsigned long n_clipped = 0;
-    for (const Segment &segment : points.segments())
-      for (unsigned int p = segment.begin; p < segment.end; ++p)
-        if (shape.rule == BoxRule::convected_domain)
-          n_clipped +=
-            ConvectedDomain<dim>(points, grid, shape, segment.cell, p)
-              .n_clipped();
-        else
-          n_clipped += count_clipped_axes(points,
-                                          shape,
-                                          grid.cells()[segment.cell].size,
-                                          p);
+    points.for_each_point([&](const Segment &segment, const unsigned int p) {
+      if (shape.rule == BoxRule::convected_domain)
+        n_clipped += ConvectedDomain<dim>(points, grid, shape, segment.cell, p)
+                       .n_clipped();
+      else
+        n_clipped +=
+          count_clipped_axes(points, shape, grid.cells()[segment.cell].size, p);
+    });
     return n_clipped;
   }
 

@@ -20,39 +20,29 @@ namespace talus
     template <int dim>
     void
     interpolate_irregular_point(
+      const StepContext<dim>                    &context,
+      const BoxShape                            &shape,
       const Block<dim>                          &block,
       const typename Block<dim>::IrregularPoint &irregular_point,
-      const Points<dim>                         &points,
-      const Grid<dim>                           &grid,
-      const BoxShape                            &shape,
-      const NodalFields<dim>                    &fields,
       NodeWeights<dim>                          &room,
       InterpolatedMotion<dim>                   &motion)
     {
+      const unsigned int cell = irregular_point.cell;
+      const unsigned int p    = block.begin + irregular_point.k;
+      double *const      row  = motion.row[irregular_point.k];
       if (shape.rule == BoxRule::convected_domain)
         {
-          interpolate_corners<dim>(ConvectedDomain<dim>(points,
-                                                        grid,
-                                                        shape,
-                                                        irregular_point.cell,
-                                                        block.begin +
-                                                          irregular_point.k),
-                                   grid,
-                                   irregular_point.cell,
-                                   fields.motion(0),
-                                   motion.row[irregular_point.k]);
+          interpolate_corners<dim>(
+            ConvectedDomain<dim>(context.points, context.grid, shape, cell, p),
+            context.grid,
+            cell,
+            context.nodes.motion(0),
+            row);
           return;
         }
       using Motion = NodalMotion<dim>;
       const auto there =
-        interpolate_by_definition(points,
-                                  irregular_point.cell,
-                                  block.begin + irregular_point.k,
-                                  grid,
-                                  shape,
-                                  fields,
-                                  room);
-      double *const row = motion.row[irregular_point.k];
+        interpolate_by_definition(context, shape, cell, p, room);
       for (unsigned int i = 0; i < dim; ++i)
         {
           row[Motion::velocity + i]  = there.velocity[i];
@@ -71,18 +61,16 @@ namespace talus
     /// the initial position.
     template <int dim>
     void
-    interpolate_to_block(const Block<dim>        &block,
-                         const Points<dim>       &points,
-                         const Grid<dim>         &grid,
+    interpolate_to_block(const StepContext<dim>  &context,
                          const BoxShape          &shape,
-                         const NodalFields<dim>  &fields,
+                         const Block<dim>        &block,
                          NodeWeights<dim>        &room,
                          InterpolatedMotion<dim> &motion)
     {
-      const double *const motions = fields.motion(0);
-      points.fetch_ahead(block.begin,
-                         block.begin + block.size,
-                         points.initial_position);
+      const double *const motions = context.nodes.motion(0);
+      context.points.fetch_ahead(block.begin,
+                                 block.begin + block.size,
+                                 context.points.initial_position);
       for (unsigned int r = 0; r < block.n_groups; ++r)
         {
           const double *nodes[power(3, dim)];
@@ -92,14 +80,8 @@ namespace talus
           });
         }
       for (unsigned int i = 0; i < block.n_irregular_points; ++i)
-        interpolate_irregular_point(block,
-                                    block.irregular_points[i],
-                                    points,
-                                    grid,
-                                    shape,
-                                    fields,
-                                    room,
-                                    motion);
+        interpolate_irregular_point(
+          context, shape, block, block.irregular_points[i], room, motion);
     }
 
 
@@ -136,30 +118,31 @@ namespace talus
   // OrderedSum makes the power independent of the width of the registers.
   template <int dim>
   double
-  Transfer<dim>::gather(const NodalFields<dim> &nodes,
-                        const Grid<dim>        &grid,
-                        const Loads<dim>       &loads,
-                        Points<dim>            &points,
-                        StepWorkspace<dim>     &workspace,
+  Transfer<dim>::gather(const StepContext<dim> &context,
                         const Batch            &batch,
                         const double            dt,
-                        const double            flip_fraction) const
+                        const VelocityUpdate   &velocity_update) const
   {
-    const auto              columns = points.view();
-    const auto              work    = workspace.view(batch.begin, batch.end);
+    StepWorkspace<dim>     &workspace = context.workspace;
+    const auto              columns   = context.points.view();
+    const auto              work      = workspace.view(batch.begin, batch.end);
     OrderedSum              power;
     Block<dim>              block;
     InterpolatedMotion<dim> motion;
     NodeWeights<dim>        room;
-    BlockWalk<dim>          walk(points, batch, grid, box_shape_);
+    BlockWalk<dim> walk(context.points, batch, context.grid, box_shape_);
     while (walk.next(block))
       {
         prefetch_nodes(block, [&](const unsigned int node) {
-          return nodes.motion(node);
+          return context.nodes.motion(node);
         });
-        interpolate_to_block(
-          block, points, grid, box_shape_, nodes, room, motion);
-        const auto loads_here = loads.view(block.body);
+        interpolate_to_block(context, box_shape_, block, room, motion);
+        const PointUpdate<dim> update = {columns,
+                                         work,
+                                         context.loads.view(block.body),
+                                         velocity_update,
+                                         1. / block.cell_size,
+                                         dt};
         for_each_simd(
           0,
           block.size,
@@ -167,15 +150,9 @@ namespace talus
             using Number         = decltype(number);
             const unsigned int p = block.begin + k;
             power.add(k,
-                      move_points<dim, Number>(columns,
-                                               work,
-                                               1. / block.cell_size,
-                                               p,
-                                               MotionEntries<dim, Number>(
-                                                 &motion.row[k]),
-                                               loads_here,
-                                               flip_fraction,
-                                               dt));
+                      move_points(update,
+                                  p,
+                                  MotionEntries<dim, Number>(&motion.row[k])));
             Number lower[dim];
             for (unsigned int d = 0; d < dim; ++d)
               lower[d] = load<Number>(&block.cell_lower[d][k]);
@@ -192,21 +169,13 @@ namespace talus
 
 
   template double
-  Transfer<2>::gather(const NodalFields<2> &,
-                      const Grid<2> &,
-                      const Loads<2> &,
-                      Points<2> &,
-                      StepWorkspace<2> &,
+  Transfer<2>::gather(const StepContext<2> &,
                       const Batch &,
                       double,
-                      double) const;
+                      const VelocityUpdate &) const;
   template double
-  Transfer<3>::gather(const NodalFields<3> &,
-                      const Grid<3> &,
-                      const Loads<3> &,
-                      Points<3> &,
-                      StepWorkspace<3> &,
+  Transfer<3>::gather(const StepContext<3> &,
                       const Batch &,
                       double,
-                      double) const;
+                      const VelocityUpdate &) const;
 } // namespace talus

@@ -51,33 +51,31 @@ namespace talus
   // the kernels, only the functions that read stress and volume of a point.
   template <int dim>
   void
-  scatter_by_definition(const Points<dim>        &points,
-                        const WorkspaceView<dim> &workspace,
-                        const Segment            &segment,
-                        const Grid<dim>          &grid,
-                        const Loads<dim>         &loads,
-                        const BoxShape           &shape,
-                        NodalFields<dim>         &nodes,
-                        NodeWeights<dim>         &room)
+  scatter_by_definition(const StepContext<dim> &context,
+                        const BoxShape         &shape,
+                        const Segment          &segment,
+                        NodeWeights<dim>       &room)
   {
+    const Points<dim> &points = context.points;
+    const auto workspace = context.workspace.view(segment.begin, segment.end);
     for (unsigned int p = segment.begin; p < segment.end; ++p)
       {
         // One list of weights for all nodes; it reuses the memory of the
         // previous point.
-        weights_of_point(points, grid, shape, segment.cell, p, room);
-        const double m     = points.data(points.mass)[p];
-        const double V0    = points.data(points.reference_volume)[p];
-        const double V     = volume_of_points<dim, double>(points, p);
-        const auto   v     = load_vector(points, points.velocity, p);
-        const auto   b     = acceleration_of_point(loads, segment.body, p);
+        weights_of_point(points, context.grid, shape, segment.cell, p, room);
+        const double m  = points.data(points.mass)[p];
+        const double V0 = points.data(points.reference_volume)[p];
+        const double V  = volume_of_points<dim, double>(points, p);
+        const auto   v  = load_vector(points, points.velocity, p);
+        const auto   b  = acceleration_of_point(context.loads, segment.body, p);
         const auto   sigma = averaged_stress(points, workspace, p);
         // The stress is symmetric: sigma . grad S = grad S . sigma.
         for (const auto &w : room)
-          nodes.add_sums(w.node,
-                         w.value * m,
-                         w.value * V0,
-                         w.value * m * v,
-                         w.value * m * b - V * sigma * w.gradient);
+          context.nodes.add_sums(w.node,
+                                 w.value * m,
+                                 w.value * V0,
+                                 w.value * m * v,
+                                 w.value * m * b - V * sigma * w.gradient);
       }
   }
 
@@ -87,15 +85,14 @@ namespace talus
   // nodes.
   template <int dim>
   MotionByDefinition<dim>
-  interpolate_by_definition(const Points<dim>      &points,
+  interpolate_by_definition(const StepContext<dim> &context,
+                            const BoxShape         &shape,
                             const unsigned int      cell,
                             const unsigned int      p,
-                            const Grid<dim>        &grid,
-                            const BoxShape         &shape,
-                            const NodalFields<dim> &nodes,
                             NodeWeights<dim>       &room)
   {
-    weights_of_point(points, grid, shape, cell, p, room);
+    const NodalFields<dim> &nodes = context.nodes;
+    weights_of_point(context.points, context.grid, shape, cell, p, room);
     MotionByDefinition<dim> there;
     for (const auto &w : room)
       {
@@ -114,31 +111,28 @@ namespace talus
   // work of a constant force exact (doc/method.md, section 7).
   template <int dim>
   double
-  gather_by_definition(const NodalFields<dim> &nodes,
-                       const Grid<dim>        &grid,
-                       const Loads<dim>       &loads,
+  gather_by_definition(const StepContext<dim> &context,
                        const BoxShape         &shape,
                        const Segment          &segment,
-                       const double            flip_fraction,
                        const double            dt,
-                       Points<dim>            &points,
-                       StepWorkspace<dim>     &workspace)
+                       const VelocityUpdate   &update)
   {
-    const Cell<dim> &cell  = grid.cells()[segment.cell];
-    const auto       work  = workspace.view(segment.begin, segment.end);
+    Points<dim>     &points = context.points;
+    const Cell<dim> &cell   = context.grid.cells()[segment.cell];
+    const auto       work  = context.workspace.view(segment.begin, segment.end);
     double           power = 0;
     NodeWeights<dim> room;
     for (unsigned int p = segment.begin; p < segment.end; ++p)
       {
-        const auto [v, dv, L] = interpolate_by_definition(
-          points, segment.cell, p, grid, shape, nodes, room);
+        const auto [v, dv, L] =
+          interpolate_by_definition(context, shape, segment.cell, p, room);
         // Interpolation is complete: the point may move.
         bool is_inside = true;
         for (unsigned int i = 0; i < dim; ++i)
           {
             double &v_p = points.data(points.velocity, i)[p];
             double &x_p = points.data(points.position, i)[p];
-            v_p = flip_fraction * (v_p + dv[i]) + (1. - flip_fraction) * v[i];
+            v_p         = update(v_p, v[i], dv[i]);
             x_p += dt * v[i];
             is_inside = is_inside && x_p >= cell.lower[i] &&
                         x_p < cell.lower[i] + cell.size;
@@ -146,10 +140,10 @@ namespace talus
               work.velocity_gradient(i, d)[p] = L[i][d];
           }
         if (!is_inside)
-          workspace.points_out_of_cell().push_back(p);
-        power +=
-          points.data(points.mass)[p] *
-          (acceleration_of_point(loads, segment.body, p) * (v - 0.5 * dv));
+          context.workspace.points_out_of_cell().push_back(p);
+        power += points.data(points.mass)[p] *
+                 (acceleration_of_point(context.loads, segment.body, p) *
+                  (v - 0.5 * dv));
       }
     return power;
   }

@@ -21,16 +21,14 @@ namespace talus
   // needs no locks and is bit-identical in every run.
   template <int dim>
   void
-  Transfer<dim>::scatter(const Points<dim>        &points,
-                         const StepWorkspace<dim> &workspace,
-                         const Batch              &batch,
-                         const Grid<dim>          &grid,
-                         const Loads<dim>         &loads,
-                         NodalFields<dim>         &nodes) const
+  Transfer<dim>::scatter(const StepContext<dim> &context,
+                         const Batch            &batch) const
   {
+    const Points<dim> &points  = context.points;
+    const Grid<dim>   &grid    = context.grid;
     const auto         columns = points.view();
-    const auto         work    = workspace.view(batch.begin, batch.end);
-    double *const      sums    = nodes.sum(0);
+    const auto         work    = context.workspace.view(batch.begin, batch.end);
+    double *const      sums    = context.nodes.sum(0);
     Block<dim>         block;
     Contributions<dim> contributions;
     NodeWeights<dim>   room;
@@ -38,9 +36,10 @@ namespace talus
     while (walk.next(block))
       {
         prefetch_nodes(block, [&](const unsigned int node) {
-          return nodes.sum(node);
+          return context.nodes.sum(node);
         });
-        fill(contributions, block, columns, work, loads.view(block.body));
+        fill(
+          contributions, block, columns, work, context.loads.view(block.body));
         // The first sweep reads no column beyond the elastic energy.
         points.fetch_ahead(block.begin,
                            block.begin + block.size,
@@ -64,13 +63,9 @@ namespace talus
                                sums);
             else
               scatter_by_definition(
-                points,
-                work,
-                {irregular_point.cell, block.body, p, p + 1},
-                grid,
-                loads,
+                context,
                 box_shape_,
-                nodes,
+                {irregular_point.cell, block.body, p, p + 1},
                 room);
           }
       }
@@ -79,17 +74,7 @@ namespace talus
 
 
   template void
-  Transfer<2>::scatter(const Points<2> &,
-                       const StepWorkspace<2> &,
-                       const Batch &,
-                       const Grid<2> &,
-                       const Loads<2> &,
-                       NodalFields<2> &) const;
+  Transfer<2>::scatter(const StepContext<2> &, const Batch &) const;
   template void
-  Transfer<3>::scatter(const Points<3> &,
-                       const StepWorkspace<3> &,
-                       const Batch &,
-                       const Grid<3> &,
-                       const Loads<3> &,
-                       NodalFields<3> &) const;
+  Transfer<3>::scatter(const StepContext<3> &, const Batch &) const;
 } // namespace talus

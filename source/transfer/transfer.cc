@@ -4,6 +4,7 @@
 #include <talus/transfer/transfer.h>
 #include <talus/transfer/transpose.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace talus
@@ -14,13 +15,6 @@ namespace talus
   Transfer<dim>::Transfer()
     : ParameterAcceptor("/Transfer")
   {
-    add_parameter("FLIP fraction",
-                  flip_fraction_,
-                  "Weight of FLIP (old velocity plus increment of the grid) in "
-                  "the new velocity of a point [-]. The remaining weight is "
-                  "given to PIC (velocity of the grid), which damps.",
-                  this->prm,
-                  Patterns::Double(0., 1.));
     add_parameter("Box rule",
                   box_rule_,
                   "How the box of a point follows its deformation. Parallel to "
@@ -100,10 +94,12 @@ namespace talus
   bool
   Transfer<dim>::uses_bbar(const Points<dim> &points, const Batch &batch) const
   {
-    for (unsigned int s = batch.first_segment; s < batch.last_segment; ++s)
-      if (uses_bbar(points.segments()[s].body))
-        return true;
-    return false;
+    const auto segments = points.segments(batch);
+    return std::any_of(segments.begin(),
+                       segments.end(),
+                       [this](const Segment &segment) {
+                         return uses_bbar(segment.body);
+                       });
   }
 
 

@@ -32,26 +32,38 @@ namespace talus
 
 
 
-    /// Compute, along one axis, the means over the box [a, b] of the two hat
-    /// functions of the cell [lower, upper], as far as the cell covers the box,
-    /// and of their derivatives, 1/m. A hat function is linear in the cell, so
-    /// the mean over the overlap is the value at its middle: exact. A cell at
-    /// the boundary of the mesh is continued outwards with constant shape
-    /// functions: value 1 of the boundary node, no gradient.
-    inline CellShare
-    share_of_cell(const double a,
-                  const double b,
-                  const double inverse_length,
-                  const double lower,
-                  const double upper,
-                  const double inverse_size,
-                  const bool   at_lower_boundary,
-                  const bool   at_upper_boundary)
+    /// Extent of a cell along one axis.
+    struct CellExtent
     {
-      const double first  = std::min(std::max(a, lower), upper);
-      const double last   = std::min(std::max(b, lower), upper);
-      const double inside = (last - first) * inverse_length;
-      const double xi     = (0.5 * (first + last) - lower) * inverse_size;
+      double lower, upper; ///< m
+      double inverse_size; ///< 1/m
+      /// Whether the mesh ends at the lower and at the upper face.
+      bool at_lower_boundary, at_upper_boundary;
+    };
+
+
+
+    /// Compute, along one axis, the means over the box [a, b] of the two hat
+    /// functions of a cell, as far as the cell covers the box, and of their
+    /// derivatives, 1/m. A hat function is linear in the cell, so the mean over
+    /// the overlap is the value at its middle: exact. A cell at the boundary of
+    /// the mesh is continued outwards with constant shape functions: value 1 of
+    /// the boundary node, no gradient.
+    inline CellShare
+    share_of_cell(const double      a,
+                  const double      b,
+                  const double      inverse_length,
+                  const CellExtent &cell)
+    {
+      const auto &[lower,
+                   upper,
+                   inverse_size,
+                   at_lower_boundary,
+                   at_upper_boundary] = cell;
+      const double first              = std::min(std::max(a, lower), upper);
+      const double last               = std::min(std::max(b, lower), upper);
+      const double inside             = (last - first) * inverse_length;
+      const double xi = (0.5 * (first + last) - lower) * inverse_size;
 
       CellShare share;
       share.value    = {{inside * (1. - xi), inside * xi}};
@@ -90,14 +102,15 @@ namespace talus
         {
           const double upper = lower[d] + cell.size;
           const bool ends = box.is_beyond_mesh && !grid.periodicity().along(d);
-          share[d]        = share_of_cell(box.lower[d],
+          const CellExtent extent = {lower[d],
+                                     upper,
+                                     inverse_size,
+                                     ends && lower[d] < domain.lower[d] + eps,
+                                     ends && upper > domain.upper[d] - eps};
+          share[d]                = share_of_cell(box.lower[d],
                                    box.upper[d],
                                    box.inverse_length[d],
-                                   lower[d],
-                                   upper,
-                                   inverse_size,
-                                   ends && lower[d] < domain.lower[d] + eps,
-                                   ends && upper > domain.upper[d] - eps);
+                                   extent);
           if (share[d].value[0] == 0 && share[d].value[1] == 0)
             return;
         }

@@ -281,8 +281,7 @@ struct Core : FreshParameters, talus::State<dim>
   gather(const double dt)
   {
     workspace.reinit(0, points.size());
-    return transfer.gather(
-      nodes, grid, loads, points, workspace, points.all(), dt);
+    return transfer.gather(this->with(loads), points.all(), dt);
   }
 
   /// Find and split what violates the criterion, once.
@@ -312,7 +311,7 @@ struct Core : FreshParameters, talus::State<dim>
   {
     workspace.reinit(0, points.size());
     transfer.apply_bbar_to_stress(points, workspace, points.all());
-    transfer.scatter(points, workspace, points.all(), grid, loads, nodes);
+    transfer.scatter(this->with(loads), points.all());
   }
 
   /// The sums at all nodes of the mesh as they are.

@@ -46,12 +46,7 @@ namespace talus
       problem.transfer.apply_bbar_to_stress(state.points,
                                             state.workspace,
                                             batch);
-      problem.transfer.scatter(state.points,
-                               state.workspace,
-                               batch,
-                               state.grid,
-                               problem.loads,
-                               state.nodes);
+      problem.transfer.scatter(state.with(problem.loads), batch);
     });
     state.nodes.sum_over_ranks(state.grid);
     problem.seabed_coverage.find(state);

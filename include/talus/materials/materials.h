@@ -106,16 +106,13 @@ namespace talus
                             const Batch       &batch,
                             const Action      &action) const
     {
-      const auto &segments = points.segments();
-      for (unsigned int s = batch.first_segment; s < batch.last_segment;)
-        {
-          const unsigned int begin    = segments[s].begin;
-          const unsigned int material = material_of_body_[segments[s].body];
-          while (s < batch.last_segment &&
-                 material_of_body_[segments[s].body] == material)
-            ++s;
-          action(*models_[material], begin, segments[s - 1].end);
-        }
+      const auto material_of = [this](const Segment &segment) {
+        return material_of_body_[segment.body];
+      };
+      points.for_each_part(batch, material_of, [&](const Batch &part) {
+        const Segment &segment = points.segments()[part.first_segment];
+        action(*models_[material_of(segment)], part.begin, part.end);
+      });
     }
 
   private:

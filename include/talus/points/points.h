@@ -5,6 +5,7 @@
 #include <talus/points/points_view.h>
 #include <talus/points/rows.h>
 
+#include <deal.II/base/array_view.h>
 #include <deal.II/base/point.h>
 
 #include <algorithm>
@@ -199,6 +200,14 @@ namespace talus
       return segments_;
     }
 
+    /// Segments of @p batch.
+    dealii::ArrayView<const Segment>
+    segments(const Batch &batch) const
+    {
+      return {segments_.data() + batch.first_segment,
+              batch.last_segment - batch.first_segment};
+    }
+
     /// Batch of all sorted points.
     Batch
     all() const
@@ -242,18 +251,41 @@ namespace talus
         }
     }
 
-    /// Call action(batch) for the points of each cell of @p batch.
-    template <typename Action>
+    /// Call action(part) for the parts of @p batch: the longest rows of
+    /// segments with the same value of key(segment).
+    template <typename Key, typename Action>
     TALUS_ALWAYS_INLINE void
-    for_each_cell(const Batch &batch, const Action &action) const
+    for_each_part(const Batch  &batch,
+                  const Key    &key,
+                  const Action &action) const
     {
       for (unsigned int s = batch.first_segment; s < batch.last_segment;)
         {
           const unsigned int first = s++;
-          while (s < batch.last_segment && in_same_cell(s))
+          while (s < batch.last_segment &&
+                 key(segments_[s]) == key(segments_[first]))
             ++s;
           action(Batch{first, s, segments_[first].begin, segments_[s - 1].end});
         }
+    }
+
+    /// Call action(part) for the points of each cell of @p batch.
+    template <typename Action>
+    TALUS_ALWAYS_INLINE void
+    for_each_cell(const Batch &batch, const Action &action) const
+    {
+      for_each_part(
+        batch, [](const Segment &segment) { return segment.cell; }, action);
+    }
+
+    /// Call action(segment, p) for all sorted points p in their order.
+    template <typename Action>
+    TALUS_ALWAYS_INLINE void
+    for_each_point(const Action &action) const
+    {
+      for (const Segment &segment : segments_)
+        for (unsigned int p = segment.begin; p < segment.end; ++p)
+          action(segment, p);
     }
 
     /// Prefetch the first @p n_arrays arrays of the points one batch behind

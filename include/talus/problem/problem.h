@@ -7,21 +7,17 @@
 #include <talus/contact/facet_contact.h>
 #include <talus/contact/seabed_coverage.h>
 #include <talus/interaction/nodal_interactions.h>
-#include <talus/problem/body.h>
-#include <talus/problem/body_thickness.h>
+#include <talus/problem/bodies.h>
+#include <talus/problem/inputs.h>
 #include <talus/problem/loading.h>
-#include <talus/problem/mudline.h>
 #include <talus/problem/parameter_preview.h>
 #include <talus/problem/trigger.h>
 #include <talus/state/state.h>
-#include <talus/terrain/surfaces.h>
 #include <talus/water/water.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <array>
-#include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -62,17 +58,19 @@ namespace talus
     void
     create_points(State<dim> &state);
 
+    /// Bodies of soil at the start.
+    const Bodies<dim> &
+    bodies() const
+    {
+      return bodies_;
+    }
+
     /// Set the initial velocities of the points to the velocities at time @p t,
     /// s.
     void
-    set_velocity(Points<dim> &points, double t) const;
-
-    /// Return whether initial velocities are given half a step before the
-    /// start.
-    bool
-    has_velocity_of_half_step() const
+    set_velocity(Points<dim> &points, const double t) const
     {
-      return initial_velocity_time_ == "half step";
+      bodies_.set_velocity(points, t, inputs_.constants);
     }
 
     /// Return for each face of the mesh whether the face may be moved outwards:
@@ -83,13 +81,6 @@ namespace talus
     /// Minimum density of the bodies, kg/m^3.
     double
     min_density() const;
-
-    std::vector<std::string>
-    names_of_bodies() const;
-
-    /// Boxes around the bodies in a mesh that fills @p domain.
-    std::vector<Box<dim>>
-    bounding_boxes(const Box<dim> &domain) const;
 
     /// Return for each body whether the dilatation is averaged over the cells.
     std::vector<bool>
@@ -131,13 +122,6 @@ namespace talus
     std::vector<std::string>
     remarks(double cell_size) const;
 
-    /// Thickness of the bodies at the start; empty before create_points().
-    const std::vector<BodyThickness> &
-    thickness_of_bodies() const
-    {
-      return thickness_of_bodies_;
-    }
-
     /// Update all data that depend on cells and nodes. Call after each change
     /// of the mesh or of the partition. Collective.
     void
@@ -147,31 +131,23 @@ namespace talus
       interactions.prepare(grid);
     }
 
-    /// Return a function for the height of the initial mudline, m, in the
-    /// vertical through a place; NaN where there is no soil. Empty if bodies
-    /// are displaced at the start. Call after locate().
-    std::function<double(const dealii::Point<dim> &)>
-    mudline() const;
-
     const Surfaces<dim> &
     surfaces() const
     {
-      return surfaces_;
+      return inputs_.surfaces;
     }
 
     /// Easting, northing and height of the mesh's origin on the map, m.
     const dealii::Point<3> &
     origin() const
     {
-      return surfaces_.origin();
+      return inputs_.surfaces.origin();
     }
 
     void
     list_state(StateList &list)
     {
-      surfaces_.list_state(list);
-      for (const InputFile &table : strength_tables_)
-        table.list_state(list);
+      inputs_.list_state(list);
       loading.list_state(list);
       obstacles.list_state(list);
       interactions.list_state(list);
@@ -185,18 +161,9 @@ namespace talus
     void
     find_mudline(const Grid<dim> &grid);
 
-    Constants             constants_;
-    std::filesystem::path folder_; ///< folder of the
-                                   ///< parameters
-    std::string                             initial_velocity_time_ = "start";
-    std::vector<std::string>                listed_names_;
-    Surfaces<dim>                           surfaces_;
-    std::vector<std::unique_ptr<Body<dim>>> bodies_;
-    std::vector<InputFile>                  strength_tables_;
-    std::shared_ptr<const Mudline<dim>>     mudline_; ///< mudline at the start
-    std::vector<std::string>                remarks_; ///< remarks on the
-                                                      ///< initial state
-    std::vector<BodyThickness> thickness_of_bodies_;
+    Inputs<dim>              inputs_;
+    Bodies<dim>              bodies_;
+    std::vector<std::string> remarks_; ///< remarks on the initial state
 
   public:
     // Parts of the problem, for direct use.

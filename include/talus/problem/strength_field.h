@@ -5,6 +5,7 @@
 #include <talus/io/input_file.h>
 #include <talus/materials/materials.h>
 #include <talus/problem/body.h>
+#include <talus/problem/inputs.h>
 
 #include <filesystem>
 #include <memory>
@@ -16,17 +17,16 @@ namespace talus
   /// by the number, the expression of place and depth, or the table of the
   /// material of each body. Throws ExcUser if the strength of a point is not
   /// positive, or softening is too fast for the stiffness. Collective.
-  /// @param folder folder of the tables
+  /// @param inputs constants, surfaces, and the folder of the tables
   /// @param domain domain of the mesh
   template <int dim>
   void
   set_undrained_strength(Points<dim>                                   &points,
                          const std::vector<std::unique_ptr<Body<dim>>> &bodies,
-                         const Materials<dim>        &materials,
-                         const Constants             &constants,
-                         const std::filesystem::path &folder,
-                         const Box<dim>              &domain,
-                         MPI_Comm                     communicator);
+                         const Materials<dim> &materials,
+                         const Inputs<dim>    &inputs,
+                         const Box<dim>       &domain,
+                         MPI_Comm              communicator);
 
 
 

@@ -8,7 +8,6 @@
 #include <talus/contact/point_confinement.h>
 #include <talus/problem/problem.h>
 #include <talus/simulation/background_mesh.h>
-#include <talus/simulation/null_space_filter.h>
 #include <talus/simulation/step_agreement.h>
 #include <talus/simulation/time_step.h>
 #include <talus/state/state.h>
@@ -100,7 +99,6 @@ namespace talus
     BackgroundMesh<dim>  &mesh_;
     PhaseTimer           &timer_;
     PointConfinement<dim> confinement_;
-    NullSpaceFilter<dim>  filter_;
     Splitter<dim>         splitter_;
     Merger<dim>           merger_;
     TimeStep<dim>         time_step_;

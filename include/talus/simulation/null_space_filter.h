@@ -5,13 +5,9 @@
 #include <talus/state/state.h>
 #include <talus/transfer/transfer.h>
 
-#include <deal.II/base/parameter_acceptor.h>
-
-#include <string>
-
 namespace talus
 {
-  /// Removes velocities and mean stresses of the points that are invisible to
+  /// Remove velocities and mean stresses of the points that are invisible to
   /// the background grid.
   ///
   /// Points outnumber nodes, so there are velocities of the points that sum to
@@ -29,34 +25,11 @@ namespace talus
   /// stress by the cell mean, which changes no nodal force. @cite alkafaji2013
   /// Laws that compute the stress from the deformation gradient restore their
   /// stress in the next step.
+  ///
+  /// The order of XPIC is a parameter of the scheme. Collective.
   template <int dim>
-  class NullSpaceFilter : public dealii::ParameterAcceptor
-  {
-  public:
-    NullSpaceFilter();
-
-    /// Whether the filter runs at the beginning of the step after @p step
-    /// steps.
-    bool
-    is_due(const unsigned int step) const
-    {
-      return scheme_ == "filtered FLIP" && step > 0 && step % interval_ == 0;
-    }
-
-    /// Filter velocity and mean stress of all points. Collective.
-    ///
-    /// @param workspace scratch space
-    /// @param nodes scratch space; its sums are overwritten
-    /// @param transfer transfer scheme of the run
-    /// @param mass_cutoff see Transfer::mass_cutoff(), kg
-    void
-    apply(State<dim> &state, const Transfer<dim> &transfer) const;
-
-  private:
-    std::string  scheme_   = "FLIP";
-    unsigned int interval_ = 100;
-    unsigned int order_    = 4;
-  };
+  void
+  filter_null_space(State<dim> &state, const Transfer<dim> &transfer);
 } // namespace talus
 
 #endif

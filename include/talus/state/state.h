@@ -2,12 +2,10 @@
 #ifndef talus_state_state_h
 #define talus_state_state_h
 
-#include <talus/grid/nodal_fields.h>
-#include <talus/points/points.h>
-#include <talus/points/step_workspace.h>
 #include <talus/state/accounts.h>
 #include <talus/state/run_constants.h>
 #include <talus/transfer/outflow.h>
+#include <talus/transfer/step_context.h>
 
 namespace talus
 {
@@ -27,6 +25,13 @@ namespace talus
     communicator() const
     {
       return grid.communicator();
+    }
+
+    /// Data of a step under @p loads, for the transfer.
+    StepContext<dim>
+    with(const Loads<dim> &loads)
+    {
+      return {points, workspace, grid, loads, nodes};
     }
 
     /// Add everything except points and mesh, which a checkpoint stores

@@ -7,6 +7,7 @@
 #include <talus/transfer/block.h>
 #include <talus/transfer/loads_kernel.h>
 #include <talus/transfer/transpose.h>
+#include <talus/transfer/velocity_update_kernel.h>
 
 // Interpolation from grid to points in registers: the loops of scatter_kernel.h
 // reversed, first along x, then y, then z. Gradients are computed for the
@@ -189,39 +190,47 @@ namespace talus
 
 
 
-    /// Move point(s) @p p: v_p <- flip (v_p + dv) + (1 - flip) v(x_p),
-    /// x_p <- x_p + dt v(x_p).
+    /// Data of a step for the update of points of one body in cells of equal
+    /// size.
+    template <int dim>
+    struct PointUpdate
+    {
+      PointsView<dim>    points;
+      WorkspaceView<dim> workspace; ///< receives the velocity gradients, 1/s
+      LoadsView<dim>     loads;
+      VelocityUpdate     velocity_update;
+      double             inverse_cell_size; ///< 1/m
+      double             dt;                ///< time step, s
+    };
+
+
+
+    /// Move point(s) @p p: v_p by VelocityUpdate, x_p <- x_p + dt v(x_p).
     ///
-    /// @param workspace receives the velocity gradient, 1/s
     /// @param now interpolated motion of the nodes at the point(s)
-    /// @param flip FLIP fraction [-]
-    /// @param dt time step, s
     /// @return power of the loads on the point(s), m b . (mean velocity), W
     template <int dim, typename Number>
     TALUS_ALWAYS_INLINE Number
-    move_points(const PointsView<dim>            &points,
-                const WorkspaceView<dim>         &workspace,
-                const double                      inverse_cell_size,
+    move_points(const PointUpdate<dim>           &update,
                 const unsigned int                p,
-                const MotionEntries<dim, Number> &now,
-                const LoadsView<dim>             &loads,
-                const double                      flip,
-                const double                      dt)
+                const MotionEntries<dim, Number> &now)
     {
-      using I = InterpolatedMotion<dim>;
-      Number power(0.);
+      using I            = InterpolatedMotion<dim>;
+      const auto &points = update.points;
+      Number      power(0.);
       for (unsigned int i = 0; i < dim; ++i)
         {
           const Number v    = now.entry[NodalMotion<dim>::velocity + i];
           const Number dv   = now.entry[NodalMotion<dim>::increment + i];
           double      *to_v = points.data(points.velocity, i) + p;
           double      *to_x = points.data(points.position, i) + p;
-          store(to_v, flip * (load<Number>(to_v) + dv) + (1. - flip) * v);
-          store(to_x, load<Number>(to_x) + dt * v);
+          store(to_v, update.velocity_update(load<Number>(to_v), v, dv));
+          store(to_x, load<Number>(to_x) + update.dt * v);
           for (unsigned int d = 0; d < dim; ++d)
-            store(workspace.velocity_gradient(i, d) + p,
-                  inverse_cell_size * now.entry[I::place_of_gradient(i, d)]);
-          power += acceleration<Number>(loads, p, i) * (v - 0.5 * dv);
+            store(update.workspace.velocity_gradient(i, d) + p,
+                  update.inverse_cell_size *
+                    now.entry[I::place_of_gradient(i, d)]);
+          power += acceleration<Number>(update.loads, p, i) * (v - 0.5 * dv);
         }
       return power * load<Number>(points.data(points.mass) + p);
     }

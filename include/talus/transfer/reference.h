@@ -2,11 +2,9 @@
 #ifndef talus_transfer_reference_h
 #define talus_transfer_reference_h
 
-#include <talus/grid/nodal_fields.h>
-#include <talus/points/points.h>
-#include <talus/points/step_workspace.h>
 #include <talus/transfer/box_shape.h>
-#include <talus/transfer/loads.h>
+#include <talus/transfer/step_context.h>
+#include <talus/transfer/velocity_update_kernel.h>
 #include <talus/transfer/weights.h>
 
 // The transfer as defined in doc/method.md, section 2: point by point and node
@@ -23,20 +21,15 @@ namespace talus
   ///   f_i = sum_p S_ip m_p b_p - sum_p V_p sigma'_p . grad S_ip,
   /// where sigma' is the stress with its mean averaged over the cell (B-bar).
   ///
-  /// @param workspace shifts of the mean stress by B-bar, Pa
-  /// @param loads accelerations b, m/s^2
-  /// @param nodes receives the sums
+  /// @param context nodes receive the sums; the workspace has the shifts of
+  ///   the mean stress by B-bar, Pa
   /// @param room scratch space for the weights of a point
   template <int dim>
   void
-  scatter_by_definition(const Points<dim>        &points,
-                        const WorkspaceView<dim> &workspace,
-                        const Segment            &segment,
-                        const Grid<dim>          &grid,
-                        const Loads<dim>         &loads,
-                        const BoxShape           &shape,
-                        NodalFields<dim>         &nodes,
-                        NodeWeights<dim>         &room);
+  scatter_by_definition(const StepContext<dim> &context,
+                        const BoxShape         &shape,
+                        const Segment          &segment,
+                        NodeWeights<dim>       &room);
 
   /// Motion of the nodes interpolated to a point.
   template <int dim>
@@ -49,39 +42,32 @@ namespace talus
 
 
 
-  /// Interpolate the motion of the nodes to point @p p in cell @p cell.
-  ///
-  /// @param nodes motion of the nodes, m/s
-  /// @param room scratch space for the weights of the point
+  /// Interpolate the motion of the nodes, m/s, to point @p p in cell @p cell.
+  /// @p room is scratch space for the weights of the point.
   template <int dim>
   MotionByDefinition<dim>
-  interpolate_by_definition(const Points<dim>      &points,
+  interpolate_by_definition(const StepContext<dim> &context,
+                            const BoxShape         &shape,
                             unsigned int            cell,
                             unsigned int            p,
-                            const Grid<dim>        &grid,
-                            const BoxShape         &shape,
-                            const NodalFields<dim> &nodes,
                             NodeWeights<dim>       &room);
 
   /// Move the points of a segment by the motion of the nodes,
-  ///   v_p <- flip (v_p + sum_i S_ip dv_i) + (1 - flip) sum_i S_ip v_i,
+  ///   v_p <- update(v_p, sum_i S_ip v_i, sum_i S_ip dv_i),
   ///   x_p <- x_p + dt sum_i S_ip v_i,  L_p = sum_i v_i (x) grad S_ip.
   ///
-  /// @param flip_fraction flip [-]
+  /// @param context workspace receives L_p, 1/s, and the points that left the
+  ///   cell
   /// @param dt time step, s
-  /// @param workspace receives L_p, 1/s, and the points that left the cell
+  /// @param update update of the velocities
   /// @return power of the loads, sum_p m_p b_p . sum_i S_ip (v_i - dv_i/2), W
   template <int dim>
   double
-  gather_by_definition(const NodalFields<dim> &nodes,
-                       const Grid<dim>        &grid,
-                       const Loads<dim>       &loads,
+  gather_by_definition(const StepContext<dim> &context,
                        const BoxShape         &shape,
                        const Segment          &segment,
-                       double                  flip_fraction,
                        double                  dt,
-                       Points<dim>            &points,
-                       StepWorkspace<dim>     &workspace);
+                       const VelocityUpdate   &update);
 } // namespace talus
 
 #endif

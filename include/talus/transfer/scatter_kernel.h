@@ -52,23 +52,35 @@ namespace talus
 
 
 
+    /// Contributions of one point or of several points side by side, in the
+    /// order of Contributions.
+    template <int dim, typename Number>
+    struct ContributionEntries
+    {
+      using C                             = Contributions<dim>;
+      Number record[C::n_entries]         = {};
+      Number flux[dim - 1][C::n_of_force] = {};
+    };
+
+
+
     /// Compute mass, momentum, reference volume and force of point(s) @p p,
     /// entry by entry,
     /// f_i = -sum_p V_p sigma_p . grad S_ip + sum_p m_p b_p S_ip. The mean of
     /// the stress is averaged over the cell (B-bar). @cite bardenhagen2004, eq.
     /// 19 ff.
     template <int dim, typename Number>
-    TALUS_ALWAYS_INLINE void
+    TALUS_ALWAYS_INLINE ContributionEntries<dim, Number>
     compute_contributions(const PointsView<dim, const double> &points,
                           const WorkspaceView<dim>            &workspace,
                           const LoadsView<dim>                &loads,
                           const double       inverse_cell_size,
-                          const unsigned int p,
-                          Number            *record,
-                          Number (*flux)[Contributions<dim>::n_of_force])
+                          const unsigned int p)
     {
-      using Sum       = NodalSum<dim>;
-      const auto mass = load<Number>(points.data(points.mass) + p);
+      using Sum = NodalSum<dim>;
+      ContributionEntries<dim, Number> entries;
+      auto &[record, flux] = entries;
+      const auto mass      = load<Number>(points.data(points.mass) + p);
       // Gradients are per cell size.
       const auto volume =
         -inverse_cell_size * volume_of_points<dim, Number>(points, p);
@@ -101,6 +113,7 @@ namespace talus
             add(i, j);
             add(j, i);
           }
+      return entries;
     }
 
 
@@ -118,14 +131,8 @@ namespace talus
       using Number = Simd<simd_width>;
       for (unsigned int k = 0; k < block.size; k += simd_width)
         {
-          Number record[C::n_entries] = {}, flux[dim - 1][C::n_of_force] = {};
-          compute_contributions<dim>(points,
-                                     workspace,
-                                     loads,
-                                     1. / block.cell_size,
-                                     block.begin + k,
-                                     record,
-                                     flux);
+          auto entries = compute_contributions<dim, Number>(
+            points, workspace, loads, 1. / block.cell_size, block.begin + k);
           const auto to_points =
             [k](auto *rows, auto &to, const unsigned int n) {
               for (unsigned int e = 0; e < n; e += simd_width)
@@ -135,9 +142,9 @@ namespace talus
                     rows[e + i].store(&to[k + i][e]);
                 }
             };
-          to_points(record, contributions.record, C::n_entries);
+          to_points(entries.record, contributions.record, C::n_entries);
           for (unsigned int d = 0; d < dim - 1; ++d)
-            to_points(flux[d], contributions.flux[d], C::n_of_force);
+            to_points(entries.flux[d], contributions.flux[d], C::n_of_force);
         }
     }
 

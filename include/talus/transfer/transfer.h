@@ -2,11 +2,9 @@
 #ifndef talus_transfer_transfer_h
 #define talus_transfer_transfer_h
 
-#include <talus/grid/nodal_fields.h>
-#include <talus/points/points.h>
-#include <talus/points/step_workspace.h>
 #include <talus/transfer/box_rule.h>
-#include <talus/transfer/loads.h>
+#include <talus/transfer/step_context.h>
+#include <talus/transfer/transfer_scheme.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -58,46 +56,30 @@ namespace talus
                          const Batch        &batch) const;
 
     /// Add mass, momentum, internal and external force and reference volume of
-    /// the points to their nodes.
+    /// the points of a batch to their nodes.
     void
-    scatter(const Points<dim>        &points,
-            const StepWorkspace<dim> &workspace,
-            const Batch              &batch,
-            const Grid<dim>          &grid,
-            const Loads<dim>         &loads,
-            NodalFields<dim>         &nodes) const;
+    scatter(const StepContext<dim> &context, const Batch &batch) const;
 
     /// Update velocity and position of the points of a batch from the motion of
-    /// the nodes, with the FLIP fraction of the parameters.
+    /// the nodes. The workspace receives the velocity gradients, 1/s, and the
+    /// indices of the points that left their cell.
     ///
-    /// @param workspace receives the velocity gradients, 1/s, and the indices
-    ///   of the points that left their cell
     /// @param dt time step, s
+    /// @param velocity_update update of the velocities in place of scheme()
     /// @return work of the loads, J
     double
-    gather(const NodalFields<dim> &nodes,
-           const Grid<dim>        &grid,
-           const Loads<dim>       &loads,
-           Points<dim>            &points,
-           StepWorkspace<dim>     &workspace,
+    gather(const StepContext<dim> &context,
+           const Batch            &batch,
+           double                  dt,
+           const VelocityUpdate   &velocity_update) const;
+
+    double
+    gather(const StepContext<dim> &context,
            const Batch            &batch,
            const double            dt) const
     {
-      return gather(
-        nodes, grid, loads, points, workspace, batch, dt, flip_fraction_);
+      return gather(context, batch, dt, scheme_.velocity_update());
     }
-
-    /// Overload with a FLIP fraction [-] in place of the parameter; with 0 the
-    /// points receive the velocity of the grid.
-    double
-    gather(const NodalFields<dim> &nodes,
-           const Grid<dim>        &grid,
-           const Loads<dim>       &loads,
-           Points<dim>            &points,
-           StepWorkspace<dim>     &workspace,
-           const Batch            &batch,
-           double                  dt,
-           double                  flip_fraction) const;
 
     /// Second half of the B-bar pair: replace the rate of volume change of each
     /// point by the mean over the cell.
@@ -105,6 +87,12 @@ namespace talus
     apply_bbar_to_dilatation(const Points<dim>  &points,
                              StepWorkspace<dim> &workspace,
                              const Batch        &batch) const;
+
+    const TransferScheme &
+    scheme() const
+    {
+      return scheme_;
+    }
 
     const BoxShape &
     box_shape() const
@@ -137,10 +125,10 @@ namespace talus
                         const Quantity     &quantity,
                         const Add          &add) const;
 
-    double      flip_fraction_ = 1.;
-    std::string box_rule_      = "left stretch";
-    double      mass_cut_off_  = 1e-9;
-    BoxShape    box_shape_;
+    TransferScheme scheme_;
+    std::string    box_rule_     = "left stretch";
+    double         mass_cut_off_ = 1e-9;
+    BoxShape       box_shape_;
 
     std::vector<unsigned char> bbar_of_body_;
   };

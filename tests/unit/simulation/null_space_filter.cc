@@ -75,8 +75,7 @@ namespace
         momentum -= m * core.get(core.points.velocity, p);
         scale += m * core.get(core.points.velocity, p).norm();
       }
-    const NullSpaceFilter<dim> filter;
-    filter.apply(core, core.transfer);
+    filter_null_space(core, core.transfer);
     double most_taken = 0.;
     for (unsigned int p = 0; p < n; ++p)
       {
@@ -108,8 +107,7 @@ namespace
     std::vector<Stress<dim, double>> old(n);
     for (unsigned int p = 0; p < n; ++p)
       old[p] = stress(p);
-    const NullSpaceFilter<dim> filter;
-    filter.apply(core, core.transfer);
+    filter_null_space(core, core.transfer);
     double largest_change = 0.;
     for (unsigned int p = 0; p < n; ++p)
       {

@@ -64,13 +64,9 @@ namespace
     core.nodes.clear();
     NodeWeights<dim> room;
     for (const Segment &segment : core.points.segments())
-      scatter_by_definition(core.points,
-                            core.workspace.view(segment.begin, segment.end),
-                            segment,
-                            core.grid,
-                            core.loads,
+      scatter_by_definition(core.with(core.loads),
                             core.transfer.box_shape(),
-                            core.nodes,
+                            segment,
                             room);
     auto expected = core.sums_of_nodes();
     for (const auto &hanging : core.grid.hanging_nodes())
@@ -305,15 +301,11 @@ namespace
       core.workspace.reinit(0, core.points.size());
       double power = 0.;
       for (const Segment &segment : core.points.segments())
-        power += gather_by_definition(core.nodes,
-                                      core.grid,
-                                      core.loads,
+        power += gather_by_definition(core.with(core.loads),
                                       core.transfer.box_shape(),
                                       segment,
-                                      flip,
                                       dt,
-                                      core.points,
-                                      core.workspace);
+                                      VelocityUpdate{flip});
       return dt * power;
     });
     const Gathered<dim> found(core, [&]() { return core.gather(dt); });
