@@ -19,8 +19,8 @@ namespace talus
   ///
   /// Like a stream a file remembers its first failure, on whichever rank that
   /// was: all ranks then know it, and all further calls do nothing. Whoever
-  /// writes looks at error() after Hdf5OutputFile::close(), whoever reads before
-  /// using what was read.
+  /// writes looks at error() after Hdf5OutputFile::close(), whoever reads
+  /// before using what was read.
   ///
   /// (deal.II's own classes look at the return codes of the library in Debug
   /// only; its DataOutBase::write_hdf5_parallel() keeps three of the nine
@@ -57,6 +57,11 @@ namespace talus
     /// how many there are on all ranks.
     std::pair<std::uint64_t, std::uint64_t>
     first_and_total(std::uint64_t n_rows) const;
+
+    /// Return first and number of the rows of this rank if all ranks together
+    /// read @p n_rows rows in nearly equal parts.
+    std::pair<std::uint64_t, std::uint64_t>
+    share_of_rank(std::uint64_t n_rows) const;
 
   protected:
     Hdf5File(const std::filesystem::path &path, MPI_Comm communicator);
