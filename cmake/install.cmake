@@ -24,25 +24,18 @@ install(FILES share/talus/study-example.prm share/talus/paraview.py doc/paramete
   DESTINATION share/talus COMPONENT program)
 install(DIRECTORY share/talus/examples DESTINATION share/talus COMPONENT program)
 
-# Made by the program itself from its list of options.
+# The pages name the options of `--help`, as tests check. Debian wants them packed.
 find_program(TALUS_GZIP gzip REQUIRED)
 mark_as_advanced(TALUS_GZIP)
-set(manual ${CMAKE_BINARY_DIR}/talus.1.gz)
-set(completion ${CMAKE_BINARY_DIR}/talus.bash)
-add_custom_command(OUTPUT ${manual}
-  COMMAND talus --manual | ${TALUS_GZIP} -9n > ${manual} DEPENDS talus VERBATIM)
-add_custom_command(OUTPUT ${completion}
-  COMMAND talus --completion > ${completion} DEPENDS talus VERBATIM)
-add_custom_target(manual ALL DEPENDS ${manual} ${completion})
-install(FILES ${manual} DESTINATION share/man/man1 COMPONENT program)
-# Those of the tools say what `--help` does, but need none of Python's modules.
-foreach(tool talus-report talus-study talus-animate talus-compare)
+foreach(tool talus talus-report talus-study talus-animate talus-compare)
+  set(source ${CMAKE_SOURCE_DIR}/doc/man/${tool}.1)
   set(page ${CMAKE_BINARY_DIR}/${tool}.1.gz)
-  execute_process(COMMAND ${TALUS_GZIP} -9nc ${CMAKE_SOURCE_DIR}/doc/man/${tool}.1
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})
+  execute_process(COMMAND ${TALUS_GZIP} -9nc ${source}
     OUTPUT_FILE ${page} COMMAND_ERROR_IS_FATAL ANY)
   install(FILES ${page} DESTINATION share/man/man1 COMPONENT program)
 endforeach()
-install(FILES ${completion} RENAME talus
+install(FILES share/talus/talus.bash RENAME talus
   DESTINATION share/bash-completion/completions COMPONENT program)
 
 # deal.II's headers are others where they assert.

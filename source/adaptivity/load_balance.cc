@@ -30,44 +30,6 @@ namespace talus
 
 
 
-  template <int dim>
-  double
-  LoadBalance<dim>::imbalance(const Points<dim> &points,
-                              const MPI_Comm     communicator)
-  {
-    const auto n = Utilities::MPI::min_max_avg(points.size(), communicator);
-    return n.sum > 0 ? n.max / n.avg : 1.;
-  }
-
-
-
-  // Counting needs a message between all ranks, too expensive for every step.
-  template <int dim>
-  bool
-  LoadBalance<dim>::is_due(const unsigned long step,
-                           const MPI_Comm      communicator) const
-  {
-    return Utilities::MPI::n_mpi_processes(communicator) > 1 &&
-           step % interval_ == 0;
-  }
-
-
-
-  // A cell belongs to one rank as a whole, so with few cells per rank the
-  // allowed imbalance may be out of reach. The second bound avoids useless
-  // repartitions: only an imbalance 5 % above the value reached last is a
-  // reason to try again.
-  template <int dim>
-  bool
-  LoadBalance<dim>::is_needed(const Points<dim> &points,
-                              const MPI_Comm     communicator) const
-  {
-    return imbalance(points, communicator) >
-           std::max(allowed_imbalance_, 1.05 * reached_imbalance_);
-  }
-
-
-
   namespace
   {
     /// Index of the first point of each owned cell, and at the end the number
@@ -162,15 +124,6 @@ namespace talus
     for (const unsigned int c : cells)
       weights_[c] += weight(1) - weight(0);
     return cells;
-  }
-
-
-
-  template <int dim>
-  void
-  LoadBalance<dim>::list_state(StateList &list)
-  {
-    list.add("reached imbalance", "-", reached_imbalance_, Reduction::equal);
   }
 
 

@@ -366,18 +366,6 @@ namespace talus
 
 
 
-  template <int dim>
-  void
-  Merger<dim>::list_state(StateList &list)
-  {
-    if (!enabled_)
-      return;
-    list.add("merges", "-", n_merges_, Reduction::sum);
-    conservation_.list_state(list, "merge conservation error");
-  }
-
-
-
   template class Merger<2>;
   template class Merger<3>;
 } // namespace talus

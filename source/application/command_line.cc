@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/application/command_line.h>
-#include <talus/application/manual.h>
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/base/processor.h>
@@ -60,8 +59,7 @@ namespace talus
     CommandLine             result;
     po::options_description visible = visible_options(result);
     po::options_description all;
-    all.add(visible).add_options()("file", po::value(&result.parameter_file))(
-      "manual", "print the man page")("completion", "print bash's completion");
+    all.add(visible).add_options()("file", po::value(&result.parameter_file));
     po::positional_options_description positional;
     positional.add("file", 1);
 
@@ -81,16 +79,6 @@ namespace talus
         out << "talus: submarine landslides by the material point "
                "method\n\nUsage: talus [options] FILE.prm\n\n"
             << visible;
-        return {};
-      }
-    if (variables.count("manual"))
-      {
-        write_manual(out, visible);
-        return {};
-      }
-    if (variables.count("completion"))
-      {
-        write_completion(out, visible);
         return {};
       }
     if (variables.count("version"))

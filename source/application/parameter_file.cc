@@ -4,6 +4,7 @@
 #include <talus/application/parameter_lines.h>
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
+#include <talus/checkpoint/parameter_changes.h>
 #include <talus/io/files.h>
 #include <talus/io/run_record.h>
 #include <talus/io/text_file.h>
@@ -18,6 +19,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace talus
@@ -84,12 +86,9 @@ namespace talus
         }
       return result;
     }
-  } // namespace
 
 
 
-  namespace
-  {
     /// Read a parameter file. Only the first file may be a pipe: included files
     /// are read twice.
     std::string
@@ -244,20 +243,17 @@ namespace talus
     parse_into(prm, /*skip_undefined=*/true);
 
     ParameterPreview preview;
-    preview.folder    = std::filesystem::path(file_name_).parent_path();
-    preview.dimension = prm.get_integer("Dimension");
-    preview.remarks   = remarks_;
-    prm.enter_subsection("Bodies");
-    preview.bodies = names(prm.get("Names"), "Bodies/Names");
-    prm.leave_subsection();
-    prm.enter_subsection("Obstacles");
-    preview.obstacles = names(prm.get("Names"), "Obstacles/Names");
-    prm.leave_subsection();
-    prm.enter_subsection("Surfaces");
-    preview.surfaces = names(prm.get("Names"), "Surfaces/Names");
-    prm.leave_subsection();
+    preview.folder      = std::filesystem::path(file_name_).parent_path();
+    preview.dimension   = prm.get_integer("Dimension");
+    preview.remarks     = remarks_;
+    const auto names_in = [&prm](const std::string &section) {
+      return names(prm.get({section}, "Names"), section + "/Names");
+    };
+    preview.bodies       = names_in("Bodies");
+    preview.obstacles    = names_in("Obstacles");
+    preview.surfaces     = names_in("Surfaces");
+    const auto materials = names_in("Materials");
     prm.enter_subsection("Materials");
-    const auto materials = names(prm.get("Names"), "Materials/Names");
     const Patterns::Selection laws(
       boost::algorithm::join(material_names<2>(), "|"));
     for (const std::string &name : materials)
@@ -269,13 +265,8 @@ namespace talus
     prm.leave_subsection();
 
     parse_into(prm, /*skip_undefined=*/true);
-    prm.enter_subsection("Materials");
     for (const std::string &name : materials)
-      {
-        prm.enter_subsection(name);
-        preview.materials.push_back({name, prm.get("Law")});
-        prm.leave_subsection();
-      }
+      preview.materials.push_back({name, prm.get({"Materials", name}, "Law")});
     return preview;
   }
 
@@ -337,16 +328,9 @@ namespace talus
     bool
     is_text(const std::string &entry)
     {
-      for (const std::string name : {"Title",
-                                     "Folder",
-                                     "File",
-                                     "Names",
-                                     "Material",
-                                     "Surface",
-                                     "Constants"})
-        if (entry == name)
-          return true;
-      return false;
+      static const std::set<std::string> texts = {
+        "Title", "Folder", "File", "Names", "Material", "Surface", "Constants"};
+      return texts.count(entry) > 0;
     }
 
 
@@ -357,48 +341,24 @@ namespace talus
     void
     check_sizes(const ParameterHandler &prm)
     {
-      std::istringstream       lines(parameters_as_text(prm));
-      std::vector<std::string> path;
-      const std::string        section = "subsection ", entry = "set ";
-      for (std::string line; std::getline(lines, line);)
-        {
-          line = Utilities::trim(line);
-          if (line.rfind(section, 0) == 0)
-            path.push_back(line.substr(section.size()) + '/');
-          else if (line == "end")
-            path.pop_back();
-          else if (line.rfind(entry, 0) == 0)
-            {
-              const std::size_t equals = line.find('=');
-              const std::string name   = Utilities::trim(
-                line.substr(entry.size(), equals - entry.size()));
-              if (!is_text(name))
-                check_size(boost::algorithm::join(path, "") + name,
-                           line.substr(equals + 1));
-            }
-        }
+      for (const auto &[path, value] : values_by_path(parameters_as_text(prm)))
+        if (!is_text(path.substr(path.rfind('/') + 1)))
+          check_size(path, value);
     }
-  } // namespace
 
 
 
-  namespace
-  {
     /// Throw ExcUser if there is no body or no material. Call after the strict
     /// pass, which reports misspelt sections.
     void
-    check_has_names(ParameterHandler &prm)
+    check_has_names(const ParameterHandler &prm)
     {
       for (const std::string section : {"Bodies", "Materials"})
-        {
-          prm.enter_subsection(section);
-          AssertThrow(!prm.get("Names").empty(),
-                      ExcUser("'" + section +
-                              "/Names' is empty, but at least one name is "
-                              "needed: the parameters are in a section with "
-                              "this name."));
-          prm.leave_subsection();
-        }
+        AssertThrow(!prm.get({section}, "Names").empty(),
+                    ExcUser("'" + section +
+                            "/Names' is empty, but at least one name is "
+                            "needed: the parameters are in a section with "
+                            "this name."));
     }
   } // namespace
 

@@ -4,7 +4,9 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/join.hpp>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <map>
@@ -62,10 +64,8 @@ namespace talus
     bool
     begins_with(const std::string &line, const std::string &keyword)
     {
-      std::string capitals = keyword;
-      for (char &c : capitals)
-        c = std::toupper(static_cast<unsigned char>(c));
-      return line.rfind(keyword, 0) == 0 || line.rfind(capitals, 0) == 0;
+      return boost::starts_with(line, keyword) ||
+             boost::starts_with(line, boost::to_upper_copy(keyword));
     }
 
 

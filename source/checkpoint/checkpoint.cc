@@ -54,18 +54,6 @@ namespace talus
 
 
 
-  template <int dim>
-  void
-  Checkpoint<dim>::check_nothing_is_lost(
-    const std::filesystem::path &output_folder,
-    const MPI_Comm               communicator) const
-  {
-    if (!may_overwrite_)
-      check_nothing_unfinished(output_folder, communicator);
-  }
-
-
-
   /// The checkpoint used is the newest valid one. Newer ones are damaged,
   /// otherwise they would have been used; they stay until replaced. Only the
   /// first rank changes the folder.

@@ -61,17 +61,11 @@ namespace talus
     std::string
     fault_of_bodies(Hdf5InputFile &file)
     {
-      const unsigned int n =
-        Utilities::MPI::n_mpi_processes(file.communicator());
-      const unsigned int rank =
-        Utilities::MPI::this_mpi_process(file.communicator());
-      const std::string   name     = "points/body";
-      const std::uint64_t n_points = file.shape(name).first;
-      const std::uint64_t first    = n_points * rank / n;
-      const std::uint64_t end      = n_points * (rank + 1) / n;
-      const auto          bodies   = file.read(name, first, end - first);
-      const std::string   names =
-        parameter_in(file.read_text("parameters"), "Bodies/Names");
+      const std::string name    = "points/body";
+      const auto [first, n_own] = file.share_of_rank(file.shape(name).first);
+      const auto        bodies  = file.read(name, first, n_own);
+      const std::string names =
+        values_by_path(file.read_text("parameters"))["Bodies/Names"];
       if (!file.error().empty())
         return file.error();
       const double n_bodies = Utilities::split_string_list(names, ',').size();
@@ -93,14 +87,9 @@ namespace talus
     double
     sum_of_counts(Hdf5InputFile &file, const std::uint64_t n_cells)
     {
-      const unsigned int n =
-        Utilities::MPI::n_mpi_processes(file.communicator());
-      const unsigned int rank =
-        Utilities::MPI::this_mpi_process(file.communicator());
-      const std::uint64_t first = n_cells * rank / n;
-      const std::uint64_t end   = n_cells * (rank + 1) / n;
-      const auto points         = file.read("cells/points", first, end - first);
-      const auto weights        = file.read("cells/weight", first, end - first);
+      const auto [first, n_own] = file.share_of_rank(n_cells);
+      const auto points         = file.read("cells/points", first, n_own);
+      const auto weights        = file.read("cells/weight", first, n_own);
       double     sum            = 0.;
       bool       is_good        = true;
       for (const double count : points)

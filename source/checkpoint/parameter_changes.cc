@@ -4,9 +4,10 @@
 
 #include <deal.II/base/utilities.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <cstdlib>
 #include <iomanip>
-#include <map>
 #include <regex>
 #include <sstream>
 #include <vector>
@@ -16,38 +17,37 @@ namespace talus
   using dealii::Utilities::split_string_list;
   using dealii::Utilities::trim;
 
+  /// deal.II's parser would need the declarations of the program that wrote the
+  /// text. The text comes from print_parameters(), whose format is simple.
+  std::map<std::string, std::string>
+  values_by_path(const std::string &parameters)
+  {
+    std::map<std::string, std::string> values;
+    std::vector<std::string>           sections;
+    std::istringstream                 in(parameters);
+    for (std::string line; std::getline(in, line);)
+      {
+        line = trim(line.substr(0, line.find('#')));
+        if (line == "end" && !sections.empty())
+          sections.pop_back();
+        else if (line.rfind("subsection ", 0) == 0)
+          sections.push_back(trim(line.substr(11)) + '/');
+        else if (line.rfind("set ", 0) == 0)
+          {
+            const auto        equals = line.find('=');
+            const std::string entry  = trim(line.substr(4, equals - 4));
+            values[boost::algorithm::join(sections, "") + entry] =
+              trim(line.substr(equals + 1));
+          }
+      }
+    return values;
+  }
+
+
+
   namespace
   {
     using Values = std::map<std::string, std::string>;
-
-    /// Read values by path, "Section/Subsection/Entry". deal.II's parser would
-    /// need the declarations of the program that wrote the text; both texts
-    /// come from print_parameters(), whose format is simple.
-    Values
-    read_parameters(const std::string &parameters)
-    {
-      Values                   values;
-      std::vector<std::string> sections;
-      std::istringstream       in(parameters);
-      for (std::string line; std::getline(in, line);)
-        {
-          line = trim(line.substr(0, line.find('#')));
-          if (line == "end" && !sections.empty())
-            sections.pop_back();
-          else if (line.rfind("subsection ", 0) == 0)
-            sections.push_back(trim(line.substr(11)));
-          else if (line.rfind("set ", 0) == 0)
-            {
-              std::string path;
-              for (const std::string &section : sections)
-                path += section + '/';
-              const auto equals = line.find('=');
-              path += trim(line.substr(4, equals - 4));
-              values[path] = trim(line.substr(equals + 1));
-            }
-        }
-      return values;
-    }
 
 
 
@@ -62,11 +62,10 @@ namespace talus
       if (path == "Output/Format" || path == "Output/Runout")
         return false;
       // A run may continue to a later time and to more points.
-      for (const std::string name :
-           {"Title",
-            "End time",
-            "End when at rest",
-            "Splitting/Maximum number of points"})
+      for (const std::string name : {"Title",
+                                     "End time",
+                                     "End when at rest",
+                                     "Splitting/Maximum number of points"})
         if (path == name)
           return true;
       for (const std::string section :
@@ -125,16 +124,6 @@ namespace talus
 
 
 
-  std::string
-  parameter_in(const std::string &parameters, const std::string &path)
-  {
-    const Values values = read_parameters(parameters);
-    const auto   value  = values.find(path);
-    return value == values.end() ? "" : value->second;
-  }
-
-
-
   /// Parameters in only one of the two texts count as different. They are
   /// compared last: they usually follow from another parameter, as the
   /// parameters of a law from its name, and the message should name the
@@ -143,8 +132,8 @@ namespace talus
   void
   check_parameter_changes(const std::string &saved, const std::string &now)
   {
-    const Values             saved_values = read_parameters(saved);
-    const Values             values       = read_parameters(now);
+    const Values             saved_values = values_by_path(saved);
+    const Values             values       = values_by_path(now);
     std::vector<std::string> of_both, of_one;
     for (const auto &[path, value] : values)
       (saved_values.count(path) > 0 ? of_both : of_one).push_back(path);

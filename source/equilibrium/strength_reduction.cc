@@ -105,25 +105,6 @@ namespace talus
 
 
 
-  /// Strengths may not be raised beyond the limit of the law: softening soil
-  /// would soften faster than it can unload (doc/method.md, section 12).
-  double
-  StrengthReduction::min_factor() const
-  {
-    return std::max(smallest_, 1. / largest_strength_);
-  }
-
-
-
-  /// Valid only when the two ends of the bracket are known.
-  bool
-  StrengthReduction::is_narrow() const
-  {
-    return upper_ - lower_ <= tolerance_ * lower_;
-  }
-
-
-
   /// A narrow bracket is not enough: its upper end may have failed because the
   /// reduction from a much lower factor was too large for one trial. The upper
   /// end counts if it was tried from a factor, upper_from_, within the

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <cstring>
 
 namespace talus
 {
@@ -31,30 +29,24 @@ namespace talus
       return names;
     }
 
+
+
+    /// Return the entry of @p table for @p key; compute the entry if there is
+    /// none. A table of 2^15 entries is emptied first, so that memory stays
+    /// small where points move and ask for ever new places.
+    template <typename Table, typename Compute>
+    typename Table::mapped_type
+    look_up(Table                          &table,
+            const typename Table::key_type &key,
+            const Compute                  &compute)
+    {
+      if (const auto known = table.find(key); known != table.end())
+        return known->second;
+      if (table.size() == 1u << 15)
+        table.clear();
+      return table.emplace(key, compute()).first->second;
+    }
   } // namespace
-
-
-
-  template <int dim>
-  template <std::size_t n, typename T>
-  template <typename Find>
-  const T &
-  ExpressionSurface<dim>::LastFound<n, T>::get(const Key &key, const Find &find)
-  {
-    entries_.resize(1u << 15);
-    std::uint64_t hash = 0;
-    for (const double number : key)
-      {
-        std::uint64_t bits;
-        std::memcpy(&bits, &number, sizeof(bits));
-        hash = (hash ^ bits) * 0x9e3779b97f4a7c15ull; // golden ratio
-        hash ^= hash >> 32;
-      }
-    Entry &entry = entries_[hash % entries_.size()];
-    if (entry.key != key)
-      entry = {key, find()};
-    return entry.found;
-  }
 
 
 
@@ -114,8 +106,9 @@ namespace talus
   typename ExpressionSurface<dim>::Value
   ExpressionSurface<dim>::at(const Point<dim> &x) const
   {
-    return values_.get({{x[0], dim == 3 ? x[dim - 1] : 0.}},
-                       [&] { return find(x); });
+    return look_up(values_, {{x[0], dim == 3 ? x[dim - 1] : 0.}}, [&] {
+      return compute_value(x);
+    });
   }
 
 
@@ -124,7 +117,7 @@ namespace talus
   /// surfaces have their own slopes, also at the edge of a raster.
   template <int dim>
   typename ExpressionSurface<dim>::Value
-  ExpressionSurface<dim>::find(const Point<dim> &x) const
+  ExpressionSurface<dim>::compute_value(const Point<dim> &x) const
   {
     Arguments                                            arguments{};
     std::vector<std::pair<unsigned int, Tensor<1, dim>>> slopes;
@@ -180,16 +173,17 @@ namespace talus
   ExpressionSurface<dim>::largest_change(const Point<dim> &x,
                                          const double      distance) const
   {
-    return changes_.get({{x[0], dim == 3 ? x[dim - 1] : 0., distance}},
-                        [&] { return find_largest_change(x, distance); });
+    return look_up(changes_,
+                   {{x[0], dim == 3 ? x[dim - 1] : 0., distance}},
+                   [&] { return compute_largest_change(x, distance); });
   }
 
 
 
   template <int dim>
   double
-  ExpressionSurface<dim>::find_largest_change(const Point<dim> &x,
-                                              const double      distance) const
+  ExpressionSurface<dim>::compute_largest_change(const Point<dim> &x,
+                                                 const double distance) const
   {
     const Value here   = at(x);
     double      change = distance * here.slope.norm();

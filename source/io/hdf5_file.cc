@@ -39,8 +39,9 @@ namespace talus
     // attribute.
     H5Pset_all_coll_metadata_ops(access, true);
     H5Pset_coll_metadata_write(access, true);
-    // No blocks allocated ahead: MPI-IO fills the unused part of a block with
-    // arbitrary content of its buffers, and files of equal runs would differ.
+    // Without blocks that are allocated ahead and not filled: MPI-IO writes
+    // into what is left of them whatever its buffers hold, so that the files of
+    // equal runs would differ.
     H5Pset_meta_block_size(access, 0);
     H5Pset_small_data_block_size(access, 0);
     // Metadata have checksums from version 1.8 on.
@@ -96,5 +97,16 @@ namespace talus
       MPI_Scan(&n_rows, &end, 1, MPI_UINT64_T, MPI_SUM, communicator_);
     AssertThrowMPI(status);
     return {end - n_rows, Utilities::MPI::sum(n_rows, communicator_)};
+  }
+
+
+
+  std::pair<std::uint64_t, std::uint64_t>
+  Hdf5File::share_of_rank(const std::uint64_t n_rows) const
+  {
+    const std::uint64_t n     = Utilities::MPI::n_mpi_processes(communicator_);
+    const std::uint64_t rank  = Utilities::MPI::this_mpi_process(communicator_);
+    const std::uint64_t first = n_rows * rank / n;
+    return {first, n_rows * (rank + 1) / n - first};
   }
 } // namespace talus

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/io/checksum.h>
-#include <talus/io/hdf5_checks.h>
 #include <talus/io/hdf5_input_file.h>
 #include <talus/io/hdf5_rows.h>
+
+#include <optional>
 
 namespace talus
 {
@@ -17,7 +18,92 @@ namespace talus
 
 
 
-    /// Open an array; the handle is not valid if there is none.
+    // A file may have been damaged or made by others: what it claims to hold is
+    // compared with what is expected, and with its size, before memory is taken
+    // or anything is read.
+
+    bool
+    is_scalar(const hid_t space)
+    {
+      return H5Sget_simple_extent_type(space) == H5S_SCALAR;
+    }
+
+
+
+    /// Bytes of so many elements as the extents say; nothing if that is more
+    /// than @p limit. The library's own product may wrap around.
+    std::optional<hsize_t>
+    size_in_bytes(const hid_t type, const hid_t space, const hsize_t limit)
+    {
+      hsize_t   size    = H5Tget_size(type);
+      const int n_dims  = H5Sget_simple_extent_ndims(space);
+      bool      is_sane = (size > 0 && n_dims >= 0);
+      if (!is_sane)
+        return {};
+      std::vector<hsize_t> extents(n_dims);
+      is_sane =
+        (n_dims == 0 ||
+         H5Sget_simple_extent_dims(space, extents.data(), nullptr) == n_dims);
+      for (const hsize_t extent : extents)
+        is_sane = is_sane && !__builtin_mul_overflow(size, extent, &size);
+      if (!is_sane || size > limit)
+        return {};
+      return size;
+    }
+
+
+
+    /// Whether an attribute is one number of exactly this type.
+    bool
+    is_number(const hid_t attribute, const hid_t type)
+    {
+      const Hdf5Handle found(H5Aget_type(attribute), H5Tclose);
+      const Hdf5Handle space(H5Aget_space(attribute), H5Sclose);
+      return found.is_valid() && space.is_valid() &&
+             H5Tequal(found, type) > 0 && is_scalar(space);
+    }
+
+
+
+    /// Length of the one text that an attribute or an array is; nothing if it
+    /// is something else. Of a text of variable length the library would give
+    /// pointers.
+    std::optional<std::size_t>
+    length_of_text(const hid_t type, const hid_t space)
+    {
+      if (type < 0 || space < 0 || H5Tget_class(type) != H5T_STRING ||
+          H5Tis_variable_str(type) != 0 || !is_scalar(space))
+        return {};
+      return H5Tget_size(type);
+    }
+
+
+
+    /// Whether all values that an array claims to have are in the file, in one
+    /// piece, and not in chunks, elsewhere or nowhere. Written values have as
+    /// many bytes in the file as in memory: an array that was never written
+    /// takes none, but the library would make up its values.
+    bool
+    is_stored(const hid_t file, const hid_t array)
+    {
+      const Hdf5Handle type(H5Dget_type(array), H5Tclose);
+      const Hdf5Handle space(H5Dget_space(array), H5Sclose);
+      const Hdf5Handle properties(H5Dget_create_plist(array), H5Pclose);
+      hsize_t          size_of_file = 0;
+      if (!type.is_valid() || !space.is_valid() || !properties.is_valid() ||
+          H5Fget_filesize(file, &size_of_file) < 0)
+        return false;
+      const H5D_layout_t layout = H5Pget_layout(properties);
+      if ((layout != H5D_CONTIGUOUS && layout != H5D_COMPACT) ||
+          H5Pget_external_count(properties) != 0)
+        return false;
+      const auto size = size_in_bytes(type, space, size_of_file);
+      return size.has_value() && *size == H5Dget_storage_size(array);
+    }
+
+
+
+    /// Not valid if there is no such array; the same of open_attribute().
     Handle
     open_array(const hid_t file, const std::string &name)
     {
@@ -84,8 +170,8 @@ namespace talus
 
 
 
-  /// Numbers are converted from the file's type to the type in memory, which
-  /// has the same values.
+  /// Numbers are converted from the file's type to that of memory, as far as
+  /// the two have the same values.
   template <typename Number>
   Number
   Hdf5InputFile::read_attribute(const std::string &object,
@@ -228,15 +314,10 @@ namespace talus
       found = checksum(read_text(name));
     else
       {
-        const std::uint64_t n_ranks =
-          Utilities::MPI::n_mpi_processes(communicator());
-        const std::uint64_t rank =
-          Utilities::MPI::this_mpi_process(communicator());
         const auto [n_rows, n_columns] = shape(name);
-        const std::uint64_t first      = n_rows * rank / n_ranks;
-        const std::uint64_t end        = n_rows * (rank + 1) / n_ranks;
+        const auto [first, n_own]      = share_of_rank(n_rows);
         const std::uint64_t own =
-          checksum(read(name, first, end - first), first * n_columns);
+          checksum(read(name, first, n_own), first * n_columns);
         found = Utilities::MPI::sum(own, communicator());
       }
     const std::uint64_t expected = integer_attribute(name, "checksum");

@@ -1,51 +1,186 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
-#include <talus/io/files.h>
-#include <talus/io/folder_lock.h>
 #include <talus/io/output_folder.h>
 #include <talus/io/run_record.h>
 
+#include <boost/algorithm/string/predicate.hpp>
+
+#include <array>
+#include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <regex>
 #include <vector>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 namespace talus
 {
   using namespace dealii;
   namespace fs = std::filesystem;
 
-  // All names are listed here, not with the writers: an earlier run may have
-  // written files that the present run does not write.
-  bool
-  is_output_name(const std::string &file_name)
+  namespace
   {
-    static const std::regex names(
-      "(statistics|profile|obstacles|boundaries|newton|maps|stations|lines)"
-      "\\.csv|log\\.txt|parameters\\.prm|maps\\.vtu|"
-      "maps/(ground|erosion|thickness-at-start|final-(thickness|mass)|"
-      "(time-of-)?maximum-(thickness|speed|momentum-flux|bed-shear)|"
-      "arrival-time-[-+.0-9e]*-m)\\.(asc|prj|tif)|"
-      "(points|grid|facets|obstacles|mechanism|no-equilibrium|last-state)"
-      "([-.][-.0-9]*)?\\.(vtu|pvtu|pvd|h5|xdmf)");
-    return std::regex_match(file_name, names);
+    const std::string other_folder =
+      ", or choose another folder with Output/Folder or --output.";
+
+    const std::string begin_of_lock = "on host '";
+
+
+
+    /// Return the beginning of an open lock: host and process of the owner.
+    std::string
+    content_of(const int file)
+    {
+      std::array<char, 256> buffer;
+      const ssize_t         n = ::pread(file, buffer.data(), buffer.size(), 0);
+      return {buffer.data(), static_cast<std::size_t>(n > 0 ? n : 0)};
+    }
+
+
+
+    /// Whether the content of a lock was written by talus.
+    bool
+    is_ours(const std::string &content)
+    {
+      return content.empty() || boost::starts_with(content, begin_of_lock);
+    }
+
+
+
+    /// Return a sentence about @p what in an output folder.
+    template <typename... Arguments>
+    std::string
+    folder_holds(const fs::path &folder, const Arguments &...what)
+    {
+      return text("The output folder '", folder.string(), "' holds ", what...);
+    }
+
+
+
+    std::string
+    lock_of_others(const fs::path &folder)
+    {
+      return folder_holds(folder,
+                          "a 'lock' that no run has written, and this one "
+                          "would write over it. Move it",
+                          other_folder);
+    }
+
+
+
+    /// Lock the folder and return an empty string, or else the reason. A link
+    /// is not followed, since the target is no file of talus.
+    std::string
+    lock(const fs::path &folder, int &file)
+    {
+      const fs::path path = folder / "lock";
+      file =
+        ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+      if (file < 0)
+        return errno == ELOOP ? lock_of_others(folder)
+                              : failed_write(path, std::strerror(errno));
+      const std::string owner = content_of(file);
+      if (::flock(file, LOCK_EX | LOCK_NB) != 0)
+        return errno != EWOULDBLOCK
+                 ? ""
+                 : text("The output folder '",
+                        folder.string(),
+                        "' belongs to another run, which runs ",
+                        owner.empty() ? "somewhere" : owner,
+                        ". Wait until that has ended",
+                        other_folder);
+      if (!is_ours(owner))
+        return lock_of_others(folder);
+      // The lock is what counts. The content only names the owner, and may be
+      // missing, as on a full disk.
+      std::array<char, 256> host = {};
+      ::gethostname(host.data(), host.size() - 1);
+      const std::string content =
+        text(begin_of_lock, host.data(), "' as process ", ::getpid());
+      [[maybe_unused]] const bool is_written =
+        ::ftruncate(file, 0) == 0 &&
+        ::pwrite(file, content.data(), content.size(), 0) > 0;
+      return "";
+    }
+
+
+
+    /// Whether the folder holds a `lock` that talus has not written: a link or
+    /// a folder, too. Without O_NONBLOCK the call would wait for the writer of
+    /// a pipe.
+    bool
+    has_foreign_lock(const fs::path &folder)
+    {
+      const int file = ::open((folder / "lock").c_str(),
+                              O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
+      if (file < 0)
+        return errno != ENOENT;
+      struct stat status;
+      const bool  is_foreign = ::fstat(file, &status) != 0 ||
+                              !S_ISREG(status.st_mode) ||
+                              !is_ours(content_of(file));
+      ::close(file);
+      return is_foreign;
+    }
+  } // namespace
+
+
+
+  // flock() and not fcntl(): the lock belongs to the open file, and survives
+  // when another part of the program opens and closes a file of this name. The
+  // file stays when the run has ended: removing the file could remove the lock
+  // of a run that begins at this moment.
+  void
+  FolderLock::acquire(const fs::path &folder, const MPI_Comm communicator)
+  {
+    std::string error;
+    if (is_first_rank(communicator))
+      {
+        make_folder(folder);
+        error = lock(folder, file_);
+      }
+    error = Utilities::MPI::broadcast(communicator, error);
+    AssertThrow(error.empty(), ExcUser(error));
+  }
+
+
+
+  FolderLock::~FolderLock()
+  {
+    if (file_ >= 0)
+      ::close(file_);
   }
 
 
 
   namespace
   {
+    /// Whether talus writes files of this name. All names stand here, and not
+    /// with the classes that write the files: a run also recognizes results
+    /// that an earlier run has written with other settings.
     bool
-    has_ending(const std::string &name, const std::string &ending)
+    is_output_name(const std::string &file_name)
     {
-      return name.size() >= ending.size() &&
-             name.compare(name.size() - ending.size(), ending.size(), ending) ==
-               0;
+      static const std::regex names(
+        "(statistics|profile|obstacles|boundaries|newton|maps|stations|lines)"
+        "\\.csv|log\\.txt|parameters\\.prm|maps\\.vtu|"
+        "maps/(ground|erosion|thickness-at-start|final-(thickness|mass)|"
+        "(time-of-)?maximum-(thickness|speed|momentum-flux|bed-shear)|"
+        "arrival-time-[-+.0-9e]*-m)\\.(asc|prj|tif)|"
+        "(points|grid|facets|obstacles|mechanism|no-equilibrium|last-state)"
+        "([-.][-.0-9]*)?\\.(vtu|pvtu|pvd|h5|xdmf)");
+      return std::regex_match(file_name, names);
     }
 
 
 
-    /// Return the files of @p type in a folder, or the targets of links, that
-    /// are named as outputs followed by @p ending.
+    /// Return the files of this type, or links to such files, with names of
+    /// results followed by @p ending.
     std::vector<fs::path>
     outputs_in(const fs::path     &folder,
                const std::string  &ending = "",
@@ -60,22 +195,18 @@ namespace talus
                entry.increment(error))
             if (const std::string name = entry->path().filename().string();
                 entry->status(ignored).type() == type &&
-                has_ending(name, ending) &&
+                boost::ends_with(name, ending) &&
                 is_output_name(within +
                                name.substr(0, name.size() - ending.size())))
               result.push_back(entry->path());
         }
       return result;
     }
-  } // namespace
 
 
 
-  namespace
-  {
-    /// Return whether a folder can be written, by making and removing a
-    /// subfolder: permissions are no answer for root, nor on file systems
-    /// without new files, such as /proc.
+    /// Whether a folder can be made in @p folder, by a trial: permissions do
+    /// not tell for root, nor for file systems without files, such as /proc.
     bool
     can_hold_folders(const fs::path &folder)
     {
@@ -89,7 +220,7 @@ namespace talus
 
 
 
-  // Checks the existing part of the path.
+  // The existing part of the path decides.
   void
   check_can_be_made(const fs::path &folder)
   {
@@ -111,133 +242,70 @@ namespace talus
 
 
 
-  namespace
-  {
-    std::string
-    foreign_record(const fs::path &record, const Beginning beginning)
-    {
-      const bool is_there =
-        fs::symlink_status(record).type() != fs::file_type::not_found;
-      if (!is_there || is_run_record(record))
-        return "";
-      return text("The output folder '",
-                  record.parent_path().string(),
-                  "' holds a file 'parameters.prm' that no run has written "
-                  "or somebody has changed, and this run would write over "
-                  "the file. Move the file",
-                  beginning == Beginning::resumed
-                    ? ", and resume with the moved file or another parameter "
-                      "file."
-                    : ", or choose another folder with Output/Folder or "
-                      "--output.");
-    }
-
-
-
-    /// Return an error for results without the record of a run: the owner is
-    /// unknown.
-    std::string
-    results_without_a_run(const fs::path &folder)
-    {
-      const std::vector<fs::path> found = outputs_in(folder);
-      if (found.empty())
-        return "";
-      return text("The output folder '",
-                  folder.string(),
-                  "' holds '",
-                  found.front().string(),
-                  "', named like the output of a run, but no "
-                  "'parameters.prm' of a run: the file may be yours. Move "
-                  "the file, or choose another folder with Output/Folder or "
-                  "--output.");
-    }
-  } // namespace
-
-
-
-  namespace
-  {
-    /// Return an error for pipes: opening a pipe would wait for a reader.
-    std::string
-    pipe_of_others(const fs::path &folder)
-    {
-      const std::vector<fs::path> found =
-        outputs_in(folder, "", fs::file_type::fifo);
-      if (found.empty())
-        return "";
-      return text("The output folder '",
-                  folder.string(),
-                  "' holds a pipe '",
-                  found.front().string(),
-                  "', where the run writes a file of the same name. Remove "
-                  "the pipe, or choose another folder with Output/Folder or "
-                  "--output.");
-    }
-  } // namespace
-
-
-
   std::string
   foreign_file(const fs::path &folder, const Beginning beginning)
   {
-    if (const std::string sentence = pipe_of_others(folder); !sentence.empty())
-      return sentence;
-    if (const std::string sentence = foreign_lock(folder); !sentence.empty())
-      return sentence;
+    // Opening a pipe would wait for the reader.
+    if (const auto pipes = outputs_in(folder, "", fs::file_type::fifo);
+        !pipes.empty())
+      return folder_holds(folder,
+                          "a pipe '",
+                          pipes.front().string(),
+                          "', where the run writes a file of that name. "
+                          "Remove it",
+                          other_folder);
+    if (has_foreign_lock(folder))
+      return lock_of_others(folder);
+    const auto results = outputs_in(folder);
     // write_file() makes the file under another name first.
-    for (const std::string ending : {"", ".part"})
-      for (const fs::path &path : outputs_in(folder, ending))
-        if (const std::string sentence = clash_with_input(path);
-            !sentence.empty())
-          return sentence;
-    const fs::path    record   = folder / "parameters.prm";
-    const std::string sentence = foreign_record(record, beginning);
-    return sentence.empty() && beginning == Beginning::fresh &&
-               !is_run_record(record)
-             ? results_without_a_run(folder)
-             : sentence;
-  }
-
-
-
-  namespace
-  {
-    void
-    remove_result(const fs::path &path)
-    {
-      std::error_code error;
-      fs::remove(path, error);
-      AssertThrow(!error,
-                  ExcUser(text("The file '",
-                               path.string(),
-                               "' of an earlier run could not be removed (",
-                               error.message(),
-                               "). Remove it, or choose another folder "
-                               "with Output/Folder or --output.")));
-    }
-  } // namespace
-
-
-
-  void
-  remove_earlier_results(const fs::path &folder)
-  {
+    for (const auto &paths : {results, outputs_in(folder, ".part")})
+      for (const fs::path &path : paths)
+        if (const std::string clash = clash_with_input(path); !clash.empty())
+          return clash;
     const fs::path record = folder / "parameters.prm";
-    for (const std::string ending : {"", ".part"})
-      for (const fs::path &path : outputs_in(folder, ending))
-        if (path != record)
-          remove_result(path);
+    if (is_run_record(record))
+      return "";
+    if (fs::symlink_status(record).type() != fs::file_type::not_found)
+      return folder_holds(
+        folder,
+        "a file 'parameters.prm' that no run has written or somebody has "
+        "changed, and this run would write over it. Move it",
+        beginning == Beginning::resumed
+          ? ", and go on with it or another parameter file."
+          : other_folder);
+    return beginning == Beginning::resumed || results.empty()
+             ? ""
+             : folder_holds(folder,
+                            "'",
+                            results.front().string(),
+                            "', which is named as the output of a run, but no "
+                            "'parameters.prm' of one, so that it may be yours. "
+                            "Move it",
+                            other_folder);
   }
 
 
 
   void
-  remove_remains(const fs::path &folder)
+  remove_results(const fs::path &folder, const Beginning beginning)
   {
-    for (const fs::path &path : outputs_in(folder, ".part"))
-      remove_result(path);
-    for (const fs::path &path : outputs_in(folder))
-      if (path.filename().string().rfind("last-state", 0) == 0)
-        remove_result(path);
+    for (const std::string ending : {"", ".part"})
+      for (const fs::path &path : outputs_in(folder, ending))
+        {
+          const std::string name = path.filename().string();
+          if (beginning == Beginning::resumed
+                ? ending.empty() && !boost::starts_with(name, "last-state")
+                : name == "parameters.prm")
+            continue;
+          std::error_code error;
+          fs::remove(path, error);
+          AssertThrow(!error,
+                      ExcUser(text("The file '",
+                                   path.string(),
+                                   "' of an earlier run could not be removed (",
+                                   error.message(),
+                                   "). Remove it",
+                                   other_folder)));
+        }
   }
 } // namespace talus

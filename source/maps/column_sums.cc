@@ -12,39 +12,6 @@ namespace talus
 {
   using namespace dealii;
 
-  template <int dim>
-  ColumnSums<dim>::ColumnSums(std::shared_ptr<const PlanColumns<dim>> columns)
-    : columns_(std::move(columns))
-    , sums_(columns_->size())
-  {}
-
-
-
-  /// Only the touched columns are cleared: a map is larger than the slide.
-  template <int dim>
-  void
-  ColumnSums<dim>::clear()
-  {
-    for (const unsigned int column : touched_)
-      sums_[column] = ColumnSum<dim>();
-    touched_.clear();
-    with_soil_.clear();
-  }
-
-
-
-  template <int dim>
-  ColumnSum<dim> &
-  ColumnSums<dim>::touch(const unsigned int column)
-  {
-    // A column may receive a force before soil, or a force only.
-    if (sums_[column].mass == 0)
-      touched_.push_back(column);
-    return sums_[column];
-  }
-
-
-
   /// Return whether points of the batch can overlap a column. Points outside of
   /// the mesh are assigned to the outermost cells, and may then be missed.
   template <int dim>

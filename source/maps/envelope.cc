@@ -30,25 +30,6 @@ namespace talus
 
 
   template <int dim>
-  Envelope<dim>::Envelope(const unsigned int n_columns,
-                          const Settings    &settings)
-    : settings_(settings)
-    , histories_(n_columns)
-  {}
-
-
-
-  template <int dim>
-  void
-  Envelope<dim>::start(const ColumnSums<dim> &sums)
-  {
-    for (const unsigned int column : sums.with_soil())
-      histories_[column].thickness_at_start = sums.thickness(column);
-  }
-
-
-
-  template <int dim>
   void
   Envelope<dim>::add(const ColumnSums<dim> &sums, const double t)
   {
@@ -82,17 +63,6 @@ namespace talus
                                     sums.strength(column)),
           t);
       }
-  }
-
-
-
-  template <int dim>
-  std::vector<unsigned int>
-  Envelope<dim>::reached() const
-  {
-    std::vector<unsigned int> columns = reached_;
-    std::sort(columns.begin(), columns.end());
-    return columns;
   }
 
 

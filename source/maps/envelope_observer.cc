@@ -1,21 +1,55 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
-#include <talus/maps/bed_shear.h>
+#include <talus/contact/ground.h>
 #include <talus/maps/envelope_observer.h>
 
 namespace talus
 {
   using namespace dealii;
 
-  template <int dim>
-  EnvelopeObserver<dim>::EnvelopeObserver(const std::string           &name,
-                                          Problem<dim>                &problem,
-                                          std::shared_ptr<MapSettings> settings)
-    : name_(name)
-    , problem_(problem)
-    , settings_(std::move(settings))
-  {}
+  namespace
+  {
+    /// Add the forces of the last step along the bed, N, acting on the soil:
+    /// from the facets of obstacles belonging to the ground, and from the
+    /// bottom face of the mesh if it is a seabed (see
+    /// Boundaries::bed_friction()). The force of a facet is distributed over
+    /// the plan area of the cell, and the force of a node over half a cell to
+    /// each side: on a steep bed, the force lost where a facet ends comes back
+    /// from the cell below or above.
+    template <int dim>
+    void
+    add_bed_shear(const State<dim>        &state,
+                  const FacetContact<dim> &contact,
+                  const Boundaries<dim>   &boundaries,
+                  ColumnSums<dim>         &sums)
+    {
+      if (const double dt = contact.previous_time_step();
+          dt > 0 && !contact.obstacles().empty())
+        {
+          const Ground<dim> ground(state.grid.domain(), &contact.obstacles());
+          const auto       &facets = contact.facets().owned();
+          for (unsigned int c = 0; c < contact.impulses().size(); ++c)
+            if (const auto &impulse = contact.impulses()[c].tangential;
+                impulse.norm_square() > 0 &&
+                ground.contains(facets[c].obstacle))
+              sums.add_bed_force(impulse / dt,
+                                 state.grid.cells()[facets[c].cell].box());
+        }
+      const double   h      = state.grid.finest_size();
+      const Box<dim> domain = state.grid.domain();
+      for (const auto &[x, force] : boundaries.bed_friction())
+        {
+          Box<dim> box{x, x};
+          for (unsigned int d = 0; d < dim; ++d)
+            {
+              box.lower[d] = std::max(x[d] - 0.5 * h, domain.lower[d]);
+              box.upper[d] = std::min(x[d] + 0.5 * h, domain.upper[d]);
+            }
+          sums.add_bed_force(force, box);
+        }
+    }
+  } // namespace
 
 
 
@@ -42,27 +76,6 @@ namespace talus
 
 
 
-  template <int dim>
-  void
-  EnvelopeObserver<dim>::start(const State<dim> &state)
-  {
-    sample(state);
-    if (is_first_rank(state.communicator()))
-      envelope_->start(*sums_);
-  }
-
-
-
-  template <int dim>
-  void
-  EnvelopeObserver<dim>::follow(const State<dim> &state)
-  {
-    if (state.step % settings_->steps_between_samples() == 0)
-      sample(state);
-  }
-
-
-
   /// Add the soil of @p state to the envelope. Collective.
   template <int dim>
   void
@@ -74,19 +87,6 @@ namespace talus
     sums_->sum_over_ranks(state.communicator());
     if (is_first_rank(state.communicator()))
       envelope_->add(*sums_, state.time);
-  }
-
-
-
-  /// The last files must show the final state.
-  template <int dim>
-  void
-  EnvelopeObserver<dim>::observe(const State<dim> &state)
-  {
-    if (last_sample_ != state.step)
-      sample(state);
-    if (is_first_rank(state.communicator()))
-      write_files(state);
   }
 
 
@@ -110,30 +110,6 @@ namespace talus
          return envelope_ ? envelope_->save() : std::vector<double>();
        },
        [this](const std::vector<double> &rows) { restored_ = rows; }});
-  }
-
-
-
-  template <int dim>
-  std::filesystem::path
-  EnvelopeObserver<dim>::path_of_output(const std::filesystem::path &name)
-  {
-    written_.push_back(folder_ / name);
-    return written_.back();
-  }
-
-
-
-  template <int dim>
-  void
-  EnvelopeObserver<dim>::sync()
-  {
-    for (const std::filesystem::path &path : written_)
-      {
-        const std::string error = sync_to_disk(path);
-        AssertThrow(error.empty(), ExcUser(failed_write(path, error)));
-      }
-    written_.clear();
   }
 
 

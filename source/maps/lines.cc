@@ -9,16 +9,6 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  Lines<dim>::Lines(Problem<dim>                           &problem,
-                    std::shared_ptr<MapSettings>            settings,
-                    std::shared_ptr<const StationList<dim>> list)
-    : EnvelopeObserver<dim>("lines", problem, std::move(settings))
-    , list_(std::move(list))
-  {}
-
-
-
-  template <int dim>
   void
   Lines<dim>::check(const State<dim> &state) const
   {

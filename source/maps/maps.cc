@@ -17,13 +17,6 @@ namespace talus
   using namespace dealii;
 
   template <int dim>
-  Maps<dim>::Maps(Problem<dim> &problem, std::shared_ptr<MapSettings> settings)
-    : EnvelopeObserver<dim>("maps", problem, std::move(settings))
-  {}
-
-
-
-  template <int dim>
   void
   Maps<dim>::check(const State<dim> &state) const
   {
@@ -103,15 +96,6 @@ namespace talus
           static_cast<unsigned int>(std::clamp(std::ceil(n - 1e-9), 1., 1e9));
       }
     return axes;
-  }
-
-
-
-  template <int dim>
-  std::shared_ptr<const PlanColumns<dim>>
-  Maps<dim>::make_columns(const State<dim> &state) const
-  {
-    return std::make_shared<LatticeColumns<dim>>(axes(state));
   }
 
 

@@ -166,15 +166,6 @@ namespace talus
 
 
   template <int dim>
-  double
-  SquareColumns<dim>::area() const
-  {
-    return std::pow(width_, dim - 1);
-  }
-
-
-
-  template <int dim>
   std::vector<unsigned int>::const_iterator
   SquareColumns<dim>::first_behind(const double x) const
   {

@@ -83,23 +83,6 @@ namespace talus
 
 
   template <int dim>
-  Runout<dim>::Runout(const Point<3> &origin)
-    : TableObserver<dim>("runout.csv")
-    , origin_(origin)
-  {}
-
-
-
-  template <int dim>
-  void
-  Runout<dim>::check(const State<dim> & /*state*/) const
-  {
-    settings_.corners(dim, origin_);
-  }
-
-
-
-  template <int dim>
   void
   Runout<dim>::begin(const OutputSettings &settings,
                      const State<dim>     &state,
@@ -138,15 +121,6 @@ namespace talus
             "speed of the centre [m/s]",
             "largest depth-mean speed [m/s]",
             dim == 2 ? "length in plan [m]" : "area in plan [m^2]"};
-  }
-
-
-
-  template <int dim>
-  Point<2>
-  Runout<dim>::in_plan(const Point<dim> &x) const
-  {
-    return dim == 2 ? Point<2>(x[0], 0.) : Point<2>(x[0], x[dim - 1]);
   }
 
 
@@ -200,8 +174,8 @@ namespace talus
 
 
 
-  // Once soil leaves the mesh, the centre of mass of the remaining soil moves back
-  // up the slope, and a path along it would fold.
+  // Once soil leaves the mesh, the centre of mass of the remaining soil moves
+  // back up the slope, and a path along it would fold.
   template <int dim>
   bool
   Runout<dim>::has_way_ended(const Centre &centre) const

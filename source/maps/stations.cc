@@ -7,25 +7,6 @@ namespace talus
 {
   using namespace dealii;
 
-  template <int dim>
-  Stations<dim>::Stations(const Problem<dim>                     &problem,
-                          std::shared_ptr<const StationList<dim>> list)
-    : QuantityTable<dim>("stations.csv")
-    , problem_(problem)
-    , list_(std::move(list))
-  {}
-
-
-
-  template <int dim>
-  void
-  Stations<dim>::check(const State<dim> &state) const
-  {
-    list_->points(state.grid.domain_before_growth(), problem_.origin());
-  }
-
-
-
   namespace
   {
     /// Append the quantities of a column; zeros without soil.
@@ -78,17 +59,6 @@ namespace talus
     for (unsigned int i = 0; i < stations.size(); ++i)
       list_station(stations[i].name, sums, i, list_->impact(), row);
     return row;
-  }
-
-
-
-  /// Without stations there is no file, and the checkpoint has no entry.
-  template <int dim>
-  void
-  Stations<dim>::list_state(StateList &list)
-  {
-    if (list_->has_points())
-      TableObserver<dim>::list_state(list);
   }
 
 

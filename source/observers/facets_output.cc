@@ -110,33 +110,6 @@ namespace talus
 
 
 
-    template <int dim, typename Function>
-    Field
-    scalar(const std::string &name, const std::string &unit, Function value)
-    {
-      return {name,
-              unit,
-              FieldKind::scalar,
-              [value](const unsigned int c, double *to) { *to = value(c); }};
-    }
-
-
-
-    template <int dim, typename Function>
-    Field
-    vector(const std::string &name, const std::string &unit, Function value)
-    {
-      return {name,
-              unit,
-              FieldKind::vector,
-              [value](const unsigned int c, double *to) {
-                const Tensor<1, dim> v = value(c);
-                std::copy_n(v.begin_raw(), dim, to);
-              }};
-    }
-
-
-
     // Stresses refer to the whole area of the facet, which may be covered by
     // soil only partly: the integrals are correct, and the stresses stay
     // bounded where soil is thin.
@@ -155,64 +128,47 @@ namespace talus
         return impulse / (dt * facets[c].area);
       };
       return {
-        vector<dim>("traction",
-                    "Pa",
-                    [&, stress](const unsigned int c) {
-                      return stress(c,
-                                    -(impulses[c].normal * facets[c].normal +
-                                      impulses[c].tangential));
-                    }),
-        scalar<dim>("normal pressure",
-                    "Pa",
-                    [&, stress](const unsigned int c) {
-                      return stress(c, impulses[c].normal);
-                    }),
-        scalar<dim>("shear stress",
-                    "Pa",
-                    [&, stress](const unsigned int c) {
-                      return stress(c, impulses[c].tangential.norm());
-                    }),
-        vector<dim>("normal",
-                    "",
-                    [&](const unsigned int c) { return facets[c].normal; }),
-        vector<dim>("slip velocity",
-                    "m/s",
-                    [&](const unsigned int c) {
-                      return slip_velocity(contact, state, c);
-                    }),
-        scalar<dim>("gap",
-                    "m",
-                    [&](const unsigned int c) { return constraints[c].gap; }),
-        scalar<dim>("area",
-                    area,
-                    [&](const unsigned int c) { return facets[c].area; }),
-        scalar<dim>("contact area",
-                    area,
-                    [&](const unsigned int c) {
-                      return impulses[c].acts() ? constraints[c].area : 0.;
-                    }),
-        scalar<dim>("obstacle", "", [&](const unsigned int c) {
+        vector_field<dim>("traction",
+                          "Pa",
+                          [&, stress](const unsigned int c) {
+                            return stress(c,
+                                          -(impulses[c].normal *
+                                              facets[c].normal +
+                                            impulses[c].tangential));
+                          }),
+        scalar_field("normal pressure",
+                     "Pa",
+                     [&, stress](const unsigned int c) {
+                       return stress(c, impulses[c].normal);
+                     }),
+        scalar_field("shear stress",
+                     "Pa",
+                     [&, stress](const unsigned int c) {
+                       return stress(c, impulses[c].tangential.norm());
+                     }),
+        vector_field<dim>(
+          "normal", "", [&](const unsigned int c) { return facets[c].normal; }),
+        vector_field<dim>("slip velocity",
+                          "m/s",
+                          [&](const unsigned int c) {
+                            return slip_velocity(contact, state, c);
+                          }),
+        scalar_field("gap",
+                     "m",
+                     [&](const unsigned int c) { return constraints[c].gap; }),
+        scalar_field("area",
+                     area,
+                     [&](const unsigned int c) { return facets[c].area; }),
+        scalar_field("contact area",
+                     area,
+                     [&](const unsigned int c) {
+                       return impulses[c].acts() ? constraints[c].area : 0.;
+                     }),
+        scalar_field("obstacle", "", [&](const unsigned int c) {
           return facets[c].obstacle;
         })};
     }
   } // namespace
-
-
-
-  template <int dim>
-  FacetsOutput<dim>::FacetsOutput(const FacetContact<dim> &contact)
-    : SeriesObserver<dim>("facets")
-    , contact_(contact)
-  {}
-
-
-
-  template <int dim>
-  bool
-  FacetsOutput<dim>::is_enabled(const OutputSettings &settings) const
-  {
-    return settings.write_obstacles && !contact_.obstacles().empty();
-  }
 
 
 
@@ -237,17 +193,6 @@ namespace talus
           cells.items.push_back(c);
         }
     this->series_.write(cells);
-  }
-
-
-
-  /// Without obstacles the checkpoint has no entry for the series.
-  template <int dim>
-  void
-  FacetsOutput<dim>::list_state(StateList &list)
-  {
-    if (!contact_.obstacles().empty())
-      SeriesObserver<dim>::list_state(list);
   }
 
 

@@ -49,33 +49,21 @@ namespace talus
     node_fields(const NodalFields<dim>      &nodes,
                 const AlignedVector<double> &sums)
     {
-      const auto add = [](const std::string &name,
-                          const std::string &unit,
-                          const unsigned int n,
-                          const auto        &source) {
-        return Field{name,
-                     unit,
-                     n == 1 ? FieldKind::scalar : FieldKind::vector,
-                     [n, source](const unsigned int node, double *values) {
-                       for (unsigned int c = 0; c < n; ++c)
-                         values[c] = source(node)[c];
-                     }};
+      const auto sums_at = [first = sums.data()](const unsigned int node) {
+        return first + n_sent<dim> * std::size_t(node);
       };
-      const double *first = sums.data();
-      return {add("mass",
-                  "kg",
-                  1,
-                  [first](const unsigned int node) {
-                    return first + n_sent<dim> * std::size_t(node);
-                  }),
-              add("velocity",
-                  "m/s",
-                  dim,
-                  [&nodes](const unsigned int node) {
-                    return nodes.velocity(node);
-                  }),
-              add("force", "N", dim, [first](const unsigned int node) {
-                return first + n_sent<dim> * std::size_t(node) + 1;
+      return {scalar_field("mass",
+                           "kg",
+                           [=](const unsigned int node) {
+                             return sums_at(node)[0];
+                           }),
+              vector_field<dim>("velocity",
+                                "m/s",
+                                [&nodes](const unsigned int node) {
+                                  return nodes.velocity(node);
+                                }),
+              vector_field<dim>("force", "N", [=](const unsigned int node) {
+                return sums_at(node) + 1;
               })};
     }
 

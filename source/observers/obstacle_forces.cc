@@ -11,36 +11,6 @@ namespace talus
 {
   using namespace dealii;
 
-  template <int dim>
-  ObstacleForces<dim>::ObstacleForces(const FacetContact<dim> &contact)
-    : ReactionTable<dim>("obstacles.csv")
-    , contact_(contact)
-  {}
-
-
-
-  template <int dim>
-  bool
-  ObstacleForces<dim>::is_enabled(const OutputSettings & /*settings*/) const
-  {
-    return !contact_.obstacles().empty();
-  }
-
-
-
-  template <int dim>
-  void
-  ObstacleForces<dim>::list_forces(const unsigned int k, Quantities &row) const
-  {
-    this->list_reaction(k, row);
-    append_vector<dim>(row,
-                       name(k) + " displacement",
-                       "m",
-                       contact_.obstacles()[k].displacement());
-  }
-
-
-
   namespace
   {
     constexpr double smallest_depth = 0.1; ///< below the surface [cells]
@@ -125,7 +95,11 @@ namespace talus
     Quantities                     row = {{"time", "s", state.time}};
     for (unsigned int k = 0; k < contact_.obstacles().size(); ++k)
       {
-        list_forces(k, row);
+        this->list_reaction(k, row);
+        append_vector<dim>(row,
+                           name(k) + " displacement",
+                           "m",
+                           contact_.obstacles()[k].displacement());
         list_penetration(k, own[k], state, row);
       }
     return row;

@@ -63,51 +63,29 @@ namespace talus
     surface_fields(const Obstacles<dim>            &obstacles,
                    const std::vector<Element<dim>> &elements)
     {
-      return {{"obstacle",
-               "",
-               FieldKind::scalar,
-               [&elements](const unsigned int i, double *value) {
-                 *value = elements[i].obstacle;
-               }},
-              {"normal",
-               "",
-               FieldKind::vector,
-               [&](const unsigned int i, double *value) {
-                 const Tensor<1, dim> n =
-                   obstacles[elements[i].obstacle].normal(elements[i].middle());
-                 std::copy_n(n.begin_raw(), dim, value);
-               }},
-              {"maximum shear stress",
-               "Pa",
-               FieldKind::scalar,
-               [&](const unsigned int i, double *value) {
-                 // An infinite value would spoil the colour scale of ParaView.
-                 const double limit =
-                   obstacles[elements[i].obstacle].maximum_shear_stress(
-                     elements[i].middle());
-                 *value = std::isfinite(limit)
-                            ? limit
-                            : std::numeric_limits<double>::quiet_NaN();
-               }}};
+      return {
+        scalar_field("obstacle",
+                     "",
+                     [&elements](const unsigned int i) {
+                       return elements[i].obstacle;
+                     }),
+        vector_field<dim>("normal",
+                          "",
+                          [&](const unsigned int i) {
+                            return obstacles[elements[i].obstacle].normal(
+                              elements[i].middle());
+                          }),
+        scalar_field("maximum shear stress", "Pa", [&](const unsigned int i) {
+          // An infinite value would spoil the colour scale of ParaView.
+          const double limit =
+            obstacles[elements[i].obstacle].maximum_shear_stress(
+              elements[i].middle());
+          return std::isfinite(limit)
+                   ? limit
+                   : std::numeric_limits<double>::quiet_NaN();
+        })};
     }
   } // namespace
-
-
-
-  template <int dim>
-  ObstaclesOutput<dim>::ObstaclesOutput(const Obstacles<dim> &obstacles)
-    : SeriesObserver<dim>("obstacles")
-    , obstacles_(obstacles)
-  {}
-
-
-
-  template <int dim>
-  bool
-  ObstaclesOutput<dim>::is_enabled(const OutputSettings &settings) const
-  {
-    return settings.write_obstacles && !obstacles_.empty();
-  }
 
 
 
@@ -138,17 +116,6 @@ namespace talus
         cells.items.push_back(i);
       }
     this->series_.write(cells);
-  }
-
-
-
-  /// Without obstacles the checkpoint has no entry for the series.
-  template <int dim>
-  void
-  ObstaclesOutput<dim>::list_state(StateList &list)
-  {
-    if (!obstacles_.empty())
-      SeriesObserver<dim>::list_state(list);
   }
 
 

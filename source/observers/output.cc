@@ -204,10 +204,8 @@ namespace talus
         // The first write tests whether the folder is writable, and replaces an
         // earlier file only on success.
         write_run_record(record, this->prm);
-        if (beginning == Beginning::resumed)
-          remove_remains(folder_);
-        else if (had_a_run)
-          remove_earlier_results(folder_);
+        if (beginning == Beginning::resumed || had_a_run)
+          remove_results(folder_, beginning);
       }
     log_.open(folder_, beginning);
     MPI_Barrier(communicator);

@@ -65,12 +65,10 @@ namespace talus
                   });
             break;
           case ColumnKind::vector:
-            add(column.name,
-                FieldKind::vector,
-                [&points, first](const unsigned int p, double *values) {
-                  for (unsigned int d = 0; d < dim; ++d)
-                    values[d] = points.data(first, d)[p];
-                });
+            fields.push_back(vector_field<dim>(
+              column.name, unit, [&points, first](unsigned int p) {
+                return load_vector(points, first, p);
+              }));
             fields.back().is_place =
               first == points.position || first == points.initial_position;
             break;
@@ -124,23 +122,15 @@ namespace talus
     append_derived_vectors(std::vector<Field> &fields, const State<dim> &state)
     {
       const Points<dim> &points = state.points;
-      fields.push_back({"displacement",
-                        "m",
-                        FieldKind::vector,
-                        [&points](const unsigned int p, double *values) {
-                          const Tensor<1, dim> u =
-                            load_vector(points, points.position, p) -
-                            load_vector(points, points.initial_position, p);
-                          std::copy_n(u.begin_raw(), dim, values);
-                        }});
-      fields.push_back({"box length",
-                        "m",
-                        FieldKind::vector,
-                        [&state](const unsigned int p, double *values) {
-                          const auto lengths = box_lengths(state, p);
-                          for (unsigned int d = 0; d < dim; ++d)
-                            values[d] = lengths[d];
-                        }});
+      fields.push_back(
+        vector_field<dim>("displacement", "m", [&points](const unsigned int p) {
+          return load_vector(points, points.position, p) -
+                 load_vector(points, points.initial_position, p);
+        }));
+      fields.push_back(
+        vector_field<dim>("box length", "m", [&state](const unsigned int p) {
+          return box_lengths(state, p);
+        }));
     }
 
 
@@ -151,29 +141,22 @@ namespace talus
     append_derived_scalars(std::vector<Field> &fields,
                            const Points<dim>  &points)
     {
-      const auto add = [&fields](const std::string &name,
-                                 const std::string &unit,
-                                 const auto        &value) {
-        fields.push_back({name,
-                          unit,
-                          FieldKind::scalar,
-                          [value](const unsigned int p, double *values) {
-                            *values = value(p);
-                          }});
-      };
-      add("speed", "m/s", [&points](const unsigned int p) {
-        return load_vector(points, points.velocity, p).norm();
-      });
-      add("mean stress", "Pa", [&points](const unsigned int p) {
-        return stress_measures(points, p).first;
-      });
-      add("von Mises stress", "Pa", [&points](const unsigned int p) {
-        return stress_measures(points, p).second;
-      });
-      add("J", "", [&points](const unsigned int p) {
+      fields.push_back(
+        scalar_field("speed", "m/s", [&points](const unsigned int p) {
+          return load_vector(points, points.velocity, p).norm();
+        }));
+      fields.push_back(
+        scalar_field("mean stress", "Pa", [&points](const unsigned int p) {
+          return stress_measures(points, p).first;
+        }));
+      fields.push_back(
+        scalar_field("von Mises stress", "Pa", [&points](const unsigned int p) {
+          return stress_measures(points, p).second;
+        }));
+      fields.push_back(scalar_field("J", "", [&points](const unsigned int p) {
         return determinant<dim>(
           load_matrix<dim, double>(points, points.deformation_gradient, p));
-      });
+      }));
     }
 
 
@@ -252,18 +235,6 @@ namespace talus
     append_derived_vectors(fields, state);
     append_derived_scalars(fields, points);
     return fields;
-  }
-
-
-
-  template <int dim>
-  void
-  PointsOutput<dim>::begin(const OutputSettings &settings,
-                           const State<dim>     &state,
-                           const Beginning       beginning)
-  {
-    SeriesObserver<dim>::begin(settings, state, beginning);
-    boxes_as_cells_ = settings.boxes_as_cells;
   }
 
 

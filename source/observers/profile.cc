@@ -214,14 +214,6 @@ namespace talus
 
 
 
-  template <int dim>
-  Profile<dim>::Profile(const Obstacles<dim> *obstacles)
-    : TableObserver<dim>(file_name)
-    , obstacles_(obstacles)
-  {}
-
-
-
   /// In 3-D z follows x, as in observe(). The ground is a column only if it
   /// differs from the bottom face of the mesh.
   template <int dim>

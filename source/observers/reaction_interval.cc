@@ -56,18 +56,6 @@ namespace talus
 
   template <int dim>
   void
-  ReactionInterval<dim>::restart()
-  {
-    ReactionInterval<dim> next;
-    next.running_mean_     = running_mean_;
-    next.has_running_mean_ = has_running_mean_;
-    *this                  = next;
-  }
-
-
-
-  template <int dim>
-  void
   ReactionInterval<dim>::list_state(const std::string &name, StateList &list)
   {
     const auto components = [&](const std::string &what,

@@ -5,23 +5,6 @@
 
 namespace talus
 {
-  template <int dim>
-  Statistics<dim>::Statistics(const Obstacles<dim> *obstacles)
-    : TableObserver<dim>(file_name)
-    , obstacles_(obstacles)
-  {}
-
-
-
-  template <int dim>
-  void
-  Statistics<dim>::add_source(const Source &source)
-  {
-    sources_.push_back(source);
-  }
-
-
-
   /// Names and values come from the same list, so header and rows cannot
   /// differ. doc/output.md describes the columns.
   template <int dim>
@@ -45,29 +28,6 @@ namespace talus
 
 
 
-  template <int dim>
-  void
-  Statistics<dim>::begin(const OutputSettings &settings,
-                         const State<dim>     &state,
-                         const Beginning       beginning)
-  {
-    has_runout_ = settings.write_runout;
-    TableObserver<dim>::begin(settings, state, beginning);
-  }
-
-
-
-  /// Called after the static stages, whose energies do not count.
-  template <int dim>
-  void
-  Statistics<dim>::start(const State<dim> &state)
-  {
-    budget_.begin(state);
-    seabed_force_.restart(state);
-  }
-
-
-
   /// The next mean of the seabed force begins at each row.
   template <int dim>
   void
@@ -78,40 +38,6 @@ namespace talus
       values.push_back(quantity.value);
     this->add_rows(state, {values});
     seabed_force_.restart(state);
-  }
-
-
-
-  /// Drop the values of the evaluation: the headings are needed once per run.
-  template <int dim>
-  std::vector<std::string>
-  Statistics<dim>::names(const State<dim> &state, const bool with_runout) const
-  {
-    std::vector<std::string> result;
-    for (const Quantity &quantity : evaluate(state, with_runout))
-      result.push_back(quantity.heading());
-    return result;
-  }
-
-
-
-  template <int dim>
-  void
-  Statistics<dim>::list_state(StateList &list)
-  {
-    seabed_force_.list_state(list);
-    TableObserver<dim>::list_state(list);
-    budget_.list_state(list);
-  }
-
-
-
-  template <int dim>
-  std::vector<std::string>
-  Statistics<dim>::columns(const OutputSettings &settings,
-                           const State<dim>     &state) const
-  {
-    return names(state, settings.write_runout);
   }
 
 

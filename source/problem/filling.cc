@@ -4,8 +4,11 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <boost/serialization/array.hpp>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -19,13 +22,13 @@ namespace talus
     /// the neighbours become unstable.
     constexpr double min_fraction = 0.2;
 
-    /// Volume fraction of a box below which soil counts as round-off, far below
-    /// the error of the parts: beyond the end of a layer both surfaces
-    /// coincide, and round-off between them would make points of some grams.
+    /// What is less than this of a box is not soil but round-off, far below the
+    /// error of the parts: where a layer ends its two surfaces go on as one,
+    /// and what lies between them there would be points of some grams.
     constexpr double round_off_fraction = 1e-5;
 
-    /// Volume fraction of a box below which soil without neighbours is dropped:
-    /// where the coinciding surfaces of a layer are curved, the pockets between
+    /// The same of what has no soil around that could take it: where the two
+    /// surfaces of a layer go on as one and are curved, the pockets between
     /// them are as thick as the error of the parts, a thousandth of a box.
     constexpr double error_fraction = 1e-3;
 
@@ -60,27 +63,19 @@ namespace talus
 
 
 
-    /// Return the centres of the boxes of a cell, the first axis fastest.
+    /// Return the centres of these boxes; the first axis is the fastest.
     template <int dim>
     std::vector<Point<dim>>
     lattice_of(const Cell<dim> &cell, const std::array<unsigned int, dim> &n)
     {
-      std::vector<Point<dim>>       centres;
-      std::array<unsigned int, dim> at{};
-      while (at[dim - 1] < n[dim - 1])
-        {
-          Point<dim> x;
-          for (unsigned int d = 0; d < dim; ++d)
-            x[d] = cell.lower[d] + (at[d] + 0.5) / n[d] * cell.size;
-          centres.push_back(x);
-          // Counts through all parts of a cell, the first axis fastest.
-          ++at[0];
-          for (unsigned int d = 0; d + 1 < dim && at[d] == n[d]; ++d)
-            {
-              at[d] = 0;
-              ++at[d + 1];
-            }
-        }
+      unsigned int n_boxes = 1;
+      for (const unsigned int n_along_axis : n)
+        n_boxes *= n_along_axis;
+      std::vector<Point<dim>> centres(n_boxes);
+      for (unsigned int i = 0; i < n_boxes; ++i)
+        for (unsigned int d = 0, rest = i; d < dim; rest /= n[d++])
+          centres[i][d] =
+            cell.lower[d] + (rest % n[d] + 0.5) / n[d] * cell.size;
       return centres;
     }
 
@@ -138,17 +133,54 @@ namespace talus
 
   namespace
   {
-    /// Sliver given to a box: receiving cell and box, giving cell and box
-    /// (cells by global keys); volume, m^dim, centroid and variance. The sorted
-    /// order is independent of the number of ranks.
+    /// Sliver on the way from one box to another. Cells are given by the keys
+    /// that all ranks share.
     template <int dim>
-    using SliverTransfer =
-      std::pair<std::array<unsigned long, 4>, std::array<double, 1 + 2 * dim>>;
+    struct SliverTransfer
+    {
+      std::array<unsigned long, 4> place; ///< to cell, box; from cell, box
+      PartInside<dim>              sliver;
+
+      /// Sorted slivers are in the same order for any number of ranks.
+      bool
+      operator<(const SliverTransfer &other) const
+      {
+        return place < other.place;
+      }
+
+      /// Serialize for MPI messages.
+      template <typename Archive>
+      void
+      serialize(Archive &archive, const unsigned int)
+      {
+        archive &place &sliver.volume &sliver.centroid &sliver.variance;
+      }
+    };
 
 
 
-    /// Boxes of the lattice in the cells known to this rank, ghosts included,
-    /// with the part of each box in the region. All ranks know the shapes.
+    /// Add a sliver to @p part, with its moments. Steiner: the variance of both
+    /// together is the mean of the two variances and the variance of the two
+    /// centroids.
+    template <int dim>
+    void
+    add(PartInside<dim> &part, const PartInside<dim> &sliver)
+    {
+      const double share = sliver.volume / (part.volume + sliver.volume);
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const double distance = sliver.centroid[d] - part.centroid[d];
+          part.centroid[d] += share * distance;
+          part.variance[d] += share * (sliver.variance[d] - part.variance[d]) +
+                              share * (1. - share) * distance * distance;
+        }
+      part.volume += sliver.volume;
+    }
+
+
+
+    /// Boxes of the lattice in the owned cells and ghosts of this rank, and the
+    /// part of each box in the region. Shapes are known to all ranks.
     template <int dim>
     class ClippedBoxes
     {
@@ -162,38 +194,52 @@ namespace talus
       void
       merge_slivers();
 
-      /// Return points for the present parts.
+      /// Return a point for each box of the owned cells that has soil.
       std::vector<NewPoint<dim>>
       points() const;
 
     private:
       using Parts = std::vector<PartInside<dim>>;
 
+      /// Parts of the boxes of a cell.
+      struct ClippedCell
+      {
+        Parts first; ///< before slivers move; these decide where slivers go
+        Parts now;   ///< empty as long as nothing has changed
+
+        const Parts &
+        parts() const
+        {
+          return now.empty() ? first : now;
+        }
+
+        Parts &
+        changing_parts()
+        {
+          if (now.empty())
+            now = first;
+          return now;
+        }
+      };
+
       Parts
       parts_of_cell(const Cell<dim> &cell, const Region<dim> &region) const;
       double
-      volume_of_box(unsigned int cell) const;
+      volume_of_box(const Cell<dim> &cell) const;
       bool
       is_kept(const PartInside<dim> &part, unsigned int cell) const;
-      std::pair<unsigned int, unsigned int>
-      nearest_kept(const Point<dim> &x, unsigned int cell) const;
-      std::pair<unsigned int, unsigned int>
-      largest_neighbour(unsigned int cell, unsigned int box) const;
       std::vector<unsigned int>
       cells_around(unsigned int cell) const;
+      std::pair<unsigned int, unsigned int>
+      receiver(const PartInside<dim> &sliver,
+               double                 first_volume,
+               unsigned int           cell) const;
       std::map<unsigned int, std::vector<SliverTransfer<dim>>>
       take_slivers();
-      void
-      receive(const std::vector<SliverTransfer<dim>> &sliver_transfers);
-      Parts &
-      changing_parts(unsigned int cell);
 
-      const Grid<dim>              &grid_;
-      std::array<unsigned int, dim> n_;
-      // By cell; cells without parts are missing.
-      std::map<unsigned int, Parts> parts_; // before merging
-      // Present parts of the cells that have given or received a sliver.
-      std::map<unsigned int, Parts> now_;
+      const Grid<dim>                    &grid_;
+      std::array<unsigned int, dim>       n_;
+      std::map<unsigned int, ClippedCell> cells_; ///< that have soil
     };
 
 
@@ -219,26 +265,24 @@ namespace talus
                        n_boxes,
                        sizeof(PartInside<dim>) + sizeof(NewPoint<dim>));
           if (!parts.empty())
-            parts_.emplace(c, std::move(parts));
+            cells_[c].first = std::move(parts);
         }
     }
 
 
 
-    /// Return the parts of the boxes of a cell, none if the cell is outside. A
-    /// whole box gets the exact centre: bodies of whole boxes equal a filling
-    /// by centres bit by bit.
+    /// Return nothing if no soil lies in the cell. A whole box has its exact
+    /// centre, so bodies made of whole boxes are the same as if filled by
+    /// centres.
     template <int dim>
     typename ClippedBoxes<dim>::Parts
     ClippedBoxes<dim>::parts_of_cell(const Cell<dim>   &cell,
                                      const Region<dim> &region) const
     {
-      const Tensor<1, dim> length = lattice_lengths<dim>(cell, n_);
-      double               whole  = 1.;
-      for (unsigned int d = 0; d < dim; ++d)
-        whole *= length[d];
-      Parts parts;
-      bool  is_empty = true;
+      const Tensor<1, dim> length   = lattice_lengths<dim>(cell, n_);
+      const double         whole    = volume_of_box(cell);
+      bool                 is_empty = true;
+      Parts                parts;
       for (const Point<dim> &centre : lattice_of<dim>(cell, n_))
         {
           const Box<dim> box{centre - 0.5 * length, centre + 0.5 * length};
@@ -254,11 +298,11 @@ namespace talus
 
     template <int dim>
     double
-    ClippedBoxes<dim>::volume_of_box(const unsigned int cell) const
+    ClippedBoxes<dim>::volume_of_box(const Cell<dim> &cell) const
     {
       double volume = 1.;
       for (unsigned int d = 0; d < dim; ++d)
-        volume *= grid_.cells()[cell].size / n_[d];
+        volume *= cell.size / n_[d];
       return volume;
     }
 
@@ -269,200 +313,134 @@ namespace talus
     ClippedBoxes<dim>::is_kept(const PartInside<dim> &part,
                                const unsigned int     cell) const
     {
-      return part.volume >= min_fraction * volume_of_box(cell);
+      return part.volume >= min_fraction * volume_of_box(grid_.cells()[cell]);
     }
 
 
 
-    /// Return the cells, owned or ghosts, that share a corner with @p cell,
-    /// except across periodic faces.
+    /// Return the cells of this rank and ghosts that share a corner with
+    /// @p cell, without cells across a periodic face.
     template <int dim>
     std::vector<unsigned int>
     ClippedBoxes<dim>::cells_around(const unsigned int cell) const
     {
       const Cell<dim>          &own = grid_.cells()[cell];
-      std::vector<unsigned int> known;
-      if (own.uniform)
-        known.assign(own.neighbors.begin(), own.neighbors.end());
-      else
-        known = grid_.touching_cells(cell);
       std::vector<unsigned int> around;
-      for (const unsigned int c : known)
-        {
-          if (c == numbers::invalid_unsigned_int)
-            continue;
-          const Cell<dim> &other   = grid_.cells()[c];
-          const double     epsilon = 1e-6 * own.size;
-          bool             touches = true;
-          for (unsigned int d = 0; d < dim; ++d)
-            touches = touches &&
-                      other.lower[d] <= own.lower[d] + own.size + epsilon &&
-                      own.lower[d] <= other.lower[d] + other.size + epsilon;
-          if (touches)
-            around.push_back(c);
-        }
+      if (own.uniform)
+        around.assign(own.neighbors.begin(), own.neighbors.end());
+      else
+        around = grid_.touching_cells(cell);
+      const auto is_apart = [&](const unsigned int c) {
+        if (c == numbers::invalid_unsigned_int)
+          return true;
+        const Cell<dim> &other   = grid_.cells()[c];
+        const double     epsilon = 1e-6 * own.size;
+        for (unsigned int d = 0; d < dim; ++d)
+          if (other.lower[d] > own.lower[d] + own.size + epsilon ||
+              own.lower[d] > other.lower[d] + other.size + epsilon)
+            return true;
+        return false;
+      };
+      around.erase(std::remove_if(around.begin(), around.end(), is_apart),
+                   around.end());
       return around;
     }
 
 
 
-    /// Return cell and box of the nearest kept part; invalid_unsigned_int if
-    /// there is none. At equal distance the smaller key of the cell wins,
-    /// independently of the ranks.
+    /// Return cell and box that take a sliver in @p cell: the nearest box that
+    /// is kept; if none is around, the box that had most soil at first,
+    /// provided that it had so much more than the @p first_volume of the
+    /// sliver's box that the two could not be neighbours; else
+    /// invalid_unsigned_int. Ties are broken by the keys of the cells, which do
+    /// not depend on the ranks.
     template <int dim>
     std::pair<unsigned int, unsigned int>
-    ClippedBoxes<dim>::nearest_kept(const Point<dim>  &x,
-                                    const unsigned int cell) const
+    ClippedBoxes<dim>::receiver(const PartInside<dim> &sliver,
+                                const double           first_volume,
+                                const unsigned int     cell) const
     {
-      using Rank = std::tuple<double, unsigned long, unsigned int>;
-      Rank                                  least;
-      std::pair<unsigned int, unsigned int> nearest{
-        numbers::invalid_unsigned_int, 0};
-      for (const unsigned int c : cells_around(cell))
-        if (const auto parts = parts_.find(c); parts != parts_.end())
-          for (unsigned int i = 0; i < parts->second.size(); ++i)
-            if (const auto &part = parts->second[i]; is_kept(part, c))
-              {
-                const Rank rank(part.centroid.distance_square(x),
-                                grid_.key_of_cell(c),
-                                i);
-                if (nearest.first == numbers::invalid_unsigned_int ||
-                    rank < least)
-                  {
-                    least   = rank;
-                    nearest = {c, i};
-                  }
-              }
-      return nearest;
-    }
-
-
-
-    /// Return cell and box of the largest part around, if so much larger than
-    /// part @p box that both could not be neighbouring points.
-    template <int dim>
-    std::pair<unsigned int, unsigned int>
-    ClippedBoxes<dim>::largest_neighbour(const unsigned int cell,
-                                         const unsigned int box) const
-    {
-      using Rank = std::tuple<double, unsigned long, unsigned int>;
-      Rank largest(parts_.at(cell)[box].volume / min_fraction, 0, 0);
+      // The smallest rank wins.
+      using Rank = std::tuple<bool, double, unsigned long, unsigned int>;
+      Rank best(true, std::numeric_limits<double>::infinity(), 0, 0);
       std::pair<unsigned int, unsigned int> result{
         numbers::invalid_unsigned_int, 0};
       for (const unsigned int c : cells_around(cell))
-        if (const auto parts = parts_.find(c); parts != parts_.end())
-          for (unsigned int i = 0; i < parts->second.size(); ++i)
-            if (const Rank rank(parts->second[i].volume,
-                                grid_.key_of_cell(c),
-                                i);
-                rank > largest)
-              {
-                largest = rank;
-                result  = {c, i};
-              }
+        if (const auto boxes = cells_.find(c); boxes != cells_.end())
+          for (unsigned int i = 0; i < boxes->second.first.size(); ++i)
+            {
+              const PartInside<dim> &part = boxes->second.first[i];
+              const unsigned long    key  = grid_.key_of_cell(c);
+              const bool             kept = is_kept(part, c);
+              if (!kept && part.volume < first_volume / min_fraction)
+                continue;
+              const Rank rank =
+                kept ? Rank(false,
+                            part.centroid.distance_square(sliver.centroid),
+                            key,
+                            i)
+                     : Rank(true, -part.volume, ~key, ~i);
+              if (rank < best)
+                {
+                  best   = rank;
+                  result = {c, i};
+                }
+            }
       return result;
     }
 
 
 
-    /// Return the present parts of @p cell, copied from the initial parts at
-    /// the first change.
-    template <int dim>
-    typename ClippedBoxes<dim>::Parts &
-    ClippedBoxes<dim>::changing_parts(const unsigned int cell)
-    {
-      return now_.try_emplace(cell, parts_.at(cell)).first->second;
-    }
-
-
-
-    /// Remove the slivers on this rank and return them, by receiving rank.
-    /// Where soil thins out so slowly that there is no kept box around, slivers
-    /// go to the largest box and possibly further. Each receiver was initially
-    /// larger than the giver, and therefore the process ends. Soil that is thin
-    /// everywhere stays.
+    /// Return the slivers that move, by the rank that gets them, and remove
+    /// them from their boxes. Slivers only go to boxes that had more at first,
+    /// and so come to an end. Soil that is thin everywhere stays.
     template <int dim>
     std::map<unsigned int, std::vector<SliverTransfer<dim>>>
     ClippedBoxes<dim>::take_slivers()
     {
-      std::map<unsigned int, std::vector<SliverTransfer<dim>>> sliver_transfers;
-      for (const auto &[cell, first] : parts_)
-        for (unsigned int i = 0; i < first.size(); ++i)
+      std::map<unsigned int, std::vector<SliverTransfer<dim>>> result;
+      for (auto &[c, boxes] : cells_)
+        for (unsigned int i = 0;
+             c < grid_.n_owned_cells() && i < boxes.first.size();
+             ++i)
           {
-            if (cell >= grid_.n_owned_cells() || first[i].volume == 0. ||
-                is_kept(first[i], cell))
+            const PartInside<dim> &first  = boxes.first[i];
+            const PartInside<dim> &sliver = boxes.parts()[i];
+            if (sliver.volume == 0. || is_kept(first, c))
               continue;
-            PartInside<dim> &part = changing_parts(cell)[i];
-            if (part.volume == 0.)
-              continue;
-            auto [to_cell, to_box] = nearest_kept(part.centroid, cell);
-            if (to_cell == numbers::invalid_unsigned_int)
-              std::tie(to_cell, to_box) = largest_neighbour(cell, i);
+            const auto [to_cell, to_box] = receiver(sliver, first.volume, c);
             if (to_cell == numbers::invalid_unsigned_int)
               continue;
-            SliverTransfer<dim> transfer_of_sliver;
-            transfer_of_sliver.first = {
-              {grid_.key_of_cell(to_cell), to_box, grid_.key_of_cell(cell), i}};
-            transfer_of_sliver.second = {{part.volume}};
-            for (unsigned int d = 0; d < dim; ++d)
-              {
-                transfer_of_sliver.second[1 + d]       = part.centroid[d];
-                transfer_of_sliver.second[1 + dim + d] = part.variance[d];
-              }
-            sliver_transfers[grid_.owner_of_cell(to_cell)].push_back(
-              transfer_of_sliver);
-            part.volume = 0.;
+            result[grid_.owner_of_cell(to_cell)].push_back(
+              {{{grid_.key_of_cell(to_cell), to_box, grid_.key_of_cell(c), i}},
+               sliver});
+            boxes.changing_parts()[i].volume = 0.;
           }
-      return sliver_transfers;
+      return result;
     }
 
 
 
-    /// The owner of a sliver knows all surrounding cells and decides; no rank
-    /// needs cells beyond the ghosts.
+    /// Slivers move until all have arrived. The owner of a sliver knows all
+    /// cells around it and decides, so no rank needs cells beyond its ghosts.
     template <int dim>
     void
     ClippedBoxes<dim>::merge_slivers()
     {
-      for (bool are_all_at_home = false; !are_all_at_home;)
+      for (bool have_moved = true; have_moved;)
         {
           std::vector<SliverTransfer<dim>> received;
-          for (const auto &[rank, sliver_transfers] :
+          for (const auto &[rank, transfers] :
                Utilities::MPI::some_to_some(grid_.communicator(),
                                             take_slivers()))
-            received.insert(received.end(),
-                            sliver_transfers.begin(),
-                            sliver_transfers.end());
+            received.insert(received.end(), transfers.begin(), transfers.end());
           std::sort(received.begin(), received.end());
-          receive(received);
-          are_all_at_home = !Utilities::MPI::logical_or(!received.empty(),
-                                                        grid_.communicator());
-        }
-    }
-
-
-
-    template <int dim>
-    void
-    ClippedBoxes<dim>::receive(
-      const std::vector<SliverTransfer<dim>> &sliver_transfers)
-    {
-      for (const auto &[names, numbers] : sliver_transfers)
-        {
-          PartInside<dim> &part =
-            changing_parts(grid_.cell_of_key(names[0]))[names[1]];
-          // Steiner: the variance of two parts is the mean variance plus the
-          // variance of the two centroids.
-          const double share = numbers[0] / (part.volume + numbers[0]);
-          for (unsigned int d = 0; d < dim; ++d)
-            {
-              const double distance = numbers[1 + d] - part.centroid[d];
-              part.centroid[d] += share * distance;
-              part.variance[d] +=
-                share * (numbers[1 + dim + d] - part.variance[d]) +
-                share * (1. - share) * distance * distance;
-            }
-          part.volume += numbers[0];
+          for (const auto &[place, sliver] : received)
+            add(
+              cells_.at(grid_.cell_of_key(place[0])).changing_parts()[place[1]],
+              sliver);
+          have_moved =
+            Utilities::MPI::logical_or(!received.empty(), grid_.communicator());
         }
     }
 
@@ -491,29 +469,24 @@ namespace talus
     std::vector<NewPoint<dim>>
     ClippedBoxes<dim>::points() const
     {
+      const auto  end     = cells_.lower_bound(grid_.n_owned_cells());
       std::size_t n_boxes = 0;
-      for (const auto &[c, parts] : parts_)
-        n_boxes += (c < grid_.n_owned_cells() ? parts.size() : 0);
+      for (auto boxes = cells_.begin(); boxes != end; ++boxes)
+        n_boxes += boxes->second.first.size();
       std::vector<NewPoint<dim>> result;
       result.reserve(n_boxes);
-      for (const auto &[c, first] : parts_)
+      for (auto boxes = cells_.begin(); boxes != end; ++boxes)
         {
-          if (c >= grid_.n_owned_cells())
-            break;
-          const auto   changed = now_.find(c);
-          const Parts &parts =
-            (changed == now_.end() ? first : changed->second);
-          const Cell<dim>     &cell    = grid_.cells()[c];
+          const Cell<dim>     &cell    = grid_.cells()[boxes->first];
+          const Parts         &parts   = boxes->second.parts();
           const auto           centres = lattice_of<dim>(cell, n_);
           const Tensor<1, dim> length  = lattice_lengths<dim>(cell, n_);
+          const double         whole   = volume_of_box(cell);
           for (unsigned int i = 0; i < parts.size(); ++i)
-            {
-              const double volume = parts[i].volume, whole = volume_of_box(c);
-              if (std::abs(volume - whole) <= 1e-12 * whole)
-                result.push_back({centres[i], length});
-              else if (volume > error_fraction * whole)
-                result.push_back({parts[i].centroid, lengths_of(parts[i])});
-            }
+            if (std::abs(parts[i].volume - whole) <= 1e-12 * whole)
+              result.push_back({centres[i], length});
+            else if (parts[i].volume > error_fraction * whole)
+              result.push_back({parts[i].centroid, lengths_of(parts[i])});
         }
       return result;
     }

@@ -129,18 +129,6 @@ namespace talus
 
 
 
-  template <int dim>
-  void
-  Water<dim>::begin_step(State<dim> &state)
-  {
-    if (!acts())
-      return;
-    surface_.find(state, contact_);
-    add_inertia(state.nodes);
-  }
-
-
-
   /// Add the inertia at the nodes only, since points carry the momentum of the
   /// soil. The added mass follows from the volume of soil at a node: an impulse
   /// then changes the momentum of soil and water together by exactly the

@@ -72,8 +72,7 @@ TEST(ThinSlide, StaysWholeByDefault)
   Verification gates("Slide that thins to a fifth of a cell",
                      "tests/cases/thin-slide.prm",
                      "continuity of the soil");
-  const Table  table =
-    run<2>("thin-slide.prm", "thin-slide", {"End time=20"});
+  const Table  table = run<2>("thin-slide.prm", "thin-slide", {"End time=20"});
   gates.at_most("mean thickness at the end / h", mean_thickness(table), 0.2);
   expect_continuum(gates, table);
   EXPECT_EQ(time_above(table, "points at mesh limit", 0.),

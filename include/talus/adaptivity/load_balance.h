@@ -6,8 +6,10 @@
 #include <talus/grid/grid.h>
 #include <talus/points/points.h>
 
+#include <deal.II/base/mpi.h>
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace talus
@@ -24,17 +26,36 @@ namespace talus
     /// Return the largest number of points of a rank, divided by the mean [-];
     /// 1 if there are no points. Collective.
     static double
-    imbalance(const Points<dim> &points, MPI_Comm communicator);
+    imbalance(const Points<dim> &points, const MPI_Comm communicator)
+    {
+      const auto n =
+        dealii::Utilities::MPI::min_max_avg(points.size(), communicator);
+      return n.sum > 0 ? n.max / n.avg : 1.;
+    }
 
     /// Return whether the points of the ranks must be counted after @p step
     /// steps.
     bool
-    is_due(unsigned long step, MPI_Comm communicator) const;
+    is_due(const unsigned long step, const MPI_Comm communicator) const
+    {
+      // Counting needs a message between all ranks, too expensive for every
+      // step.
+      return dealii::Utilities::MPI::n_mpi_processes(communicator) > 1 &&
+             step % interval_ == 0;
+    }
 
     /// Return whether the imbalance exceeds both the allowed value and the
     /// value reached by the last repartition. Collective.
     bool
-    is_needed(const Points<dim> &points, MPI_Comm communicator) const;
+    is_needed(const Points<dim> &points, const MPI_Comm communicator) const
+    {
+      // A cell belongs to one rank as a whole, so with few cells per rank the
+      // allowed imbalance may be out of reach. The second bound avoids useless
+      // repartitions: only an imbalance 5 % above the value reached last is a
+      // reason to try again.
+      return imbalance(points, communicator) >
+             std::max(allowed_imbalance_, 1.05 * reached_imbalance_);
+    }
 
     /// Move cells with their points between ranks and prepare the grid again.
     /// The points must be sorted on entry and are unsorted on return.
@@ -63,7 +84,10 @@ namespace talus
     /// Add the imbalance reached, on which the next repartition depends, to the
     /// state of the run.
     void
-    list_state(StateList &list);
+    list_state(StateList &list)
+    {
+      list.add("reached imbalance", "-", reached_imbalance_, Reduction::equal);
+    }
 
   private:
     double       allowed_imbalance_ = 1.2;

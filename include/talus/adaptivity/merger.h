@@ -107,7 +107,13 @@ namespace talus
     /// Add the number of merges and the conservation check to the state of the
     /// run.
     void
-    list_state(StateList &list);
+    list_state(StateList &list)
+    {
+      if (!enabled_)
+        return;
+      list.add("merges", "-", n_merges_, Reduction::sum);
+      conservation_.list_state(list, "merge conservation error");
+    }
 
   private:
     bool

@@ -38,7 +38,11 @@ namespace talus
     /// unless allow_overwriting() was called. Collective.
     void
     check_nothing_is_lost(const std::filesystem::path &output_folder,
-                          MPI_Comm                     communicator) const;
+                          const MPI_Comm               communicator) const
+    {
+      if (!may_overwrite_)
+        check_nothing_unfinished(output_folder, communicator);
+    }
 
     /// Start the clock, and remove checkpoints of an earlier run and incomplete
     /// checkpoints. A run resumed from @p resumed_from keeps the checkpoint,

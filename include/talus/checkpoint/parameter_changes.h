@@ -2,14 +2,15 @@
 #ifndef talus_checkpoint_parameter_changes_h
 #define talus_checkpoint_parameter_changes_h
 
+#include <map>
 #include <string>
 
 namespace talus
 {
-  /// Return the value of the parameter "Section/Subsection/Entry" in
-  /// @p parameters, a parameter file as written by a run; empty if missing.
-  std::string
-  parameter_in(const std::string &parameters, const std::string &path);
+  /// Return the values of @p parameters, a parameter file as written by a run,
+  /// by path, "Section/Subsection/Entry".
+  std::map<std::string, std::string>
+  values_by_path(const std::string &parameters);
 
   /// Compare the parameters of a checkpoint, @p saved, with the parameters of
   /// the run to be resumed, @p now; both as parameter files. Throws ExcUser

@@ -6,6 +6,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <algorithm>
 #include <string>
 
 namespace talus
@@ -87,9 +88,18 @@ namespace talus
 
   private:
     double
-    min_factor() const;
+    min_factor() const
+    {
+      // Strengths may not be raised beyond the limit of the law: softening soil
+      // would soften faster than it can unload (doc/method.md, section 12).
+      return std::max(smallest_, 1. / largest_strength_);
+    }
     bool
-    is_narrow() const;
+    is_narrow() const
+    {
+      // Both ends of the bracket must be known.
+      return upper_ - lower_ <= tolerance_ * lower_;
+    }
 
     // Parameters
     double first_             = 1.;

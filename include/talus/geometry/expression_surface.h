@@ -5,10 +5,12 @@
 #include <talus/base/expression.h>
 #include <talus/geometry/surface.h>
 
+#include <boost/functional/hash.hpp>
+
 #include <array>
-#include <limits>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -53,36 +55,20 @@ namespace talus
     double
     height(const dealii::Point<dim> &x) const;
     Value
-    find(const dealii::Point<dim> &x) const;
+    compute_value(const dealii::Point<dim> &x) const;
     double
-    find_largest_change(const dealii::Point<dim> &x, double distance) const;
+    compute_largest_change(const dealii::Point<dim> &x, double distance) const;
 
-    /// Results of the most recent arguments: a hash table with 2^15 entries.
+    /// Results by the numbers that they depend on.
     template <std::size_t n, typename T>
-    class LastFound
-    {
-    public:
-      using Key = std::array<double, n>;
-
-      /// Return the stored result for @p key, or the result of @p find.
-      template <typename Find>
-      const T &
-      get(const Key &key, const Find &find);
-
-    private:
-      struct Entry
-      {
-        Key key = {{std::numeric_limits<double>::quiet_NaN()}};
-        T   found{};
-      };
-
-      std::vector<Entry> entries_;
-    };
+    using Table = std::unordered_map<std::array<double, n>,
+                                     T,
+                                     boost::hash<std::array<double, n>>>;
 
     std::vector<Named>             others_;
     std::unique_ptr<Expression<3>> expression_;
-    mutable LastFound<2, Value>    values_;  ///< by place in plan
-    mutable LastFound<3, double>   changes_; ///< by place in plan and distance
+    mutable Table<2, Value>        values_;  ///< by place in plan
+    mutable Table<3, double>       changes_; ///< by place in plan and distance
   };
 } // namespace talus
 

@@ -34,23 +34,64 @@ namespace talus
     }
 
     void
-    open_accounts(Accounts<dim> &accounts);
+    open_accounts(Accounts<dim> &accounts)
+    {
+      for (const auto &interaction : list_)
+        interaction->open_accounts(accounts);
+    }
     void
-    prepare(const Grid<dim> &grid);
+    prepare(const Grid<dim> &grid)
+    {
+      for (const auto &interaction : list_)
+        interaction->prepare(grid);
+    }
     void
-    begin_step(State<dim> &state);
+    begin_step(State<dim> &state)
+    {
+      for (const auto &interaction : list_)
+        interaction->begin_step(state);
+    }
     void
-    add_forces(State<dim> &state);
+    add_forces(State<dim> &state)
+    {
+      for (const auto &interaction : list_)
+        interaction->add_forces(state);
+    }
     void
-    correct_velocities(State<dim> &state);
+    correct_velocities(State<dim> &state)
+    {
+      for (auto it = list_.rbegin(); it != list_.rend(); ++it)
+        (*it)->correct_velocities(state);
+    }
     void
-    record(State<dim> &state);
+    record(State<dim> &state)
+    {
+      for (auto it = list_.rbegin(); it != list_.rend(); ++it)
+        (*it)->record(state);
+    }
     void
-    list_quantities(const State<dim> &state, Quantities &list) const;
+    list_quantities(const State<dim> &state, Quantities &list) const
+    {
+      for (const auto &interaction : list_)
+        interaction->list_quantities(state, list);
+    }
     void
-    list_state(StateList &list);
+    list_state(StateList &list)
+    {
+      for (const auto &interaction : list_)
+        interaction->list_state(list);
+    }
     std::vector<std::string>
-    notes() const;
+    notes() const
+    {
+      std::vector<std::string> result;
+      for (const auto &interaction : list_)
+        {
+          const std::vector<std::string> notes = interaction->notes();
+          result.insert(result.end(), notes.begin(), notes.end());
+        }
+      return result;
+    }
 
   private:
     std::vector<std::unique_ptr<NodalInteraction<dim>>> list_;

@@ -4,47 +4,58 @@
 
 #include <talus/io/files.h>
 
+#include <mpi.h>
+
 #include <filesystem>
 #include <string>
 
 namespace talus
 {
-  /// Return whether a run may write a file of the given name into the output
-  /// folder.
-  bool
-  is_output_name(const std::string &file_name);
+  /// Exclusive lock on an output folder for the lifetime of this object. The
+  /// first rank locks the file `lock` in the folder; the operating system
+  /// releases the lock when the program ends, in whatever way.
+  class FolderLock
+  {
+  public:
+    FolderLock() = default;
+    ~FolderLock();
+    FolderLock(const FolderLock &) = delete;
+    FolderLock &
+    operator=(const FolderLock &) = delete;
+
+    /// Make the folder if it does not exist, and lock the folder. Throws
+    /// ExcUser with host and process if another run holds the lock. On a file
+    /// system without locks nothing is locked. Collective.
+    void
+    acquire(const std::filesystem::path &folder, MPI_Comm communicator);
+
+  private:
+    int file_ = -1; ///< descriptor, on the first rank
+  };
 
 
 
   /// Throw ExcUser if the folder does not exist and cannot be made, or cannot
-  /// be written. Leaves no file behind.
+  /// be written. Leaves nothing there.
   void
   check_can_be_made(const std::filesystem::path &folder);
 
 
 
-  /// Return the reason why a run must not write into the folder, a sentence:
-  /// files in the folder would be overwritten that no run has written, either
-  /// inputs of the present run (see protect_input()) or files of the user.
-  /// Empty without a reason. For the first rank.
+  /// Return a sentence if a run must not write into the folder, because the run
+  /// would write over files of the user or over input of the run, see
+  /// protect_input(); else an empty string. For the first rank.
   std::string
   foreign_file(const std::filesystem::path &folder, Beginning beginning);
 
 
 
-  /// Remove the results of an earlier run from the folder, except
-  /// parameters.prm and the checkpoints: no old result may look like a new
-  /// result. For the first rank.
+  /// Remove results of an earlier run, for the first rank. A fresh run removes
+  /// all results except parameters.prm, so that no old result looks like a new
+  /// one; checkpoints are not touched. A resumed run removes unfinished files,
+  /// NAME.part, and the last state before an error. Throws ExcUser.
   void
-  remove_earlier_results(const std::filesystem::path &folder);
-
-
-
-  /// Remove remains of a killed or failed run: unfinished files NAME.part, and
-  /// the last state before an error, which does not belong to the continued
-  /// run. For the first rank.
-  void
-  remove_remains(const std::filesystem::path &folder);
+  remove_results(const std::filesystem::path &folder, Beginning beginning);
 } // namespace talus
 
 #endif

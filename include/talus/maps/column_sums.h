@@ -32,7 +32,10 @@ namespace talus
   class ColumnSums
   {
   public:
-    explicit ColumnSums(std::shared_ptr<const PlanColumns<dim>> columns);
+    explicit ColumnSums(std::shared_ptr<const PlanColumns<dim>> columns)
+      : columns_(std::move(columns))
+      , sums_(columns_->size())
+    {}
 
     const PlanColumns<dim> &
     columns() const
@@ -119,7 +122,14 @@ namespace talus
 
   private:
     void
-    clear();
+    clear()
+    {
+      // Only the touched columns are cleared: a map is larger than the slide.
+      for (const unsigned int column : touched_)
+        sums_[column] = ColumnSum<dim>();
+      touched_.clear();
+      with_soil_.clear();
+    }
     bool
     may_reach(const State<dim> &state, const Batch &batch) const;
     void
@@ -131,7 +141,13 @@ namespace talus
     void
     add_batch(const State<dim> &state, const Batch &batch);
     ColumnSum<dim> &
-    touch(unsigned int column);
+    touch(const unsigned int column)
+    {
+      // A column may receive a force before soil, or a force only.
+      if (sums_[column].mass == 0)
+        touched_.push_back(column);
+      return sums_[column];
+    }
 
     std::shared_ptr<const PlanColumns<dim>> columns_;
     std::vector<ColumnSum<dim>>             sums_;

@@ -6,6 +6,7 @@
 #include <talus/maps/column_sums.h>
 #include <talus/maps/impact.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <string>
@@ -65,7 +66,10 @@ namespace talus
       ImpactFormula       impact;
     };
 
-    Envelope(unsigned int n_columns, const Settings &settings);
+    Envelope(const unsigned int n_columns, const Settings &settings)
+      : settings_(settings)
+      , histories_(n_columns)
+    {}
 
     const Settings &
     settings() const
@@ -75,7 +79,11 @@ namespace talus
 
     /// Record the thickness at the start of the motion.
     void
-    start(const ColumnSums<dim> &sums);
+    start(const ColumnSums<dim> &sums)
+    {
+      for (const unsigned int column : sums.with_soil())
+        histories_[column].thickness_at_start = sums.thickness(column);
+    }
 
     /// Add a sample at time @p t, s.
     void
@@ -83,7 +91,12 @@ namespace talus
 
     /// Columns reached by soil, sorted by number.
     std::vector<unsigned int>
-    reached() const;
+    reached() const
+    {
+      std::vector<unsigned int> columns = reached_;
+      std::sort(columns.begin(), columns.end());
+      return columns;
+    }
 
     const ColumnHistory &
     operator[](const unsigned int column) const

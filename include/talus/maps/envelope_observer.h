@@ -2,6 +2,8 @@
 #ifndef talus_maps_envelope_observer_h
 #define talus_maps_envelope_observer_h
 
+#include <talus/base/agreement.h>
+#include <talus/base/errors.h>
 #include <talus/maps/envelope.h>
 #include <talus/maps/map_settings.h>
 #include <talus/observers/observer.h>
@@ -23,7 +25,11 @@ namespace talus
     /// @p name identifies the envelope in checkpoints.
     EnvelopeObserver(const std::string           &name,
                      Problem<dim>                &problem,
-                     std::shared_ptr<MapSettings> settings);
+                     std::shared_ptr<MapSettings> settings)
+      : name_(name)
+      , problem_(problem)
+      , settings_(std::move(settings))
+    {}
 
     void
     begin(const OutputSettings &settings,
@@ -31,20 +37,44 @@ namespace talus
           Beginning             beginning) override;
 
     void
-    start(const State<dim> &state) override;
+    start(const State<dim> &state) override
+    {
+      sample(state);
+      if (is_first_rank(state.communicator()))
+        envelope_->start(*sums_);
+    }
 
     void
-    follow(const State<dim> &state) override;
+    follow(const State<dim> &state) override
+    {
+      if (state.step % settings_->steps_between_samples() == 0)
+        sample(state);
+    }
 
     void
-    observe(const State<dim> &state) override;
+    observe(const State<dim> &state) override
+    {
+      // The last files must show the final state.
+      if (last_sample_ != state.step)
+        sample(state);
+      if (is_first_rank(state.communicator()))
+        write_files(state);
+    }
 
     /// Add the envelope to the state of the run if the observer is enabled.
     void
     list_state(StateList &list) override;
 
     void
-    sync() override;
+    sync() override
+    {
+      for (const std::filesystem::path &path : written_)
+        {
+          const std::string error = sync_to_disk(path);
+          AssertThrow(error.empty(), ExcUser(failed_write(path, error)));
+        }
+      written_.clear();
+    }
 
   protected:
     const Envelope<dim> &
@@ -68,7 +98,11 @@ namespace talus
     /// Return the path of file @p name in the output folder, and remember the
     /// file for sync(). The caller writes the file now.
     std::filesystem::path
-    path_of_output(const std::filesystem::path &name);
+    path_of_output(const std::filesystem::path &name)
+    {
+      written_.push_back(folder_ / name);
+      return written_.back();
+    }
 
   private:
     virtual std::shared_ptr<const PlanColumns<dim>>

@@ -16,7 +16,10 @@ namespace talus
   public:
     Lines(Problem<dim>                           &problem,
           std::shared_ptr<MapSettings>            settings,
-          std::shared_ptr<const StationList<dim>> list);
+          std::shared_ptr<const StationList<dim>> list)
+      : EnvelopeObserver<dim>("lines", problem, std::move(settings))
+      , list_(std::move(list))
+    {}
 
     bool
     is_enabled(const OutputSettings & /*settings*/) const override

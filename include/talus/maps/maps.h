@@ -14,7 +14,9 @@ namespace talus
   class Maps : public EnvelopeObserver<dim>
   {
   public:
-    Maps(Problem<dim> &problem, std::shared_ptr<MapSettings> settings);
+    Maps(Problem<dim> &problem, std::shared_ptr<MapSettings> settings)
+      : EnvelopeObserver<dim>("maps", problem, std::move(settings))
+    {}
 
     bool
     is_enabled(const OutputSettings & /*settings*/) const override
@@ -42,7 +44,10 @@ namespace talus
     using Axis = typename LatticeColumns<dim>::Axis;
 
     std::shared_ptr<const PlanColumns<dim>>
-    make_columns(const State<dim> &state) const override;
+    make_columns(const State<dim> &state) const override
+    {
+      return std::make_shared<LatticeColumns<dim>>(axes(state));
+    }
     void
     write_files(const State<dim> &state) override;
 

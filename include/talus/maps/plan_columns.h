@@ -5,6 +5,7 @@
 #include <talus/base/box.h>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace talus
@@ -190,7 +191,10 @@ namespace talus
     }
 
     double
-    area() const override;
+    area() const override
+    {
+      return std::pow(width_, dim - 1);
+    }
 
     dealii::Point<dim>
     centre(const unsigned int column) const override

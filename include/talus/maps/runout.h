@@ -59,7 +59,10 @@ namespace talus
   {
   public:
     /// @p origin of the mesh on the map, m, must outlive the observer.
-    explicit Runout(const dealii::Point<3> &origin);
+    explicit Runout(const dealii::Point<3> &origin)
+      : TableObserver<dim>("runout.csv")
+      , origin_(origin)
+    {}
 
     bool
     is_enabled(const OutputSettings &settings) const override
@@ -68,7 +71,10 @@ namespace talus
     }
 
     void
-    check(const State<dim> &state) const override;
+    check(const State<dim> & /*state*/) const override
+    {
+      settings_.corners(dim, origin_);
+    }
 
     void
     begin(const OutputSettings &settings,
@@ -97,7 +103,11 @@ namespace talus
     columns(const OutputSettings &settings,
             const State<dim>     &state) const override;
     dealii::Point<2>
-    in_plan(const dealii::Point<dim> &x) const;
+    in_plan(const dealii::Point<dim> &x) const
+    {
+      return dim == 2 ? dealii::Point<2>(x[0], 0.)
+                      : dealii::Point<2>(x[0], x[dim - 1]);
+    }
     Centre
     centre_of_mass(const State<dim> &state) const;
     bool

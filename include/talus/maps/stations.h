@@ -17,7 +17,11 @@ namespace talus
   {
   public:
     Stations(const Problem<dim>                     &problem,
-             std::shared_ptr<const StationList<dim>> list);
+             std::shared_ptr<const StationList<dim>> list)
+      : QuantityTable<dim>("stations.csv")
+      , problem_(problem)
+      , list_(std::move(list))
+    {}
 
     bool
     is_enabled(const OutputSettings & /*settings*/) const override
@@ -26,10 +30,18 @@ namespace talus
     }
 
     void
-    check(const State<dim> &state) const override;
+    check(const State<dim> &state) const override
+    {
+      list_->points(state.grid.domain_before_growth(), problem_.origin());
+    }
 
     void
-    list_state(StateList &list) override;
+    list_state(StateList &list) override
+    {
+      // Without stations there is no file, and the checkpoint has no entry.
+      if (list_->has_points())
+        TableObserver<dim>::list_state(list);
+    }
 
     Quantities
     evaluate(const State<dim> &state) const override;

@@ -13,14 +13,17 @@ namespace talus
   class BoundaryForces : public ReactionTable<dim>
   {
   public:
-    explicit BoundaryForces(const BoundaryReactions<dim> &reactions);
+    explicit BoundaryForces(const BoundaryReactions<dim> &reactions)
+      : ReactionTable<dim>("boundaries.csv", "face")
+      , reactions_(reactions)
+    {}
 
     /// Whether the parameter `Boundaries/Write forces` is set.
     bool
-    is_enabled(const OutputSettings &settings) const override;
-
-    Quantities
-    evaluate(const State<dim> &state) const override;
+    is_enabled(const OutputSettings & /*settings*/) const override
+    {
+      return reactions_.is_enabled();
+    }
 
   private:
     const std::vector<Reaction<dim>> &
@@ -33,12 +36,6 @@ namespace talus
     name(const unsigned int k) const override
     {
       return reactions_.name(k);
-    }
-
-    std::string
-    kind() const override
-    {
-      return "face";
     }
 
     const BoundaryReactions<dim> &reactions_;

@@ -20,17 +20,28 @@ namespace talus
   {
   public:
     /// @p contact must outlive the observer.
-    explicit FacetsOutput(const FacetContact<dim> &contact);
+    explicit FacetsOutput(const FacetContact<dim> &contact)
+      : SeriesObserver<dim>("facets")
+      , contact_(contact)
+    {}
 
     /// Return whether obstacle output is requested and obstacles exist.
     bool
-    is_enabled(const OutputSettings &settings) const override;
+    is_enabled(const OutputSettings &settings) const override
+    {
+      return settings.write_obstacles && !contact_.obstacles().empty();
+    }
 
     void
     observe(const State<dim> &state) override;
 
     void
-    list_state(StateList &list) override;
+    list_state(StateList &list) override
+    {
+      // Without obstacles the checkpoint has no entry for the series.
+      if (!contact_.obstacles().empty())
+        SeriesObserver<dim>::list_state(list);
+    }
 
   private:
     const FacetContact<dim> &contact_;

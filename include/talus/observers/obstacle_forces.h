@@ -15,11 +15,17 @@ namespace talus
   class ObstacleForces : public ReactionTable<dim>
   {
   public:
-    explicit ObstacleForces(const FacetContact<dim> &contact);
+    explicit ObstacleForces(const FacetContact<dim> &contact)
+      : ReactionTable<dim>("obstacles.csv", "obstacle")
+      , contact_(contact)
+    {}
 
     /// Whether obstacles exist.
     bool
-    is_enabled(const OutputSettings &settings) const override;
+    is_enabled(const OutputSettings & /*settings*/) const override
+    {
+      return !contact_.obstacles().empty();
+    }
 
     Quantities
     evaluate(const State<dim> &state) const override;
@@ -37,14 +43,6 @@ namespace talus
       return contact_.obstacles()[k].name();
     }
 
-    std::string
-    kind() const override
-    {
-      return "obstacle";
-    }
-
-    void
-    list_forces(unsigned int k, Quantities &row) const;
     /// Soil below the surface of an obstacle.
     struct Penetration
     {

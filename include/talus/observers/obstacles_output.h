@@ -15,17 +15,28 @@ namespace talus
   {
   public:
     /// @p obstacles must outlive the observer.
-    explicit ObstaclesOutput(const Obstacles<dim> &obstacles);
+    explicit ObstaclesOutput(const Obstacles<dim> &obstacles)
+      : SeriesObserver<dim>("obstacles")
+      , obstacles_(obstacles)
+    {}
 
     /// Return whether obstacle output is requested and obstacles exist.
     bool
-    is_enabled(const OutputSettings &settings) const override;
+    is_enabled(const OutputSettings &settings) const override
+    {
+      return settings.write_obstacles && !obstacles_.empty();
+    }
 
     void
     observe(const State<dim> &state) override;
 
     void
-    list_state(StateList &list) override;
+    list_state(StateList &list) override
+    {
+      // Without obstacles the checkpoint has no entry for the series.
+      if (!obstacles_.empty())
+        SeriesObserver<dim>::list_state(list);
+    }
 
   private:
     const Obstacles<dim> &obstacles_;

@@ -4,8 +4,8 @@
 
 #include <talus/base/phase_timer.h>
 #include <talus/io/files.h>
-#include <talus/io/folder_lock.h>
 #include <talus/io/log.h>
+#include <talus/io/output_folder.h>
 #include <talus/observers/observer.h>
 #include <talus/observers/output_times.h>
 #include <talus/observers/progress.h>

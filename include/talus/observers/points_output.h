@@ -44,7 +44,11 @@ namespace talus
     void
     begin(const OutputSettings &settings,
           const State<dim>     &state,
-          Beginning             beginning = Beginning::fresh) override;
+          const Beginning       beginning = Beginning::fresh) override
+    {
+      SeriesObserver<dim>::begin(settings, state, beginning);
+      boxes_as_cells_ = settings.boxes_as_cells;
+    }
 
     void
     observe(const State<dim> &state) override

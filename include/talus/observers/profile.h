@@ -44,7 +44,10 @@ namespace talus
   public:
     /// @p obstacles may belong to the ground and must outlive the observer;
     /// null for no obstacles.
-    explicit Profile(const Obstacles<dim> *obstacles = nullptr);
+    explicit Profile(const Obstacles<dim> *obstacles = nullptr)
+      : TableObserver<dim>(file_name)
+      , obstacles_(obstacles)
+    {}
 
     bool
     is_enabled(const OutputSettings &settings) const override

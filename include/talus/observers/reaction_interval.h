@@ -23,7 +23,13 @@ namespace talus
 
     /// Begin a new interval. The running mean continues.
     void
-    restart();
+    restart()
+    {
+      ReactionInterval<dim> next;
+      next.running_mean_     = running_mean_;
+      next.has_running_mean_ = has_running_mean_;
+      *this                  = next;
+    }
 
     /// Append forces and moments as means of the interval, extremes of the
     /// force, and impulse and works since the start from @p total. The headings

@@ -17,40 +17,81 @@ namespace talus
   class ReactionTable : public QuantityTable<dim>
   {
   public:
-    using QuantityTable<dim>::QuantityTable;
+    /// @p file_name of the table and @p kind of surface, for the names of
+    /// checkpoint entries.
+    ReactionTable(const std::string &file_name, const std::string &kind)
+      : QuantityTable<dim>(file_name)
+      , kind_(kind)
+    {}
 
     void
     begin(const OutputSettings &settings,
           const State<dim>     &state,
-          Beginning             beginning) override;
+          const Beginning       beginning) override
+    {
+      averaging_time_ = settings.averaging_time;
+      intervals_.resize(reactions().size());
+      QuantityTable<dim>::begin(settings, state, beginning);
+    }
 
     void
-    follow(const State<dim> &state) override;
+    follow(const State<dim> &state) override
+    {
+      for (unsigned int k = 0; k < intervals_.size(); ++k)
+        intervals_[k].add(reactions()[k].last,
+                          state.time_step,
+                          averaging_time_);
+    }
 
     void
-    observe(const State<dim> &state) override;
+    observe(const State<dim> &state) override
+    {
+      QuantityTable<dim>::observe(state);
+      for (ReactionInterval<dim> &interval : intervals_)
+        interval.restart();
+    }
+
+    /// Return the time and the columns of all surfaces.
+    Quantities
+    evaluate(const State<dim> &state) const override
+    {
+      Quantities row = {{"time", "s", state.time}};
+      for (unsigned int k = 0; k < intervals_.size(); ++k)
+        list_reaction(k, row);
+      return row;
+    }
 
     /// Add the intervals to the state of the run, unless there are no surfaces.
     void
-    list_state(StateList &list) override;
+    list_state(StateList &list) override
+    {
+      // A checkpoint is loaded before begin().
+      if (reactions().empty())
+        return;
+      intervals_.resize(reactions().size());
+      for (unsigned int k = 0; k < intervals_.size(); ++k)
+        intervals_[k].list_state(kind_ + ' ' + name(k), list);
+      QuantityTable<dim>::list_state(list);
+    }
 
   protected:
     /// Append the columns of surface @p k.
     void
-    list_reaction(unsigned int k, Quantities &row) const;
+    list_reaction(const unsigned int k, Quantities &row) const
+    {
+      intervals_[k].list_quantities(name(k), reactions()[k].total, row);
+    }
 
   private:
     /// Return one reaction per surface, none if the table is disabled.
     virtual const std::vector<Reaction<dim>> &
     reactions() const = 0;
 
-    /// Name of surface @p k, and kind of surface: both in the names of
-    /// checkpoint entries.
+    /// Return the name of surface @p k.
     virtual const std::string &
     name(unsigned int k) const = 0;
-    virtual std::string
-    kind() const = 0;
 
+    std::string                        kind_;
     std::vector<ReactionInterval<dim>> intervals_;
     double                             averaging_time_ = 0; ///< s
   };

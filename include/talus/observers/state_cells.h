@@ -25,6 +25,40 @@ namespace talus
             places_need_double(state.grid.domain_before_growth(),
                                state.grid.cell_size())};
   }
+
+
+
+  /// Return a field with one number per item, value(i).
+  template <typename Function>
+  Field
+  scalar_field(const std::string &name,
+               const std::string &unit,
+               const Function    &value)
+  {
+    return {name,
+            unit,
+            FieldKind::scalar,
+            [value](const unsigned int i, double *to) { *to = value(i); }};
+  }
+
+
+
+  /// Return a field with a vector per item: value(i)[d] for each axis d.
+  template <int dim, typename Function>
+  Field
+  vector_field(const std::string &name,
+               const std::string &unit,
+               const Function    &value)
+  {
+    return {name,
+            unit,
+            FieldKind::vector,
+            [value](const unsigned int i, double *to) {
+              const auto vector = value(i);
+              for (unsigned int d = 0; d < dim; ++d)
+                to[d] = vector[d];
+            }};
+  }
 } // namespace talus
 
 #endif

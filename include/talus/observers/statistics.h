@@ -36,7 +36,10 @@ namespace talus
   public:
     /// @p obstacles may belong to the ground; null for none. They must outlive
     /// the statistics.
-    explicit Statistics(const Obstacles<dim> *obstacles = nullptr);
+    explicit Statistics(const Obstacles<dim> *obstacles = nullptr)
+      : TableObserver<dim>(file_name)
+      , obstacles_(obstacles)
+    {}
 
     /// Function that appends further quantities. Collective.
     using Source = std::function<void(const State<dim> &, Quantities &)>;
@@ -44,16 +47,28 @@ namespace talus
     /// Add columns behind the columns of motion, seabed, energies and
     /// fractures.
     void
-    add_source(const Source &source);
+    add_source(const Source &source)
+    {
+      sources_.push_back(source);
+    }
 
     void
     begin(const OutputSettings &settings,
           const State<dim>     &state,
-          Beginning             beginning = Beginning::fresh) override;
+          const Beginning       beginning = Beginning::fresh) override
+    {
+      has_runout_ = settings.write_runout;
+      TableObserver<dim>::begin(settings, state, beginning);
+    }
 
     /// Begin the energy budget and the mean of the seabed force at @p state.
     void
-    start(const State<dim> &state) override;
+    start(const State<dim> &state) override
+    {
+      // Called after the static stages, whose energies do not count.
+      budget_.begin(state);
+      seabed_force_.restart(state);
+    }
 
     /// Append a row.
     void
@@ -64,19 +79,28 @@ namespace talus
     Quantities
     evaluate(const State<dim> &state, bool with_runout = true) const;
 
-    /// Return the headings of the columns. Collective.
-    std::vector<std::string>
-    names(const State<dim> &state, bool with_runout) const;
-
     void
-    list_state(StateList &list) override;
+    list_state(StateList &list) override
+    {
+      seabed_force_.list_state(list);
+      TableObserver<dim>::list_state(list);
+      budget_.list_state(list);
+    }
 
     static constexpr const char *file_name = "statistics.csv";
 
   private:
     std::vector<std::string>
     columns(const OutputSettings &settings,
-            const State<dim>     &state) const override;
+            const State<dim>     &state) const override
+    {
+      // Drop the values of the evaluation: the headings are needed once per
+      // run.
+      std::vector<std::string> result;
+      for (const Quantity &quantity : evaluate(state, settings.write_runout))
+        result.push_back(quantity.heading());
+      return result;
+    }
 
     const Obstacles<dim> *obstacles_;
     SeabedForce<dim>      seabed_force_;

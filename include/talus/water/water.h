@@ -43,7 +43,13 @@ namespace talus
 
     /// Find the free surface and add the inertia of the water to the nodes.
     void
-    begin_step(State<dim> &state) override;
+    begin_step(State<dim> &state) override
+    {
+      if (!acts())
+        return;
+      surface_.find(state, contact_);
+      add_inertia(state.nodes);
+    }
 
     /// Add the drag on the free surface.
     void
