@@ -93,7 +93,15 @@ namespace talus
 
 
 
-  /// A table that grows row by row, comma separated, 16 significant digits.
+  /// Return a field of a CSV table: 16 significant digits, so that two runs can
+  /// be compared to round-off; empty if @p value is NaN, for a quantity that has
+  /// no value.
+  std::string
+  csv_field(double value);
+
+
+
+  /// A table that grows row by row, comma separated; see csv_field().
   class CsvFile
   {
   public:
