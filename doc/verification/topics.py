@@ -3,7 +3,7 @@
 
 PAGES lists, per page, the capabilities in the order of the page, and below each
 capability the test suites of ctest's label `verification` that hold it. A new suite
-needs an entry here, and in SLOW if it has the label `slow`.
+needs an entry here.
 """
 
 import re
@@ -57,13 +57,6 @@ PAGES = [
           "LandslideInclinedFine"]),
     ]),
 ]
-
-SLOW = {"LandslideFull", "LandslideFullUnsplit", "LandslideFourWay",
-        "VerticalCutBracket", "ElasticaLoads", "ImplicitElasticaLoads",
-        "StripFootingFine", "VerticalCutSafetyFine", "ClaySlopeFine",
-        "SlopeStability", "LandslideFromEquilibriumFine", "PipeRefined",
-        "LandslideInclinedFull", "LandslideInclinedFine",
-        "LandslideInclined3d"}
 
 # Kinds of evidence: name, heading of the column of the matrix, explanation.
 KINDS = [

@@ -303,27 +303,31 @@ namespace talus
 
 
 
-  /// Throw ExcPoint if this rank would have too many points, before any child
-  /// is created: otherwise memory might run out first.
+  /// Throw ExcPoint if there would be too many points, before any child is
+  /// created: otherwise memory might run out first. Splits of other ranks in the
+  /// same step are not known yet.
   template <int dim>
   void
   Splitter<dim>::check_budget(const Points<dim> &points,
                               const std::size_t  n_points) const
   {
-    const unsigned int first = marked_[0].point;
-    AssertThrow(n_points <= maximum_points_,
-                ExcPoint(text(
-                  "Splitting ",
-                  marked_.size(),
-                  " points, the first of them point ",
-                  points.data(points.id)[first],
-                  " at (",
-                  load_place(points, points.position, first),
-                  ") m, would make ",
-                  n_points,
-                  " points, more than 'Splitting/Maximum number of points' = ",
-                  maximum_points_,
-                  more_points_advice)));
+    const unsigned int first      = marked_[0].point;
+    const double       n_on_ranks = n_points + n_on_other_ranks_;
+    AssertThrow(
+      n_on_ranks <= maximum_points_,
+      ExcPoint(
+        text("Splitting ",
+             marked_.size(),
+             " points, the first of them point ",
+             points.data(points.id)[first],
+             " at (",
+             load_place(points, points.position, first),
+             ") m, would make ",
+             n_on_ranks,
+             " points on all ranks, more than 'Splitting/Maximum number of "
+             "points' = ",
+             maximum_points_,
+             more_points_advice)));
   }
 
 
@@ -332,8 +336,9 @@ namespace talus
   // between all ranks. The caller passes a number that is known already.
   template <int dim>
   void
-  Splitter<dim>::check_total(const double n_points) const
+  Splitter<dim>::check_total(const double n_points, const double n_own)
   {
+    n_on_other_ranks_ = n_points - n_own;
     AssertThrow(n_points <= maximum_points_,
                 ExcPoint(text("Splitting has made ",
                               n_points,

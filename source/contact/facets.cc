@@ -366,11 +366,12 @@ namespace talus
     cut_cell_at_[c] = &result;
     result.facets   = section.facets;
     result.hidden   = section.hidden;
-    for (ContactFacet<dim> &facet : result.facets)
-      {
-        facet.cell = c;
-        facet.node = cell.nodes();
-      }
+    for (auto *facets : {&result.facets, &result.hidden})
+      for (ContactFacet<dim> &facet : *facets)
+        {
+          facet.cell = c;
+          facet.node = cell.nodes();
+        }
     result.open_volume = section.open_volume;
     result.touching    = cells_around(grid, cell, 1);
     result.near        = cells_around(grid, cell, 2);
@@ -503,8 +504,8 @@ namespace talus
             }
       }
     for (const auto &[c, cut_cell] : cut_cells_)
-      if (c < grid.n_owned_cells())
-        is_near_[c] = (cut_cell.facets.empty() ? 3 : 2);
+      if (c < grid.n_owned_cells() && !cut_cell.facets.empty())
+        is_near_[c] = 2;
     for (const unsigned int node : nodes_)
       {
         const bool is_on_face  = grid.faces_of_node(node) != 0;

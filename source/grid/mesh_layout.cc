@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <limits>
 
 namespace talus
 {
@@ -336,18 +337,28 @@ namespace talus
 
 
 
-  /// p4est counts the cells of a rank in 32 bits. The test runs before p4est or
-  /// deal.II run out of memory with their own messages. Memory per cell was
-  /// measured without points (doc/cluster.md), and a run needs more: a rejected
-  /// mesh cannot work.
+  template <int dim>
+  double
+  MeshLayout<dim>::max_n_cells(const double n_ranks)
+  {
+    const double max_n_nodes =
+      std::numeric_limits<types::global_dof_index>::max();
+    return std::min(4e8 * n_ranks, 0.9 * max_n_nodes);
+  }
+
+
+
+  /// The test runs before p4est or deal.II run out of memory with their own
+  /// messages. Memory per cell was measured without points (doc/cluster.md), and
+  /// a run needs more: a rejected mesh cannot work.
   template <int dim>
   void
   MeshLayout<dim>::check_memory(const double n_cells) const
   {
     constexpr double bytes_per_cell = (dim == 2 ? 720. : 1470.);
-    const double     bytes          = n_cells * bytes_per_cell /
-                         Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    AssertThrow(n_cells < 4e8 && bytes < memory_per_rank_,
+    const double     n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
+    const double     bytes   = n_cells * bytes_per_cell / n_ranks;
+    AssertThrow(n_cells < max_n_cells(n_ranks) && bytes < memory_per_rank_,
                 ExcUser(
                   text("The mesh would have ",
                        n_cells,
@@ -355,8 +366,12 @@ namespace talus
                        bytes / 1e9,
                        " GB of memory on each rank. ",
                        memory_per_rank_ / 1e9,
-                       " GB are available, and 4e8 cells are the maximum. "
-                       "Choose a larger Grid/Cell size than ",
+                       " GB are available, and ",
+                       max_n_cells(n_ranks),
+                       " cells are the maximum on ",
+                       n_ranks,
+                       n_ranks == 1 ? " rank" : " ranks",
+                       ". Choose a larger Grid/Cell size than ",
                        cell_size_,
                        " m, a smaller box",
                        boxes_.empty() ? "" : ", fewer Grid/Refinement boxes",

@@ -5,6 +5,7 @@
 #include <boost/algorithm/string/join.hpp>
 
 #include <cerrno>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <sstream>
@@ -272,20 +273,26 @@ namespace talus
 
 
 
+  std::string
+  csv_field(const double value)
+  {
+    if (std::isnan(value))
+      return "";
+    char number[32];
+    std::snprintf(number, sizeof(number), "%.16g", value);
+    return number;
+  }
+
+
+
   void
   CsvFile::add_row(const std::vector<double> &values)
   {
     Assert(values.size() == n_columns_,
            ExcDimensionMismatch(values.size(), n_columns_));
     std::string row;
-    char        number[32];
-    for (const double value : values)
-      {
-        // 16 digits: two runs can be compared to round-off.
-        std::snprintf(number, sizeof(number), "%.16g", value);
-        row += (row.empty() ? "" : ",");
-        row += number;
-      }
+    for (unsigned int i = 0; i < values.size(); ++i)
+      row += (i == 0 ? "" : ",") + csv_field(values[i]);
     // A failure here shows in flush().
     file_ << row << '\n';
   }

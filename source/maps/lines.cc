@@ -95,7 +95,7 @@ namespace talus
           if (dim == 3)
             out << ',' << place.x[dim - 1];
           for (const HistoryField &field : fields)
-            out << ',' << field.value(envelope[column]);
+            out << ',' << csv_field(field.value(envelope[column]));
           out << '\n';
           ++column;
         }

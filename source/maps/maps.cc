@@ -202,7 +202,7 @@ namespace talus
         {
           out << '\n' << columns.centre(column)[0] << ',' << elevation(column);
           for (const HistoryField &field : fields)
-            out << ',' << field.value(envelope[column]);
+            out << ',' << csv_field(field.value(envelope[column]));
         }
       out << '\n';
     });

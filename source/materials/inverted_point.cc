@@ -3,8 +3,54 @@
 #include <talus/materials/inverted_point.h>
 #include <talus/points/points_kernel.h>
 
+#include <algorithm>
+
 namespace talus
 {
+  namespace
+  {
+    /// Stress by the weight of soil as dense as point @p p and as high as all
+    /// soil on this rank, rho g H, Pa.
+    template <int dim>
+    double
+    weight_of_soil(const Points<dim> &points, const unsigned int p)
+    {
+      const double *const y        = points.data(points.position, 1);
+      const auto [lowest, highest] = std::minmax_element(y, y + points.size());
+      const double density =
+        points.data(points.mass)[p] / points.data(points.reference_volume)[p];
+      return density * 9.81 * (*highest - *lowest);
+    }
+
+
+
+    /// Sentences with the likely causes. Soil that is softer than its weight
+    /// would be squeezed to a fraction of its height: a wrong unit.
+    std::string
+    causes_of_inversion(const double shear_modulus, const double weight)
+    {
+      const std::string shorter_steps =
+        "ower 'Time step/CFL number', or find the cause of large velocities "
+        "there.";
+      const std::string moduli = text("the shear modulus is ",
+                                      shear_modulus,
+                                      " Pa, the weight of the soil per area ",
+                                      weight,
+                                      " Pa");
+      if (shear_modulus < weight)
+        return "The soil is too soft to bear its weight: " + moduli +
+               ". Check that stiffnesses are given in Pa, not in kPa. If they "
+               "are right, l" +
+               shorter_steps;
+      return "L" + shorter_steps +
+             " If that does not help, check that stiffnesses are given in "
+             "Pa: " +
+             moduli + ".";
+    }
+  } // namespace
+
+
+
   // The loops over points, several at a time, only detect that some determinant
   // is not positive, so that they need no branch. The point is searched here,
   // when the run is lost anyway.
@@ -12,7 +58,8 @@ namespace talus
   void
   throw_inverted_point(const Points<dim> &points,
                        const unsigned int begin,
-                       const unsigned int end)
+                       const unsigned int end,
+                       const double       shear_modulus)
   {
     for (unsigned int p = begin; p < end; ++p)
       {
@@ -21,17 +68,18 @@ namespace talus
         // Written to find values that are not a number, too.
         if (J > 0)
           continue;
-        AssertThrow(
-          false,
-          ExcPoint(text("Point ",
-                        points.data(points.id)[p],
-                        " at (",
-                        load_place(points, points.position, p),
-                        ") m was turned inside out: the determinant of its "
-                        "deformation gradient is ",
-                        J,
-                        ", but must be positive. Lower 'Time step/CFL number', "
-                        "or find the cause of large velocities there.")));
+        AssertThrow(false,
+                    ExcPoint(
+                      text("Point ",
+                           points.data(points.id)[p],
+                           " at (",
+                           load_place(points, points.position, p),
+                           ") m was turned inside out: the determinant of its "
+                           "deformation gradient is ",
+                           J,
+                           ", but must be positive. ",
+                           causes_of_inversion(shear_modulus,
+                                               weight_of_soil(points, p)))));
       }
   }
 

@@ -160,6 +160,20 @@ namespace talus
 
 
 
+  template <int dim>
+  std::string
+  Loading<dim>::note() const
+  {
+    if (gravity_.magnitude > 0. || expression_ || ground_motion_.has_table())
+      return "";
+    return "'Gravity/Magnitude' is 0, and there is neither a body force nor a "
+           "motion of the ground: the soil has no weight, and only initial "
+           "velocities and stresses, faces of the mesh and obstacles move it. "
+           "If that is not meant, set 'Gravity/Magnitude' to 9.81.";
+  }
+
+
+
   template class Loading<2>;
   template class Loading<3>;
 } // namespace talus

@@ -275,8 +275,10 @@ namespace talus
   std::vector<std::string>
   Problem<dim>::remarks(const double cell_size) const
   {
-    std::vector<std::string> result       = remarks_;
-    const auto               on_materials = materials.notes(cell_size);
+    std::vector<std::string> result = remarks_;
+    if (const std::string note = loading.note(); !note.empty())
+      result.push_back(note);
+    const auto on_materials = materials.notes(cell_size);
     result.insert(result.end(), on_materials.begin(), on_materials.end());
     const auto on_interactions = interactions.notes();
     result.insert(result.end(), on_interactions.begin(), on_interactions.end());

@@ -5,15 +5,28 @@
 
 namespace talus
 {
+  using namespace dealii;
+
+  template <int dim>
+  void
+  ContactAreaRemark<dim>::list_quantities(const State<dim> &state,
+                                          Quantities       &list)
+  {
+    areas_.clear();
+    list_contact_area(state, boundaries_, contact_, areas_);
+    list.insert(list.end(), areas_.begin(), areas_.end());
+  }
+
+
+
   // The contact area is 0 before the first step of a run, and there is no
   // footprint without ground.
   template <int dim>
   std::string
   ContactAreaRemark<dim>::remark(const State<dim> &state) const
   {
-    Quantities list;
-    list_contact_area(state, boundaries_, contact_, list);
-    const Quantity &area = list[0], &footprint = list[1];
+    Assert(areas_.size() == 2, ExcInternalError());
+    const Quantity &area = areas_[0], &footprint = areas_[1];
     const double    ratio = area.value / footprint.value;
     if (area.value == 0 || footprint.value == 0 ||
         (ratio >= 0.95 && ratio <= 1.05))

@@ -149,7 +149,7 @@ namespace talus
                         own,
                         1. * state_.points.size()},
                        state_.communicator());
-    splitter_.check_total(plan.n_points);
+    splitter_.check_total(plan.n_points, state_.points.size());
     state_.time_step = std::min(plan.time_step, end_time - state_.time);
     // All ranks have the same step: all or none of them ask for the limiting
     // condition.

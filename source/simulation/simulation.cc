@@ -7,7 +7,6 @@
 #include <talus/maps/map_observers.h>
 #include <talus/observers/boundary_forces.h>
 #include <talus/observers/facets_output.h>
-#include <talus/observers/footprint.h>
 #include <talus/observers/obstacle_forces.h>
 #include <talus/observers/obstacles_output.h>
 #include <talus/simulation/contact_area_remark.h>
@@ -58,21 +57,26 @@ namespace talus
       std::make_unique<BoundaryForces<dim>>(problem_.boundaries.reactions()));
     output_.add_row_observer(
       std::make_unique<SplitLimitRemark<dim>>(scheme_.splitter(), log_));
-    output_.add_row_observer(std::make_unique<ContactAreaRemark<dim>>(
-      problem_.boundaries, problem_.contact, log_));
+    auto contact_area =
+      std::make_unique<ContactAreaRemark<dim>>(problem_.boundaries,
+                                               problem_.contact,
+                                               log_);
     output_.add_field_observer(
       std::make_unique<ObstaclesOutput<dim>>(problem_.obstacles));
     output_.add_field_observer(
       std::make_unique<FacetsOutput<dim>>(problem_.contact));
     add_map_observers(problem_, output_);
-    output_.add_quantities([this](const State<dim> &state, Quantities &list) {
-      list_contact_area(state, problem_.boundaries, problem_.contact, list);
-      scheme_.splitter().list_quantities(state, list);
-      scheme_.merger().list_quantities(state, list);
-      rest_.list_quantities(list);
-      state.outflow.list_quantities(state.communicator(), list);
-      problem_.interactions.list_quantities(state, list);
-    });
+    output_.add_quantities(
+      [this, areas = contact_area.get()](const State<dim> &state,
+                                         Quantities       &list) {
+        areas->list_quantities(state, list);
+        scheme_.splitter().list_quantities(state, list);
+        scheme_.merger().list_quantities(state, list);
+        rest_.list_quantities(list);
+        state.outflow.list_quantities(state.communicator(), list);
+        problem_.interactions.list_quantities(state, list);
+      });
+    output_.add_row_observer(std::move(contact_area)); // after the statistics
   }
 
 

@@ -185,6 +185,9 @@ namespace talus
   Surfaces<dim>::read_route(const std::string &path,
                             const std::string &file) const
   {
+    // Shape, log and remarks ask for the route, one after another.
+    if (const auto known = routes_.find(file); known != routes_.end())
+      return known->second.corners;
     const std::filesystem::path place = folder_ / file;
     protect_input(place);
     MapLine line = read_line(place);
@@ -193,15 +196,10 @@ namespace talus
                  map(),
                  path + ": the line of '" + file + "'",
                  "`Projection` of a surface");
-    // The log reads a route again.
     std::string name = "route " + file;
     std::replace(name.begin(), name.end(), '/', ' ');
-    if (std::none_of(routes_.begin(),
-                     routes_.end(),
-                     [&](const InputFile &known) {
-                       return known.name == name;
-                     }))
-      routes_.push_back({name, "route", place, text(checksum_of_file(place))});
+    routes_[file] = {{name, "route", place, text(checksum_of_file(place))},
+                     line.corners};
     return line.corners;
   }
 
@@ -277,8 +275,8 @@ namespace talus
   {
     for (const InputFile &file : files_)
       file.list_state(list);
-    for (const InputFile &file : routes_)
-      file.list_state(list);
+    for (const auto &[name, route] : routes_)
+      route.file.list_state(list);
   }
 
 

@@ -10,6 +10,10 @@
 #include <string>
 #include <vector>
 
+/// Give the suite the label `slow` of ctest, for minutes to an hour. Read from
+/// the sources by CMakeLists.txt.
+#define TALUS_SLOW(suite) [[maybe_unused]] constexpr bool suite##_is_slow = true
+
 namespace talus::cases
 {
   using Overrides = std::vector<std::string>;

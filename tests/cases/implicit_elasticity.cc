@@ -14,6 +14,8 @@
 using namespace talus;
 using namespace talus::cases;
 
+TALUS_SLOW(ImplicitElasticaLoads);
+
 namespace
 {
   const Overrides   standing_still = {"Stages=equilibrium",

@@ -15,6 +15,10 @@
 using namespace talus;
 using namespace talus::cases;
 
+TALUS_SLOW(LandslideInclinedFull);
+TALUS_SLOW(LandslideInclinedFine);
+TALUS_SLOW(LandslideInclined3d);
+
 namespace
 {
   const std::string inclined_file = "landslide-inclined.prm";

@@ -11,6 +11,10 @@
 using namespace talus;
 using namespace talus::cases;
 
+TALUS_SLOW(LandslideFourWay);
+TALUS_SLOW(LandslideFull);
+TALUS_SLOW(LandslideFullUnsplit);
+
 namespace
 {
   constexpr double all_times = 30.; // s

@@ -23,7 +23,7 @@ NAMES = ["ground", "erosion", "final-thickness", "final-mass", "thickness-at-sta
 
 def read_table(path):
     with open(path) as file:
-        return [{k: v if k == "line" else float(v) for k, v in row.items()}
+        return [{k: v if k == "line" else float(v or "nan") for k, v in row.items()}
                 for row in csv.DictReader(file)]
 
 

@@ -12,6 +12,8 @@
 using namespace talus;
 using namespace talus::cases;
 
+TALUS_SLOW(PipeRefined);
+
 namespace
 {
   const std::string pipe_file = "verification/pipe.prm";

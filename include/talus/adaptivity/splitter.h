@@ -68,9 +68,10 @@ namespace talus
     }
 
     /// Throw ExcPoint if @p n_points, the number of points on all ranks,
-    /// exceeds the maximum.
+    /// exceeds the maximum. Otherwise later splits on this rank, which has
+    /// @p n_own points now, are limited to what the other ranks leave.
     void
-    check_total(double n_points) const;
+    check_total(double n_points, double n_own);
 
     /// Length up to which no point is split, in cells.
     double
@@ -211,8 +212,9 @@ namespace talus
       unsigned int axes;
     };
     std::vector<SplitMark> marked_;
-    double                 next_id_   = 0;
-    double                 id_stride_ = 1;
+    double                 n_on_other_ranks_ = 0; ///< at the last check_total()
+    double                 next_id_          = 0;
+    double                 id_stride_        = 1;
     ConservationCheck<dim> conservation_;
     SplitStatistics        statistics_;
   };

@@ -187,8 +187,7 @@ namespace talus
       return is_near_[cell];
     }
 
-    /// Return a number for each cell: 2 for owned cells with a facet, 3 for
-    /// owned cells with a surface but no facet (see for_each_in_cell()), 1 for
+    /// Return a number for each cell: 2 for owned cells with a facet, 1 for
     /// other owned cells with is_near(), 0 for all others.
     const std::vector<unsigned char> &
     nearness_of_cells() const

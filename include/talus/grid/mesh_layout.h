@@ -138,6 +138,12 @@ namespace talus
     void
     check_memory(double n_cells) const;
 
+    /// Maximum number of cells on all @p n_ranks ranks together: p4est counts
+    /// the cells of a rank in 32 bits, and deal.II numbers the nodes of all
+    /// ranks, in 32 bits by default.
+    static double
+    max_n_cells(double n_ranks);
+
   private:
     /// The box as the parameters have it, in the axes of the mesh.
     Box<dim>

@@ -91,8 +91,16 @@ namespace talus
 
 
 
-  /// Table in a file, to which rows are appended: comma separated, 16
-  /// significant digits.
+  /// Return a field of a CSV table: 16 significant digits, so that two runs can
+  /// be compared to round-off; empty if @p value is NaN, for a quantity without
+  /// a value.
+  std::string
+  csv_field(double value);
+
+
+
+  /// Table in a file, to which rows are appended: comma separated, see
+  /// csv_field().
   class CsvFile
   {
   public:

@@ -68,7 +68,7 @@ namespace talus
                       columns, work, p, dt, energy);
                   });
     if (!is_sound)
-      throw_inverted_point(points, begin, end);
+      throw_inverted_point(points, begin, end, this->shear_modulus());
   }
 
 

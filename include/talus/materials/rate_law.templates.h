@@ -223,7 +223,10 @@ namespace talus
       update(no_strength_factor);
     if (is_sound)
       return;
-    throw_inverted_point(points, begin, end);
+    throw_inverted_point(points,
+                         begin,
+                         end,
+                         this->largest_shear_modulus(points, begin, end));
     if constexpr (is_plastic)
       throw_unsolved_point(points, begin, end, plastic);
   }

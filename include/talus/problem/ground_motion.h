@@ -41,6 +41,13 @@ namespace talus
     double
     gravity_factor(double t) const;
 
+    /// Whether the user has given a table. Call after prepare().
+    bool
+    has_table() const
+    {
+      return table_ != nullptr;
+    }
+
     /// Time of the last row of the table in the run, s; 0 without a table.
     double
     last_time() const

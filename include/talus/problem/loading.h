@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
+#include <string>
 
 namespace talus
 {
@@ -60,6 +61,10 @@ namespace talus
                ? std::numeric_limits<double>::infinity()
                : std::max(gravity_.ramp_time, ground_motion_.last_time());
     }
+
+    /// Return a remark if no load ever acts on the soil; empty otherwise.
+    std::string
+    note() const;
 
     void
     list_state(StateList &list) const

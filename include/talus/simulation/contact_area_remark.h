@@ -2,14 +2,16 @@
 #ifndef talus_simulation_contact_area_remark_h
 #define talus_simulation_contact_area_remark_h
 
+#include <talus/base/quantity.h>
 #include <talus/boundaries/boundaries.h>
 #include <talus/contact/facet_contact.h>
 #include <talus/simulation/remark_observer.h>
 
 namespace talus
 {
-  /// Remark that soil does not touch the ground below: the contact area differs
-  /// from the footprint (see list_contact_area()) by more than a twentieth.
+  /// Contact area and footprint for the rows of statistics.csv, and a remark if
+  /// soil does not touch the ground below: the contact area differs from the
+  /// footprint (see list_contact_area()) by more than a twentieth.
   template <int dim>
   class ContactAreaRemark : public RemarkObserver<dim>
   {
@@ -22,10 +24,16 @@ namespace talus
       , contact_(contact)
     {}
 
+    /// Append contact area and footprint, and keep both for the remark of the
+    /// same row: the sums over all points are made once. Collective.
+    void
+    list_quantities(const State<dim> &state, Quantities &list);
+
   private:
     std::string
     remark(const State<dim> &state) const override;
 
+    Quantities               areas_; ///< of the last list_quantities()
     const Boundaries<dim>   &boundaries_;
     const FacetContact<dim> &contact_;
   };

@@ -10,6 +10,7 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -79,7 +80,13 @@ namespace talus
     std::vector<typename ExpressionSurface<dim>::Named> surfaces_;
     std::filesystem::path                               folder_;
     std::vector<InputFile>                              files_;
-    mutable std::vector<InputFile> routes_; ///< routes read so far
+
+    struct Route
+    {
+      InputFile                     file;
+      std::vector<dealii::Point<2>> corners; ///< on the map, m
+    };
+    mutable std::map<std::string, Route> routes_; ///< routes read so far, by file
   };
 } // namespace talus
 

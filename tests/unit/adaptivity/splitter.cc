@@ -232,6 +232,34 @@ namespace
 
 
 
+  // The other ranks have 7 of the 10 points, so that 5 points are left of a
+  // maximum of 12: the three points here cannot become six.
+  TEST(Splitter, BudgetIsSharedWithOtherRanks)
+  {
+    for (const unsigned int budget : {12, 13})
+      {
+        Core<2> core(cube<2>() +
+                     splitting(text("set Directions = all\n"
+                                    "set Maximum number of points = ",
+                                    budget)));
+        for (unsigned int i = 0; i < 3; ++i)
+          {
+            core.add(Point<2>(0.5 + i, 0.5), Point<2>(0.6, 0.6));
+            core.points.data(core.points.stretch)[i] = (i == 1 ? 1.5 : 1.);
+          }
+        core.sort();
+        core.splitter.check_total(10., 3.);
+        const std::string said = message_of<ExcPoint>([&]() { core.split(); });
+        if (budget == 13)
+          EXPECT_EQ(said, "");
+        else
+          EXPECT_TRUE(contains(said, "would make 13 points on all ranks"))
+            << said;
+      }
+  }
+
+
+
   TEST(Splitter, BudgetOfPoints)
   {
     const auto enforce = [](const unsigned int budget) {

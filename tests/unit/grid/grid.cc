@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <limits>
 #include <set>
 
 #include "core_setup.h"
@@ -40,6 +41,29 @@ namespace
   {
     expect_exact_cells<2>(mesh("-1.3, 0.7", "1.3, 2.3", "0.2"), 0.2);
     expect_exact_cells<3>(mesh("-0.1, 0, 0.3", "0.5, 0.4, 0.5", "0.1"), 0.1);
+  }
+
+
+
+  template <int dim>
+  struct Layout : MeshLayout<dim>
+  {
+    using MeshLayout<dim>::max_n_cells;
+  };
+
+
+
+  // p4est limits the cells of a rank, and the numbers of the nodes those of all
+  // ranks.
+  TEST(Grid, MaximumNumberOfCells)
+  {
+    const double max_n_nodes =
+      std::numeric_limits<dealii::types::global_dof_index>::max();
+    for (const double n_ranks : {1., 2., 8.})
+      EXPECT_EQ(Layout<2>::max_n_cells(n_ranks), 4e8 * n_ranks);
+    if (sizeof(dealii::types::global_dof_index) == 4)
+      EXPECT_EQ(Layout<3>::max_n_cells(1000.), 0.9 * max_n_nodes);
+    EXPECT_LT(Layout<2>::max_n_cells(1e15), max_n_nodes);
   }
 
 

@@ -190,3 +190,60 @@ TEST(Materials, PointsTurnedInsideOutAreReported)
         ExcPoint);
     }
 }
+
+
+
+namespace
+{
+  /// Message for a point turned inside out, of a law with Young's modulus
+  /// @p modulus, Pa, in soil of 1500 kg/m^3 that is 10 m high.
+  std::string
+  message_on_inversion(const std::string &law, const double modulus)
+  {
+    Specimen<2> soil(law,
+                     text("set Young's modulus = ",
+                          modulus,
+                          "\nset Poisson's ratio = 0.25\nset Density = 1500"),
+                     2);
+    for (unsigned int p = 0; p < 2; ++p)
+      {
+        soil.points.data(soil.points.mass)[p] =
+          1500. * soil.points.data(soil.points.reference_volume)[p];
+        soil.points.data(soil.points.position, 1)[p] = 3. + 10. * p;
+        soil.set_increment({{{{{-1.5 * p, 0.}}, {{0., 0.}}}}}, p);
+      }
+    try
+      {
+        soil.law->update_stress(soil.points, soil.workspace, 0, 2, soil.dt);
+      }
+    catch (const ExcPoint &error)
+      {
+        std::ostringstream out;
+        error.print_info(out);
+        return out.str();
+      }
+    return "";
+  }
+} // namespace
+
+
+
+// rho g H = 147150 Pa: a shear modulus of 400 kPa bears that, one of 400 Pa, as
+// if kPa had been given, does not. Both causes are named, the likely one first.
+TEST(Materials, CauseOfInversionFollowsFromTheStiffness)
+{
+  for (const std::string law : {"linear elastic", "neo-Hookean"})
+    for (const double modulus : {1e6, 1e3})
+      {
+        const std::string said  = message_on_inversion(law, modulus);
+        const auto        steps = said.find("'Time step/CFL number'");
+        const auto        units = said.find("in Pa");
+        ASSERT_NE(steps, std::string::npos) << said;
+        ASSERT_NE(units, std::string::npos) << said;
+        EXPECT_EQ(units < steps, modulus == 1e3) << said;
+        EXPECT_NE(said.find(text("shear modulus is ", 0.4 * modulus, " Pa")),
+                  std::string::npos)
+          << said;
+        EXPECT_NE(said.find("per area 147150 Pa"), std::string::npos) << said;
+      }
+}

@@ -104,6 +104,25 @@ namespace
 
 
 
+  // Without gravity any other load says that the user means it.
+  TEST(Loading, SoilWithoutWeightIsRemarked)
+  {
+    const auto note = [](const std::string &entries) {
+      Loaded<2> all(entries, "time [s],horizontal [m/s^2]\n0,0\n1,1\n");
+      all.prepare();
+      return all.loading.note();
+    };
+    const std::string none = in_section("Gravity", "set Magnitude = 0");
+    EXPECT_TRUE(contains(note(none), "'Gravity/Magnitude' is 0")) << note(none);
+    EXPECT_EQ(note(""), "");
+    EXPECT_EQ(note(none + in_section("Body force", "set Expression = 1; 0")),
+              "");
+    EXPECT_EQ(note(none + in_section("Ground motion", "set File = ground.csv")),
+              "");
+  }
+
+
+
   TEST(Loading, RampIsHalfACosine)
   {
     Loaded<2> all(in_section("Gravity", "set Ramp time = 8"));
@@ -162,6 +181,7 @@ namespace
     expect_near<3>(all.acceleration(11.), {3. * down, -3. * away, -10.});
     // Gravity stays after the last row.
     expect_near<3>(all.acceleration(99.), {3. * down, -3. * away, 0.});
+    EXPECT_EQ(all.loading.time_of_last_change(), 11.);
   }
 
 
@@ -183,6 +203,17 @@ namespace
            "but the simulation is two-dimensional");
     expect(error(in_section("Ground motion", "set Factor = 2"), ""),
            "'Ground motion/File' is empty");
+    expect(error(in_section("Ground motion",
+                            "set File = ground.csv\nset Factor = 0"),
+                 "time [s],horizontal [m/s^2]\n0,0\n1,1\n"),
+           "'Ground motion/Factor' is 0");
+    // The run is from 0 to 100 s.
+    for (const std::string start : {"100", "-1"})
+      expect(error(in_section("Ground motion",
+                              "set File = ground.csv\nset Start time = " +
+                                start),
+                   "time [s],horizontal [m/s^2]\n0,0\n1,0\n"),
+             "it would never act");
     // With the run it may begin with any acceleration.
     EXPECT_EQ(error(in_section("Ground motion", "set File = ground.csv"),
                     "time [s],horizontal [m/s^2]\n0,1\n1,0\n"),

@@ -52,9 +52,12 @@ def forces(run):
 def runout(run):
     """Runout and speed along the way of the slide, whatever its direction."""
     table = run.tables["runout"]
-    speed = table["speed of the centre [m/s]"]
-    result = [tile("runout", table["runout [m]"][-1], "m",
-                   "Of the front from its start, along the way of the slide.")]
+    # Rows without soil that is thick enough have no front.
+    distances = table["runout [m]"][numpy.isfinite(table["runout [m]"])]
+    speed = numpy.nan_to_num(table["speed of the centre [m/s]"])
+    result = [tile("runout", distances[-1], "m",
+                   "Of the front from its start, along the way of the slide."
+                   )] if len(distances) else []
     if speed.any():
         result.append(tile("largest velocity", speed.max(), "m/s", "Of the centre of mass, at t = "
                            f"{plain(table['time [s]'][speed.argmax()])} s."))

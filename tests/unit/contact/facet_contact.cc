@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+// One step of contact: soil that falls onto a bed, with all impulses by hand.
+
+#include "soil_on_bed.h"
+#include "suites.h"
+
+namespace facet_contact_test
+{
+  TALUS_ALSO_ON_RANKS(FacetContact, 2, 3);
+
+  /// Soil with the velocity @p before, m/s, after a step of @p dt, s, in contact
+  /// with the bed.
+  template <int dim>
+  struct Step : SoilOnBed<dim>
+  {
+    Step(const std::string    &friction,
+         const Tensor<1, dim> &before,
+         const double          dt     = 0.1,
+         const double          height = 0.)
+      : SoilOnBed<dim>(friction)
+      , before(before)
+    {
+      this->time_step = dt;
+      this->fill_boxes({0., 2. + height}, {6., 3.5 + height});
+      this->move(before);
+      const double energy_before = energy();
+      this->contact.correct_velocities(*this);
+      this->nodes.share_with_ghosts(this->grid);
+      this->contact.record(*this);
+      lost_energy = energy_before - energy();
+    }
+
+    double
+    energy() const
+    {
+      return MPI::sum(this->nodes.kinetic_energy(), this->grid.communicator());
+    }
+
+    double
+    account(const std::string &name) const
+    {
+      return MPI::sum(this->accounts.energy(name), this->grid.communicator());
+    }
+
+    /// Expect each facet to pass @p normal and @p tangential, N s, and the
+    /// soil at the bed to have the velocity @p after, m/s.
+    void
+    expect(const double          normal,
+           const double          tangential,
+           const Tensor<1, dim> &after) const
+    {
+      const double n_facets = (dim == 2 ? 6. : 12.);
+      for (const FacetImpulse<dim> &impulse : this->contact.impulses())
+        {
+          EXPECT_NEAR(impulse.normal, normal, 1e-9);
+          EXPECT_NEAR(impulse.tangential[0], tangential, 1e-9);
+          EXPECT_EQ(impulse.acts(), normal != 0.);
+        }
+      this->for_each_node_of_facets(
+        [&](const unsigned int node, const Point<dim> &x) {
+          EXPECT_LT(
+            (this->nodes.velocity(node) - (x[1] < 2.5 ? after : before)).norm(),
+            1e-12)
+            << x;
+        });
+      const auto &reaction = this->contact.reactions()[0].last;
+      EXPECT_NEAR(reaction.impulse[0], -n_facets * tangential, 1e-7);
+      EXPECT_NEAR(reaction.impulse[1], -n_facets * normal, 1e-7);
+      EXPECT_NEAR(reaction.tangential[0], -n_facets * tangential, 1e-7);
+      // The works of the impulses are the energy that the soil has lost.
+      EXPECT_NEAR(account("friction work") + account("contact work"),
+                  lost_energy,
+                  1e-9 * (1. + std::abs(lost_energy)));
+    }
+
+    Tensor<1, dim> before;      ///< m/s
+    double         lost_energy; ///< J
+  };
+
+
+
+  template <int dim>
+  void
+  expect_steps()
+  {
+    const double m = SoilOnBed<dim>::half_cell;
+    const auto   v = [](const double x, const double y) {
+      return vector_xy<dim>(x, y);
+    };
+    // Without friction only the normal velocity changes.
+    Step<dim>("set Friction coefficient = 0", v(1., -2.))
+      .expect(2. * m, 0., v(1., 0.));
+    // Friction takes 0.3 of the normal impulse, and no more than stops the soil.
+    const std::string rough = "set Friction coefficient = 0.3";
+    Step<dim>(rough, v(1., -2.)).expect(2. * m, -0.6 * m, v(0.4, 0.));
+    Step<dim>(rough, v(-0.5, -2.)).expect(2. * m, 0.5 * m, v(0., 0.));
+    // A surface only pushes.
+    Step<dim>(rough, v(1., 2.)).expect(0., 0., v(1., 2.));
+  }
+} // namespace facet_contact_test
+
+
+
+TEST(FacetContact, ImpulsesOfOneStep)
+{
+  facet_contact_test::expect_steps<2>();
+  facet_contact_test::expect_steps<3>();
+}
+
+
+
+// 0.25 m above the dead band soil may fall at 0.25 m per step.
+TEST(FacetContact, SoilMayApproachByTheGap)
+{
+  using facet_contact_test::Step;
+  const auto fall = Point<2>(0., -2.);
+  Step<2>("", fall, 0.1, 0.3).expect(0., 0., fall);
+  const Step<2> slowed("", fall, 0.25, 0.3);
+  slowed.for_each_node_of_facets(
+    [&](const unsigned int node, const Point<2> &x) {
+      EXPECT_NEAR(slowed.nodes.velocity(node)[1], x[1] < 2.5 ? -1. : -2., 1e-12)
+        << x;
+    });
+}
+
+
+
+// The second step starts from the impulses of the first one and, with nothing
+// left to correct, undoes them sweep by sweep; scaled to its own length.
+TEST(FacetContact, ImpulsesAreForcesOfThePreviousStep)
+{
+  facet_contact_test::Step<2> soil("set Friction coefficient = 0",
+                                   Point<2>(0., -2.));
+  // A force of 2 m / 0.1 s for 0.05 s stops soil that falls with 1 m/s.
+  soil.time_step = 0.05;
+  soil.move(Point<2>(0., -1.));
+  soil.contact.correct_velocities(soil);
+  soil.before = Point<2>(0., -1.);
+  for (const FacetImpulse<2> &impulse : soil.contact.impulses())
+    EXPECT_NEAR(impulse.normal, soil.half_cell, 1e-9);
+  EXPECT_EQ(soil.contact.previous_time_step(), 0.05);
+}
+
+
+
+// Impulses survive a checkpoint by name of the facet, on any rank.
+TEST(FacetContact, ImpulsesSurviveACheckpoint)
+{
+  facet_contact_test::Step<2> soil("set Friction coefficient = 0.3",
+                                   Point<2>(1., -2.));
+  std::vector<double>         rows;
+  for (const auto &of_rank :
+       MPI::all_gather(soil.grid.communicator(), soil.contact.save()))
+    rows.insert(rows.end(), of_rank.begin(), of_rank.end());
+  FacetImpulses<2> impulses(soil.facets);
+  impulses.restore(rows);
+  EXPECT_TRUE(impulses.has_restored());
+  EXPECT_EQ(impulses.rows(), rows);
+  impulses.take_restored();
+  EXPECT_FALSE(impulses.has_restored());
+  ASSERT_EQ(impulses.all().size(), soil.contact.impulses().size());
+  for (unsigned int f = 0; f < impulses.all().size(); ++f)
+    {
+      const FacetImpulse<2> &saved = soil.contact.impulses()[f];
+      EXPECT_EQ(impulses[f].normal, saved.normal);
+      EXPECT_EQ(impulses[f].tangential, saved.tangential);
+      EXPECT_EQ(impulses[f].effective_mass, saved.effective_mass);
+      EXPECT_EQ(impulses[f].mean_normal, saved.mean_normal);
+    }
+  // Rows of facets that are not here do nothing.
+  for (std::size_t i = 2; i < rows.size(); i += 9)
+    rows[i] += 1.; // the number of the obstacle
+  impulses.take(rows);
+  for (const FacetImpulse<2> &impulse : impulses.all())
+    EXPECT_FALSE(impulse.acts());
+}
