@@ -179,6 +179,45 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Return whether two limits are one surface in @p box, seen from opposite
+    /// sides: their distances at centre and corners differ only in sign, up to
+    /// @p tolerance, m. Beyond the end of a layer both surfaces coincide.
+    template <int dim, typename Limits>
+    bool
+    have_coinciding_pair(const Box<dim> &box,
+                         const Limits   &limits,
+                         const double    tolerance)
+    {
+      const auto coincide = [&](const auto &a, const auto &b) {
+        const auto differ_in_sign = [&](const Point<dim> &x) {
+          return std::abs(a.signed_distance(x) + b.signed_distance(x)) <=
+                 tolerance;
+        };
+        if (!differ_in_sign(centre_of(box)))
+          return false;
+        for (unsigned int v = 0; v < (1u << dim); ++v)
+          {
+            Point<dim> corner = box.lower;
+            for (unsigned int d = 0; d < dim; ++d)
+              if ((v >> d) & 1)
+                corner[d] = box.upper[d];
+            if (!differ_in_sign(corner))
+              return false;
+          }
+        return true;
+      };
+      for (std::size_t i = 0; i < limits.size(); ++i)
+        for (std::size_t j = i + 1; j < limits.size(); ++j)
+          if (coincide(limits[i], limits[j]))
+            return true;
+      return false;
+    }
+  } // namespace
+
+
+
   /// The mean of the squares over a simplex follows from the corners.
   template <int dim>
   void
@@ -230,6 +269,9 @@ namespace talus
       return;
     if (limits.empty())
       sum.add(box);
+    else if (depth >= min_depth &&
+             have_coinciding_pair(box, limits, 1e-3 * sum.tolerance))
+      return; // soil without thickness, to be found at no further depth
     else if (depth == largest_depth<dim> ||
              (depth >= min_depth && are_linear(box, limits, sum.tolerance)))
       {

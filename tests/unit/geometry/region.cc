@@ -239,6 +239,39 @@ namespace
 
 
 
+  /// Ball that counts the questions for its distance.
+  struct CountedBall : Ball<3>
+  {
+    using Ball<3>::Ball;
+
+    double
+    signed_distance(const Point<3> &x) const override
+    {
+      ++n_questions;
+      return Ball<3>::signed_distance(x);
+    }
+
+    mutable unsigned int n_questions = 0;
+  };
+
+
+
+  // Where the two surfaces of a layer go on as one there is nothing to be found,
+  // and it is not looked for down to the largest depth, by 13 000 questions.
+  TEST(Region, BetweenSurfacesThatCoincide)
+  {
+    const CountedBall ball(Point<3>(), 1.);
+    Region<3>         region(ball);
+    region.cut_away({&ball});
+    const auto part =
+      region.part_inside({Point<3>(0.4, 0.4, 0.4), Point<3>(0.8, 0.8, 0.8)});
+    EXPECT_EQ(part.volume, 0.);
+    EXPECT_LT(ball.n_questions, 64u * 32u);
+    EXPECT_GT(ball.n_questions, 64u);
+  }
+
+
+
   // Corners lie between the nodes.
   TEST(Region, PolygonsToTheirCorners)
   {
