@@ -100,6 +100,11 @@ namespace talus
     virtual StrengthColumns
     strength_columns() const;
 
+    auto
+    moduli_in_load_step(const Points<dim> &points) const;
+    auto
+    flow_in_load_step(const Points<dim> &points) const;
+
     template <typename Action>
     void
     with_strength(const Points<dim> &points, const Action &action) const;

@@ -20,6 +20,52 @@ namespace talus
 
 
 
+  /// Implement MaterialModel::linearize() for laws in rate form: @p moduli_at
+  /// maps a point to its moduli, @p flow a point and its trial stress to a
+  /// Flow. Returns false if a point is inverted.
+  template <int dim, typename ModuliAt, typename FlowRule>
+  inline bool
+  linearize_rate_law(const Points<dim>        &points,
+                     const StepWorkspace<dim> &workspace,
+                     const unsigned int        begin,
+                     const unsigned int        end,
+                     const StrainMeasure       measure,
+                     const ModuliAt           &moduli_at,
+                     StressTangent<dim>       *linearization,
+                     const FlowRule           &flow)
+  {
+    using Number    = Dual<dim * dim>;
+    const auto work = workspace.view(begin, end);
+    for (unsigned int p = begin; p < end; ++p)
+      {
+        const auto   H          = load_independent_gradient(work, p);
+        const Number dilatation = determinant_increment(H);
+        if (measure == StrainMeasure::large && !(dilatation.value > -1.))
+          return false;
+        const auto          strain = strain_of_load_step(H, measure);
+        const auto          before = load_stress<dim, double>(points, p);
+        Stress<dim, Number> sigma;
+        std::copy(before.begin(), before.end(), sigma.begin());
+
+        const auto   trial = elastic_trial<dim>(sigma, strain, moduli_at(p));
+        const auto   flow_here = flow(p, trial);
+        const Number removed   = flow_here.removed;
+        auto         deviator  = trial.deviator_after;
+        for (Number &component : deviator)
+          component *= 1. - removed;
+        sigma =
+          add_mean(turn(strain.half_rotation, deviator),
+                   trial.mean_after - moduli_at(p).bulk * flow_here.dilation);
+        if (measure == StrainMeasure::large)
+          for (Number &component : sigma)
+            component *= 1. + dilatation;
+        store_nominal(sigma, H, measure, linearization[p - begin]);
+      }
+    return true;
+  }
+
+
+
   template <int dim, typename FlowRule>
   RateLaw<dim, FlowRule>::RateLaw(const std::string &section,
                                   const std::string &plastic_variable)
@@ -112,6 +158,54 @@ namespace talus
 
 
 
+  /// Return a function that maps a point to its moduli.
+  template <int dim, typename FlowRule>
+  auto
+  RateLaw<dim, FlowRule>::moduli_in_load_step(const Points<dim> &points) const
+  {
+    return [&points, columns = strength_columns(), moduli = this->moduli()](
+             const unsigned int p) {
+      return columns.stiffness_follows
+               ? moduli_of_point(moduli,
+                                 PointStrength<double>{
+                                   1., 1., points.data(columns.strength)[p]})
+               : moduli;
+    };
+  }
+
+
+
+  /// Return a function that maps a point and its trial stress to the flow in
+  /// a load step.
+  template <int dim, typename FlowRule>
+  auto
+  RateLaw<dim, FlowRule>::flow_in_load_step(const Points<dim> &points) const
+  {
+    return [this,
+            &points,
+            columns = strength_columns(),
+            rule    = flow_rule(infinitely_slow)](const unsigned int p,
+                                               const auto        &trial) {
+      const double plastic = this->plastic_variable(points, p);
+      const double factor  = this->strength_factor(points, p);
+      if constexpr (is_plastic)
+        if (columns.strength != dealii::numbers::invalid_unsigned_int)
+          {
+            const double strength = points.data(columns.strength)[p];
+            return rule(trial,
+                        plastic,
+                        PointStrength<double>{factor,
+                                              strength,
+                                              columns.stiffness_follows
+                                                ? strength
+                                                : 1.});
+          }
+      return rule(trial, plastic, factor);
+    };
+  }
+
+
+
   template <int dim, typename FlowRule>
   bool
   RateLaw<dim, FlowRule>::linearize(const Points<dim>        &points,
@@ -121,41 +215,14 @@ namespace talus
                                     const StrainMeasure       measure,
                                     StressTangent<dim> *linearization) const
   {
-    using Number            = Dual<dim * dim>;
-    const auto     work     = workspace.view(begin, end);
-    const Moduli   moduli   = this->moduli();
-    const FlowRule rule     = flow_rule(infinitely_slow);
-    bool           is_sound = true;
-    with_strength(points, [&](const auto &factor) {
-      for (unsigned int p = begin; p < end && is_sound; ++p)
-        {
-          const auto   H          = load_independent_gradient(work, p);
-          const Number dilatation = determinant_increment(H);
-          is_sound =
-            (measure == StrainMeasure::small || dilatation.value > -1.);
-          if (!is_sound)
-            return;
-          const auto          strain = strain_of_load_step(H, measure);
-          const auto          before = load_stress<dim, double>(points, p);
-          Stress<dim, Number> sigma;
-          std::copy(before.begin(), before.end(), sigma.begin());
-
-          const auto factor_here = factor(p, double());
-          const auto moduli_here = moduli_of_point(moduli, factor_here);
-          const auto trial = elastic_trial<dim>(sigma, strain, moduli_here);
-          const auto stress =
-            returned(trial,
-                     moduli_here.bulk,
-                     rule(trial, plastic_variable(points, p), factor_here));
-          sigma = add_mean(turn(strain.half_rotation, stress.deviator_after),
-                           stress.mean_after);
-          if (measure == StrainMeasure::large)
-            for (Number &component : sigma)
-              component *= 1. + dilatation;
-          store_nominal(sigma, H, measure, linearization[p - begin]);
-        }
-    });
-    return is_sound;
+    return linearize_rate_law(points,
+                              workspace,
+                              begin,
+                              end,
+                              measure,
+                              moduli_in_load_step(points),
+                              linearization,
+                              flow_in_load_step(points));
   }
 
 
