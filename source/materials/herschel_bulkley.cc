@@ -2,8 +2,8 @@
 #include <talus/base/errors.h>
 #include <talus/materials/herschel_bulkley.h>
 #include <talus/materials/herschel_bulkley_kernel.h>
-#include <talus/materials/rate_law.templates.h>
 #include <talus/materials/shear_band.h>
+#include <talus/materials/undrained_law.templates.h>
 
 #include <limits>
 
@@ -18,7 +18,11 @@ namespace talus
   template <int dim>
   HerschelBulkley<dim>::HerschelBulkley(const std::string &section,
                                         const FlowLaw      flow_law)
-    : RateLaw<dim, HerschelBulkleyFlow>(section, "plastic shear strain")
+    : UndrainedLaw<dim, HerschelBulkleyFlow>(
+        section,
+        "plastic shear strain",
+        "Undrained shear strength s_u [Pa]: the shear stress at which the "
+        "undisturbed material yields in slow simple shear.")
     , flow_law_(flow_law)
   {
     const auto add = [&](const std::string &name,
@@ -27,9 +31,6 @@ namespace talus
                          const Double      &range = Double(0.)) {
       this->add_parameter(name, value, sentence, ParameterAcceptor::prm, range);
     };
-    this->declare_strength(
-      "Undrained shear strength s_u [Pa]: the shear stress at which the "
-      "undisturbed material yields in slow simple shear.");
     if (flow_law_ == FlowLaw::bingham)
       add("Viscosity",
           consistency_,
@@ -73,7 +74,7 @@ namespace talus
   void
   HerschelBulkley<dim>::check() const
   {
-    RateLaw<dim, HerschelBulkleyFlow>::check();
+    UndrainedLaw<dim, HerschelBulkleyFlow>::check();
     AssertThrow(exponent_ > 0.,
                 ExcUser(text("Section ",
                              this->section(),

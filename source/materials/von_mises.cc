@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
-#include <talus/materials/rate_law.templates.h>
 #include <talus/materials/shear_band.h>
+#include <talus/materials/undrained_law.templates.h>
 #include <talus/materials/von_mises.h>
 #include <talus/materials/von_mises_kernel.h>
 
@@ -15,11 +15,12 @@ namespace talus
 
   template <int dim>
   VonMises<dim>::VonMises(const std::string &section)
-    : RateLaw<dim, VonMisesFlow>(section, "plastic strain")
+    : UndrainedLaw<dim, VonMisesFlow>(
+        section,
+        "plastic strain",
+        "Undrained shear strength s_u [Pa]: the shear stress at which the "
+        "undisturbed material yields in simple shear.")
   {
-    this->declare_strength(
-      "Undrained shear strength s_u [Pa]: the shear stress at which the "
-      "undisturbed material yields in simple shear.");
     this->add_parameter("Hardening modulus",
                         hardening_,
                         "Slope of the yield stress sqrt(3) s_u over the "
@@ -44,7 +45,7 @@ namespace talus
   void
   VonMises<dim>::check() const
   {
-    RateLaw<dim, VonMisesFlow>::check();
+    UndrainedLaw<dim, VonMisesFlow>::check();
     const double mu = this->moduli().mu;
     AssertThrow(
       this->has_strength_column() || 3. * mu + hardening_ > 0.,

@@ -158,15 +158,15 @@ namespace
   step_of_law(const FlowRule &flow_rule)
   {
     StrainedPoint<dim> point;
-    benchmark::DoNotOptimize(
-      update_rate_law_points<dim, Counted, 1>(point.points.view(),
-                                              point.workspace.view(0, 1),
-                                              0,
-                                              Points<dim>::generation,
-                                              1.,
-                                              Moduli{1., 1., 1.},
-                                              flow_rule,
-                                              no_strength_factor));
+    benchmark::DoNotOptimize(update_rate_law_points<dim, Counted, 1>(
+      RateLawStep<dim, FlowRule>{point.points.view(),
+                                 point.workspace.view(0, 1),
+                                 Points<dim>::generation,
+                                 1.,
+                                 Moduli{1., 1., 1.},
+                                 flow_rule},
+      0,
+      no_strength_factor));
   }
 
 

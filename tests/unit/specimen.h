@@ -30,14 +30,15 @@ namespace talus
 
 
 
-  /// The law @p name with "set ..." lines @p parameters, checked.
-  template <int dim>
+  /// The law that @p make makes in a section of its own, with "set ..." lines
+  /// @p parameters, checked.
+  template <int dim, typename Make>
   std::unique_ptr<MaterialModel<dim>>
-  make_law(const std::string &name, const std::string &parameters)
+  make_law_by(const Make &make, const std::string &parameters)
   {
     using dealii::ParameterAcceptor;
-    const std::string soil = name_of_new_soil();
-    auto              law  = make_material<dim>(name, "/Materials/" + soil);
+    const std::string                   soil = name_of_new_soil();
+    std::unique_ptr<MaterialModel<dim>> law  = make("/Materials/" + soil);
     ParameterAcceptor::declare_all_parameters();
     ParameterAcceptor::prm.parse_input_from_string(
       "subsection Materials\nsubsection " + soil + "\n" + parameters +
@@ -45,6 +46,20 @@ namespace talus
     ParameterAcceptor::parse_all_parameters();
     law->check();
     return law;
+  }
+
+
+
+  /// The law @p name with "set ..." lines @p parameters, checked.
+  template <int dim>
+  std::unique_ptr<MaterialModel<dim>>
+  make_law(const std::string &name, const std::string &parameters)
+  {
+    return make_law_by<dim>(
+      [&](const std::string &section) {
+        return make_material<dim>(name, section);
+      },
+      parameters);
   }
 
 
@@ -60,7 +75,12 @@ namespace talus
     Specimen(const std::string &name,
              const std::string &parameters,
              const unsigned int n_points = 1)
-      : law(make_law<dim>(name, parameters))
+      : Specimen(make_law<dim>(name, parameters), n_points)
+    {}
+
+    explicit Specimen(std::unique_ptr<MaterialModel<dim>> the_law,
+                      const unsigned int                  n_points = 1)
+      : law(std::move(the_law))
     {
       law->add_columns(points);
       points.append(n_points);

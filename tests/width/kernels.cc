@@ -158,13 +158,9 @@ namespace
           points.data(State<dim>::strength_factor) + p);
       };
       return update_rate_law_points<dim, Number, n_registers>(
-        points,
-        work,
+        RateLawStep<dim, FlowRule>{
+          points, work, State<dim>::plastic_strain, dt, moduli, flow_rule},
         p,
-        State<dim>::plastic_strain,
-        dt,
-        moduli,
-        flow_rule,
         factor);
     };
   }

@@ -33,7 +33,7 @@ namespace talus
   struct LinearSystem
   {
     const dealii::TrilinosWrappers::SparseMatrix &matrix; ///< N/m
-    LuFactorization  &factorization; ///< of earlier matrices of the pattern
+    LuFactorization  &factorization; ///< earlier factors
     const RigidModes &modes;         ///< for multigrid
     unsigned int      dim;           ///< number of unknowns per node
     bool symmetric; ///< whether the matrix is symmetric, positive definite

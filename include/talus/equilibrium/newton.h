@@ -145,7 +145,7 @@ namespace talus
     std::vector<double> mechanism_;       ///< m, from the last solve()
     /// Whether the last correction was so large that soil moves freely.
     bool         moves_freely_ = false;
-    unsigned int n_updates_    = 0; ///< of u_ in the last newton_loop()
+    unsigned int n_updates_    = 0; ///< changes of u_ in newton_loop()
   };
 } // namespace talus
 

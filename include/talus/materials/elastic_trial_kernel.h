@@ -7,10 +7,10 @@
 
 namespace talus
 {
-  /// Elastic predictor of the rate laws, Pa. Deviators refer to the axes at
-  /// mid-step, as does the strain increment.
+  /// Stress at the start and at the end of a step of a law in rate form, Pa.
+  /// Deviators refer to the axes at mid-step, as does the strain increment.
   template <int dim, typename Number>
-  struct ElasticTrial
+  struct StressStep
   {
     Number              mean_before, mean_after;
     Stress<dim, Number> deviator_before, deviator_after;
@@ -27,12 +27,12 @@ namespace talus
   /// @cite simo1998, section 8.3. The mean stress follows K ln det(I + H), so
   /// that -p = K ln J on any path.
   template <int dim, typename Number, typename Modulus>
-  TALUS_ALWAYS_INLINE ElasticTrial<dim, Number>
+  TALUS_ALWAYS_INLINE StressStep<dim, Number>
                       elastic_trial(const Stress<dim, Number>          &sigma,
                                     const StrainIncrement<dim, Number> &strain,
                                     const ModuliOf<Modulus>            &moduli)
   {
-    ElasticTrial<dim, Number> trial;
+    StressStep<dim, Number> trial;
     trial.mean_before = mean_normal(sigma);
     trial.mean_after  = trial.mean_before + moduli.bulk * strain.volumetric;
 
@@ -48,21 +48,36 @@ namespace talus
 
   /// Volume times deviator, mean of start and end of the step, J: the
   /// contraction with a deviatoric strain of the step, plastic or total, gives
-  /// the work. @p deviator is the deviator at the end of the step, in the axes
-  /// at mid-step, Pa.
+  /// the work.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Stress<dim, Number>
-                      deviatoric_force(const Motion<dim, Number>       &motion,
-                                       const Number                     reference_volume,
-                                       const ElasticTrial<dim, Number> &trial,
-                                       const Stress<dim, Number>       &deviator)
+                      deviatoric_force(const Motion<dim, Number>     &motion,
+                                       const Number                   reference_volume,
+                                       const StressStep<dim, Number> &stress)
   {
     const Number        before = 0.5 * reference_volume * motion.J_before;
     const Number        after  = 0.5 * reference_volume * motion.J_after;
     Stress<dim, Number> force;
     for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-      force[c] = before * trial.deviator_before[c] + after * deviator[c];
+      force[c] =
+        before * stress.deviator_before[c] + after * stress.deviator_after[c];
     return force;
+  }
+
+
+
+  /// Work of the mean stress by a volumetric strain of the step [-], J, by the
+  /// trapezoidal rule.
+  template <int dim, typename Number>
+  TALUS_ALWAYS_INLINE Number
+  volumetric_work(const Motion<dim, Number>     &motion,
+                  const Number                  &reference_volume,
+                  const StressStep<dim, Number> &stress,
+                  const Number                  &volumetric_strain)
+  {
+    return 0.5 * reference_volume * volumetric_strain *
+           (motion.J_before * stress.mean_before +
+            motion.J_after * stress.mean_after);
   }
 
 
@@ -76,28 +91,31 @@ namespace talus
   work_of_step(const Motion<dim, Number>          &motion,
                const Number                       &reference_volume,
                const StrainIncrement<dim, Number> &strain,
-               const ElasticTrial<dim, Number>    &trial,
+               const StressStep<dim, Number>      &stress,
                const Stress<dim, Number>          &force)
   {
-    return 0.5 * reference_volume * strain.volumetric *
-             (motion.J_before * trial.mean_before +
-              motion.J_after * trial.mean_after) +
+    return volumetric_work<dim, Number>(motion,
+                                        reference_volume,
+                                        stress,
+                                        strain.volumetric) +
            contract(force, strain.deviatoric);
   }
 
 
 
-  /// Store the stress at the end of the step from the deviator at mid-step.
+  /// Store the stress at the end of the step in the axes at the end.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE void
   store_turned_stress(const PointsView<dim>              &points,
                       const unsigned int                  p,
                       const StrainIncrement<dim, Number> &strain,
-                      const Stress<dim, Number>          &deviator,
-                      const Number                        mean)
+                      const StressStep<dim, Number>      &stress)
   {
-    store_stress<dim, Number>(
-      points, p, add_mean(turn(strain.half_rotation, deviator), mean));
+    store_stress<dim, Number>(points,
+                              p,
+                              add_mean(turn(strain.half_rotation,
+                                            stress.deviator_after),
+                                       stress.mean_after));
   }
 } // namespace talus
 

@@ -2,7 +2,7 @@
 #ifndef talus_materials_herschel_bulkley_h
 #define talus_materials_herschel_bulkley_h
 
-#include <talus/materials/rate_law.h>
+#include <talus/materials/undrained_law.h>
 
 namespace talus
 {
@@ -29,7 +29,7 @@ namespace talus
   /// plastic_shear(); in a step of length zero viscous material does not flow.
   /// With K = 0 and r = 1 the law is von Mises' law without hardening.
   template <int dim>
-  class HerschelBulkley : public RateLaw<dim, HerschelBulkleyFlow>
+  class HerschelBulkley : public UndrainedLaw<dim, HerschelBulkleyFlow>
   {
   public:
     HerschelBulkley(const std::string &section, FlowLaw flow_law);

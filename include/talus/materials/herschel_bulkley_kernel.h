@@ -22,11 +22,12 @@ namespace talus
 
     /// Strength at a plastic shear strain [-], times the factor @p share [-],
     /// Pa.
+    template <typename Share>
     double
-    at(const double plastic_shear, const double share) const
+    at(const double plastic_shear, const Share &share) const
     {
       const double r = remoulded_ratio;
-      return share * undisturbed *
+      return undisturbed * share *
              (r + (1. - r) * std::exp(-3. * plastic_shear / strain_to_remould));
     }
   };
@@ -42,12 +43,13 @@ namespace talus
 
     /// Return the flow in a load step: infinitely slow, so without viscous
     /// stress. Remoulding acts with the plastic shear of previous load steps.
-    template <std::size_t n, typename Number, typename Factor>
+    template <int dim, typename Number, typename Factor>
     Flow<Number>
-    operator()(const std::array<Number, n> &deviator,
-               const double                 plastic_shear,
-               const Factor                &strength_factor) const
+    operator()(const StressStep<dim, Number> &trial,
+               const double                   plastic_shear,
+               const Factor                  &strength_factor) const
     {
+      const auto  &deviator = trial.deviator_after;
       const double mu  = modulus_of_point(resistance.modulus, strength_factor);
       const Number tau = sqrt(0.5 * contract(deviator, deviator) +
                               std::numeric_limits<double>::min());
@@ -67,16 +69,12 @@ namespace talus
 
   /// Trial state of point(s) before the return.
   template <int dim, typename Number, typename Modulus>
-  struct ViscoplasticTrial
+  struct ViscoplasticTrial : RateLawTrial<dim, Number, Modulus>
   {
-    Modulus                      modulus; ///< for shear, Pa
-    Motion<dim, Number>          motion;
-    StrainIncrement<dim, Number> strain;
-    ElasticTrial<dim, Number>    elastic;
-    Number                       shear_stress; ///< trial shear stress, Pa
-    Number                       old_strain;   ///< plastic shear, before
-    Number                       strength;     ///< at the start of the step, Pa
-    Number                       loss; ///< largest loss by remoulding, Pa
+    Number shear_stress; ///< trial shear stress, Pa
+    Number old_strain;   ///< plastic shear strain at the start of the step [-]
+    Number strength;     ///< at the start of the step, Pa
+    Number loss;         ///< strength that remoulding can remove, Pa
   };
 
 
@@ -91,39 +89,28 @@ namespace talus
 
 
 
-  /// Compute the trial state of point(s) @p p in a step of @p dt seconds, and
-  /// advance the deformation gradient.
+  /// Compute the trial state of point(s) @p p, and advance the deformation
+  /// gradient.
   template <int dim, typename Number, typename Factor>
   TALUS_ALWAYS_INLINE ViscoplasticTrialWith<dim, Number, Factor>
-                      viscoplastic_trial(const PointsView<dim>    &points,
-                                         const WorkspaceView<dim> &workspace,
-                                         const unsigned int        p,
-                                         const unsigned int        plastic_shear_strain,
-                                         const double              dt,
-                                         const Moduli             &moduli,
-                                         const Strength           &strength,
-                                         const double              decay,
-                                         const Factor             &strength_factor)
+  viscoplastic_trial(const RateLawStep<dim, HerschelBulkleyFlow> &step,
+                     const unsigned int                           p,
+                     const Factor                                &factor)
   {
-    ViscoplasticTrialWith<dim, Number, Factor> trial;
-    const auto moduli_here = moduli_of_point(moduli, strength_factor);
-    const auto share       = share_of_strength(strength_factor);
-    trial.modulus          = moduli_here.mu;
-    trial.motion = advance_deformation<dim, Number>(points, workspace, p, dt);
-    trial.strain = strain_increment(trial.motion);
-    trial.elastic =
-      elastic_trial<dim, Number>(load_stress<dim, Number>(points, p),
-                                 trial.strain,
-                                 moduli_here);
-    const auto &s = trial.elastic.deviator_after;
-    trial.shear_stress =
-      sqrt(0.5 * contract(s, s) + std::numeric_limits<double>::min());
-    trial.old_strain = load<Number>(points.data(plastic_shear_strain) + p);
-    trial.loss       = Number(strength.loss) * share;
+    const Strength &strength = step.flow_rule.strength;
+    const double    decay    = step.flow_rule.resistance.decay;
+    const auto      share    = share_of_strength(factor);
+    const auto      trial    = rate_law_trial<dim, Number>(step, p, factor);
+    const auto     &s        = trial.stress.deviator_after;
+    const Number old_strain  = load<Number>(step.points.data(step.plastic) + p);
+    Number       loss        = Number(strength.loss) * share;
     if (decay > 0.)
-      trial.loss *= exp(-decay * trial.old_strain);
-    trial.strength = Number(strength.remoulded) * share + trial.loss;
-    return trial;
+      loss *= exp(-decay * old_strain);
+    return {trial,
+            sqrt(0.5 * contract(s, s) + std::numeric_limits<double>::min()),
+            old_strain,
+            Number(strength.remoulded) * share + loss,
+            loss};
   }
 
 
@@ -132,22 +119,18 @@ namespace talus
   /// point is inverted or if plastic_shear is NaN, not solved.
   template <int dim, typename Number, typename Modulus>
   TALUS_ALWAYS_INLINE bool
-  flow(const PointsView<dim>                         &points,
+  flow(const RateLawStep<dim, HerschelBulkleyFlow>   &step,
        const unsigned int                             p,
-       const unsigned int                             plastic_shear_strain,
        const ViscoplasticTrial<dim, Number, Modulus> &trial,
        const Number                                  &plastic_shear)
   {
-    const Modulus mu = trial.modulus;
-    store(points.data(plastic_shear_strain) + p,
-          trial.old_strain + plastic_shear);
-    return_radially<dim, Number>(points,
-                                 p,
-                                 trial.motion,
-                                 trial.strain,
-                                 trial.elastic,
-                                 mu,
-                                 mu * plastic_shear / trial.shear_stress);
+    store(step.points.data(step.plastic) + p, trial.old_strain + plastic_shear);
+    flow_plastically<dim, Number>(step.points,
+                                  p,
+                                  trial,
+                                  Flow<Number>{trial.moduli.mu * plastic_shear /
+                                                 trial.shear_stress,
+                                               plastic_shear});
     return all(trial.motion.J_after > 0.) && all(plastic_shear >= 0.);
   }
 
@@ -168,12 +151,12 @@ namespace talus
   modulus_of(const ViscoplasticTrial<dim, Number, Modulus> *trial)
   {
     if constexpr (std::is_same_v<Modulus, double>)
-      return trial[0].modulus;
+      return trial[0].moduli.mu;
     else
       {
         WideSimd<n_parts> modulus;
         for (unsigned int i = 0; i < n_parts; ++i)
-          modulus.part[i] = trial[i].modulus;
+          modulus.part[i] = trial[i].moduli.mu;
         return modulus;
       }
   }
@@ -186,41 +169,30 @@ namespace talus
   /// shear of a point is not found.
   template <int dim, typename Number, unsigned int n_parts, typename Factor>
   TALUS_ALWAYS_INLINE bool
-  update_rate_law_points(const PointsView<dim>     &points,
-                         const WorkspaceView<dim>  &workspace,
-                         const unsigned int         p,
-                         const unsigned int         plastic_shear_strain,
-                         const double               dt,
-                         const Moduli              &moduli,
-                         const HerschelBulkleyFlow &flow_rule,
-                         const Factor              &factor)
+  update_rate_law_points(const RateLawStep<dim, HerschelBulkleyFlow> &step,
+                         const unsigned int                           p,
+                         const Factor                                &factor)
   {
     using Trial =
       ViscoplasticTrialWith<dim, Number, decltype(factor(p, Number()))>;
     constexpr unsigned int width      = sizeof(Number) / sizeof(double);
-    const ShearResistance &resistance = flow_rule.resistance;
+    const ShearResistance &resistance = step.flow_rule.resistance;
     Trial                  trial[n_parts];
     for (unsigned int i = 0; i < n_parts; ++i)
       trial[i] =
-        viscoplastic_trial<dim, Number>(points,
-                                        workspace,
+        viscoplastic_trial<dim, Number>(step,
                                         p + i * width,
-                                        plastic_shear_strain,
-                                        dt,
-                                        moduli,
-                                        flow_rule.strength,
-                                        resistance.decay,
                                         factor(p + i * width, Number()));
     bool is_sound = true;
     if constexpr (n_parts == 1)
       is_sound =
-        flow(points,
+        flow(step,
              p,
-             plastic_shear_strain,
              trial[0],
              plastic_shear<Number>(trial[0].shear_stress - trial[0].strength,
                                    trial[0].loss,
-                                   with_modulus(resistance, trial[0].modulus)));
+                                   with_modulus(resistance,
+                                                trial[0].moduli.mu)));
     else
       {
         WideSimd<n_parts> excess, loss;
@@ -232,11 +204,7 @@ namespace talus
         const auto shear = plastic_shear<WideSimd<n_parts>>(
           excess, loss, with_modulus(resistance, modulus_of<n_parts>(trial)));
         for (unsigned int i = 0; i < n_parts; ++i)
-          is_sound &= flow(points,
-                           p + i * width,
-                           plastic_shear_strain,
-                           trial[i],
-                           shear.part[i]);
+          is_sound &= flow(step, p + i * width, trial[i], shear.part[i]);
       }
     return is_sound;
   }

@@ -9,12 +9,34 @@
 
 namespace talus
 {
-  /// Effect of plastic flow on the trial state.
+  /// Dilation of flow at constant volume, at no cost.
+  struct NoDilation
+  {};
+
   template <typename Number>
+  TALUS_ALWAYS_INLINE NoDilation
+  operator*(const Number &, NoDilation)
+  {
+    return {};
+  }
+
+  template <typename Number>
+  TALUS_ALWAYS_INLINE Number
+  operator-(const Number &x, NoDilation)
+  {
+    return x;
+  }
+
+
+
+  /// Return of a trial stress to the yield surface by plastic flow. @p Dilation
+  /// is Number for soil with friction, whose mean stress changes, too.
+  template <typename Number, typename Dilation = NoDilation>
   struct Flow
   {
-    Number removed;   ///< fraction of the trial deviator removed [-]
-    Number increment; ///< increment of the plastic variable [-]
+    Number   removed;       ///< fraction of the trial deviator removed [-]
+    Number   increment;     ///< increment of the plastic variable [-]
+    Dilation dilation = {}; ///< plastic volumetric strain of the step [-]
   };
 
 
@@ -22,11 +44,11 @@ namespace talus
   /// Flow rule of elastic material.
   struct NoFlow
   {
-    template <std::size_t n, typename Number>
+    template <int dim, typename Number, typename Factor>
     Flow<Number>
-    operator()(const std::array<Number, n> & /*deviator*/,
+    operator()(const StressStep<dim, Number> & /*trial*/,
                double /*plastic*/,
-               double /*strength_factor*/) const
+               const Factor & /*strength_factor*/) const
     {
       return {Number(0.), Number(0.)};
     }
@@ -34,56 +56,114 @@ namespace talus
 
 
 
-  /// Complete an elastic step: store the stress and record the work as elastic
-  /// energy.
-  template <int dim, typename Number>
-  TALUS_ALWAYS_INLINE void
-  keep_elastic(const PointsView<dim>              &points,
-               const unsigned int                  p,
-               const Motion<dim, Number>          &motion,
-               const StrainIncrement<dim, Number> &strain,
-               const ElasticTrial<dim, Number>    &trial)
+  /// Constants of a step of a law in rate form, and the points to be advanced.
+  template <int dim, typename FlowRule>
+  struct RateLawStep
   {
-    store_turned_stress<dim, Number>(
-      points, p, strain, trial.deviator_after, trial.mean_after);
+    PointsView<dim>    points;
+    WorkspaceView<dim> workspace; ///< velocity gradients, 1/s
+    unsigned int       plastic;   ///< column of the plastic variable
+    double             dt;        ///< s
+    Moduli             moduli;    ///< of the law, Pa
+    FlowRule           flow_rule;
+  };
 
-    const auto V0 = load<Number>(points.data(points.reference_volume) + p);
-    const auto force =
-      deviatoric_force<dim, Number>(motion, V0, trial, trial.deviator_after);
-    double *const energy = points.data(points.elastic_energy) + p;
-    store(energy,
-          load<Number>(energy) +
-            work_of_step<dim, Number>(motion, V0, strain, trial, force));
+
+
+  /// Motion, strain and stress of point(s) in a step without plastic flow.
+  template <int dim, typename Number, typename Modulus>
+  struct RateLawTrial
+  {
+    Motion<dim, Number>          motion;
+    StrainIncrement<dim, Number> strain;
+    ModuliOf<Modulus>            moduli; ///< elastic constants, Pa
+    StressStep<dim, Number>      stress;
+  };
+
+
+
+  /// Advance the deformation gradient of point(s) @p p and compute the trial
+  /// stress. @p factor is the strength factor of the point(s).
+  template <int dim, typename Number, typename FlowRule, typename Factor>
+  TALUS_ALWAYS_INLINE auto
+  rate_law_trial(const RateLawStep<dim, FlowRule> &step,
+                 const unsigned int                p,
+                 const Factor                     &factor)
+  {
+    RateLawTrial<dim, Number, decltype(modulus_of_point(double(), factor))>
+      trial;
+    trial.motion =
+      advance_deformation<dim, Number>(step.points, step.workspace, p, step.dt);
+    trial.strain = strain_increment(trial.motion);
+    trial.moduli = moduli_of_point(step.moduli, factor);
+    trial.stress =
+      elastic_trial<dim, Number>(load_stress<dim, Number>(step.points, p),
+                                 trial.strain,
+                                 trial.moduli);
+    return trial;
   }
 
 
 
-  /// Complete a plastic step by radial return: remove the fraction @p removed
-  /// of the trial deviator, which is 2 mu times the plastic strain. Stores the
-  /// stress and records the work of the step as plastic and elastic.
+  /// Complete an elastic step of point(s) @p p: store the stress and record the
+  /// work as elastic energy.
   template <int dim, typename Number, typename Modulus>
   TALUS_ALWAYS_INLINE void
-  return_radially(const PointsView<dim>              &points,
-                  const unsigned int                  p,
-                  const Motion<dim, Number>          &motion,
-                  const StrainIncrement<dim, Number> &strain,
-                  const ElasticTrial<dim, Number>    &trial,
-                  const Modulus                      &mu,
-                  const Number                       &removed)
+  keep_elastic(const PointsView<dim>                    &points,
+               const unsigned int                        p,
+               const RateLawTrial<dim, Number, Modulus> &trial)
   {
-    auto deviator = trial.deviator_after;
-    for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
-      deviator[c] *= 1. - removed;
-    store_turned_stress<dim, Number>(
-      points, p, strain, deviator, trial.mean_after);
+    const auto &[motion, strain, moduli, stress] = trial;
+    store_turned_stress<dim, Number>(points, p, strain, stress);
 
-    const auto V0 = load<Number>(points.data(points.reference_volume) + p);
-    const auto force =
-      deviatoric_force<dim, Number>(motion, V0, trial, deviator);
-    const Number plastic_work =
-      removed * (0.5 / mu) * contract(force, trial.deviator_after);
+    const auto    V0 = load<Number>(points.data(points.reference_volume) + p);
+    const auto    force  = deviatoric_force<dim, Number>(motion, V0, stress);
+    double *const energy = points.data(points.elastic_energy) + p;
+    store(energy,
+          load<Number>(energy) +
+            work_of_step<dim, Number>(motion, V0, strain, stress, force));
+  }
+
+
+
+  /// Return the stress of a step with plastic flow. The flow removes a fraction
+  /// of the trial deviator, 2 mu times the plastic strain, and the bulk modulus
+  /// times the dilation from the mean.
+  template <int dim, typename Number, typename Modulus, typename Dilation>
+  TALUS_ALWAYS_INLINE StressStep<dim, Number>
+                      returned(StressStep<dim, Number>       stress,
+                               const Modulus                &bulk,
+                               const Flow<Number, Dilation> &flow)
+  {
+    for (Number &component : stress.deviator_after)
+      component *= 1. - flow.removed;
+    stress.mean_after = stress.mean_after - bulk * flow.dilation;
+    return stress;
+  }
+
+
+
+  /// Complete a plastic step of point(s) @p p: store the returned stress and
+  /// record the work of the step as plastic and elastic.
+  template <int dim, typename Number, typename Modulus, typename Dilation>
+  TALUS_ALWAYS_INLINE void
+  flow_plastically(const PointsView<dim>                    &points,
+                   const unsigned int                        p,
+                   const RateLawTrial<dim, Number, Modulus> &trial,
+                   const Flow<Number, Dilation>             &flow)
+  {
+    const auto &[motion, strain, moduli, trial_stress] = trial;
+    const auto stress = returned(trial_stress, moduli.bulk, flow);
+    store_turned_stress<dim, Number>(points, p, strain, stress);
+
+    const auto V0    = load<Number>(points.data(points.reference_volume) + p);
+    const auto force = deviatoric_force<dim, Number>(motion, V0, stress);
+    Number     plastic_work = flow.removed * (0.5 / moduli.mu) *
+                          contract(force, trial_stress.deviator_after);
+    if constexpr (std::is_same_v<Number, Dilation>)
+      plastic_work += volumetric_work(motion, V0, stress, flow.dilation);
     const Number work =
-      work_of_step<dim, Number>(motion, V0, strain, trial, force);
+      work_of_step<dim, Number>(motion, V0, strain, stress, force);
     double *const elastic = points.data(points.elastic_energy) + p;
     double *const plastic = points.data(points.plastic_work) + p;
     store(elastic, load<Number>(elastic) + (work - plastic_work));
@@ -100,53 +180,32 @@ namespace talus
 
 
   /// Advance the points from @p p on, in @p n registers, by one step of a law
-  /// in rate form. Returns false if a point is inverted.
-  /// @param points Columns of the points.
-  /// @param workspace Velocity gradients.
-  /// @param p First point.
-  /// @param plastic Column of the plastic variable.
-  /// @param dt Time step, s.
-  /// @param moduli Elastic constants, Pa.
-  /// @param flow_rule Flow rule, as in RateLaw.
-  /// @param factor Function as in with_strength_factor().
+  /// in rate form. Returns false if a point is inverted. @p factor is a
+  /// function as in with_point_strength().
   template <int dim,
             typename Number,
             unsigned int n,
             typename FlowRule,
             typename Factor>
   TALUS_ALWAYS_INLINE bool
-  update_rate_law_points(const PointsView<dim>    &points,
-                         const WorkspaceView<dim> &workspace,
-                         const unsigned int        p,
-                         const unsigned int        plastic,
-                         const double              dt,
-                         const Moduli             &moduli,
-                         const FlowRule           &flow_rule,
-                         const Factor             &factor)
+  update_rate_law_points(const RateLawStep<dim, FlowRule> &step,
+                         const unsigned int                p,
+                         const Factor                     &factor)
   {
     static_assert(n == 1);
-    const auto motion =
-      advance_deformation<dim, Number>(points, workspace, p, dt);
-    const auto strain      = strain_increment(motion);
     const auto factor_here = factor(p, Number());
-    const auto moduli_here = moduli_of_point(moduli, factor_here);
-    const auto trial =
-      elastic_trial<dim, Number>(load_stress<dim, Number>(points, p),
-                                 strain,
-                                 moduli_here);
+    const auto trial       = rate_law_trial<dim, Number>(step, p, factor_here);
     if constexpr (std::is_same_v<FlowRule, NoFlow>)
-      keep_elastic<dim, Number>(points, p, motion, strain, trial);
+      keep_elastic(step.points, p, trial);
     else
       {
-        double *const      variable = points.data(plastic) + p;
-        const Number       before   = load<Number>(variable);
-        const Flow<Number> flow =
-          flow_rule(trial.deviator_after, before, factor_here);
+        double *const variable = step.points.data(step.plastic) + p;
+        const Number  before   = load<Number>(variable);
+        const auto    flow = step.flow_rule(trial.stress, before, factor_here);
         store(variable, before + flow.increment);
-        return_radially<dim, Number>(
-          points, p, motion, strain, trial, moduli_here.mu, flow.removed);
+        flow_plastically(step.points, p, trial, flow);
       }
-    return all(motion.J_after > 0.);
+    return all(trial.motion.J_after > 0.);
   }
 } // namespace talus
 

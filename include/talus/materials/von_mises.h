@@ -2,7 +2,7 @@
 #ifndef talus_materials_von_mises_h
 #define talus_materials_von_mises_h
 
-#include <talus/materials/rate_law.h>
+#include <talus/materials/undrained_law.h>
 
 namespace talus
 {
@@ -17,7 +17,7 @@ namespace talus
   /// returned exactly @cite simo1998, section 3.3; f is the strength factor of
   /// the point, or 1.
   template <int dim>
-  class VonMises : public RateLaw<dim, VonMisesFlow>
+  class VonMises : public UndrainedLaw<dim, VonMisesFlow>
   {
   public:
     VonMises(const std::string &section);

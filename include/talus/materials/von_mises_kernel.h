@@ -18,16 +18,14 @@ namespace talus
     double hardening; ///< slope of the yield stress, Pa
     double residual;  ///< residual yield stress, Pa
 
-    template <std::size_t n,
-              typename Number,
-              typename Variable,
-              typename Factor>
+    template <int dim, typename Number, typename Variable, typename Factor>
     TALUS_ALWAYS_INLINE Flow<Number>
-                        operator()(const std::array<Number, n> &deviator,
-               const Variable              &plastic_strain,
-               const Factor                &strength_factor) const
+                        operator()(const StressStep<dim, Number> &trial,
+               const Variable                &plastic_strain,
+               const Factor                  &strength_factor) const
     {
-      const Number q = sqrt(1.5 * contract(deviator, deviator) +
+      const auto  &deviator = trial.deviator_after;
+      const Number q        = sqrt(1.5 * contract(deviator, deviator) +
                             std::numeric_limits<double>::min());
       const Number d_ep =
         plastic_increment(q, Number(plastic_strain), strength_factor);

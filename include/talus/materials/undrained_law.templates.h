@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: LGPL-2.1-or-later
+#ifndef talus_materials_undrained_law_templates_h
+#define talus_materials_undrained_law_templates_h
+
+#include <talus/materials/rate_law.templates.h>
+#include <talus/materials/undrained_law.h>
+
+#include <algorithm>
+#include <functional>
+
+namespace talus
+{
+  template <int dim, typename FlowRule>
+  UndrainedLaw<dim, FlowRule>::UndrainedLaw(const std::string &section,
+                                            const std::string &plastic_variable,
+                                            const std::string &sentence)
+    : RateLaw<dim, FlowRule>(section, plastic_variable)
+  {
+    using dealii::ParameterAcceptor;
+    namespace Patterns = dealii::Patterns;
+    this->add_parameter(
+      "Undrained shear strength",
+      strength_.words(),
+      sentence +
+        " A number, an expression in x, y (, z) and the depth below the "
+        "mudline, as 2000 + 1500*depth, or 'table FILE': a CSV file with the "
+        "columns 'depth [m]' and 'undrained shear strength [Pa]'. Place and "
+        "depth [m] are taken at the start, without initial displacement; the "
+        "strength moves with the soil.");
+    this->add_parameter(
+      "Stiffness ratio",
+      stiffness_ratio_,
+      "Young's modulus over the undrained shear strength of undisturbed soil, "
+      "E/s_u [-], at each point; replaces `Young's modulus`. Empty: `Young's "
+      "modulus` is used.",
+      ParameterAcceptor::prm,
+      Patterns::List(Patterns::Double(1e-12), 0, 1));
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  void
+  UndrainedLaw<dim, FlowRule>::check() const
+  {
+    RateLaw<dim, FlowRule>::check();
+    const bool needs_strength = !stiffness_ratio_.empty();
+    AssertThrow(strength() > 0. || (strength() == 0. && !needs_strength),
+                ExcUser(text("Section ",
+                             this->section(),
+                             ": `Undrained shear strength` is ",
+                             strength(),
+                             " Pa. Give a positive number",
+                             needs_strength
+                               ? "; the stiffness is proportional to it."
+                               : ", or 0.")));
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  void
+  UndrainedLaw<dim, FlowRule>::add_columns(Points<dim> &points)
+  {
+    RateLaw<dim, FlowRule>::add_columns(points);
+    if (this->has_strength_column())
+      strength_column_ = points.add_column("undrained shear strength",
+                                           "Pa",
+                                           1,
+                                           Inheritance::copied);
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  StrengthColumns
+  UndrainedLaw<dim, FlowRule>::strength_columns() const
+  {
+    return {this->strength_factor(),
+            this->has_strength_column() ? strength_column_
+                                        : dealii::numbers::invalid_unsigned_int,
+            has_moduli_of_points()};
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  void
+  UndrainedLaw<dim, FlowRule>::wave_modulus(const Points<dim> &points,
+                                            const unsigned int begin,
+                                            const unsigned int end,
+                                            double            *modulus) const
+  {
+    RateLaw<dim, FlowRule>::wave_modulus(points, begin, end, modulus);
+    if (has_moduli_of_points())
+      std::transform(modulus,
+                     modulus + (end - begin),
+                     points.data(strength_column_) + begin,
+                     modulus,
+                     std::multiplies<>());
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  double
+  UndrainedLaw<dim, FlowRule>::largest_shear_modulus(
+    const Points<dim> &points,
+    const unsigned int begin,
+    const unsigned int end) const
+  {
+    const double mu = this->moduli().mu;
+    if (!has_moduli_of_points() || begin == end)
+      return mu;
+    const double *strength = points.data(strength_column_);
+    return mu * *std::max_element(strength + begin, strength + end);
+  }
+} // namespace talus
+
+#endif
