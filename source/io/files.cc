@@ -31,7 +31,7 @@ namespace talus
 
 
     std::string
-    failed_write(const std::filesystem::path &path)
+    failed_write_by_errno(const std::filesystem::path &path)
     {
       return talus::failed_write(path, reason());
     }
@@ -121,14 +121,14 @@ namespace talus
     file.close();
     if (!file)
       {
-        const std::string sentence = failed_write(path);
+        const std::string sentence = failed_write_by_errno(path);
         std::filesystem::remove(part, ignored);
         AssertThrow(false, ExcUser(sentence));
       }
     std::error_code error;
     std::filesystem::rename(part, path, error);
     errno = error.value();
-    AssertThrow(!error, ExcUser(failed_write(path)));
+    AssertThrow(!error, ExcUser(failed_write_by_errno(path)));
   }
 
 
@@ -173,7 +173,7 @@ namespace talus
     file_ = std::ofstream(path,
                           beginning == Beginning::fresh ? std::ios::trunc
                                                         : std::ios::app);
-    AssertThrow(file_, ExcUser(failed_write(path_)));
+    AssertThrow(file_, ExcUser(failed_write_by_errno(path_)));
   }
 
 
@@ -183,7 +183,7 @@ namespace talus
   {
     errno = 0;
     file_ << line << std::endl;
-    AssertThrow(file_, ExcUser(failed_write(path_)));
+    AssertThrow(file_, ExcUser(failed_write_by_errno(path_)));
   }
 
 
@@ -213,7 +213,7 @@ namespace talus
         std::error_code error;
         std::filesystem::resize_file(path, n_bytes_, error);
         errno = error.value();
-        AssertThrow(!error, ExcUser(failed_write(path)));
+        AssertThrow(!error, ExcUser(failed_write_by_errno(path)));
         file_.open(path, std::ios::in | std::ios::out | std::ios::ate);
         flush();
         return;
@@ -329,7 +329,7 @@ namespace talus
                   "anew with --overwrite."));
     errno = 0;
     file_.flush();
-    AssertThrow(file_, ExcUser(failed_write(path_)));
+    AssertThrow(file_, ExcUser(failed_write_by_errno(path_)));
     n_bytes_ = file_.tellp();
   }
 
@@ -339,6 +339,7 @@ namespace talus
   CsvFile::sync()
   {
     flush();
-    AssertThrow(sync_to_disk(path_).empty(), ExcUser(failed_write(path_)));
+    AssertThrow(sync_to_disk(path_).empty(),
+                ExcUser(failed_write_by_errno(path_)));
   }
 } // namespace talus
