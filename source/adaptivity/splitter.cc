@@ -304,8 +304,8 @@ namespace talus
 
 
   /// Throw ExcPoint if there would be too many points, before any child is
-  /// created: otherwise memory might run out first. Splits of other ranks in the
-  /// same step are not known yet.
+  /// created: otherwise memory might run out first. Splits on other ranks in
+  /// the same step are not known yet.
   template <int dim>
   void
   Splitter<dim>::check_budget(const Points<dim> &points,

@@ -73,9 +73,9 @@ namespace talus
 
 
 
-  /// Return the slot of each obstacle, the same on all ranks. Obstacles far apart
-  /// share a slot: the number of slots follows the density of the obstacles.
-  /// Collective.
+  /// Return the slot of each obstacle, the same on all ranks. Obstacles far
+  /// apart share a slot: the number of slots follows the density of the
+  /// obstacles. Collective.
   template <int dim>
   std::vector<unsigned int>
   FacetConstraints<dim>::slots(const Grid<dim> &grid) const

@@ -25,9 +25,9 @@ namespace talus
 
 
 
-    /// Return the extents of an obstacle, the shortest first: those of its box,
-    /// and its width if that may be oblique, which is one across each of all axes
-    /// but one.
+    /// Return the extents of an obstacle, the shortest first: the lengths of
+    /// the bounding box along the axes and, of an obstacle that may be oblique,
+    /// the width across, dim - 1 times.
     template <int dim>
     std::vector<Extent>
     sorted_extents(const Obstacle<dim> &obstacle)

@@ -240,10 +240,12 @@ namespace talus
 
 
   /// Return whether the soil seems to come to rest at full load. Failing soil
-  /// flows on and on: no settling steps are left, or the imbalance did not fall
-  /// by 10 % in the last 20 steps, or in two steps with only a part of the
-  /// imbalance, as no step with all of it converged (small strain only: with
-  /// large strain, steps are also cut where points would be inverted).
+  /// flows on and on, with one of three signs:
+  /// - no settling steps are left;
+  /// - the imbalance did not fall by 10 % in the last 20 steps;
+  /// - at small strain: the imbalance did not fall by 10 % in two steps that
+  ///   removed only a part of the imbalance, since the whole did not converge.
+  ///   (At large strain, steps are also cut where points would be inverted.)
   template <int dim>
   bool
   Equilibrium<dim>::is_settling()

@@ -145,7 +145,7 @@ namespace talus
 
 
 
-  /// Add the same matrix for each component.
+  /// All components of the displacement have the same matrix.
   template <int dim>
   void
   GhostStabilization<dim>::add_to_matrix(StiffnessMatrix<dim> &matrix) const

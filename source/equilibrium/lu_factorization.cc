@@ -10,8 +10,7 @@ namespace talus
 {
   using namespace dealii;
 
-  /// Matrix, right-hand side and solution as Amesos sees them, and the
-  /// factors.
+  /// Linear system in the form of Amesos, and the factors.
   class LuFactorization::Amesos
   {
   public:
@@ -44,8 +43,9 @@ namespace talus
 
 
 
-  /// The pivots of the last matrix need no search, which takes half of the
-  /// time, but may be poor for this matrix. The residual decides.
+  /// The search for pivots takes half of the time. The pivots of the previous
+  /// matrix save the search, but may be poor for the present matrix: the
+  /// residual decides.
   bool
   LuFactorization::solve(const TrilinosWrappers::SparseMatrix &matrix,
                          TrilinosWrappers::MPI::Vector        &x,
@@ -60,9 +60,9 @@ namespace talus
 
 
 
-  /// KLU's own test of the pivots is switched off: it compares the smallest
-  /// with the largest, and nodes with very little soil have small pivots in
-  /// well-posed problems, too.
+  /// KLU's own test, which compares the smallest pivot with the largest, is
+  /// switched off: nodes with very little soil have small pivots in well-posed
+  /// problems, too.
   bool
   LuFactorization::solve_with_pivots(
     const TrilinosWrappers::SparseMatrix &matrix,

@@ -16,9 +16,9 @@ namespace talus
   {
     /// Return why Newton's method will not converge, as the end of a sentence;
     /// empty as long as convergence is possible. @p residuals of all iterations
-    /// so far, over the reference force [-]. The limits were found by
+    /// are relative to the reference force [-]. The limits were found by
     /// completing all loops of the verification cases (doc/performance.md,
-    /// "Factor of safety"): no loop that met one of them converged later.
+    /// "Factor of safety"): no loop converged after reaching a limit.
     std::string
     divergence(const std::vector<double> &residuals)
     {
@@ -30,7 +30,7 @@ namespace talus
         return text(std::setprecision(6),
                     "the residual has grown to ",
                     now,
-                    " of the forces");
+                    " times the forces");
       if (residuals.size() < patience)
         return "";
       const auto [lower, upper] =
@@ -38,7 +38,7 @@ namespace talus
       return *lower > 0.9 * *upper ? text(std::setprecision(6),
                                           "the residual stays at ",
                                           now,
-                                          " of the forces")
+                                          " times the forces")
                                    : "";
     }
   } // namespace

@@ -443,9 +443,9 @@ namespace talus
     for (unsigned int k = 0; k < points_.size(); ++k)
       {
         ContactPoint &point = points_[k];
-        point.opened        = (measure == StrainMeasure::small
-                                 ? point.opened + displacement(point, u) * point.normal
-                                 : 0.);
+        const double  moved = displacement(point, u) * point.normal;
+        point.opened =
+          (measure == StrainMeasure::small ? point.opened + moved : 0.);
         if (k < n_facets_)
           forces.push_back(
             {point.found.normal,

@@ -137,8 +137,8 @@ namespace talus
 
 
 
-  /// An unknown that nothing resists has a diagonal entry of zero; if it is
-  /// held, any other value will do.
+  /// An unknown without stiffness has a diagonal entry of zero; if the unknown
+  /// is held, any other value will do.
   template <int dim>
   void
   StiffnessMatrix<dim>::finish()

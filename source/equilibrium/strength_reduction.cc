@@ -63,9 +63,10 @@ namespace talus
   {
     constexpr double fastest_growth = 0.5;
 
-    // A failure counts from this multiple of the tolerance below the factor.
-    // Halving a bracket of twice the tolerance leaves lengths slightly above
-    // the tolerance, as the tolerance is relative to the lower end.
+    // A failure counts if the trial started at most `nearby` times the
+    // tolerance below the factor. Halving a bracket of twice the tolerance
+    // leaves lengths slightly above the tolerance, since the tolerance is
+    // relative to the lower end.
     constexpr double nearby = 1.25;
   } // namespace
 

@@ -32,8 +32,8 @@ namespace talus
 
 
     /// Return the entry of @p table for @p key; compute the entry if there is
-    /// none. A table of 2^15 entries is emptied first, so that memory stays
-    /// small where points move and ask for ever new places.
+    /// none. A full table, of 2^15 entries, is emptied before: moving points
+    /// need values at ever new places, and memory must stay small.
     template <typename Table, typename Compute>
     typename Table::mapped_type
     look_up(Table                          &table,

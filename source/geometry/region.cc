@@ -271,7 +271,7 @@ namespace talus
       sum.add(box);
     else if (depth >= min_depth &&
              have_coinciding_pair(box, limits, 1e-3 * sum.tolerance))
-      return; // soil without thickness, to be found at no further depth
+      return; // no soil in between, however small the parts of the box
     else if (depth == largest_depth<dim> ||
              (depth >= min_depth && are_linear(box, limits, sum.tolerance)))
       {

@@ -349,8 +349,8 @@ namespace talus
 
 
   /// The test runs before p4est or deal.II run out of memory with their own
-  /// messages. Memory per cell was measured without points (doc/cluster.md), and
-  /// a run needs more: a rejected mesh cannot work.
+  /// messages. Memory per cell was measured without points (doc/cluster.md),
+  /// and a run needs more: a rejected mesh cannot work.
   template <int dim>
   void
   MeshLayout<dim>::check_memory(const double n_cells) const

@@ -39,9 +39,8 @@ namespace talus
     // attribute.
     H5Pset_all_coll_metadata_ops(access, true);
     H5Pset_coll_metadata_write(access, true);
-    // Without blocks that are allocated ahead and not filled: MPI-IO writes
-    // into what is left of them whatever its buffers hold, so that the files of
-    // equal runs would differ.
+    // No blocks allocated ahead: MPI-IO fills the unused part of a block with
+    // arbitrary content of its buffers, and files of equal runs would differ.
     H5Pset_meta_block_size(access, 0);
     H5Pset_small_data_block_size(access, 0);
     // Metadata have checksums from version 1.8 on.

@@ -18,9 +18,9 @@ namespace talus
 
 
 
-    // A file may have been damaged or made by others: what it claims to hold is
-    // compared with what is expected, and with its size, before memory is taken
-    // or anything is read.
+    // A file may be damaged or made by another program: size and type of each
+    // object are compared with the expectation, and with the size of the file,
+    // before memory is allocated or data are read.
 
     bool
     is_scalar(const hid_t space)
@@ -30,8 +30,8 @@ namespace talus
 
 
 
-    /// Bytes of so many elements as the extents say; nothing if that is more
-    /// than @p limit. The library's own product may wrap around.
+    /// Return the size of an array in bytes; nothing above @p limit. The
+    /// library's own product may wrap around.
     std::optional<hsize_t>
     size_in_bytes(const hid_t type, const hid_t space, const hsize_t limit)
     {
@@ -53,7 +53,7 @@ namespace talus
 
 
 
-    /// Whether an attribute is one number of exactly this type.
+    /// Return whether an attribute is a single number of exactly @p type.
     bool
     is_number(const hid_t attribute, const hid_t type)
     {
@@ -65,9 +65,9 @@ namespace talus
 
 
 
-    /// Length of the one text that an attribute or an array is; nothing if it
-    /// is something else. Of a text of variable length the library would give
-    /// pointers.
+    /// Return the length of the text in an attribute or array; nothing unless
+    /// the object is a single text of fixed length. For variable length the
+    /// library would give pointers in place of a text.
     std::optional<std::size_t>
     length_of_text(const hid_t type, const hid_t space)
     {
@@ -79,10 +79,10 @@ namespace talus
 
 
 
-    /// Whether all values that an array claims to have are in the file, in one
-    /// piece, and not in chunks, elsewhere or nowhere. Written values have as
-    /// many bytes in the file as in memory: an array that was never written
-    /// takes none, but the library would make up its values.
+    /// Return whether all values of an array are stored in the file
+    /// contiguously, neither in chunks nor in external files. A written array
+    /// has as many bytes in the file as in memory. An array that was never
+    /// written takes no space, and the library would invent the values.
     bool
     is_stored(const hid_t file, const hid_t array)
     {
@@ -103,7 +103,7 @@ namespace talus
 
 
 
-    /// Not valid if there is no such array; the same of open_attribute().
+    /// Open an array; the handle is not valid if there is none.
     Handle
     open_array(const hid_t file, const std::string &name)
     {
@@ -170,8 +170,8 @@ namespace talus
 
 
 
-  /// Numbers are converted from the file's type to that of memory, as far as
-  /// the two have the same values.
+  /// Numbers are converted from the file's type to the type in memory, which
+  /// has the same values.
   template <typename Number>
   Number
   Hdf5InputFile::read_attribute(const std::string &object,

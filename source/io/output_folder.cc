@@ -32,7 +32,8 @@ namespace talus
 
 
 
-    /// Return the beginning of an open lock: host and process of the owner.
+    /// Return the first 256 bytes of the open lock @p file: host and process of
+    /// the owner.
     std::string
     content_of(const int file)
     {
@@ -43,7 +44,7 @@ namespace talus
 
 
 
-    /// Whether the content of a lock was written by talus.
+    /// Return whether only talus has written into the lock.
     bool
     is_ours(const std::string &content)
     {
@@ -52,7 +53,7 @@ namespace talus
 
 
 
-    /// Return a sentence about @p what in an output folder.
+    /// Return a sentence that the output folder holds @p what.
     template <typename... Arguments>
     std::string
     folder_holds(const fs::path &folder, const Arguments &...what)
@@ -66,15 +67,15 @@ namespace talus
     lock_of_others(const fs::path &folder)
     {
       return folder_holds(folder,
-                          "a 'lock' that no run has written, and this one "
-                          "would write over it. Move it",
+                          "a file 'lock' that no run has written, and this "
+                          "run would write over the file. Move the file",
                           other_folder);
     }
 
 
 
-    /// Lock the folder and return an empty string, or else the reason. A link
-    /// is not followed, since the target is no file of talus.
+    /// Lock the folder. Returns the reason for a failure, or an empty text. A
+    /// link is not followed: the target may be a file of the user.
     std::string
     lock(const fs::path &folder, int &file)
     {
@@ -92,12 +93,12 @@ namespace talus
                         folder.string(),
                         "' belongs to another run, which runs ",
                         owner.empty() ? "somewhere" : owner,
-                        ". Wait until that has ended",
+                        ". Wait for the end of the other run",
                         other_folder);
       if (!is_ours(owner))
         return lock_of_others(folder);
-      // The lock is what counts. The content only names the owner, and may be
-      // missing, as on a full disk.
+      // The lock alone decides. The content only names the owner, and may be
+      // missing, for instance on a full disk.
       std::array<char, 256> host = {};
       ::gethostname(host.data(), host.size() - 1);
       const std::string content =
@@ -110,9 +111,9 @@ namespace talus
 
 
 
-    /// Whether the folder holds a `lock` that talus has not written: a link or
-    /// a folder, too. Without O_NONBLOCK the call would wait for the writer of
-    /// a pipe.
+    /// Return whether the folder holds a `lock` that talus has not written: a
+    /// link or a folder, too. O_NONBLOCK, because opening a pipe would wait for
+    /// a writer.
     bool
     has_foreign_lock(const fs::path &folder)
     {
@@ -131,10 +132,10 @@ namespace talus
 
 
 
-  // flock() and not fcntl(): the lock belongs to the open file, and survives
-  // when another part of the program opens and closes a file of this name. The
-  // file stays when the run has ended: removing the file could remove the lock
-  // of a run that begins at this moment.
+  // flock(), not fcntl(): the lock belongs to the open file, and is not lost
+  // when the program closes another descriptor of the same file. The file stays
+  // after the run: removing the file could remove the lock of a run that starts
+  // at the same moment.
   void
   FolderLock::acquire(const fs::path &folder, const MPI_Comm communicator)
   {
@@ -160,9 +161,9 @@ namespace talus
 
   namespace
   {
-    /// Whether talus writes files of this name. All names stand here, and not
-    /// with the classes that write the files: a run also recognizes results
-    /// that an earlier run has written with other settings.
+    /// Return whether a run may write a file of the given name. All names are
+    /// listed here, not with the writers: an earlier run may have written files
+    /// that the present run does not write.
     bool
     is_output_name(const std::string &file_name)
     {
@@ -179,8 +180,8 @@ namespace talus
 
 
 
-    /// Return the files of this type, or links to such files, with names of
-    /// results followed by @p ending.
+    /// Return the files of @p type in a folder, or links to files of @p type,
+    /// that are named as outputs followed by @p ending.
     std::vector<fs::path>
     outputs_in(const fs::path     &folder,
                const std::string  &ending = "",
@@ -205,8 +206,9 @@ namespace talus
 
 
 
-    /// Whether a folder can be made in @p folder, by a trial: permissions do
-    /// not tell for root, nor for file systems without files, such as /proc.
+    /// Return whether a folder can be written, by making and removing a
+    /// subfolder: permissions are no answer for root, nor on file systems
+    /// without new files, for instance /proc.
     bool
     can_hold_folders(const fs::path &folder)
     {
@@ -220,7 +222,7 @@ namespace talus
 
 
 
-  // The existing part of the path decides.
+  // Checks the existing part of the path.
   void
   check_can_be_made(const fs::path &folder)
   {
@@ -245,14 +247,14 @@ namespace talus
   std::string
   foreign_file(const fs::path &folder, const Beginning beginning)
   {
-    // Opening a pipe would wait for the reader.
+    // Opening a pipe would wait for a reader.
     if (const auto pipes = outputs_in(folder, "", fs::file_type::fifo);
         !pipes.empty())
       return folder_holds(folder,
                           "a pipe '",
                           pipes.front().string(),
-                          "', where the run writes a file of that name. "
-                          "Remove it",
+                          "', where the run writes a file of the same name. "
+                          "Remove the pipe",
                           other_folder);
     if (has_foreign_lock(folder))
       return lock_of_others(folder);
@@ -269,18 +271,18 @@ namespace talus
       return folder_holds(
         folder,
         "a file 'parameters.prm' that no run has written or somebody has "
-        "changed, and this run would write over it. Move it",
+        "changed, and this run would write over the file. Move the file",
         beginning == Beginning::resumed
-          ? ", and go on with it or another parameter file."
+          ? ", and resume with the moved file or another parameter file."
           : other_folder);
     return beginning == Beginning::resumed || results.empty()
              ? ""
              : folder_holds(folder,
                             "'",
                             results.front().string(),
-                            "', which is named as the output of a run, but no "
-                            "'parameters.prm' of one, so that it may be yours. "
-                            "Move it",
+                            "', named like the output of a run, but no "
+                            "'parameters.prm' of a run: the file may be yours. "
+                            "Move the file",
                             other_folder);
   }
 
@@ -304,7 +306,7 @@ namespace talus
                                    path.string(),
                                    "' of an earlier run could not be removed (",
                                    error.message(),
-                                   "). Remove it",
+                                   "). Remove the file",
                                    other_folder)));
         }
   }

@@ -9,8 +9,8 @@ namespace talus
 {
   namespace
   {
-    /// Stress by the weight of soil as dense as point @p p and as high as all
-    /// soil on this rank, rho g H, Pa.
+    /// Return the weight per area, rho g H, Pa, of a column with the density of
+    /// point @p p and the height of all soil on this rank.
     template <int dim>
     double
     weight_of_soil(const Points<dim> &points, const unsigned int p)
@@ -24,8 +24,9 @@ namespace talus
 
 
 
-    /// Sentences with the likely causes. Soil that is softer than its weight
-    /// would be squeezed to a fraction of its height: a wrong unit.
+    /// Return sentences with the likely causes, the likeliest first. Soil with
+    /// a shear modulus below the weight per area would be squeezed to a
+    /// fraction of its height, which indicates a wrong unit.
     std::string
     causes_of_inversion(const double shear_modulus, const double weight)
     {
@@ -39,11 +40,11 @@ namespace talus
                                       " Pa");
       if (shear_modulus < weight)
         return "The soil is too soft to bear its weight: " + moduli +
-               ". Check that stiffnesses are given in Pa, not in kPa. If they "
-               "are right, l" +
+               ". Check that stiffnesses are given in Pa, not in kPa. If the "
+               "stiffnesses are right, l" +
                shorter_steps;
       return "L" + shorter_steps +
-             " If that does not help, check that stiffnesses are given in "
+             " If the run still fails, check that stiffnesses are given in "
              "Pa: " +
              moduli + ".";
     }

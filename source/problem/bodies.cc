@@ -7,8 +7,8 @@ namespace talus
 {
   using namespace dealii;
 
-  // Names must be known before the parameters are declared, as each body has a
-  // section of its own: the names come from the tolerant first pass over the
+  // Each body has a section of parameters. The names are therefore needed
+  // before the declaration, and come from the tolerant first pass over the
   // parameter file.
   template <int dim>
   Bodies<dim>::Bodies(const std::vector<std::string> &names)
@@ -26,11 +26,10 @@ namespace talus
       this->prm,
       Patterns::Selection("start|half step"));
     enter_subsection("Bodies");
-    add_parameter(
-      "Names",
-      listed_names_,
-      "Names of the bodies, separated by commas; each has a section "
-      "of that name.");
+    add_parameter("Names",
+                  listed_names_,
+                  "Names of the bodies, separated by commas; each body has a "
+                  "section of the same name.");
     leave_subsection();
   }
 
@@ -117,7 +116,8 @@ namespace talus
 
 
 
-  // The mudline follows from the parameters alone: a resumed run has the same.
+  // The mudline follows from the parameters alone: a resumed run computes the
+  // same mudline.
   template <int dim>
   std::function<double(const Point<dim> &)>
   Bodies<dim>::find_mudline(const Box<dim> &domain)

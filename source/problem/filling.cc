@@ -22,13 +22,13 @@ namespace talus
     /// the neighbours become unstable.
     constexpr double min_fraction = 0.2;
 
-    /// What is less than this of a box is not soil but round-off, far below the
-    /// error of the parts: where a layer ends its two surfaces go on as one,
-    /// and what lies between them there would be points of some grams.
+    /// Volume fraction of a box below which soil counts as round-off, far below
+    /// the error of the parts: beyond the end of a layer both surfaces
+    /// coincide, and round-off between them would make points of some grams.
     constexpr double round_off_fraction = 1e-5;
 
-    /// The same of what has no soil around that could take it: where the two
-    /// surfaces of a layer go on as one and are curved, the pockets between
+    /// Volume fraction of a box below which soil without neighbours is dropped:
+    /// where the coinciding surfaces of a layer are curved, the pockets between
     /// them are as thick as the error of the parts, a thousandth of a box.
     constexpr double error_fraction = 1e-3;
 
@@ -63,7 +63,7 @@ namespace talus
 
 
 
-    /// Return the centres of these boxes; the first axis is the fastest.
+    /// Return the centres of the boxes of a cell, the first axis fastest.
     template <int dim>
     std::vector<Point<dim>>
     lattice_of(const Cell<dim> &cell, const std::array<unsigned int, dim> &n)
@@ -133,15 +133,15 @@ namespace talus
 
   namespace
   {
-    /// Sliver on the way from one box to another. Cells are given by the keys
-    /// that all ranks share.
+    /// Sliver given by a box to another box.
     template <int dim>
     struct SliverTransfer
     {
-      std::array<unsigned long, 4> place; ///< to cell, box; from cell, box
+      /// Receiving cell and box, giving cell and box; cells by global keys.
+      std::array<unsigned long, 4> place;
       PartInside<dim>              sliver;
 
-      /// Sorted slivers are in the same order for any number of ranks.
+      /// The sorted order is independent of the number of ranks.
       bool
       operator<(const SliverTransfer &other) const
       {
@@ -159,9 +159,9 @@ namespace talus
 
 
 
-    /// Add a sliver to @p part, with its moments. Steiner: the variance of both
-    /// together is the mean of the two variances and the variance of the two
-    /// centroids.
+    /// Add the volume and the moments of a sliver to @p part. By Steiner's
+    /// theorem the variance of the union is the mean of the two variances plus
+    /// the variance of the two centroids, both weighted by volume.
     template <int dim>
     void
     add(PartInside<dim> &part, const PartInside<dim> &sliver)
@@ -179,8 +179,8 @@ namespace talus
 
 
 
-    /// Boxes of the lattice in the owned cells and ghosts of this rank, and the
-    /// part of each box in the region. Shapes are known to all ranks.
+    /// Boxes of the lattice in the cells known to this rank, ghosts included,
+    /// with the part of each box in the region. All ranks know the shapes.
     template <int dim>
     class ClippedBoxes
     {
@@ -204,8 +204,8 @@ namespace talus
       /// Parts of the boxes of a cell.
       struct ClippedCell
       {
-        Parts first; ///< before slivers move; these decide where slivers go
-        Parts now;   ///< empty as long as nothing has changed
+        Parts first; ///< initial parts, which decide where slivers go
+        Parts now;   ///< present parts; empty before the first change
 
         const Parts &
         parts() const
@@ -239,7 +239,7 @@ namespace talus
 
       const Grid<dim>                    &grid_;
       std::array<unsigned int, dim>       n_;
-      std::map<unsigned int, ClippedCell> cells_; ///< that have soil
+      std::map<unsigned int, ClippedCell> cells_; ///< cells with soil
     };
 
 
@@ -271,9 +271,9 @@ namespace talus
 
 
 
-    /// Return nothing if no soil lies in the cell. A whole box has its exact
-    /// centre, so bodies made of whole boxes are the same as if filled by
-    /// centres.
+    /// Return the parts of the boxes of a cell, none if the cell has no soil. A
+    /// whole box gets the exact centre: bodies of whole boxes equal a filling
+    /// by centres bit by bit.
     template <int dim>
     typename ClippedBoxes<dim>::Parts
     ClippedBoxes<dim>::parts_of_cell(const Cell<dim>   &cell,
@@ -318,8 +318,8 @@ namespace talus
 
 
 
-    /// Return the cells of this rank and ghosts that share a corner with
-    /// @p cell, without cells across a periodic face.
+    /// Return the cells, owned or ghosts, that share a corner with @p cell,
+    /// except across periodic faces.
     template <int dim>
     std::vector<unsigned int>
     ClippedBoxes<dim>::cells_around(const unsigned int cell) const
@@ -348,19 +348,19 @@ namespace talus
 
 
 
-    /// Return cell and box that take a sliver in @p cell: the nearest box that
-    /// is kept; if none is around, the box that had most soil at first,
-    /// provided that it had so much more than the @p first_volume of the
-    /// sliver's box that the two could not be neighbours; else
-    /// invalid_unsigned_int. Ties are broken by the keys of the cells, which do
-    /// not depend on the ranks.
+    /// Return cell and box that receive a sliver of @p cell: the nearest kept
+    /// box. Without a kept box around, return the box with the largest initial
+    /// volume, if so much larger than @p first_volume, the initial volume of
+    /// the giving box, m^dim, that both could not be neighbouring points;
+    /// otherwise invalid_unsigned_int. Ties are broken by the keys of the
+    /// cells, independently of the ranks.
     template <int dim>
     std::pair<unsigned int, unsigned int>
     ClippedBoxes<dim>::receiver(const PartInside<dim> &sliver,
                                 const double           first_volume,
                                 const unsigned int     cell) const
     {
-      // The smallest rank wins.
+      // The smallest Rank wins.
       using Rank = std::tuple<bool, double, unsigned long, unsigned int>;
       Rank best(true, std::numeric_limits<double>::infinity(), 0, 0);
       std::pair<unsigned int, unsigned int> result{
@@ -391,9 +391,9 @@ namespace talus
 
 
 
-    /// Return the slivers that move, by the rank that gets them, and remove
-    /// them from their boxes. Slivers only go to boxes that had more at first,
-    /// and so come to an end. Soil that is thin everywhere stays.
+    /// Remove the slivers on this rank and return them, by receiving rank.
+    /// Each receiver was initially larger than the giver, and therefore the
+    /// process ends. Soil that is thin everywhere stays.
     template <int dim>
     std::map<unsigned int, std::vector<SliverTransfer<dim>>>
     ClippedBoxes<dim>::take_slivers()
@@ -421,8 +421,8 @@ namespace talus
 
 
 
-    /// Slivers move until all have arrived. The owner of a sliver knows all
-    /// cells around it and decides, so no rank needs cells beyond its ghosts.
+    /// Move slivers until all have arrived. The owner of a sliver knows all
+    /// surrounding cells and decides; no rank needs cells beyond the ghosts.
     template <int dim>
     void
     ClippedBoxes<dim>::merge_slivers()

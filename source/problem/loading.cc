@@ -168,8 +168,8 @@ namespace talus
       return "";
     return "'Gravity/Magnitude' is 0, and there is neither a body force nor a "
            "motion of the ground: the soil has no weight, and only initial "
-           "velocities and stresses, faces of the mesh and obstacles move it. "
-           "If that is not meant, set 'Gravity/Magnitude' to 9.81.";
+           "velocities and stresses, faces of the mesh and obstacles move the "
+           "soil. Unless this is intended, set 'Gravity/Magnitude' to 9.81.";
   }
 
 

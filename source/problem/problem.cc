@@ -192,8 +192,8 @@ namespace talus
 
 
 
-  /// A free face holds nothing, so it may lie farther out than asked for. At a
-  /// face of outflow the place says which soil is counted.
+  /// A free face carries no load, and may lie farther out than requested. The
+  /// place of an outflow face decides which soil is counted.
   template <int dim>
   std::array<bool, 2 * dim>
   Problem<dim>::faces_that_may_move() const
@@ -230,8 +230,8 @@ namespace talus
 
 
 
-  /// By the number of the body. The transfer gets this and no law: the two
-  /// rooms do not know each other.
+  /// By the number of the body. The transfer gets only the flags: the rooms
+  /// transfer and materials do not include each other.
   template <int dim>
   std::vector<bool>
   Problem<dim>::bodies_with_bbar() const

@@ -184,10 +184,11 @@ namespace talus
           {
             const std::string section = materials.of_body(b).section();
             const std::string name    = section.substr(section.rfind('/') + 1);
+            const auto        path    = folder / table;
             tables[name]              = {"strength of " + name,
                                          "table",
-                                         folder / table,
-                                         strength_table(folder / table).checksum()};
+                                         path,
+                                         strength_table(path).checksum()};
           }
     std::vector<InputFile> result;
     for (const auto &[name, table] : tables)

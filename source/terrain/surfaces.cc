@@ -185,7 +185,7 @@ namespace talus
   Surfaces<dim>::read_route(const std::string &path,
                             const std::string &file) const
   {
-    // Shape, log and remarks ask for the route, one after another.
+    // Shape, log and remarks read the same route; the file is read once.
     if (const auto known = routes_.find(file); known != routes_.end())
       return known->second.corners;
     const std::filesystem::path place = folder_ / file;

@@ -18,14 +18,14 @@ namespace talus::cases
 {
   using Overrides = std::vector<std::string>;
 
-  /// Full path of a parameter file of prm/, or of one beside the tests.
+  /// Full path of a parameter file of prm/ or of the folder of the tests.
   std::string
   parameter_file(const std::string &name);
 
 
 
-  /// A simulation in this process, set up from a parameter file and from what
-  /// the command line would set on top of it. One at a time: deal.II's
+  /// A simulation in this process, set up from a parameter file and from
+  /// overrides, as by the command line. Only one object at a time: deal.II's
   /// parameters are global.
   template <int dim>
   class Case

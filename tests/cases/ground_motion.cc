@@ -44,8 +44,8 @@ TEST(GroundMotion, SeenFromTheGround)
   Case<2>    block(block_file,
                 {table("motion",
                        "time [s],horizontal [m/s^2],vertical [m/s^2],gravity "
-                          "factor [-]\n0,0,0,1\n0.1,4,2,1\n0.3,-4,0,0.5\n0.4,0,0,"
-                          "0.5\n"),
+                          "factor [-]\n0,0,0,1\n0.1,4,2,1\n0.3,-4,0,0.5\n"
+                          "0.4,0,0,0.5\n"),
                     "Ground motion/Start time=0.05",
                     "Ground motion/Factor=1.5",
                     "Bodies/block/Lower corner=0,0.75",

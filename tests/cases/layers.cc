@@ -56,11 +56,12 @@ namespace
     constexpr double H = 2., tau_max = 1000., rho = 1500.; // m, Pa, kg/m^3
     const auto       folder =
       std::filesystem::path(TALUS_RESULTS_DIR) / text("shear-layer-", length);
+    const std::string upper = text(length, ", 2");
     const Overrides   strip = {"Output/Write points=false",
                                "Output/Write grid=false",
                                "Output/Folder=" + folder.string(),
                                text("Grid/Upper corner=", length, ", 2.5"),
-                               text("Bodies/layer/Upper corner=", length, ", 2")};
+                               "Bodies/layer/Upper corner=" + upper};
     const std::string file  = "verification/shear-layer.prm";
     Case<2>           layer(file, strip);
     layer->run();

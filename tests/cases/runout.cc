@@ -93,8 +93,8 @@ namespace runout_test
 
 
 
-  // Of two blocks the lower one leaves the mesh: the centre of mass of the rest is
-  // back up the slope, and the way of the slide does not turn with it.
+  // The lower of two blocks leaves the mesh: the centre of mass of the soil
+  // moves back up the slope, and the way of the slide must not turn back.
   TEST(Runout, DoesNotTurnWhereSoilLeaves)
   {
     const std::string file = "verification/block-on-incline.prm";

@@ -258,9 +258,9 @@ namespace talus
       return {{{{{c, -s}}, {{s, c}}}}};
     else
       {
-        const std::array<double, 3> n = {{1. / 3., 2. / 3., -2. / 3.}};
-        const Matrix<3, double>     K = {
-              {{{{0., -n[2], n[1]}}, {{n[2], 0., -n[0]}}, {{-n[1], n[0], 0.}}}}};
+        const double            x = 1. / 3., y = 2. / 3., z = -2. / 3.;
+        const Matrix<3, double> K = {
+          {{{{0., -z, y}}, {{z, 0., -x}}, {{-y, x, 0.}}}}};
         return add(add(identity<3, double>(), K, s), product(K, K), 1. - c);
       }
   }

@@ -68,8 +68,8 @@ namespace talus
     }
 
     /// Throw ExcPoint if @p n_points, the number of points on all ranks,
-    /// exceeds the maximum. Otherwise later splits on this rank, which has
-    /// @p n_own points now, are limited to what the other ranks leave.
+    /// exceeds the maximum. Otherwise limit later splits on this rank, which
+    /// has @p n_own points now, to the maximum less the points of other ranks.
     void
     check_total(double n_points, double n_own);
 
@@ -212,7 +212,7 @@ namespace talus
       unsigned int axes;
     };
     std::vector<SplitMark> marked_;
-    double                 n_on_other_ranks_ = 0; ///< at the last check_total()
+    double                 n_on_other_ranks_ = 0; ///< in the last check_total()
     double                 next_id_          = 0;
     double                 id_stride_        = 1;
     ConservationCheck<dim> conservation_;

@@ -20,10 +20,10 @@ namespace talus
 
 
   /// Coordinates in which the user gives the places of a section, entry
-  /// `Coordinates`: those of the mesh; or, in 3-D, of the map: easting, northing
-  /// and height in place of x, y, z; easting, northing in place of x, z; easting,
-  /// height in place of x, y. The functions return places in the axes of the
-  /// mesh, in which y is up and z points to the south.
+  /// `Coordinates`: coordinates of the mesh or, in 3-D, of the map: easting,
+  /// northing and height in place of x, y, z; easting, northing in place of
+  /// x, z; easting, height in place of x, y. The functions return places in the
+  /// axes of the mesh, in which y is up and z points to the south.
   class PlaceCoordinates
   {
   public:
@@ -34,9 +34,9 @@ namespace talus
       , origin_(origin)
     {}
 
-    /// For a section with the path @p section, from the text of the entry, "mesh"
-    /// or "map". Throws ExcUser for the map in 2-D, where a place has only its x
-    /// along the section of the map.
+    /// For a section with the path @p section, from the text of the entry,
+    /// "mesh" or "map". Throws ExcUser for the map in 2-D, where a place has
+    /// only its x along the section of the map.
     PlaceCoordinates(const std::string      &section,
                      const std::string      &coordinates,
                      int                     dim,

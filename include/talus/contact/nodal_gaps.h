@@ -57,10 +57,10 @@ namespace talus
     /// meet.
     static constexpr double reach = 3. * 1.7320508075688772;
 
-    /// Set the surfaces and delete all gaps. Call after each change of the mesh,
-    /// its partition, or the slots. @p slots: slot of each surface. A node stores one gap
-    /// per slot: no node may be near two surfaces of a slot, see
-    /// min_distance_in_slot().
+    /// Set the surfaces and delete all gaps. Call after each change of the
+    /// mesh, the partition, or the slots. @p slots: slot of each surface. A
+    /// node stores one gap per slot: no node may be near two surfaces of a
+    /// slot, see min_distance_in_slot().
     void
     prepare(const Grid<dim>          &grid,
             std::vector<Surface>      surfaces,

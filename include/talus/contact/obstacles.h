@@ -58,8 +58,8 @@ namespace talus
     /// Numbers of obstacles, ascending.
     using Numbers = std::vector<unsigned int>;
 
-    /// Return all obstacles whose bounding boxes, at their present positions, are
-    /// not farther from @p x than @p distance, m; more may be included. A
+    /// Return all obstacles whose bounding boxes, at their present positions,
+    /// are not farther from @p x than @p distance, m; more may be included. A
     /// spatial index makes the cost independent of the number of obstacles.
     Numbers
     near(const dealii::Point<dim> &x, const double distance) const
@@ -100,8 +100,9 @@ namespace talus
     void
     advance(double t, double dt);
 
-    /// Index the obstacles at their present positions. Call after positions were
-    /// restored from a checkpoint; prepare() and advance() call it themselves.
+    /// Index the obstacles at their present positions. Call after positions
+    /// were restored from a checkpoint; prepare() and advance() call locate()
+    /// themselves.
     void
     locate();
 

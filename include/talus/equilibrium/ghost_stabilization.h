@@ -48,7 +48,7 @@ namespace talus
     void
     couple(StiffnessMatrix<dim> &matrix) const;
 
-    /// Add the derivative of the penalty forces.
+    /// Add the derivative of the penalty forces, N/m.
     void
     add_to_matrix(StiffnessMatrix<dim> &matrix) const;
 

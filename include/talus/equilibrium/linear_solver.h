@@ -29,11 +29,11 @@ namespace talus
 
 
 
-  /// Matrix of a linear system with properties for the solver.
+  /// Matrix of a linear system, with properties that the solver uses.
   struct LinearSystem
   {
     const dealii::TrilinosWrappers::SparseMatrix &matrix; ///< N/m
-    LuFactorization  &factorization; ///< earlier factors
+    LuFactorization  &factorization; ///< factors of previous matrices
     const RigidModes &modes;         ///< for multigrid
     unsigned int      dim;           ///< number of unknowns per node
     bool symmetric; ///< whether the matrix is symmetric, positive definite

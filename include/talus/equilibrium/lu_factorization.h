@@ -19,7 +19,7 @@ namespace talus
     LuFactorization();
     ~LuFactorization();
 
-    /// Forget the last matrix. To be called whenever the pattern changes.
+    /// Forget the previous matrix. Call after each change of the pattern.
     void
     clear();
 

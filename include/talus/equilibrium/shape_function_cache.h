@@ -46,7 +46,7 @@ namespace talus
               first_node_[c + 1] - first_node_[c]};
     }
 
-    /// Same nodes as an array.
+    /// Return the nodes of patch @p c as an array.
     dealii::ArrayView<const unsigned int>
     nodes(const unsigned int c) const
     {

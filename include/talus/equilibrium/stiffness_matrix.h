@@ -48,10 +48,10 @@ namespace talus
     void
     add(const Nodes &nodes, const dealii::FullMatrix<double> &block);
 
-    /// Send the rows of ghost nodes to their owners, hold the unknowns that are
-    /// held now, and add 1e-13 of the diagonal to the diagonal: where soil can
-    /// move freely, a solution is large, but not infinite. A held unknown keeps
-    /// only its diagonal entry. Collective.
+    /// Send the rows of ghost nodes to their owners, apply the present
+    /// constraints of the unknowns, and increase the diagonal by a factor of
+    /// 1 + 1e-13: where soil can move freely, the solution is large, but not
+    /// infinite. A held unknown keeps only its diagonal entry. Collective.
     void
     finish();
 
@@ -74,7 +74,8 @@ namespace talus
     const Unknowns<dim> *unknowns_ = nullptr;
     std::unique_ptr<dealii::TrilinosWrappers::SparsityPattern> pattern_;
     dealii::TrilinosWrappers::SparseMatrix                     matrix_;
-    /// First column of a node in the numbering of this rank, -1 without.
+    /// First column of each node in the numbering of this rank; -1 for nodes
+    /// that are not active.
     std::vector<int> column_of_node_;
 
     // Scratch memory

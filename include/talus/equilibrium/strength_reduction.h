@@ -11,13 +11,13 @@
 
 namespace talus
 {
-  /// Factor of safety by shear strength reduction @cite griffiths1999: the
-  /// largest number by which all strengths can be divided with the soil still
-  /// in balance. The factor is less than 1 if the soil needs more strength to
-  /// stand. Trial factors that grow or fall by a half give a bracket, which is
-  /// then bisected. Failure of the soil counts only after the soil stood with
-  /// nearly the same factor, as a larger reduction may be too large for one
-  /// trial.
+  /// Factor of safety: the largest number by which all strengths can be divided
+  /// with the soil still in balance, by shear strength reduction.
+  /// @cite griffiths1999 The factor is less than 1 if the soil needs more
+  /// strength to stand. Trial factors that grow or fall by a half give a
+  /// bracket, which is then bisected. Failure of the soil counts only after the
+  /// soil stood with nearly the same factor, as a larger reduction may be too
+  /// large for one trial.
   class StrengthReduction : public dealii::ParameterAcceptor
   {
   public:

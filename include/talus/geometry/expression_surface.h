@@ -59,7 +59,7 @@ namespace talus
     double
     compute_largest_change(const dealii::Point<dim> &x, double distance) const;
 
-    /// Results by the numbers that they depend on.
+    /// Results already computed, by the n numbers that determine a result.
     template <std::size_t n, typename T>
     using Table = std::unordered_map<std::array<double, n>,
                                      T,

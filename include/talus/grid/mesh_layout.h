@@ -139,8 +139,8 @@ namespace talus
     check_memory(double n_cells) const;
 
     /// Maximum number of cells on all @p n_ranks ranks together: p4est counts
-    /// the cells of a rank in 32 bits, and deal.II numbers the nodes of all
-    /// ranks, in 32 bits by default.
+    /// the cells of each rank in 32 bits, and deal.II numbers the nodes of all
+    /// ranks together, by default in 32 bits.
     static double
     max_n_cells(double n_ranks);
 

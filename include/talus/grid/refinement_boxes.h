@@ -20,9 +20,10 @@ namespace talus
     unsigned int n_levels;
   };
 
-  /// Parse the parameter 'Grid/Refinement boxes', with corners in @p coordinates,
-  /// and return the boxes in the axes of the mesh. Throws ExcUser if the text
-  /// has the wrong format, or if a box lies outside of @p domain.
+  /// Parse the parameter 'Grid/Refinement boxes', with corners in
+  /// @p coordinates, and return the boxes in the axes of the mesh. Throws
+  /// ExcUser if the text has the wrong format, or if a box lies outside of
+  /// @p domain.
   template <int dim>
   std::vector<RefinementBox<dim>>
   parse_refinement_boxes(const std::string      &boxes,

@@ -92,8 +92,8 @@ namespace talus
 
 
   /// Return a field of a CSV table: 16 significant digits, so that two runs can
-  /// be compared to round-off; empty if @p value is NaN, for a quantity without
-  /// a value.
+  /// be compared to round-off. Empty if @p value is NaN: the quantity has no
+  /// value.
   std::string
   csv_field(double value);
 

@@ -17,10 +17,10 @@ namespace talus
   /// Common part of HDF5 files that all ranks write together or read together.
   /// All calls are collective.
   ///
-  /// Like a stream a file remembers its first failure, on whichever rank that
-  /// was: all ranks then know it, and all further calls do nothing. Whoever
-  /// writes looks at error() after Hdf5OutputFile::close(), whoever reads
-  /// before using what was read.
+  /// Like a stream, a file keeps the first failure, from any rank: all ranks
+  /// then know the failure, and all further calls do nothing. Check error()
+  /// after Hdf5OutputFile::close() when writing, before using the data when
+  /// reading.
   ///
   /// (deal.II's own classes check the return codes of the library only in
   /// Debug. DataOutBase::write_hdf5_parallel() keeps three of the nine
@@ -58,8 +58,8 @@ namespace talus
     std::pair<std::uint64_t, std::uint64_t>
     first_and_total(std::uint64_t n_rows) const;
 
-    /// Return first and number of the rows of this rank if all ranks together
-    /// read @p n_rows rows in nearly equal parts.
+    /// Return the first row of this rank and the number of rows, if all ranks
+    /// together read @p n_rows rows in nearly equal parts.
     std::pair<std::uint64_t, std::uint64_t>
     share_of_rank(std::uint64_t n_rows) const;
 

@@ -13,7 +13,7 @@ namespace talus
 {
   /// Exclusive lock on an output folder for the lifetime of this object. The
   /// first rank locks the file `lock` in the folder; the operating system
-  /// releases the lock when the program ends, in whatever way.
+  /// releases the lock at any end of the program.
   class FolderLock
   {
   public:
@@ -23,9 +23,9 @@ namespace talus
     FolderLock &
     operator=(const FolderLock &) = delete;
 
-    /// Make the folder if it does not exist, and lock the folder. Throws
-    /// ExcUser with host and process if another run holds the lock. On a file
-    /// system without locks nothing is locked. Collective.
+    /// Make the folder if there is none, and lock the folder. Throws ExcUser
+    /// with host and process if another run holds the lock. There is no lock on
+    /// file systems without locks. Collective.
     void
     acquire(const std::filesystem::path &folder, MPI_Comm communicator);
 
@@ -36,24 +36,24 @@ namespace talus
 
 
   /// Throw ExcUser if the folder does not exist and cannot be made, or cannot
-  /// be written. Leaves nothing there.
+  /// be written. Leaves no file behind.
   void
   check_can_be_made(const std::filesystem::path &folder);
 
 
 
-  /// Return a sentence if a run must not write into the folder, because the run
-  /// would write over files of the user or over input of the run, see
-  /// protect_input(); else an empty string. For the first rank.
+  /// Return the reason why a run must not write into the folder, a sentence:
+  /// the run would write over files of the user or over input of the run, see
+  /// protect_input(). Empty without a reason. For the first rank.
   std::string
   foreign_file(const std::filesystem::path &folder, Beginning beginning);
 
 
 
-  /// Remove results of an earlier run, for the first rank. A fresh run removes
-  /// all results except parameters.prm, so that no old result looks like a new
-  /// one; checkpoints are not touched. A resumed run removes unfinished files,
-  /// NAME.part, and the last state before an error. Throws ExcUser.
+  /// Remove results of an earlier run. A fresh run removes all results except
+  /// parameters.prm and the checkpoints: no old result may look like a new
+  /// result. A resumed run removes unfinished files, NAME.part, and the last
+  /// state before an error. Throws ExcUser. For the first rank.
   void
   remove_results(const std::filesystem::path &folder, Beginning beginning);
 } // namespace talus

@@ -48,15 +48,15 @@ namespace talus
 
   /// Volume times deviator, mean of start and end of the step, J: the
   /// contraction with a deviatoric strain of the step, plastic or total, gives
-  /// the work.
+  /// the work. @p V0 is the reference volume, m^dim.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE Stress<dim, Number>
                       deviatoric_force(const Motion<dim, Number>     &motion,
-                                       const Number                   reference_volume,
+                                       const Number                   V0,
                                        const StressStep<dim, Number> &stress)
   {
-    const Number        before = 0.5 * reference_volume * motion.J_before;
-    const Number        after  = 0.5 * reference_volume * motion.J_after;
+    const Number        before = 0.5 * V0 * motion.J_before;
+    const Number        after  = 0.5 * V0 * motion.J_after;
     Stress<dim, Number> force;
     for (unsigned int c = 0; c < n_stress_components<dim>; ++c)
       force[c] =
@@ -103,7 +103,8 @@ namespace talus
 
 
 
-  /// Store the stress at the end of the step in the axes at the end.
+  /// Turn the stress at the end of the step from the axes at mid-step to the
+  /// axes at the end, and store the result.
   template <int dim, typename Number>
   TALUS_ALWAYS_INLINE void
   store_turned_stress(const PointsView<dim>              &points,

@@ -74,7 +74,7 @@ namespace talus
     Number shear_stress; ///< trial shear stress, Pa
     Number old_strain;   ///< plastic shear strain at the start of the step [-]
     Number strength;     ///< at the start of the step, Pa
-    Number loss;         ///< strength that remoulding can remove, Pa
+    Number loss;         ///< strength that remoulding can still remove, Pa
   };
 
 

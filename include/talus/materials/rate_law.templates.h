@@ -99,8 +99,8 @@ namespace talus
 
 
 
-  /// Call @p action as with_point_strength() does; elastic laws have no
-  /// strength.
+  /// Call @p action with the strength factor of the points, as
+  /// with_point_strength() does; elastic laws have no strength.
   template <int dim, typename FlowRule>
   template <typename Action>
   void
@@ -133,7 +133,7 @@ namespace talus
     const unsigned int plastic  = plastic_variable_;
     bool               is_sound = true;
     with_strength(points, [&](const auto &factor) {
-      // Made here, not captured: the compiler then knows all its numbers.
+      // Constructed here, not captured, so that the compiler knows all values.
       const RateLawStep<dim, FlowRule> step = {
         columns, work, plastic, dt, moduli, flow};
       constexpr unsigned int n    = n_registers_at_once<FlowRule>;

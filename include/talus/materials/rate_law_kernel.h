@@ -9,7 +9,7 @@
 
 namespace talus
 {
-  /// Dilation of flow at constant volume, at no cost.
+  /// Dilation of plastic flow at constant volume: zero, without computation.
   struct NoDilation
   {};
 
@@ -64,7 +64,7 @@ namespace talus
     WorkspaceView<dim> workspace; ///< velocity gradients, 1/s
     unsigned int       plastic;   ///< column of the plastic variable
     double             dt;        ///< s
-    Moduli             moduli;    ///< of the law, Pa
+    Moduli             moduli;    ///< elastic constants of the law, Pa
     FlowRule           flow_rule;
   };
 

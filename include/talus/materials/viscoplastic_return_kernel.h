@@ -188,10 +188,10 @@ namespace talus
       return max(excess, Number(0.)) * Number(1. / linear);
 
     // Lanes without excess may have any positive number.
-    const Number solvable = select(yields, excess, Number(r.modulus));
-    const Number x        = r.exponent < 1. && is_viscous
-                              ? solve_for_overstress(solvable, loss, yields, r)
-                              : solve_for_shear(solvable, loss, yields, linear, r);
+    const Number stress = select(yields, excess, Number(r.modulus));
+    const Number x      = r.exponent < 1. && is_viscous
+                            ? solve_for_overstress(stress, loss, yields, r)
+                            : solve_for_shear(stress, loss, yields, linear, r);
     return select(yields, x, Number(0.));
   }
 } // namespace talus

@@ -23,10 +23,11 @@ namespace talus
   public:
     using List = std::vector<std::unique_ptr<Body<dim>>>;
 
-    /// The sections of the parameters are declared by @p names.
+    /// Declare the parameters: a section for each of @p names.
     explicit Bodies(const std::vector<std::string> &names);
 
-    /// Call before any query of shapes.
+    /// Give the shapes access to the named surfaces. Call before any query of
+    /// shapes.
     void
     use_surfaces(const SurfaceSource<dim> &surfaces);
 
@@ -45,7 +46,7 @@ namespace talus
     std::vector<std::string>
     names() const;
 
-    /// Names of the materials by body.
+    /// Name of the material of each body.
     std::vector<std::string>
     names_of_materials() const;
 
@@ -53,18 +54,20 @@ namespace talus
     std::vector<Box<dim>>
     bounding_boxes(const Box<dim> &domain) const;
 
-    /// Whether points may start out of the cells of their rank: bodies are
-    /// displaced or clipped.
+    /// Return whether points may start outside of the cells of this rank:
+    /// bodies are displaced or clipped.
     bool
     may_leave_cells() const;
 
-    /// Set the velocities at the start to the velocities of time @p t, s.
+    /// Set the velocities of @p points to the initial velocities of their
+    /// bodies, m/s, at time @p t, s.
     void
     set_velocity(Points<dim>     &points,
                  double           t,
                  const Constants &constants) const;
 
-    /// Whether the initial velocities belong to half a step before the start.
+    /// Return whether initial velocities are given half a step before the
+    /// start.
     bool
     have_velocity_of_half_step() const
     {
@@ -77,9 +80,9 @@ namespace talus
     std::function<double(const dealii::Point<dim> &)>
     find_mudline(const Box<dim> &domain);
 
-    /// Height of the mudline, m, in the vertical through a place; not a number
-    /// where the vertical meets no soil. Empty if points do not start where
-    /// their bodies are. Call after find_mudline().
+    /// Return a function for the height of the mudline, m, in the vertical
+    /// through a place; NaN where there is no soil. Empty if bodies are
+    /// displaced at the start. Call after find_mudline().
     std::function<double(const dealii::Point<dim> &)>
     mudline() const;
 

@@ -30,7 +30,7 @@ namespace talus
       surfaces.prepare(constants, folder, origin);
     }
 
-    /// Add the files, which must be the same when the run is resumed.
+    /// Add the files to the state: a resumed run needs the same files.
     void
     list_state(StateList &list) const
     {
@@ -42,7 +42,7 @@ namespace talus
     Constants              constants;
     std::filesystem::path  folder; ///< place of the parameter file
     Surfaces<dim>          surfaces;
-    std::vector<InputFile> strength_tables; ///< tables named by materials
+    std::vector<InputFile> strength_tables; ///< tables of all materials
   };
 } // namespace talus
 

@@ -33,7 +33,7 @@ namespace talus
     std::string
     remark(const State<dim> &state) const override;
 
-    Quantities               areas_; ///< contact, footprint: last row
+    Quantities               areas_; ///< contact area, footprint; last row
     const Boundaries<dim>   &boundaries_;
     const FacetContact<dim> &contact_;
   };

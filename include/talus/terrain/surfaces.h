@@ -86,7 +86,8 @@ namespace talus
       InputFile                     file;
       std::vector<dealii::Point<2>> corners; ///< on the map, m
     };
-    mutable std::map<std::string, Route> routes_; ///< routes read so far, by file
+    /// Routes read so far, by file.
+    mutable std::map<std::string, Route> routes_;
   };
 } // namespace talus
 

@@ -9,7 +9,7 @@
 
 namespace talus
 {
-  /// Data of a step which the transfer reads and writes.
+  /// Data of a step that the transfer reads and writes.
   template <int dim>
   struct StepContext
   {

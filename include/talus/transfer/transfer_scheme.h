@@ -10,7 +10,7 @@
 
 namespace talus
 {
-  /// Choice how the points get their velocities from the grid: FLIP, PIC, a
+  /// Choice of the update of the points' velocities from the grid: FLIP, PIC, a
   /// mean of both, or FLIP with velocities filtered at a fixed interval.
   class TransferScheme : public dealii::ParameterAcceptor
   {
@@ -24,8 +24,8 @@ namespace talus
       return {flip_fraction_};
     }
 
-    /// Whether the velocities are filtered at the beginning of the step after
-    /// @p step steps; see filter_null_space().
+    /// Return whether the velocities are filtered at the beginning of the step
+    /// after @p step steps; see filter_null_space().
     bool
     filters(const unsigned long step) const
     {

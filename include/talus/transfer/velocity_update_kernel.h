@@ -11,7 +11,7 @@ namespace talus
   /// grid. @cite brackbill1986
   struct VelocityUpdate
   {
-    double flip_fraction; ///< weight of FLIP, the rest is PIC [-]
+    double flip_fraction; ///< weight of FLIP [-]; PIC has the remainder
 
     /// Return the new velocity, m/s.
     /// @param own Velocity of the point(s) before the update, m/s.
@@ -28,7 +28,7 @@ namespace talus
     }
   };
 
-  /// Take the velocity of the grid.
+  /// Update by PIC alone: the points take the velocity of the grid.
   inline constexpr VelocityUpdate pic = {0.};
 } // namespace talus
 

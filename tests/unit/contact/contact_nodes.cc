@@ -61,8 +61,8 @@ TEST(ContactNodes, VolumeFractionMassAndVelocity)
 
 
 
-// Each of the facets around an inner node passes half of the impulse (1, 2) N s,
-// whatever rank the facet is on: together (1, 2) N s on 750 kg.
+// Each of the facets around an inner node, on any rank, passes half of the
+// impulse (1, 2) N s: together (1, 2) N s on 750 kg.
 TEST(ContactNodes, ImpulsesOfAllRanksChangeVelocities)
 {
   SoilOnBed<2> soil;
@@ -95,7 +95,7 @@ TEST(ContactNodes, ImpulsesOfAllRanksChangeVelocities)
 
 
 // At the roller x = 0 no impulse changes the velocity along x: the wall bears
-// that part, and the account of the walls' impulses has it.
+// the component, which is in the account of the walls' impulses.
 TEST(ContactNodes, WallsHoldTheirComponents)
 {
   SoilOnBed<2> soil("", "set Left = roller\n");

@@ -155,7 +155,7 @@ TEST(FacetConstraints, FrictionOfCoulombWithACap)
   const double dt = 0.01;
   for (const unsigned int f : soil.constraints.loaded())
     {
-      // On 1 m^2 at most 1000 Pa, that is 10 N s in the step.
+      // At most 1000 Pa on 1 m^2: 10 N s in the step.
       for (const auto &[normal, limit] :
            {std::pair(0., 0.), {8., 2.}, {39., 9.75}, {41., 10.}, {1e6, 10.}})
         {

@@ -8,8 +8,8 @@ namespace facet_contact_test
 {
   TALUS_ALSO_ON_RANKS(FacetContact, 2, 3);
 
-  /// Soil with the velocity @p before, m/s, after a step of @p dt, s, in contact
-  /// with the bed.
+  /// Soil with the initial velocity @p before, m/s, after a step of @p dt, s,
+  /// in contact with the bed.
   template <int dim>
   struct Step : SoilOnBed<dim>
   {
@@ -90,7 +90,8 @@ namespace facet_contact_test
     // Without friction only the normal velocity changes.
     Step<dim>("set Friction coefficient = 0", v(1., -2.))
       .expect(2. * m, 0., v(1., 0.));
-    // Friction takes 0.3 of the normal impulse, and no more than stops the soil.
+    // The friction impulse is 0.3 of the normal impulse, but at most stops the
+    // soil.
     const std::string rough = "set Friction coefficient = 0.3";
     Step<dim>(rough, v(1., -2.)).expect(2. * m, -0.6 * m, v(0.4, 0.));
     Step<dim>(rough, v(-0.5, -2.)).expect(2. * m, 0.5 * m, v(0., 0.));
@@ -125,8 +126,9 @@ TEST(FacetContact, SoilMayApproachByTheGap)
 
 
 
-// The second step starts from the impulses of the first one and, with nothing
-// left to correct, undoes them sweep by sweep; scaled to its own length.
+// The second step starts from the impulses of the first step, scaled by the
+// ratio of the time steps, and, with nothing left to correct, removes the
+// impulses sweep by sweep.
 TEST(FacetContact, ImpulsesAreForcesOfThePreviousStep)
 {
   facet_contact_test::Step<2> soil("set Friction coefficient = 0",
@@ -167,7 +169,7 @@ TEST(FacetContact, ImpulsesSurviveACheckpoint)
       EXPECT_EQ(impulses[f].effective_mass, saved.effective_mass);
       EXPECT_EQ(impulses[f].mean_normal, saved.mean_normal);
     }
-  // Rows of facets that are not here do nothing.
+  // Rows of facets that do not exist have no effect.
   for (std::size_t i = 2; i < rows.size(); i += 9)
     rows[i] += 1.; // the number of the obstacle
   impulses.take(rows);

@@ -71,7 +71,8 @@ namespace
       this->constants.box_shape = this->transfer.box_shape();
     }
 
-    /// Give all points the velocity @p v, m/s, and the nodes theirs.
+    /// Give all points the velocity @p v, m/s, and compute the velocities of
+    /// the nodes.
     void
     move(const Tensor<1, dim> &v)
     {

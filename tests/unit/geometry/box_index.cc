@@ -14,7 +14,7 @@ namespace box_index_test
 
   constexpr double infinite = std::numeric_limits<double>::infinity();
 
-  /// Whether two boxes are nowhere farther apart than @p distance along an axis.
+  /// Whether two boxes are at most @p distance apart along each axis.
   template <int dim>
   bool
   are_near(const Box<dim> &a, const Box<dim> &b, const double distance)

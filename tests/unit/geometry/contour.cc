@@ -93,8 +93,8 @@ TEST(Contour, OfADiscAndABall)
 
 
 
-// A small body in a large, otherwise plain mesh is found, and only what is in the
-// mesh is drawn.
+// A small body in a large, otherwise empty mesh is found, and only the part in
+// the mesh is drawn.
 TEST(Contour, OfABodyThatIsSmallInTheMesh)
 {
   const Ball<2> disc(Point<2>(76.3, 0.), 0.2);

@@ -186,9 +186,9 @@ namespace pipe_test
   {
     const std::vector<Point<2>> section = {{0., 0.}, {30., 40.}, {130., 40.}};
     const auto                  at = [&](const Point<2> &a, const Point<2> &b) {
-      const auto crossings = find_crossings(section, {a, b});
-      return crossings.size() == 1 ? crossings[0]
-                                                    : SectionCrossing{std::nan(""), 0.};
+      const auto            crossings = find_crossings(section, {a, b});
+      const SectionCrossing none{std::nan(""), 0.};
+      return crossings.size() == 1 ? crossings[0] : none;
     };
     // Square to the first leg, in its middle and behind its beginning.
     EXPECT_NEAR(at({15. - 4., 20. + 3.}, {15. + 4., 20. - 3.}).length,

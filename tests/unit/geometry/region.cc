@@ -239,7 +239,7 @@ namespace
 
 
 
-  /// Ball that counts the questions for its distance.
+  /// Ball that counts the calls of signed_distance().
   struct CountedBall : Ball<3>
   {
     using Ball<3>::Ball;
@@ -256,8 +256,8 @@ namespace
 
 
 
-  // Where the two surfaces of a layer go on as one there is nothing to be found,
-  // and it is not looked for down to the largest depth, by 13 000 questions.
+  // Where the two surfaces of a layer coincide there is no soil, and boxes are
+  // not halved down to the largest depth, with 13 000 calls.
   TEST(Region, BetweenSurfacesThatCoincide)
   {
     const CountedBall ball(Point<3>(), 1.);

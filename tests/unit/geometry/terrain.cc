@@ -376,7 +376,8 @@ TEST_F(Layers, VolumeBetweenPlanes)
 
 
 
-// A steep face beside a box: the tangent plane at its centre knows nothing of it.
+// A steep face beside a box is unknown to the tangent plane at the centre of
+// the box.
 TEST_F(Layers, SteepFaceBesideAPlace)
 {
   const auto      step = expression<2>("if(x < 5.3, 0, -8)");

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Rasters by GDAL: the plane z = a x + b y + c comes back from GeoTIFF and from
-// netCDF-4 (HDF5 by another library than ours), and what is no raster of heights
-// is refused. What talus writes comes back by bit, with its map.
+// Rasters by GDAL: the plane z = a x + b y + c is read back from GeoTIFF and
+// from netCDF-4 (HDF5 by another library than ours). Files without a raster of
+// heights are refused. A raster written by talus is read back bit by bit, with
+// the map.
 
 #include <talus/base/errors.h>
 #include <talus/io/coordinate_system.h>
@@ -107,7 +108,7 @@ namespace gdal_raster_test
     /// Cells of 200 m x 100 m, the northernmost row first.
     constexpr Frame frame = {{12000., 200., 0., 42300., 0., -100.}};
 
-    /// Write a GeoTIFF of 4 x 3 values of the plane, but for one that is missing.
+    /// Write a GeoTIFF of 4 x 3 values of the plane, of which one is missing.
     void
     write_tiff(const fs::path    &path,
                const Frame       *place   = &frame,
@@ -302,8 +303,8 @@ namespace gdal_raster_test
 
 
 
-  // South first as GEBCO has it, and north first; packed in whole numbers; beside
-  // another array, which has no heights.
+  // Rows from the south, as in GEBCO, and from the north; packed in whole
+  // numbers; beside another array, which has no heights.
   TEST_F(GdalRasterTest, NetcdfRowsBothWaysAndPacked)
   {
     for (const bool ascends : {true, false})

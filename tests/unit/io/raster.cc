@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// Rasters: the plane z = a x + b y + c comes back from each dialect, and what is
-// no raster in metres is refused with a sentence.
+// Rasters: the plane z = a x + b y + c is read back from each dialect. Files
+// without a raster in metres are refused with a sentence.
 
 #include <talus/base/errors.h>
 #include <talus/io/esri_grid.h>

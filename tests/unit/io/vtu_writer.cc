@@ -248,7 +248,7 @@ namespace
 
 
 
-  // At 5 000 km single precision has steps of half a metre, as wide as the boxes.
+  // At 5 000 km single precision has steps of half a metre, the width of a box.
   TEST_F(VtuTest, FarFromTheOriginPlacesAreInDoublePrecision)
   {
     Scene<2> s("5000000, 0", "5000008, 4");

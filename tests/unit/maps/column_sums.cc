@@ -33,7 +33,7 @@ namespace column_sums_test
     add_shared(core, 100, 2, [&]() { return core.place(); });
     core.sort();
     ColumnSums<dim> sums(columns_over_slab<dim>());
-    // The second time nothing of the first one is left.
+    // The second time nothing is left of the first sums.
     for (unsigned int i = 0; i < 2; ++i)
       sums.sum_soil(core);
     Tensor<1, dim> force, forces;

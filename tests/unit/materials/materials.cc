@@ -228,8 +228,9 @@ namespace
 
 
 
-// rho g H = 147150 Pa: a shear modulus of 400 kPa bears that, one of 400 Pa, as
-// if kPa had been given, does not. Both causes are named, the likely one first.
+// rho g H = 147150 Pa: soil with a shear modulus of 400 kPa bears the weight,
+// soil with 400 Pa, as if the entry were in kPa, does not. Both causes are
+// named, the likelier cause first.
 TEST(Materials, CauseOfInversionFollowsFromTheStiffness)
 {
   for (const std::string law : {"linear elastic", "neo-Hookean"})

@@ -98,8 +98,8 @@ namespace return_mapping_test
 
 
 
-  /// The stress lies on the cone. The mean stress is the elastic one less the
-  /// bulk modulus times the dilation.
+  /// The stress lies on the cone. The mean stress is the elastic mean stress
+  /// minus the bulk modulus times the dilation.
   template <int dim>
   void
   expect_stress_on_cone(const StrainMeasure measure)
@@ -167,7 +167,7 @@ namespace return_mapping_test
 
 
   /// The elastic energy after a step of small strain is the energy of the
-  /// stress: what the step did more is plastic work.
+  /// stress: the remaining work of the step is plastic.
   template <int dim>
   void
   expect_energy_of_stress()

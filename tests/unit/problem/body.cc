@@ -131,8 +131,8 @@ namespace
 
 
 
-  // On n points per axis of the legs, n (n + 1)/2 lie below the hypotenuse or on
-  // it.
+  // With n points along each leg, n (n + 1)/2 points lie below the hypotenuse
+  // or on the hypotenuse.
   TEST(Bodies, PointsOnTheEdgeBelongToIt)
   {
     WithBodies<2> all({polygon("0,0; 4,0; 0,4") + centres});
@@ -302,9 +302,9 @@ namespace
 
 
 
-  // A wedge of 1 in 20, whose thickness is below a fifth of a box over the first
-  // two cells: the tip has no kept box around, but must not be a point of its
-  // own that is hundreds of times lighter than the next one.
+  // A wedge of 1 in 20 is thinner than a fifth of a box over the first two
+  // cells. The tip has no kept box around, but must not become a point hundreds
+  // of times lighter than the next point.
   TEST(ClippedBodies, ThinEdgesEndInPointsOfSomeWeight)
   {
     WithBodies<2> wedge({polygon("0.3,0; 4,0; 4,0.185") + clipped});

@@ -168,8 +168,8 @@ namespace geostatic_test
 
 
 
-// In axes along the slope: s_yy = g_y M, s_xx = s_zz = K0 s_yy, s_xy = g_x M. The
-// body without K0 keeps no stress.
+// In axes along the slope: s_yy = g_y M, s_xx = s_zz = K0 s_yy, s_xy = g_x M.
+// The body without K0 has no stress.
 TEST(GeostaticStress, InfiniteSlopeOnTheBottom)
 {
   using namespace geostatic_test;
@@ -213,8 +213,8 @@ TEST(GeostaticStress, LayersFollowAnInclinedBed)
 
 
 
-// In level ground sqrt(s:s/2) = (1 - K0)|s_yy|/sqrt(3); the deepest points, under
-// 2612.5 kg/m^2, bear the most.
+// In level ground sqrt(s:s/2) = (1 - K0)|s_yy|/sqrt(3); the deepest points,
+// under 2612.5 kg/m^2, bear the most.
 TEST(GeostaticStress, StressAboveTheStrengthIsTold)
 {
   using namespace geostatic_test;

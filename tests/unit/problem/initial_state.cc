@@ -12,8 +12,8 @@ namespace initial_state_test
   using dealii::Point;
   using dealii::Tensor;
 
-  /// A body of @p law in 2-D and the points of it and of a second body, at
-  /// random places.
+  /// A body of @p law in 2-D and a second body, both with points at random
+  /// places.
   struct Started : Core<2>
   {
     explicit Started(const std::string &entries,

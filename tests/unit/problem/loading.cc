@@ -104,7 +104,7 @@ namespace
 
 
 
-  // Without gravity any other load says that the user means it.
+  // Without gravity, any other load shows the user's intention.
   TEST(Loading, SoilWithoutWeightIsRemarked)
   {
     const auto note = [](const std::string &entries) {
@@ -142,8 +142,9 @@ namespace
 
 
 
-  // In the frame of the ground soil of any density feels minus its acceleration,
-  // whose horizontal part points up and down a turned mesh, too.
+  // In the frame of the ground, soil of any density feels minus the
+  // acceleration of the ground. In a turned mesh the horizontal part points up
+  // and down, too.
   TEST(Loading, GroundMotionInTheFrameOfTheSlope)
   {
     Loaded<2> all(shaken,

@@ -10,8 +10,8 @@ namespace trigger_test
   using namespace talus;
   using dealii::Point;
 
-  /// Bodies "clay" (0) and "mud" (1) with strength, "rock" (2) without; a point
-  /// of each at x = 0.5 m and at x = 1.5 m.
+  /// Bodies "clay" (0) and "mud" (1) with strength, "rock" (2) without; each
+  /// has a point at x = 0.5 m and a point at x = 1.5 m.
   struct Triggered : FreshParameters
   {
     explicit Triggered(const std::string &entries)
@@ -115,7 +115,7 @@ TEST(TriggerInTime, AtOnceWithoutDuration)
   const auto after = soil.factors_after_step(5., 5.1);
   for (const unsigned int p : {0, 1, 2, 3})
     EXPECT_DOUBLE_EQ(after[p], 0.4);
-  // Without strength there is nothing to lose.
+  // Without strength there is no loss.
   EXPECT_EQ(after[4], 1.);
   EXPECT_EQ(after[5], 1.);
 }

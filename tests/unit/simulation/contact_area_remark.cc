@@ -37,8 +37,8 @@ namespace contact_area_remark_test
 
 
 // Facets whose nodes have soil: 3 m under the soil, and a little of the facet
-// beside. 0.3 m above the bed there is no contact, and no remark, since soil may
-// begin in the air.
+// beside. For soil 0.3 m above the bed there is no contact, and no remark,
+// since soil may start in the air.
 TEST(ContactAreaRemark, AreasOfSoilOnAndAboveTheBed)
 {
   using namespace contact_area_remark_test;

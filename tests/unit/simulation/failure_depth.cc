@@ -8,8 +8,8 @@ namespace failure_depth_test
   struct Nothing
   {};
 
-  /// Sentences on a mechanism in which all soil less than @p depth, m, below the
-  /// mudline moves alike; points lie 0.125, 0.375, 0.625 and 0.875 m below.
+  /// Sentences on a mechanism in which all soil down to @p depth, m, below the
+  /// mudline moves equally; points lie 0.125, 0.375, 0.625 and 0.875 m below.
   std::string
   note(const double depth, const std::string &entries = "")
   {

@@ -3,7 +3,7 @@
 
 #include "core_setup.h"
 
-// The first step is not counted, ten others are, or as many as there are.
+// The first step is not counted; up to ten later steps are counted.
 TEST(Pace, MeasuresUpToTenSteps)
 {
   using namespace talus;
@@ -39,7 +39,7 @@ TEST(Pace, UnitsOfTheEstimate)
   // 1e4 points in 2 ms.
   EXPECT_TRUE(contains(estimate({10, 0.002}, 500., 1e4, MPI_COMM_SELF),
                        "(5 million point-steps per second, measured in 10"));
-  // Nothing is said of the time if nothing was measured.
+  // Without a measurement there is no sentence on the time.
   EXPECT_TRUE(contains(estimate({0, 0.}, 1., 1e4, MPI_COMM_SELF),
                        "about 1 time step, and "));
 }

@@ -43,8 +43,8 @@ namespace rest_test
       return rest.is_at_rest();
     }
 
-    /// First time, of 0.5, 1, ... 20 s, at which soil with the speed of the time
-    /// is at rest after a peak at t = 0; infinity if never.
+    /// First of the times 0.5, 1, ... 20 s at which soil with speed(t) is at
+    /// rest after a peak at t = 0; infinity if never.
     template <typename Speed>
     double
     time_of_rest(const Speed &speed, const double last_change = 0.)
@@ -111,8 +111,8 @@ TEST(RestDetector, LoadsMustHaveStoppedToChange)
 
 
 
-// Soil that creeps on has little energy, but ends that move by more than a
-// fiftieth of a cell.
+// Creeping soil has little energy, but the ends move by more than a fiftieth of
+// a cell.
 TEST(RestDetector, OutermostPointsMustStay)
 {
   using namespace rest_test;
@@ -133,8 +133,8 @@ TEST(RestDetector, OutermostPointsMustStay)
 
 
 
-// Soil that has not moved by a cell, such as a column that settles, never rests
-// and is not spoken of.
+// Soil that has not moved by a cell, for instance a settling column, is never
+// reported as at rest.
 TEST(RestDetector, SoilThatHasNotSlidIsNoSlide)
 {
   using namespace rest_test;
@@ -160,7 +160,7 @@ TEST(RestDetector, MotionAtTheEndIsTold)
 
 
 
-// Without points there is rest only if they could leave through a face.
+// Without points there is rest only if points could leave through a face.
 TEST(RestDetector, AllSoilHasLeft)
 {
   using namespace rest_test;

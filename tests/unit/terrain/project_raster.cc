@@ -202,7 +202,7 @@ TEST(MapTransformation, PlacesThatAreNone)
 
 
 
-// By code and by words; a central meridian of 15 degrees east is that of zone 33.
+// By code and by words; zone 33 has the central meridian 15 degrees east.
 TEST(CoordinateSystem, WordsForGis)
 {
   const std::string words = well_known_text(utm_33n);
@@ -257,8 +257,8 @@ TEST(ProjectRaster, PlaneOfTheMap)
 
 
 
-// Their own width on the map, 0.25/120 degrees at 67.125 degrees north, which is
-// the smaller side; or as asked for.
+// By default the width of the raster's cells on the map: the smaller side,
+// 0.25/120 degrees at 67.125 degrees north; otherwise the requested width.
 TEST(ProjectRaster, CellsOfTheMap)
 {
   const Raster degrees = in_degrees(120, plane);

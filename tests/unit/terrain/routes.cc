@@ -8,8 +8,8 @@
 
 #include "core_setup.h"
 
-// Shape, log and remarks of a pipe ask for the route one after another: the file
-// is read once, so all get the same corners and the checksum belongs to them.
+// Shape, log and remarks of a pipe read the same route: the file is read once,
+// so that the corners are the same for all and belong to the checksum.
 TEST(Routes, FileIsReadOnce)
 {
   using namespace talus;
