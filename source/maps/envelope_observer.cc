@@ -81,7 +81,8 @@ namespace talus
   void
   EnvelopeObserver<dim>::sample(const State<dim> &state)
   {
-    last_sample_ = state.step;
+    last_sample_    = state.step;
+    path_at_sample_ = state.max_path;
     sums_->sum_soil(state, impact().is_used() ? &problem_.materials : nullptr);
     add_bed_shear(state, problem_.contact, problem_.boundaries, *sums_);
     sums_->sum_over_ranks(state.communicator());
@@ -99,6 +100,10 @@ namespace talus
       return;
     const unsigned int n_columns =
       Envelope<dim>::n_numbers(settings_->n_arrival_thresholds());
+    list.add("maximum path at the sample of " + name_,
+             "m",
+             path_at_sample_,
+             Reduction::equal);
     list.add_table(
       {name_,
        "column, thickness [m], mass [kg/m^2], thickness at start [m]; value "

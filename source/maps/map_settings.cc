@@ -47,12 +47,12 @@ namespace talus
                   "largest values. 0: a tenth of 'Grid/Cell size'.",
                   this->prm,
                   Patterns::Double(0.));
-    add_parameter("Steps between samples",
-                  steps_between_samples_,
-                  "Number of time steps between two samples [-]. 1: sample "
-                  "every step and miss no maximum; larger numbers are cheaper.",
+    add_parameter("Motion between samples",
+                  motion_between_samples_,
+                  "Distance that the fastest point moves between two samples, "
+                  "over the cell size of the maps [-]. 0: sample every step.",
                   this->prm,
-                  Patterns::Integer(1));
+                  Patterns::Double(0., 1.));
   }
 
 

@@ -147,10 +147,12 @@ namespace talus
       agreement_.agree({time_step_.stable_time_step(state_.points,
                                                     problem_.materials),
                         own,
-                        1. * state_.points.size()},
+                        1. * state_.points.size(),
+                        time_step_.max_speed()},
                        state_.communicator());
     splitter_.check_total(plan.n_points, state_.points.size());
     state_.time_step = std::min(plan.time_step, end_time - state_.time);
+    state_.max_path += state_.time_step * plan.max_speed;
     // All ranks have the same step: all or none of them ask for the limiting
     // condition.
     check_time_advances(state_.time, state_.time_step, [this]() {

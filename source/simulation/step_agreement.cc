@@ -8,8 +8,8 @@ namespace talus
   namespace
   {
     /// Combine plans element by element: minimum time step, maximum request,
-    /// sum of points. The signature is required by MPI for user-defined
-    /// operations. All three operations commute, including sums of whole
+    /// sum of points, maximum speed. The signature is required by MPI for user-defined
+    /// operations. All four operations commute, including sums of whole
     /// numbers, so the result does not depend on the order of the ranks.
     void
     combine(void *more, void *all, int *n, MPI_Datatype *)
@@ -21,6 +21,7 @@ namespace talus
           result.time_step       = std::min(result.time_step, one.time_step);
           result.request         = std::max(result.request, one.request);
           result.n_points += one.n_points;
+          result.max_speed = std::max(result.max_speed, one.max_speed);
         }
     }
   } // namespace

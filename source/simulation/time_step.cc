@@ -111,12 +111,12 @@ namespace talus
   // fraction, one division and one root suffice.
   template <int dim>
   template <typename Number>
-  TALUS_ALWAYS_INLINE std::array<Number, 3>
-  TimeStep<dim>::inverse_squares(const PointsView<dim, const double> &points,
-                                 const BoxShape                      &shape,
-                                 const unsigned int                   p,
-                                 const Number &wave_modulus,
-                                 const Number &inverse_cell_size) const
+  TALUS_ALWAYS_INLINE typename TimeStep<dim>::template Bounds<Number>
+  TimeStep<dim>::bounds_at(const PointsView<dim, const double> &points,
+                           const BoxShape                      &shape,
+                           const unsigned int                   p,
+                           const Number                        &wave_modulus,
+                           const Number &inverse_cell_size) const
   {
     const auto half_widths =
       half_widths_in_cells<dim>(points, shape, p, inverse_cell_size);
@@ -138,10 +138,11 @@ namespace talus
     const Number h_square    = inverse_cell_size * inverse_cell_size;
     const double by_cfl = 1. / cfl_number_, by_box = 0.5 / box_safety_factor_;
     return {
-      {(wave_square + speed_square + 2. * sqrt(wave_square * speed_square)) *
-         (h_square * (by_cfl * by_cfl)),
-       fraction * numerator * (h_square * (by_box * by_box)),
-       0.5 * wave_square * h_square * eigenvalue_at_surface(1. / thinnest)}};
+      {{(wave_square + speed_square + 2. * sqrt(wave_square * speed_square)) *
+          (h_square * (by_cfl * by_cfl)),
+        fraction * numerator * (h_square * (by_box * by_box)),
+        0.5 * wave_square * h_square * eigenvalue_at_surface(1. / thinnest)}},
+      speed_square};
   }
 
 
@@ -226,32 +227,41 @@ namespace talus
   {
     find_moduli_and_sizes(points, batch, grid, materials);
     const auto       columns = points.view();
-    Simd<simd_width> largest(largest_);
-    Simd<1>          largest_of_rest(largest_);
-    for_each_simd(batch.begin,
-                  batch.end,
-                  [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
-                    using Number         = decltype(number);
-                    const unsigned int k = p - batch.begin;
-                    const auto         bounds =
-                      inverse_squares<Number>(columns,
-                                              shape,
-                                              p,
-                                              load<Number>(&wave_modulus_[k]),
-                                              load<Number>(
-                                                &inverse_cell_size_[k]));
-                    for (const Number &bound : bounds)
-                      if constexpr (std::is_same_v<Number, Simd<simd_width>>)
-                        largest = larger_or_none(largest, bound);
-                      else
-                        largest_of_rest =
-                          larger_or_none(largest_of_rest, bound);
-                  });
+    Simd<simd_width> largest(largest_), speed_square(0.);
+    Simd<1>          largest_of_rest(largest_), speed_square_of_rest(0.);
+    for_each_simd(
+      batch.begin,
+      batch.end,
+      [&](const unsigned int p, auto number) TALUS_INLINE_LAMBDA {
+        using Number                = decltype(number);
+        const unsigned int k        = p - batch.begin;
+        const auto         at       = bounds_at<Number>(columns,
+                                          shape,
+                                          p,
+                                          load<Number>(&wave_modulus_[k]),
+                                          load<Number>(&inverse_cell_size_[k]));
+        constexpr bool     is_whole = std::is_same_v<Number, Simd<simd_width>>;
+        for (const Number &bound : at.inverse_squares)
+          if constexpr (is_whole)
+            largest = larger_or_none(largest, bound);
+          else
+            largest_of_rest = larger_or_none(largest_of_rest, bound);
+        if constexpr (is_whole)
+          speed_square = max(speed_square, at.speed_square);
+        else
+          speed_square_of_rest = max(speed_square_of_rest, at.speed_square);
+      });
     // A maximum does not depend on the order, and thus not on the width of the
     // registers.
     largest_ = largest_of_rest[0];
+    largest_speed_square_ =
+      std::max(largest_speed_square_, speed_square_of_rest[0]);
     for (unsigned int i = 0; i < simd_width; ++i)
-      largest_ = larger_or_none(largest_, largest[i]);
+      {
+        largest_ = larger_or_none(largest_, largest[i]);
+        largest_speed_square_ =
+          std::max(largest_speed_square_, speed_square[i]);
+      }
   }
 
 
@@ -318,11 +328,12 @@ namespace talus
           double      modulus;
           material.wave_modulus(points, p, p + 1, &modulus);
           const auto bounds =
-            inverse_squares<double>(points.view(),
-                                    shape,
-                                    p,
-                                    modulus,
-                                    1. / grid.cells()[segment.cell].size);
+            bounds_at<double>(points.view(),
+                              shape,
+                              p,
+                              modulus,
+                              1. / grid.cells()[segment.cell].size)
+              .inverse_squares;
           const unsigned int which =
             std::max_element(bounds.begin(), bounds.end()) - bounds.begin();
           if (bounds[which] <= largest)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/key_halves.h>
 #include <talus/water/free_surface.h>
 
 #include <algorithm>
@@ -40,6 +41,26 @@ namespace talus
     {
       return square(square(std::max(0., product)) /
                     std::max(squares, std::numeric_limits<double>::min()));
+    }
+
+    /// Interpolate the records of hanging nodes, @p width numbers each, from
+    /// their masters, and append the hanging nodes to @p filled.
+    template <int dim>
+    void
+    interpolate_hanging(const Grid<dim>           &grid,
+                        std::vector<double>       &records,
+                        const unsigned int         width,
+                        std::vector<unsigned int> &filled)
+    {
+      for (const auto &hanging : grid.hanging_nodes())
+        {
+          double *const to = &records[std::size_t(width) * hanging.node];
+          std::fill_n(to, width, 0.);
+          filled.push_back(hanging.node);
+          for (const auto &[master, weight] : hanging.masters)
+            for (unsigned int i = 0; i < width; ++i)
+              to[i] += weight * records[std::size_t(width) * master + i];
+        }
     }
 
     /// Area of a face of a cell, m^(dim-1).
@@ -123,15 +144,67 @@ namespace talus
         first_cell_.push_back(cells_.size());
       }
     exchange_.prepare(grid, width);
+    exchange_of_soil_.prepare(grid, width_of_soil);
     exchange_of_areas_.prepare(grid, width_of_areas);
     records_.assign(std::size_t(width) * grid.n_nodes(), 0.);
+    soil_.assign(std::size_t(width_of_soil) * grid.n_nodes(), 0.);
     areas_of_nodes_.assign(std::size_t(width_of_areas) * grid.n_nodes(), 0.);
     vector_areas_.assign(grid.cells().size(), Tensor<1, dim>());
     is_listed_.assign(grid.cells().size(), 0);
     filled_nodes_.clear();
+    nodes_of_soil_.clear();
     soil_nodes_.clear();
     listed_cells_.clear();
     facets_.clear();
+    key_of_facet_.clear();
+    is_found_ = is_restored_;
+    if (is_restored_)
+      make_restored_facets(grid);
+  }
+
+
+
+  template <int dim>
+  std::vector<double>
+  FreeSurface<dim>::rows() const
+  {
+    std::vector<double> rows;
+    for (unsigned int k = 0; k < facets_.size(); ++k)
+      {
+        const auto [upper, lower] = halves_of_key(key_of_facet_[k]);
+        rows.insert(rows.end(), {upper, lower});
+        for (const auto &vector : {facets_[k].vector_area, facets_[k].normal})
+          for (unsigned int d = 0; d < dim; ++d)
+            rows.push_back(vector[d]);
+      }
+    return rows;
+  }
+
+
+
+  /// Rows keep their order, so that sums over facets give the same bits as in
+  /// the run that wrote them.
+  template <int dim>
+  void
+  FreeSurface<dim>::make_restored_facets(const Grid<dim> &grid)
+  {
+    for (std::size_t r = 0; r < restored_.size(); r += n_columns)
+      {
+        const unsigned long key = key_of_halves(restored_[r], restored_[r + 1]);
+        const unsigned int  c   = grid.cell_of_key(key);
+        if (c >= grid.n_owned_cells())
+          continue;
+        SurfaceFacet<dim> &facet = facets_.emplace_back();
+        facet.node               = grid.cells()[c].nodes();
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            facet.vector_area[d] = restored_[r + 2 + d];
+            facet.normal[d]      = restored_[r + 2 + dim + d];
+          }
+        key_of_facet_.push_back(key);
+      }
+    restored_.clear();
+    is_restored_ = false;
   }
 
 
@@ -146,6 +219,8 @@ namespace talus
       std::fill_n(record(node), width, 0.);
     filled_nodes_.clear();
     facets_.clear();
+    key_of_facet_.clear();
+    is_found_ = true;
     solid_.update(grid, contact);
     fill_records(state);
     list_cells(state);
@@ -163,14 +238,13 @@ namespace talus
         if (vector_areas_[c].norm_square() < square(2. * min_area))
           facet.vector_area *= vector_areas_[c].norm() / min_area - 1.;
         facet.node = cell.nodes();
-        set_soil(facet);
+        key_of_facet_.push_back(grid.key_of_cell(c));
       }
   }
 
 
 
-  /// Fill the records of all nodes. The momentum is the sum over the points,
-  /// before forces act. Collective.
+  /// Fill the records of all nodes. Collective.
   template <int dim>
   void
   FreeSurface<dim>::fill_records(const State<dim> &state)
@@ -179,13 +253,8 @@ namespace talus
     for (const unsigned int node : nodes.active_nodes())
       if (nodes.mass(node) > state.constants.mass_cutoff)
         {
-          double *const to = record(node);
-          to[fraction] =
+          record(node)[fraction] =
             std::min(1., nodes.volume(node) / solid_.open_volume(node));
-          to[mass]               = nodes.mass(node);
-          const Tensor<1, dim> p = nodes.momentum(node);
-          for (unsigned int d = 0; d < dim; ++d)
-            to[momentum + d] = p[d];
           filled_nodes_.push_back(node);
         }
     coverage_.find(state, solid_, [this](const unsigned int node) {
@@ -198,25 +267,7 @@ namespace talus
         to[bottom]         = coverage_.of_bottom(node, to[fraction]);
       }
     exchange_.copy_to_ghosts(records_.data());
-    fill_hanging_records(state.grid);
-  }
-
-
-
-  /// Interpolate the records of hanging nodes from their masters.
-  template <int dim>
-  void
-  FreeSurface<dim>::fill_hanging_records(const Grid<dim> &grid)
-  {
-    for (const auto &hanging : grid.hanging_nodes())
-      {
-        double *const to = record(hanging.node);
-        std::fill_n(to, width, 0.);
-        filled_nodes_.push_back(hanging.node);
-        for (const auto &[master, weight] : hanging.masters)
-          for (unsigned int i = 0; i < width; ++i)
-            to[i] += weight * record(master)[i];
-      }
+    interpolate_hanging(state.grid, records_, width, filled_nodes_);
   }
 
 
@@ -399,22 +450,58 @@ namespace talus
 
 
 
+  /// The momentum is the sum over the points, before forces act.
+  template <int dim>
+  void
+  FreeSurface<dim>::update_soil(const State<dim> &state)
+  {
+    const NodalFields<dim> &nodes = state.nodes;
+    const auto              soil  = [this](const unsigned int node) {
+      return soil_.data() + std::size_t(width_of_soil) * node;
+    };
+    for (const unsigned int node : nodes_of_soil_)
+      std::fill_n(soil(node), width_of_soil, 0.);
+    nodes_of_soil_.clear();
+    for (const unsigned int node : nodes.active_nodes())
+      if (nodes.mass(node) > state.constants.mass_cutoff)
+        {
+          const Tensor<1, dim> momentum = nodes.momentum(node);
+          soil(node)[0]                 = nodes.mass(node);
+          for (unsigned int d = 0; d < dim; ++d)
+            soil(node)[1 + d] = momentum[d];
+          nodes_of_soil_.push_back(node);
+        }
+    exchange_of_soil_.copy_to_ghosts(soil_.data());
+    interpolate_hanging(state.grid, soil_, width_of_soil, nodes_of_soil_);
+    for (SurfaceFacet<dim> &facet : facets_)
+      set_soil(facet);
+  }
+
+
+
   // The force is shared in proportion to the mass of the nodes: a node with
   // hardly any soil must not get a large force. The velocity of the facet is
-  // the mean, weighted by mass.
+  // the mean, weighted by mass. All soil may have left a facet since find().
   template <int dim>
   void
   FreeSurface<dim>::set_soil(SurfaceFacet<dim> &facet) const
   {
+    const auto soil = [this](const unsigned int node) {
+      return soil_.data() + std::size_t(width_of_soil) * node;
+    };
     double sum = 0;
     for (const unsigned int node : facet.node)
-      sum += record(node)[mass];
+      sum += soil(node)[0];
+    facet.velocity = Tensor<1, dim>();
+    facet.share.fill(0.);
+    if (!(sum > 0))
+      return;
     for (unsigned int v = 0; v < facet.node.size(); ++v)
       {
-        const double *const node = record(facet.node[v]);
-        facet.share[v]           = node[mass] / sum;
+        const double *const node = soil(facet.node[v]);
+        facet.share[v]           = node[0] / sum;
         for (unsigned int d = 0; d < dim; ++d)
-          facet.velocity[d] += node[momentum + d];
+          facet.velocity[d] += node[1 + d];
       }
     facet.velocity /= sum;
   }

@@ -129,6 +129,50 @@ namespace talus
 
 
 
+  /// The facets stay where they are until soil may have moved by a tenth of a
+  /// cell: the search for the free surface takes as long as the transfer of all
+  /// points, and the drag is hardly affected (doc/performance.md, "Water").
+  /// Velocities and shares of the facets are those of the step.
+  template <int dim>
+  void
+  Water<dim>::begin_step(State<dim> &state)
+  {
+    constexpr double max_motion = 0.1; // cells
+    if (!acts())
+      return;
+    if (!surface_.is_found() || state.max_path - path_at_surface_ >
+                                  max_motion * state.grid.finest_size())
+      {
+        surface_.find(state, contact_);
+        path_at_surface_ = state.max_path;
+      }
+    surface_.update_soil(state);
+    add_inertia(state.nodes);
+  }
+
+
+
+  template <int dim>
+  void
+  Water<dim>::list_state(StateList &list)
+  {
+    if (!acts())
+      return;
+    list.add("maximum path at the free surface",
+             "m",
+             path_at_surface_,
+             Reduction::equal);
+    list.add_table(
+      {"free surface",
+       "key of the cell: upper and lower 32 bits; vector area [m^(dim-1)]; "
+       "normal [-]",
+       FreeSurface<dim>::n_columns,
+       [this]() { return surface_.rows(); },
+       [this](const std::vector<double> &rows) { surface_.restore(rows); }});
+  }
+
+
+
   /// Add the inertia at the nodes only, since points carry the momentum of the
   /// soil. The added mass follows from the volume of soil at a node: an impulse
   /// then changes the momentum of soil and water together by exactly the

@@ -13,6 +13,16 @@ namespace talus
   {
     return {{double(key >> 32), double(key & 0xffffffff)}};
   }
+
+
+
+  /// Return the key with the halves @p upper and @p lower of halves_of_key().
+  inline unsigned long
+  key_of_halves(const double upper, const double lower)
+  {
+    return (static_cast<unsigned long>(upper) << 32) |
+           static_cast<unsigned long>(lower);
+  }
 } // namespace talus
 
 #endif

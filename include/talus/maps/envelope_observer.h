@@ -9,6 +9,7 @@
 #include <talus/observers/observer.h>
 #include <talus/problem/problem.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <vector>
@@ -47,7 +48,9 @@ namespace talus
     void
     follow(const State<dim> &state) override
     {
-      if (state.step % settings_->steps_between_samples() == 0)
+      const double size = std::pow(sums_->columns().area(), 1. / (dim - 1));
+      if (!(state.max_path - path_at_sample_ <
+            settings_->motion_between_samples() * size))
         sample(state);
     }
 
@@ -128,8 +131,9 @@ namespace talus
     std::unique_ptr<ColumnSums<dim>>   sums_;
     std::unique_ptr<Envelope<dim>>     envelope_;
     std::vector<double>                restored_; ///< rows of a checkpoint
-    unsigned long                      last_sample_ = 0; ///< step
-    std::vector<std::filesystem::path> written_;         ///< not synced
+    unsigned long                      last_sample_    = 0; ///< step
+    double                             path_at_sample_ = 0; ///< max_path, m
+    std::vector<std::filesystem::path> written_;            ///< not synced
   };
 } // namespace talus
 

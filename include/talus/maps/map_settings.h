@@ -68,10 +68,12 @@ namespace talus
       return arrival_thresholds(1.).size();
     }
 
-    unsigned int
-    steps_between_samples() const
+    /// Motion of the fastest point between two samples, in cells of the maps
+    /// [-].
+    double
+    motion_between_samples() const
     {
-      return steps_between_samples_;
+      return motion_between_samples_;
     }
 
   private:
@@ -80,8 +82,8 @@ namespace talus
     std::string         raster_         = "";
     double              cell_size_      = 0;
     std::vector<double> arrival_thresholds_;
-    double              smallest_thickness_    = 0;
-    unsigned int        steps_between_samples_ = 1;
+    double              smallest_thickness_     = 0;
+    double              motion_between_samples_ = 0.1;
   };
 } // namespace talus
 

@@ -8,6 +8,8 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 
@@ -32,7 +34,7 @@ namespace talus
     void
     begin()
     {
-      largest_ = 0;
+      largest_ = largest_speed_square_ = 0;
     }
 
     /// Include the points of a batch in the minimum.
@@ -54,6 +56,13 @@ namespace talus
     double
     stable_time_step(const Points<dim>    &points,
                      const Materials<dim> &materials) const;
+
+    /// Maximum speed of the points added since begin(), m/s.
+    double
+    max_speed() const
+    {
+      return std::sqrt(largest_speed_square_);
+    }
 
     /// Stable time step of all points of the local rank, s.
     double
@@ -77,14 +86,21 @@ namespace talus
                           const Grid<dim>      &grid,
                           const Materials<dim> &materials);
 
-    /// Inverse squares of the three bounds at point(s) p, 1/s^2.
     template <typename Number>
-    std::array<Number, 3>
-    inverse_squares(const PointsView<dim, const double> &points,
-                    const BoxShape                      &shape,
-                    unsigned int                         p,
-                    const Number                        &wave_modulus,
-                    const Number &inverse_cell_size) const;
+    struct Bounds
+    {
+      std::array<Number, 3> inverse_squares; ///< of the time step, 1/s^2
+      Number                speed_square;    ///< m^2/s^2
+    };
+
+    /// Three bounds on the time step at point(s) p, and speed of the point(s).
+    template <typename Number>
+    Bounds<Number>
+    bounds_at(const PointsView<dim, const double> &points,
+              const BoxShape                      &shape,
+              unsigned int                         p,
+              const Number                        &wave_modulus,
+              const Number                        &inverse_cell_size) const;
 
     /// Identify the first point with a value that is not finite.
     std::string
@@ -96,7 +112,8 @@ namespace talus
     double maximum_           = 0.;
 
     /// Maximum inverse square of a bound so far, 1/s^2.
-    double largest_ = 0;
+    double largest_              = 0;
+    double largest_speed_square_ = 0; ///< m^2/s^2
 
     // Scratch data of a batch.
     std::vector<double> wave_modulus_;

@@ -42,6 +42,7 @@ namespace talus
       list.add("time", "s", time, Reduction::equal);
       list.add("time step", "s", time_step, Reduction::equal);
       list.add("step", "-", step, Reduction::equal);
+      list.add("maximum path", "m", max_path, Reduction::equal);
       accounts.list_state(list);
       outflow.list_state(list);
     }
@@ -56,6 +57,10 @@ namespace talus
     double             time      = 0; ///< s
     double             time_step = 0; ///< length of the last step, s
     unsigned long      step      = 0; ///< number of steps so far
+    /// Sum over the steps of the time step times the maximum speed of the
+    /// points, m. Between two steps no point moves farther than the difference,
+    /// up to the difference between the speeds of point and grid.
+    double max_path = 0;
   };
 } // namespace talus
 

@@ -44,9 +44,37 @@ namespace talus
     prepare(const Grid<dim> &grid);
 
     /// Compute the facets in owned cells from the sums at the nodes and the
-    /// boxes of the points. Collective.
+    /// boxes of the points. Call update_soil() afterwards. Collective.
     void
     find(const State<dim> &state, const FacetContact<dim> &contact);
+
+    /// Return whether find() was called since prepare(), or the facets were
+    /// restored.
+    bool
+    is_found() const
+    {
+      return is_found_;
+    }
+
+    /// Set velocity and shares of all facets by the sums at the nodes.
+    /// Collective.
+    void
+    update_soil(const State<dim> &state);
+
+    /// Table with a row for each facet of this rank: key of the cell (two
+    /// numbers), vector area, m^(dim-1), and normal.
+    std::vector<double>
+                                  rows() const;
+    static constexpr unsigned int n_columns = 2 + 2 * dim; ///< of rows()
+
+    /// Store the @p rows of all ranks for the next prepare(), which makes
+    /// facets of them.
+    void
+    restore(const std::vector<double> &rows)
+    {
+      restored_    = rows;
+      is_restored_ = true;
+    }
 
     const std::vector<SurfaceFacet<dim>> &
     facets() const
@@ -74,17 +102,17 @@ namespace talus
     using NodesOfCell = std::array<unsigned int, power(2, dim)>;
 
     // By node: volume fraction of soil in the open volume [-], covered shares
-    // of facets and of the lower face of the mesh [-], mass [kg] and momentum
-    // [kg m/s].
+    // of facets and of the lower face of the mesh [-].
     enum Record
     {
       fraction,
       facets_covered,
       bottom,
-      mass,
-      momentum,
-      width = momentum + dim
+      width
     };
+
+    /// By node: mass of the soil, kg, and momentum, kg m/s.
+    static constexpr unsigned int width_of_soil = 1 + dim;
 
     /// By node: vector areas, m^(dim-1), of the cell with the node as lowest
     /// vertex and of the cell with the node as highest vertex.
@@ -107,7 +135,7 @@ namespace talus
     void
     fill_records(const State<dim> &state);
     void
-    fill_hanging_records(const Grid<dim> &grid);
+    make_restored_facets(const Grid<dim> &grid);
     void
     list_cells(const State<dim> &state);
     void
@@ -126,9 +154,10 @@ namespace talus
     SolidAtNodes<dim>          solid_;
     BedCoverage<dim>           coverage_;
     std::vector<unsigned int>  first_cell_, cells_; ///< by node, with ghosts
-    NodalExchange<dim>         exchange_, exchange_of_areas_;
-    std::vector<double>        records_;
-    std::vector<unsigned int>  filled_nodes_; ///< records may be nonzero
+    NodalExchange<dim>         exchange_, exchange_of_soil_, exchange_of_areas_;
+    std::vector<double>        records_, soil_;
+    std::vector<unsigned int>  nodes_of_soil_; ///< soil_ may be nonzero
+    std::vector<unsigned int>  filled_nodes_;  ///< records may be nonzero
     std::vector<unsigned int>  soil_nodes_, previous_soil_nodes_; ///< f > 0
     std::vector<unsigned int>  listed_cells_;  ///< around soil_nodes_
     std::vector<unsigned int>  surface_cells_; ///< candidates for a facet
@@ -136,6 +165,10 @@ namespace talus
     std::vector<dealii::Tensor<1, dim>> vector_areas_;   ///< by cell
     std::vector<double>                 areas_of_nodes_; ///< by node
     std::vector<SurfaceFacet<dim>>      facets_;
+    std::vector<unsigned long>          key_of_facet_; ///< key of the cell
+    bool                                is_found_    = false;
+    bool                                is_restored_ = false;
+    std::vector<double>                 restored_; ///< rows of a checkpoint
   };
 } // namespace talus
 

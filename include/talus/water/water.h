@@ -41,15 +41,9 @@ namespace talus
     void
     prepare(const Grid<dim> &grid) override;
 
-    /// Find the free surface and add the inertia of the water to the nodes.
+    /// Update the free surface and add the inertia of the water to the nodes.
     void
-    begin_step(State<dim> &state) override
-    {
-      if (!acts())
-        return;
-      surface_.find(state, contact_);
-      add_inertia(state.nodes);
-    }
+    begin_step(State<dim> &state) override;
 
     /// Add the drag on the free surface.
     void
@@ -62,6 +56,10 @@ namespace talus
     /// List drag, momentum of the added mass, and Froude number.
     void
     list_quantities(const State<dim> &state, Quantities &list) const override;
+
+    /// Add the facets of the free surface.
+    void
+    list_state(StateList &list) override;
 
     /// Return a sentence if buoyancy does not fit the density of the soil.
     std::vector<std::string>
@@ -90,6 +88,7 @@ namespace talus
     double pressure_drag_ = 0.;
 
     FreeSurface<dim>    surface_;
+    double              path_at_surface_ = 0; ///< max_path of surface_, m
     NodalExchange<dim>  exchange_of_forces_;
     std::vector<double> forces_; ///< in the step, by node, N
   };

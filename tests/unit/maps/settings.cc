@@ -50,7 +50,7 @@ TEST(MapSettings, ThicknessesByDefaultAreATenthOfACell)
   {
     const Parsed<MapSettings> maps("Maps", "");
     EXPECT_FALSE(maps.settings.is_enabled());
-    EXPECT_EQ(maps.settings.steps_between_samples(), 1u);
+    EXPECT_EQ(maps.settings.motion_between_samples(), 0.1);
     EXPECT_DOUBLE_EQ(maps.settings.smallest_thickness(4.), 0.4);
     EXPECT_EQ(maps.settings.arrival_thresholds(4.),
               std::vector<double>{maps.settings.smallest_thickness(4.)});

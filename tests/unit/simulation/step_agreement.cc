@@ -23,9 +23,11 @@ TEST(Agreement, OfAllRanks)
   const StepPlan      plan =
     agreement.agree({1. / (rank + 1.),
                      rank == 0 ? RunRequest::checkpoint : RunRequest::none,
-                     10. * (rank + 1)},
+                     10. * (rank + 1),
+                     2. + rank},
                     MPI_COMM_WORLD);
   EXPECT_EQ(plan.time_step, 1. / n);
   EXPECT_EQ(plan.request, RunRequest::checkpoint);
   EXPECT_EQ(plan.n_points, 5. * n * (n + 1));
+  EXPECT_EQ(plan.max_speed, 1. + n);
 }

@@ -59,6 +59,7 @@ namespace
       this->sort();
       this->scatter();
       surface.find(*this, contact);
+      surface.update_soil(*this);
       DragAreas<dim> result;
       for (const SurfaceFacet<dim> &facet : surface.facets())
         {

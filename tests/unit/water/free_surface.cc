@@ -67,6 +67,7 @@ namespace
       this->sort();
       this->scatter();
       surface.find(*this, contact);
+      surface.update_soil(*this);
     }
 
     double
