@@ -1,0 +1,42 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Assemble the release notes of a version from the files in doc/changes.
+
+Usage: changelog.py VERSION > CHANGELOG.md
+
+Entries are grouped by kind, incompatible changes first, and sorted by date.
+After a release the files in doc/changes are removed, and the next release is
+put above the notes of the last.
+"""
+
+import pathlib
+import re
+import sys
+
+KINDS = ["Incompatible", "New", "Changed", "Fixed", "Removed"]
+
+
+def entries(folder):
+    """(kind, text) of each file in the folder, in the order of date."""
+    for path in sorted(folder.glob("2*")):
+        text = path.read_text().split("<br>")[0].strip()
+        found = re.match(r"([^:]+):\s*(.*)", text, re.DOTALL)
+        kind = next((kind for kind in KINDS if kind in found.group(1)),
+                    "Incompatible" if "incompatible" in found.group(1)
+                    else "Changed")
+        yield kind, " ".join(found.group(2).split())
+
+
+def main():
+    if len(sys.argv) != 2:
+        sys.exit(__doc__)
+    all_entries = list(entries(pathlib.Path(__file__).parent / "changes"))
+    print(f"# talus {sys.argv[1]}")
+    for kind in KINDS:
+        print(f"\n## {kind}\n")
+        for text in (text for k, text in all_entries if k == kind):
+            print(f"* {text}")
+
+
+if __name__ == "__main__":
+    main()
