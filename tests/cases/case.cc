@@ -4,6 +4,7 @@
 #include <talus/application/parameter_file.h>
 
 #include <fstream>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -58,11 +59,14 @@ namespace talus::cases
       throw std::runtime_error("No table in " + path.string());
     while (std::getline(file, line))
       {
-        std::istringstream words(line);
+        // The comma at the end lets an empty last field be read.
+        std::istringstream words(line + ',');
         unsigned int       n = 0;
         for (; n < names.size() && std::getline(words, word, ','); ++n)
-          columns_[names[n]].push_back(std::stod(word));
-        if (n != names.size() || !words.eof())
+          columns_[names[n]].push_back(
+            word.empty() ? std::numeric_limits<double>::quiet_NaN()
+                         : std::stod(word));
+        if (n != names.size() || std::getline(words, word, ','))
           throw std::runtime_error("Bad row in " + path.string() + ": " + line);
       }
   }

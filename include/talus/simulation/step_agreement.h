@@ -22,7 +22,7 @@ namespace talus
     double     time_step; ///< s; minimum over the ranks
     RunRequest request;   ///< maximum over the ranks
     double     n_points;  ///< sum over the ranks
-    double     max_speed; ///< of a point, m/s; maximum over the ranks
+    double     max_speed; ///< largest of a point, m/s; maximum over ranks
   };
 
 

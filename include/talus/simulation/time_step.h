@@ -89,7 +89,7 @@ namespace talus
     template <typename Number>
     struct Bounds
     {
-      std::array<Number, 3> inverse_squares; ///< of the time step, 1/s^2
+      std::array<Number, 3> inverse_squares; ///< bounds on dt, 1/s^2
       Number                speed_square;    ///< m^2/s^2
     };
 

@@ -65,7 +65,7 @@ namespace talus
     /// numbers), vector area, m^(dim-1), and normal.
     std::vector<double>
                                   rows() const;
-    static constexpr unsigned int n_columns = 2 + 2 * dim; ///< of rows()
+    static constexpr unsigned int n_columns = 2 + 2 * dim; ///< columns of rows()
 
     /// Store the @p rows of all ranks for the next prepare(), which makes
     /// facets of them.
