@@ -205,7 +205,7 @@ class SoilLeaves(Case):
                                                 "Checkpoint/At the end=false"]))
         text = (self.folder / "run" / "statistics.csv").read_text()
         names, *rows = [line.split(",") for line in text.splitlines()]
-        column = {name: [float(row[i]) for row in rows] for i, name in enumerate(names)}
+        column = {name: [float(row[i] or "nan") for row in rows] for i, name in enumerate(names)}
         left = [mass for step, mass in zip(column["step"], column["outflow mass [kg]"])
                 if step <= int(self.newest("run")[0])]
         self.assertTrue(0 < left[-1] < column["outflow mass [kg]"][-1])
