@@ -23,7 +23,7 @@ TIMES = 4
 def table(folder, file):
     with open(os.path.join(folder, file), newline="") as stream:
         rows = list(csv.reader(stream))
-    values = numpy.array([[float(x) for x in row] for row in rows[1:]])
+    values = numpy.array([[float(x or "nan") for x in row] for row in rows[1:]])
     return {name: values[:, i] for i, name in enumerate(rows[0])}
 
 

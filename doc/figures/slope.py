@@ -26,7 +26,7 @@ LINE = ((515000, 6740700), (515000, 6742200))  # the pipeline of slope-3d.prm
 def table(folder, name):
     with open(os.path.join(folder, name), newline="") as stream:
         rows = list(csv.reader(stream))
-    values = numpy.array([[float(x) for x in row] for row in rows[1:]])
+    values = numpy.array([[float(x or "nan") for x in row] for row in rows[1:]])
     return {name: values[:, i] for i, name in enumerate(rows[0])}
 
 

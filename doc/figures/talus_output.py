@@ -39,7 +39,7 @@ def statistics(folder):
     """Columns of statistics.csv by name."""
     with open(os.path.join(folder, "statistics.csv"), newline="") as stream:
         rows = list(csv.reader(stream))
-    values = numpy.array([[float(x) for x in row] for row in rows[1:]])
+    values = numpy.array([[float(x or "nan") for x in row] for row in rows[1:]])
     return {name: values[:, i] for i, name in enumerate(rows[0])}
 
 

@@ -2,6 +2,8 @@
 #include <talus/base/key_halves.h>
 #include <talus/water/free_surface.h>
 
+#include <deal.II/base/mpi.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -130,6 +132,13 @@ namespace talus
   void
   FreeSurface<dim>::prepare(const Grid<dim> &grid)
   {
+    std::vector<double> rows = std::move(restored_);
+    if (!is_restored_)
+      for (const std::vector<double> &of_rank :
+           Utilities::MPI::all_gather(grid.communicator(), this->rows()))
+        rows.insert(rows.end(), of_rank.begin(), of_rank.end());
+    restored_.clear();
+    is_restored_ = false;
     solid_.prepare(grid);
     coverage_.prepare(grid);
     std::vector<std::vector<unsigned int>> cells(grid.n_nodes());
@@ -157,9 +166,7 @@ namespace talus
     listed_cells_.clear();
     facets_.clear();
     key_of_facet_.clear();
-    is_found_ = is_restored_;
-    if (is_restored_)
-      make_restored_facets(grid);
+    make_facets(rows, grid);
   }
 
 
@@ -182,15 +189,16 @@ namespace talus
 
 
 
-  /// Rows keep their order, so that sums over facets give the same bits as in
-  /// the run that wrote them.
+  /// Make facets of the @p rows of all ranks in owned cells. The order is kept:
+  /// sums over facets in a resumed run give the same bits.
   template <int dim>
   void
-  FreeSurface<dim>::make_restored_facets(const Grid<dim> &grid)
+  FreeSurface<dim>::make_facets(const std::vector<double> &rows,
+                                const Grid<dim>           &grid)
   {
-    for (std::size_t r = 0; r < restored_.size(); r += n_columns)
+    for (std::size_t r = 0; r < rows.size(); r += n_columns)
       {
-        const unsigned long key = key_of_halves(restored_[r], restored_[r + 1]);
+        const unsigned long key = key_of_halves(rows[r], rows[r + 1]);
         const unsigned int  c   = grid.cell_of_key(key);
         if (c >= grid.n_owned_cells())
           continue;
@@ -198,13 +206,11 @@ namespace talus
         facet.node               = grid.cells()[c].nodes();
         for (unsigned int d = 0; d < dim; ++d)
           {
-            facet.vector_area[d] = restored_[r + 2 + d];
-            facet.normal[d]      = restored_[r + 2 + dim + d];
+            facet.vector_area[d] = rows[r + 2 + d];
+            facet.normal[d]      = rows[r + 2 + dim + d];
           }
         key_of_facet_.push_back(key);
       }
-    restored_.clear();
-    is_restored_ = false;
   }
 
 
@@ -220,7 +226,6 @@ namespace talus
     filled_nodes_.clear();
     facets_.clear();
     key_of_facet_.clear();
-    is_found_ = true;
     solid_.update(grid, contact);
     fill_records(state);
     list_cells(state);

@@ -140,8 +140,8 @@ namespace talus
     constexpr double max_motion = 0.1; // cells
     if (!acts())
       return;
-    if (!surface_.is_found() || state.max_path - path_at_surface_ >
-                                  max_motion * state.grid.finest_size())
+    if (state.max_path - path_at_surface_ >
+        max_motion * state.grid.finest_size())
       {
         surface_.find(state, contact_);
         path_at_surface_ = state.max_path;

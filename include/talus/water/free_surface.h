@@ -38,8 +38,9 @@ namespace talus
   class FreeSurface
   {
   public:
-    /// Find the cells around each node and delete all facets. Call after each
-    /// change of the mesh or its partition. Collective.
+    /// Find the cells around each node, and move the facets to the ranks that
+    /// own their cells now. Call after each change of the mesh or its partition.
+    /// Collective.
     void
     prepare(const Grid<dim> &grid);
 
@@ -47,14 +48,6 @@ namespace talus
     /// boxes of the points. Call update_soil() afterwards. Collective.
     void
     find(const State<dim> &state, const FacetContact<dim> &contact);
-
-    /// Return whether find() was called since prepare(), or the facets were
-    /// restored.
-    bool
-    is_found() const
-    {
-      return is_found_;
-    }
 
     /// Set velocity and shares of all facets by the sums at the nodes.
     /// Collective.
@@ -65,7 +58,8 @@ namespace talus
     /// numbers), vector area, m^(dim-1), and normal.
     std::vector<double>
                                   rows() const;
-    static constexpr unsigned int n_columns = 2 + 2 * dim; ///< columns of rows()
+    static constexpr unsigned int n_columns =
+      2 + 2 * dim; ///< columns of rows()
 
     /// Store the @p rows of all ranks for the next prepare(), which makes
     /// facets of them.
@@ -135,7 +129,7 @@ namespace talus
     void
     fill_records(const State<dim> &state);
     void
-    make_restored_facets(const Grid<dim> &grid);
+    make_facets(const std::vector<double> &rows, const Grid<dim> &grid);
     void
     list_cells(const State<dim> &state);
     void
@@ -166,7 +160,6 @@ namespace talus
     std::vector<double>                 areas_of_nodes_; ///< by node
     std::vector<SurfaceFacet<dim>>      facets_;
     std::vector<unsigned long>          key_of_facet_; ///< key of the cell
-    bool                                is_found_    = false;
     bool                                is_restored_ = false;
     std::vector<double>                 restored_; ///< rows of a checkpoint
   };

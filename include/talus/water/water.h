@@ -8,6 +8,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -87,9 +88,10 @@ namespace talus
     double skin_friction_ = 0.;
     double pressure_drag_ = 0.;
 
-    FreeSurface<dim>    surface_;
-    double              path_at_surface_ = 0; ///< max_path of surface_, m
-    NodalExchange<dim>  exchange_of_forces_;
+    FreeSurface<dim> surface_;
+    /// State::max_path at the search for surface_, m.
+    double             path_at_surface_ = std::numeric_limits<double>::lowest();
+    NodalExchange<dim> exchange_of_forces_;
     std::vector<double> forces_; ///< in the step, by node, N
   };
 } // namespace talus
