@@ -61,16 +61,6 @@ namespace talus
                    " Pa (minus three times the shear modulus).")));
     if (!this->has_strength_column())
       check_strength({this->strength(), this->strength()});
-    AssertThrow(residual_strength_ == 0. || hardening_ != 0. ||
-                  this->softens_by_displacement() ||
-                  residual_strength_ == this->strength(),
-                ExcUser(text("Section ",
-                             this->section(),
-                             ": `Residual undrained shear strength` is ",
-                             residual_strength_,
-                             " Pa, but nothing says over what the material "
-                             "softens: give `Softening displacement`, or a "
-                             "negative `Hardening modulus`.")));
   }
 
 
@@ -89,6 +79,16 @@ namespace talus
                              range.least,
                              range.least < range.largest ? " Pa at a point."
                                                          : " Pa.")));
+    AssertThrow(residual_strength_ == 0. ||
+                  residual_strength_ == range.largest || hardening_ != 0. ||
+                  this->softens_by_displacement(),
+                ExcUser(text("Section ",
+                             this->section(),
+                             ": `Residual undrained shear strength` is ",
+                             residual_strength_,
+                             " Pa, but nothing says over what the material "
+                             "softens: give `Softening displacement`, or a "
+                             "negative `Hardening modulus`.")));
   }
 
 
