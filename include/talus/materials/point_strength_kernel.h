@@ -19,8 +19,8 @@ namespace talus
     Number stiffness; ///< moduli of the point over the moduli of the law [-]
   };
 
-  /// The same for soil that softens with the displacement across a shear band.
-  /// The flow rule then takes the softening column in place of the plastic
+  /// PointStrength of soil that softens with the displacement across a shear
+  /// band. The flow rule then takes the softening column in place of the plastic
   /// variable.
   template <typename Number>
   struct BandStrength : PointStrength<Number>
