@@ -40,6 +40,7 @@ PAGES = [
          ["InfiniteSlope", "TaylorSlope", "PaperSlopeSafety", "ClaySlope",
           "ClaySlopeFine", "SlopeStability", "StripFooting",
           "StripFootingFine", "VerticalCutSafety", "VerticalCutSafetyFine"]),
+        ("Shear bands", ["ShearBand"]),
         ("Initial stress, trigger and ground motion",
          ["Geostatic", "Trigger", "GroundMotion", "LandslideFromEquilibrium",
           "LandslideFromEquilibriumFine"]),

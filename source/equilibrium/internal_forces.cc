@@ -58,6 +58,10 @@ namespace talus
     Points<dim> &points = problem.state.points;
     set_gradients(problem, weights, u);
     linearizations_.resize(points.size());
+    problem.materials.set_cell_sizes(
+      points, points.all(), [&](const unsigned int cell) {
+        return problem.state.grid.cells()[cell].size;
+      });
     bool sound = true;
     problem.materials.for_each_material_range(
       points,

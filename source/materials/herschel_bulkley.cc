@@ -22,7 +22,8 @@ namespace talus
         section,
         "plastic shear strain",
         "Undrained shear strength s_u [Pa]: the shear stress at which the "
-        "undisturbed material yields in slow simple shear.")
+        "undisturbed material yields in slow simple shear.",
+        "`Plastic shear strain to remould`")
     , flow_law_(flow_law)
   {
     const auto add = [&](const std::string &name,
@@ -83,7 +84,17 @@ namespace talus
                              ". Give a positive number; for strength that does "
                              "not depend on the rate set `Consistency` to "
                              "0.")));
-    if (remoulded_ratio_ == 1. || this->has_strength_column())
+    this->check_softening_is_given_once(strain_to_remould_ != default_strain,
+                                        "Plastic shear strain to remould");
+    AssertThrow(!this->softens_by_displacement() || remoulded_ratio_ < 1.,
+                ExcUser(text("Section ",
+                             this->section(),
+                             ": `Softening displacement` is given, but "
+                             "`Remoulded strength ratio` is 1, so that nothing "
+                             "softens: give a ratio of less than 1, or remove "
+                             "the displacement.")));
+    if (remoulded_ratio_ == 1. || this->has_strength_column() ||
+        this->softens_by_displacement())
       return;
     const double least =
       3. * this->strength() * (1. - remoulded_ratio_) / this->moduli().mu;
@@ -112,12 +123,38 @@ namespace talus
   HerschelBulkleyFlow
   HerschelBulkley<dim>::flow_rule(const double dt) const
   {
-    return {{this->strength(), remoulded_ratio_, strain_to_remould_},
+    const Strength strength = strength_at_rest(this->strength());
+    return {strength,
             {this->moduli().mu,
              consistency_,
              exponent_,
-             remoulded_ratio_ < 1. ? 3. / strain_to_remould_ : 0.,
+             remoulded_ratio_ < 1. ? 3. / strength.strain_to_remould : 0.,
              dt}};
+  }
+
+
+
+  // Strength as a function of the variable of softening, which is 1 at the
+  // softening displacement.
+  template <int dim>
+  Strength
+  HerschelBulkley<dim>::strength_at_rest(const double undisturbed) const
+  {
+    return {undisturbed,
+            remoulded_ratio_,
+            this->softens_by_displacement() ? 1. : strain_to_remould_};
+  }
+
+
+
+  // Plastic shear strain that remoulds to 95 % in cells of the given size.
+  template <int dim>
+  double
+  HerschelBulkley<dim>::strain_to_remould(const double cell_size) const
+  {
+    return this->softens_by_displacement()
+             ? this->softening_displacement() / cell_size
+             : strain_to_remould_;
   }
 
 
@@ -128,11 +165,8 @@ namespace talus
   HerschelBulkley<dim>::shear_strength(const Points<dim> &points,
                                        const unsigned int p) const
   {
-    const Strength strength = {this->strength(points, p),
-                               remoulded_ratio_,
-                               strain_to_remould_};
-    return strength.at(this->plastic_variable(points, p),
-                       this->strength_factor(points, p));
+    return strength_at_rest(this->strength(points, p))
+      .at(this->softening(points, p), this->strength_factor(points, p));
   }
 
 
@@ -152,7 +186,8 @@ namespace talus
     const double lost = (1. - remoulded_ratio_) * largest;
     if (lost == 0.)
       return std::numeric_limits<double>::infinity();
-    return 0.99 * this->moduli().mu * strain_to_remould_ / (3. * lost);
+    return 0.99 * this->moduli().mu *
+           strain_to_remould(this->largest_cell_size()) / (3. * lost);
   }
 
 
@@ -165,6 +200,11 @@ namespace talus
     const double lost = (1. - remoulded_ratio_) * this->strength();
     if (lost == 0. || this->has_strength_column())
       return "";
+    if (this->softens_by_displacement())
+      return band_note({this->section(),
+                        this->softening_displacement(),
+                        lost * this->softening_displacement() / 3.,
+                        "95 %"});
     const std::string viscosity =
       flow_law_ == FlowLaw::bingham ? "`Viscosity`" : "`Consistency`";
     return shear_band_note(

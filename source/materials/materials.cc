@@ -138,6 +138,9 @@ namespace talus
                                                 "Pa",
                                                 1,
                                                 Inheritance::copied);
+    for (const auto &model : models_)
+      if (model->softens_by_displacement())
+        cell_size_ = points.find("cell size");
     if (!with_strength_factor &&
         undrained_strength_ == numbers::invalid_unsigned_int)
       return;
@@ -183,6 +186,35 @@ namespace talus
                         of_body(b).largest_strength_factor(
                           strength_range(points, b, communicator)));
     return result;
+  }
+
+
+
+  // The largest strength factor is inversely proportional to the cell size.
+  // Soil whose strength differs from point to point is checked when the points
+  // exist (problem/strength_field.cc).
+  template <int dim>
+  void
+  Materials<dim>::use_cell_size(const double largest)
+  {
+    for (const unsigned int m : material_of_body_)
+      {
+        MaterialModel<dim> &model = *models_[m];
+        model.use_cell_size(largest);
+        if (!model.softens_by_displacement() || model.has_strength_column())
+          continue;
+        const double factor = model.largest_strength_factor();
+        AssertThrow(
+          factor >= 1.,
+          ExcUser(text("Section ",
+                       model.section(),
+                       ": with `Softening displacement` on cells of ",
+                       largest,
+                       " m the material would soften faster than it can unload "
+                       "elastically. Give a `Grid/Cell size` of at most ",
+                       factor * largest,
+                       " m, a larger displacement, or more stiffness.")));
+      }
   }
 
 

@@ -19,7 +19,8 @@ namespace talus
         section,
         "plastic strain",
         "Undrained shear strength s_u [Pa]: the shear stress at which the "
-        "undisturbed material yields in simple shear.")
+        "undisturbed material yields in simple shear.",
+        "a negative `Hardening modulus`")
   {
     this->add_parameter("Hardening modulus",
                         hardening_,
@@ -46,6 +47,7 @@ namespace talus
   VonMises<dim>::check() const
   {
     UndrainedLaw<dim, VonMisesFlow>::check();
+    this->check_softening_is_given_once(hardening_ != 0., "Hardening modulus");
     const double mu = this->moduli().mu;
     AssertThrow(
       this->has_strength_column() || 3. * mu + hardening_ > 0.,
@@ -77,6 +79,26 @@ namespace talus
                              range.least,
                              range.least < range.largest ? " Pa at a point."
                                                          : " Pa.")));
+    AssertThrow(residual_strength_ == 0. ||
+                  residual_strength_ == range.largest || hardening_ != 0. ||
+                  this->softens_by_displacement(),
+                ExcUser(text("Section ",
+                             this->section(),
+                             ": `Residual undrained shear strength` is ",
+                             residual_strength_,
+                             " Pa, but nothing says over what the material "
+                             "softens: give `Softening displacement`, or a "
+                             "negative `Hardening modulus`.")));
+  }
+
+
+
+  // The equivalent plastic strain of simple shear by gamma is gamma/sqrt(3).
+  template <int dim>
+  double
+  VonMises<dim>::shear_per_plastic_variable() const
+  {
+    return std::sqrt(3.);
   }
 
 
@@ -98,15 +120,17 @@ namespace talus
 
 
   // Yield stress over sqrt(3). Hardening is a slope of the yield stress and
-  // divided by sqrt(3), too.
+  // divided by sqrt(3), too. Softening by displacement ends at 1.
   template <int dim>
   double
   VonMises<dim>::shear_strength(const Points<dim> &points,
                                 const unsigned int p) const
   {
-    const double on_line =
-      this->strength(points, p) +
-      hardening_ / std::sqrt(3.) * this->plastic_variable(points, p);
+    const double initial = this->strength(points, p);
+    const double slope   = this->softens_by_displacement()
+                             ? residual_strength_ - initial
+                             : hardening_ / std::sqrt(3.);
+    const double on_line = initial + slope * this->softening(points, p);
     return this->strength_factor(points, p) *
            std::max(on_line, residual_strength_);
   }
@@ -115,11 +139,24 @@ namespace talus
 
   // Condition of check() for the hardening modulus times the factor, with a
   // margin of 1 %: at equality the return has no slope. If residual and initial
-  // strength are equal, nothing softens.
+  // strength are equal, nothing softens. In simple shear the condition is
+  // ds_u/dgamma > -G, which is (s_u - s_res) h/d < G: the strongest soil decides,
+  // also if G is proportional to s_u.
   template <int dim>
   double
   VonMises<dim>::largest_strength_factor(const StrengthRange &range) const
   {
+    if (this->softens_by_displacement())
+      {
+        const double strongest =
+          this->has_strength_column() ? range.largest : this->strength();
+        const double lost = strongest - residual_strength_;
+        const double mu =
+          this->moduli().mu * (this->has_moduli_of_points() ? strongest : 1.);
+        return lost > 0. ? 0.99 * mu * this->softening_displacement() /
+                             (lost * this->largest_cell_size())
+                         : std::numeric_limits<double>::infinity();
+      }
     if (hardening_ >= 0. || (!this->has_strength_column() &&
                              residual_strength_ == this->strength()))
       return std::numeric_limits<double>::infinity();
@@ -136,6 +173,11 @@ namespace talus
   VonMises<dim>::note(const double cell_size) const
   {
     const double lost = this->strength() - residual_strength_;
+    if (this->softens_by_displacement() && !this->has_strength_column())
+      return band_note({this->section(),
+                        this->softening_displacement(),
+                        lost * this->softening_displacement() / 2.,
+                        "all"});
     if (hardening_ >= 0. || lost == 0. || this->has_strength_column())
       return "";
     const double strain = -3. * lost / hardening_;

@@ -120,8 +120,11 @@ namespace talus
                " Pa, but somewhere the soil would soften faster than "
                "elastic unloading permits: the softening would have to be ",
                1. / largest,
-               " times slower. Let the soil soften over more strain, or "
-               "increase the stiffness.")));
+               " times slower. Let the soil soften over more strain",
+               material.softens_by_displacement()
+                 ? " (a larger displacement, or cells smaller by that factor)"
+                 : "",
+               ", or increase the stiffness.")));
     }
   } // namespace
 

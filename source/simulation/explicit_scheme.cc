@@ -221,6 +221,11 @@ namespace talus
                                          state_.workspace,
                                          batch);
       timer_.lap(PhaseTimer::grid_to_points);
+      problem_.materials.set_cell_sizes(state_.points,
+                                        batch,
+                                        [&](const unsigned int cell) {
+                                          return state_.grid.cells()[cell].size;
+                                        });
       problem_.materials.update_stress(state_.points,
                                        state_.workspace,
                                        batch,

@@ -3,6 +3,7 @@
 #include <talus/base/errors.h>
 #include <talus/base/interrupt.h>
 #include <talus/simulation/static_solver.h>
+#include <talus/simulation/yielded_extent.h>
 #include <talus/transfer/send_to_owners.h>
 
 #include <deal.II/base/mpi.h>
@@ -219,7 +220,8 @@ namespace talus
 
 
 
-  /// State the fraction of the load reached, in a sentence for the user.
+  /// State the fraction of the load reached and, in softening soil, how far it
+  /// has yielded, in sentences for the user. The points are in the last balance.
   template <int dim>
   std::string
   StaticSolver<dim>::no_equilibrium() const
@@ -232,7 +234,8 @@ namespace talus
                          " of the load. ")
                   : text("with any share of the load that was tried. "),
                 equilibrium_.failure(),
-                ".");
+                ".",
+                note_on_softening(state_, problem_));
   }
 
 

@@ -7,6 +7,7 @@
 namespace talus
 {
   struct HerschelBulkleyFlow;
+  struct Strength;
 
   /// Variants of the law with strength s_u + K gdot^n. Bingham: n = 1, and K is
   /// the viscosity.
@@ -25,7 +26,8 @@ namespace talus
   /// shear rate and xi its integral in time; in simple shear both refer to the
   /// engineering shear. Remoulding:
   ///   s_u(xi) = f s_u0 [r + (1 - r) exp(-3 xi/xi_95)] @cite einav2005,
-  /// with the strength factor f of the point, or 1. Backward Euler, see
+  /// with the strength factor f of the point, or 1. With a softening displacement
+  /// d, xi/xi_95 is the integral of h dxi/d, h the cell size of the point. Backward Euler, see
   /// plastic_shear(); in a step of length zero viscous material does not flow.
   /// With K = 0 and r = 1 the law is von Mises' law without hardening.
   template <int dim>
@@ -48,14 +50,27 @@ namespace talus
     note(double cell_size) const override;
 
   private:
+    double
+    shear_per_plastic_variable() const override
+    {
+      return 1.;
+    }
+
     HerschelBulkleyFlow
     flow_rule(double dt) const override;
+
+    double
+    strain_to_remould(double cell_size) const;
+    Strength
+    strength_at_rest(double undisturbed) const;
 
     FlowLaw flow_law_;
     double  consistency_       = 100.;
     double  exponent_          = 1.;
     double  remoulded_ratio_   = 1.;
-    double  strain_to_remould_ = 10.;
+    double  strain_to_remould_ = default_strain;
+
+    static constexpr double default_strain = 10.;
   };
 
 } // namespace talus

@@ -35,7 +35,8 @@ namespace talus
 
 
   /// Radial return of the law of Herschel and Bulkley. The plastic variable is
-  /// the plastic shear strain.
+  /// the plastic shear strain. Under a BandStrength all strains of remoulding are
+  /// values of the softening.
   struct HerschelBulkleyFlow
   {
     Strength        strength;
@@ -68,24 +69,25 @@ namespace talus
 
 
   /// Trial state of point(s) before the return.
-  template <int dim, typename Number, typename Modulus>
+  template <int dim, typename Number, typename Modulus, typename Decay>
   struct ViscoplasticTrial : RateLawTrial<dim, Number, Modulus>
   {
     Number shear_stress; ///< trial shear stress, Pa
     Number old_strain;   ///< plastic shear strain at the start of the step [-]
     Number strength;     ///< at the start of the step, Pa
     Number loss;         ///< strength that remoulding can still remove, Pa
+    Decay  decay; ///< rate of the loss per plastic shear strain [-]
   };
 
 
 
   /// Type of the trial for points with a strength factor of type @p Factor.
   template <int dim, typename Number, typename Factor>
-  using ViscoplasticTrialWith =
-    ViscoplasticTrial<dim,
-                      Number,
-                      decltype(modulus_of_point(double(),
-                                                std::declval<Factor>()))>;
+  using ViscoplasticTrialWith = ViscoplasticTrial<
+    dim,
+    Number,
+    decltype(modulus_of_point(double(), std::declval<Factor>())),
+    decltype(slope_of_point(double(), std::declval<Factor>()))>;
 
 
 
@@ -105,26 +107,31 @@ namespace talus
     const Number old_strain  = load<Number>(step.points.data(step.plastic) + p);
     Number       loss        = Number(strength.loss) * share;
     if (decay > 0.)
-      loss *= exp(-decay * old_strain);
+      loss *= exp(
+        -decay *
+        softening_variable<Factor>(step.points, step.softening, p, old_strain));
     return {trial,
             sqrt(0.5 * contract(s, s) + std::numeric_limits<double>::min()),
             old_strain,
             Number(strength.remoulded) * share + loss,
-            loss};
+            loss,
+            slope_of_point(decay, factor)};
   }
 
 
 
   /// Complete the step with the solved @p plastic_shear. Returns false if a
   /// point is inverted or if plastic_shear is NaN, not solved.
-  template <int dim, typename Number, typename Modulus>
+  template <int dim, typename Number, typename Trial, typename Factor>
   TALUS_ALWAYS_INLINE bool
-  flow(const RateLawStep<dim, HerschelBulkleyFlow>   &step,
-       const unsigned int                             p,
-       const ViscoplasticTrial<dim, Number, Modulus> &trial,
-       const Number                                  &plastic_shear)
+  flow(const RateLawStep<dim, HerschelBulkleyFlow> &step,
+       const unsigned int                           p,
+       const Trial                                 &trial,
+       const Number                                &plastic_shear,
+       const Factor                                &factor)
   {
     store(step.points.data(step.plastic) + p, trial.old_strain + plastic_shear);
+    soften(step.points, step.softening, p, plastic_shear, factor);
     flow_plastically<dim, Number>(step.points,
                                   p,
                                   trial,
@@ -136,29 +143,26 @@ namespace talus
 
 
 
-  template <typename Modulus>
-  TALUS_ALWAYS_INLINE ShearResistanceOf<Modulus>
-  with_modulus(const ShearResistance &r, const Modulus &modulus)
+  template <typename Modulus, typename Decay>
+  TALUS_ALWAYS_INLINE ShearResistanceOf<Modulus, Decay>
+                      with_modulus_and_decay(const ShearResistance &r,
+                                             const Modulus         &modulus,
+                                             const Decay           &decay)
   {
-    return {modulus, r.consistency, r.exponent, r.decay, r.dt};
+    return {modulus, r.consistency, r.exponent, decay, r.dt};
   }
 
 
 
-  /// Shear modulus of all trials, Pa: one number, or one for each point.
-  template <unsigned int n_parts, int dim, typename Number, typename Modulus>
+  /// Value @p of(i) of all trials: one number, or one for each point.
+  template <unsigned int n_parts, typename Function>
   TALUS_ALWAYS_INLINE auto
-  modulus_of(const ViscoplasticTrial<dim, Number, Modulus> *trial)
+  of_trials(const Function &of)
   {
-    if constexpr (std::is_same_v<Modulus, double>)
-      return trial[0].moduli.mu;
+    if constexpr (std::is_same_v<std::decay_t<decltype(of(0))>, double>)
+      return of(0);
     else
-      {
-        WideSimd<n_parts> modulus;
-        for (unsigned int i = 0; i < n_parts; ++i)
-          modulus.part[i] = trial[i].moduli.mu;
-        return modulus;
-      }
+      return WideSimd<n_parts>::of(of);
   }
 
 
@@ -177,12 +181,13 @@ namespace talus
       ViscoplasticTrialWith<dim, Number, decltype(factor(p, Number()))>;
     constexpr unsigned int width      = sizeof(Number) / sizeof(double);
     const ShearResistance &resistance = step.flow_rule.resistance;
-    Trial                  trial[n_parts];
+    const auto factor_of = [&](const unsigned int i) TALUS_INLINE_LAMBDA {
+      return factor(p + i * width, Number());
+    };
+    Trial trial[n_parts];
     for (unsigned int i = 0; i < n_parts; ++i)
       trial[i] =
-        viscoplastic_trial<dim, Number>(step,
-                                        p + i * width,
-                                        factor(p + i * width, Number()));
+        viscoplastic_trial<dim, Number>(step, p + i * width, factor_of(i));
     bool is_sound = true;
     if constexpr (n_parts == 1)
       is_sound =
@@ -191,8 +196,10 @@ namespace talus
              trial[0],
              plastic_shear<Number>(trial[0].shear_stress - trial[0].strength,
                                    trial[0].loss,
-                                   with_modulus(resistance,
-                                                trial[0].moduli.mu)));
+                                   with_modulus_and_decay(resistance,
+                                                          trial[0].moduli.mu,
+                                                          trial[0].decay)),
+             factor_of(0));
     else
       {
         WideSimd<n_parts> excess, loss;
@@ -202,9 +209,19 @@ namespace talus
             loss.part[i]   = trial[i].loss;
           }
         const auto shear = plastic_shear<WideSimd<n_parts>>(
-          excess, loss, with_modulus(resistance, modulus_of<n_parts>(trial)));
+          excess,
+          loss,
+          with_modulus_and_decay(
+            resistance,
+            of_trials<n_parts>([&](const unsigned int i) TALUS_INLINE_LAMBDA {
+              return trial[i].moduli.mu;
+            }),
+            of_trials<n_parts>([&](const unsigned int i) TALUS_INLINE_LAMBDA {
+              return trial[i].decay;
+            })));
         for (unsigned int i = 0; i < n_parts; ++i)
-          is_sound &= flow(step, p + i * width, trial[i], shear.part[i]);
+          is_sound &=
+            flow(step, p + i * width, trial[i], shear.part[i], factor_of(i));
       }
     return is_sound;
   }

@@ -115,6 +115,22 @@ namespace talus
       return std::numeric_limits<double>::infinity();
     }
 
+    /// Return whether the law softens with the displacement across a shear band
+    /// as wide as a cell. The law then has the column `cell size`, to be set
+    /// before each step, see Materials::set_cell_sizes().
+    virtual bool
+    softens_by_displacement() const
+    {
+      return false;
+    }
+
+    /// Largest edge of cells with soil, m, for the limits of softening.
+    void
+    use_cell_size(const double largest)
+    {
+      largest_cell_size_ = largest;
+    }
+
     /// Multiply the whole strength (not viscosity) of each point from now on by
     /// the value in @p column [-], between 0 and largest_strength_factor();
     /// ignored by laws without strength. The factor may change at any time: a
@@ -245,9 +261,17 @@ namespace talus
                : points.data(strength_factor_)[p];
     }
 
+    /// See use_cell_size(), m.
+    double
+    largest_cell_size() const
+    {
+      return largest_cell_size_;
+    }
+
   private:
     std::string section_;
-    double      density_ = 1000.;
+    double      largest_cell_size_ = 0.;
+    double      density_           = 1000.;
     // A single number, or empty if the parameter is not given.
     std::vector<double> submerged_density_;
     std::string         bbar_     = "auto";

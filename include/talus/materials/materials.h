@@ -4,6 +4,7 @@
 
 #include <talus/materials/material_model.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -87,6 +88,29 @@ namespace talus
     largest_strength_factor(const Points<dim> &points,
                             MPI_Comm           communicator) const;
 
+    /// Tell all laws the largest edge of cells with soil, m. Throws ExcUser,
+    /// with the largest cells allowed, if soil of uniform strength softens
+    /// faster than it can unload elastically.
+    void
+    use_cell_size(double largest);
+
+    /// Set the column of cell sizes, if a law needs it, at the points of
+    /// @p batch. @p size_of maps the index of a cell to its edge, m.
+    template <typename Function>
+    void
+    set_cell_sizes(Points<dim>    &points,
+                   const Batch    &batch,
+                   const Function &size_of) const
+    {
+      if (cell_size_ == dealii::numbers::invalid_unsigned_int)
+        return;
+      double *const size = points.data(cell_size_);
+      for (const Segment &segment : points.segments(batch))
+        std::fill(size + segment.begin,
+                  size + segment.end,
+                  size_of(segment.cell));
+    }
+
     /// Advance deformation and stress of a batch of points over @p dt seconds.
     /// @param points Points of this rank.
     /// @param workspace Velocity gradients of the batch.
@@ -122,6 +146,7 @@ namespace talus
     std::vector<unsigned int>                        material_of_body_;
     unsigned int strength_factor_    = dealii::numbers::invalid_unsigned_int;
     unsigned int undrained_strength_ = dealii::numbers::invalid_unsigned_int;
+    unsigned int cell_size_          = dealii::numbers::invalid_unsigned_int;
   };
 } // namespace talus
 

@@ -19,6 +19,15 @@ namespace talus
     Number stiffness; ///< moduli of the point over the moduli of the law [-]
   };
 
+  /// PointStrength of soil that softens with the displacement across a shear
+  /// band. The flow rule then takes the softening column in place of the plastic
+  /// variable.
+  template <typename Number>
+  struct BandStrength : PointStrength<Number>
+  {
+    Number rate; ///< softening per plastic variable [-]
+  };
+
   template <typename T>
   struct IsPointStrength : std::false_type
   {};
@@ -26,6 +35,16 @@ namespace talus
   template <typename Number>
   struct IsPointStrength<PointStrength<Number>> : std::true_type
   {};
+
+  template <typename Number>
+  struct IsPointStrength<BandStrength<Number>> : std::true_type
+  {};
+
+  template <typename T>
+  constexpr bool is_band_strength = false;
+
+  template <typename Number>
+  constexpr bool is_band_strength<BandStrength<Number>> = true;
 
 
 
@@ -53,6 +72,20 @@ namespace talus
       return factor.factor;
     else
       return factor;
+  }
+
+
+
+  /// Slope per plastic variable of a quantity with the slope @p slope per
+  /// softening.
+  template <typename Slope, typename Factor>
+  TALUS_ALWAYS_INLINE auto
+  slope_of_point(const Slope &slope, [[maybe_unused]] const Factor &factor)
+  {
+    if constexpr (is_band_strength<Factor>)
+      return slope * factor.rate;
+    else
+      return slope;
   }
 
 

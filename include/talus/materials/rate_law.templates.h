@@ -126,16 +126,17 @@ namespace talus
     Assert(!is_plastic ||
              plastic_variable_ != dealii::numbers::invalid_unsigned_int,
            dealii::ExcMessage("add_columns() was not called."));
-    const Moduli       moduli   = this->moduli();
-    const FlowRule     flow     = flow_rule(dt);
-    const auto         columns  = points.view();
-    const auto         work     = workspace.view(begin, end);
-    const unsigned int plastic  = plastic_variable_;
-    bool               is_sound = true;
+    const Moduli       moduli    = this->moduli();
+    const FlowRule     flow      = flow_rule(dt);
+    const auto         columns   = points.view();
+    const auto         work      = workspace.view(begin, end);
+    const unsigned int plastic   = plastic_variable_;
+    const unsigned int softening = strength_columns().band.softening;
+    bool               is_sound  = true;
     with_strength(points, [&](const auto &factor) {
       // Constructed here, not captured, so that the compiler knows all values.
       const RateLawStep<dim, FlowRule> step = {
-        columns, work, plastic, dt, moduli, flow};
+        columns, work, plastic, dt, moduli, flow, softening};
       constexpr unsigned int n    = n_registers_at_once<FlowRule>;
       unsigned int           rest = begin;
       if constexpr (n > 1)
@@ -192,6 +193,12 @@ namespace talus
       const double plastic = this->plastic_variable(points, p);
       const double factor  = this->strength_factor(points, p);
       if constexpr (is_plastic)
+        if (const auto &band = columns.band;
+            band.softening != dealii::numbers::invalid_unsigned_int)
+          return rule(trial,
+                      points.data(band.softening)[p],
+                      band_strength(points, columns)(p, double()));
+      if constexpr (is_plastic)
         if (columns.strength != dealii::numbers::invalid_unsigned_int)
           {
             const double strength = points.data(columns.strength)[p];
@@ -238,10 +245,11 @@ namespace talus
                                            const unsigned int        end,
                                            const StrainMeasure measure) const
   {
-    const auto     columns = points.view();
-    const auto     work    = workspace.view(begin, end);
-    const Moduli   moduli  = this->moduli();
-    const FlowRule rule    = flow_rule(infinitely_slow);
+    const auto         columns   = points.view();
+    const auto         work      = workspace.view(begin, end);
+    const Moduli       moduli    = this->moduli();
+    const FlowRule     rule      = flow_rule(infinitely_slow);
+    const unsigned int softening = strength_columns().band.softening;
     with_strength(points, [&](const auto &factor) {
       for (unsigned int p = begin; p < end; ++p)
         {
@@ -266,9 +274,13 @@ namespace talus
                                        strain,
                                        moduli_here)};
           const auto flow =
-            rule(trial.stress, plastic_variable(points, p), factor_here);
+            rule(trial.stress,
+                 softening_variable<std::decay_t<decltype(factor_here)>>(
+                   columns, softening, p, plastic_variable(points, p)),
+                 factor_here);
           if constexpr (is_plastic)
             points.data(plastic_variable_)[p] += flow.increment;
+          soften(columns, softening, p, flow.increment, factor_here);
           flow_plastically(columns, p, trial, flow);
         }
     });

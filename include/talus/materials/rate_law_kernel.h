@@ -66,7 +66,44 @@ namespace talus
     double             dt;        ///< s
     Moduli             moduli;    ///< elastic constants of the law, Pa
     FlowRule           flow_rule;
+    /// Column of the softening; used only with BandStrength.
+    unsigned int softening = 0;
   };
+
+
+
+  /// Variable of the flow rule at point(s) @p p: under a BandStrength the value
+  /// in the column @p softening, otherwise the plastic variable @p plastic.
+  template <typename Factor, int dim, typename Number>
+  TALUS_ALWAYS_INLINE Number
+  softening_variable([[maybe_unused]] const PointsView<dim> &points,
+                     [[maybe_unused]] const unsigned int     softening,
+                     [[maybe_unused]] const unsigned int     p,
+                     const Number                           &plastic)
+  {
+    if constexpr (is_band_strength<Factor>)
+      return load<Number>(points.data(softening) + p);
+    else
+      return plastic;
+  }
+
+
+
+  /// Add the softening by an increment of the plastic variable.
+  template <int dim, typename Number, typename Factor>
+  TALUS_ALWAYS_INLINE void
+  soften([[maybe_unused]] const PointsView<dim> &points,
+         [[maybe_unused]] const unsigned int     softening,
+         [[maybe_unused]] const unsigned int     p,
+         [[maybe_unused]] const Number          &increment,
+         [[maybe_unused]] const Factor          &factor)
+  {
+    if constexpr (is_band_strength<Factor>)
+      {
+        double *const column = points.data(softening) + p;
+        store(column, load<Number>(column) + slope_of_point(increment, factor));
+      }
+  }
 
 
 
@@ -201,8 +238,13 @@ namespace talus
       {
         double *const variable = step.points.data(step.plastic) + p;
         const Number  before   = load<Number>(variable);
-        const auto    flow = step.flow_rule(trial.stress, before, factor_here);
+        const auto    flow     = step.flow_rule(
+          trial.stress,
+          softening_variable<std::decay_t<decltype(factor_here)>>(
+            step.points, step.softening, p, before),
+          factor_here);
         store(variable, before + flow.increment);
+        soften(step.points, step.softening, p, flow.increment, factor_here);
         flow_plastically(step.points, p, trial, flow);
       }
     return all(trial.motion.J_after > 0.);

@@ -11,17 +11,21 @@ namespace talus
   /// Base of laws for clay sheared without drainage: flow at constant volume
   /// with an undrained shear strength, which may differ from point to point.
   /// The flow rule takes strength() and moduli(), and multiplies both by
-  /// share_of_strength() and modulus_of_point(). The functions are in
+  /// share_of_strength() and modulus_of_point(). With a softening displacement
+  /// the rule takes the column "softening", 1 at that displacement, and
+  /// multiplies slopes by slope_of_point(). The functions are in
   /// undrained_law.templates.h, to be included by the .cc file of a law.
   template <int dim, typename FlowRule>
   class UndrainedLaw : public RateLaw<dim, FlowRule>
   {
   public:
     /// Declare the parameters of the strength; @p sentence documents the
-    /// strength of undisturbed soil. See RateLaw for @p plastic_variable.
+    /// strength of undisturbed soil, @p softening_strain is the parameter that
+    /// a softening displacement replaces. See RateLaw for @p plastic_variable.
     UndrainedLaw(const std::string &section,
                  const std::string &plastic_variable,
-                 const std::string &sentence);
+                 const std::string &sentence,
+                 const std::string &softening_strain);
 
     /// Throw ExcUser also if the strength is negative or, with a stiffness
     /// ratio, zero.
@@ -46,6 +50,12 @@ namespace talus
     undrained_strength() const override
     {
       return &strength_;
+    }
+
+    bool
+    softens_by_displacement() const override
+    {
+      return !softening_displacement_.empty();
     }
 
     /// Return true: flow keeps the volume for any Poisson's ratio.
@@ -79,6 +89,29 @@ namespace talus
       return this->has_strength_column() && !stiffness_ratio_.empty();
     }
 
+    /// Displacement across a shear band at which softening is 1, m; only if
+    /// softens_by_displacement().
+    double
+    softening_displacement() const
+    {
+      return softening_displacement_.front();
+    }
+
+    /// Variable of softening at point @p p [-]: the column "softening", or the
+    /// plastic variable.
+    double
+    softening(const Points<dim> &points, const unsigned int p) const
+    {
+      return softens_by_displacement() ? points.data(softening_column_)[p]
+                                       : this->plastic_variable(points, p);
+    }
+
+    /// Throw ExcUser if @p is_given, for a softening displacement beside the
+    /// parameter @p other.
+    void
+    check_softening_is_given_once(bool               is_given,
+                                  const std::string &other) const;
+
     /// Young's modulus, Pa, from the ratio E/s_u if given.
     double
     young_modulus() const override
@@ -88,13 +121,19 @@ namespace talus
     }
 
   private:
+    /// Plastic shear strain in simple shear per plastic variable [-].
+    virtual double
+    shear_per_plastic_variable() const = 0;
+
     StrengthColumns
     strength_columns() const override;
 
     unsigned int      strength_column_ = dealii::numbers::invalid_unsigned_int;
     UndrainedStrength strength_{"2500"};
     // A single number, or empty if the parameter is not given.
-    std::vector<double> stiffness_ratio_;
+    std::vector<double> stiffness_ratio_, softening_displacement_;
+    unsigned int softening_column_ = dealii::numbers::invalid_unsigned_int;
+    unsigned int cell_size_column_ = dealii::numbers::invalid_unsigned_int;
   };
 } // namespace talus
 

@@ -13,7 +13,8 @@ namespace talus
   template <int dim, typename FlowRule>
   UndrainedLaw<dim, FlowRule>::UndrainedLaw(const std::string &section,
                                             const std::string &plastic_variable,
-                                            const std::string &sentence)
+                                            const std::string &sentence,
+                                            const std::string &softening_strain)
     : RateLaw<dim, FlowRule>(section, plastic_variable)
   {
     using dealii::ParameterAcceptor;
@@ -35,6 +36,36 @@ namespace talus
       "modulus` is used.",
       ParameterAcceptor::prm,
       Patterns::List(Patterns::Double(1e-12), 0, 1));
+    this->add_parameter(
+      "Softening displacement",
+      softening_displacement_,
+      "Displacement d across a shear band [m] over which the strength falls to "
+      "the residual strength (under Bingham and Herschel-Bulkley by 95 % of "
+      "the "
+      "loss), on cells of any size: the band is taken to be as wide as the "
+      "cell "
+      "of the point. A band along a row of cells is one cell wide. An inclined "
+      "band is 2.0 to 2.7 cells wide, on any mesh, and so needs 2.0 to 2.7 d. "
+      "Replaces " +
+        softening_strain + ". Empty: that is used.",
+      ParameterAcceptor::prm,
+      Patterns::List(Patterns::Double(1e-12), 0, 1));
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  void
+  UndrainedLaw<dim, FlowRule>::check_softening_is_given_once(
+    const bool is_given, const std::string &other) const
+  {
+    AssertThrow(!softens_by_displacement() || !is_given,
+                ExcUser(text("Section ",
+                             this->section(),
+                             ": both `Softening displacement` and `",
+                             other,
+                             "` are given, but the strength softens by one of "
+                             "them: remove the other.")));
   }
 
 
@@ -68,18 +99,31 @@ namespace talus
                                            "Pa",
                                            1,
                                            Inheritance::copied);
+    if (!softens_by_displacement())
+      return;
+    softening_column_ =
+      points.add_column("softening", "-", 1, Inheritance::copied);
+    cell_size_column_ =
+      points.add_column("cell size", "m", 1, Inheritance::copied);
   }
 
 
 
+  // The shear across a band as wide as the cell, over the displacement.
   template <int dim, typename FlowRule>
   StrengthColumns
   UndrainedLaw<dim, FlowRule>::strength_columns() const
   {
-    return {this->strength_factor(),
-            this->has_strength_column() ? strength_column_
-                                        : dealii::numbers::invalid_unsigned_int,
-            has_moduli_of_points()};
+    StrengthColumns columns = {this->strength_factor(),
+                               this->has_strength_column()
+                                 ? strength_column_
+                                 : dealii::numbers::invalid_unsigned_int,
+                               has_moduli_of_points()};
+    if (softens_by_displacement())
+      columns.band = {softening_column_,
+                      cell_size_column_,
+                      shear_per_plastic_variable() / softening_displacement()};
+    return columns;
   }
 
 

@@ -5,6 +5,7 @@
 #include <talus/base/simd_math.h>
 
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 namespace talus
@@ -29,18 +30,32 @@ namespace talus
 
 
   /// Resistance to plastic shear in one step.
-  template <typename Modulus>
+  template <typename Modulus, typename Decay = double>
   struct ShearResistanceOf
   {
     Modulus modulus;     ///< elastic shear modulus G, Pa
     double  consistency; ///< K >= 0, Pa s^n
     double  exponent;    ///< n > 0 [-]
-    double  decay;       ///< rate of strength loss by remoulding, per plastic
+    Decay   decay;       ///< rate of strength loss by remoulding, per plastic
                          ///< shear strain; 0: no remoulding
     double dt;           ///< time step, s
   };
 
   using ShearResistance = ShearResistanceOf<double>;
+
+
+
+  /// Whether soil does not remould: never, if the rate differs from point to
+  /// point.
+  template <typename Decay>
+  TALUS_ALWAYS_INLINE bool
+  is_constant(const Decay &decay)
+  {
+    if constexpr (std::is_same_v<Decay, double>)
+      return decay == 0.;
+    else
+      return false;
+  }
 
 
 
@@ -71,16 +86,16 @@ namespace talus
 
   /// Shear stress taken up by a plastic shear @p x without viscosity, Pa, and
   /// its slope: @p linear x - loss (1 - exp(-decay x)).
-  template <typename Number, typename Linear>
+  template <typename Number, typename Linear, typename Decay>
   TALUS_ALWAYS_INLINE std::pair<Number, Number>
                       stress_taken(const Number x,
                                    const Number loss,
                                    const Linear linear,
-                                   const double decay)
+                                   const Decay  decay)
   {
-    if (decay == 0.)
+    if (is_constant(decay))
       return {linear * x, Number(linear)};
-    const Number change = loss * expm1(-decay * x);
+    const Number change = loss * expm1(-1. * decay * x);
     return {linear * x + change, linear - decay * (loss + change)};
   }
 
@@ -88,12 +103,12 @@ namespace talus
 
   /// Upper bound of the shear at which stress_taken() equals @p excess, as the
   /// function is above its tangent at zero and above its asymptote.
-  template <typename Number, typename Linear>
+  template <typename Number, typename Linear, typename Decay>
   TALUS_ALWAYS_INLINE Number
   max_shear(const Number excess,
             const Number loss,
             const Linear linear,
-            const double decay)
+            const Decay  decay)
   {
     return min(excess / (linear - decay * loss),
                (excess + loss) * (1. / linear));
@@ -103,13 +118,13 @@ namespace talus
 
   /// Solve plastic_shear() for the shear if n > 1 or if the viscous resistance
   /// is part of @p linear.
-  template <typename Number, typename Mask, typename Modulus>
+  template <typename Number, typename Mask, typename Modulus, typename Decay>
   TALUS_ALWAYS_INLINE Number
-  solve_for_shear(const Number                      excess,
-                  const Number                      loss,
-                  const Mask                        yields,
-                  const Modulus                     linear,
-                  const ShearResistanceOf<Modulus> &r)
+  solve_for_shear(const Number                             excess,
+                  const Number                             loss,
+                  const Mask                               yields,
+                  const Modulus                            linear,
+                  const ShearResistanceOf<Modulus, Decay> &r)
   {
     const bool is_power = (r.exponent > 1. && r.consistency > 0.);
     Number     start    = max_shear(excess, loss, linear, r.decay);
@@ -132,12 +147,12 @@ namespace talus
 
 
   /// Solve plastic_shear() for the overstress y if n < 1.
-  template <typename Number, typename Mask, typename Modulus>
+  template <typename Number, typename Mask, typename Modulus, typename Decay>
   TALUS_ALWAYS_INLINE Number
-  solve_for_overstress(const Number                      excess,
-                       const Number                      loss,
-                       const Mask                        yields,
-                       const ShearResistanceOf<Modulus> &r)
+  solve_for_overstress(const Number                             excess,
+                       const Number                             loss,
+                       const Mask                               yields,
+                       const ShearResistanceOf<Modulus, Decay> &r)
   {
     const auto shear = [&](const Number y) {
       return r.dt * power_of(y * (1. / r.consistency), 1. / r.exponent);
@@ -170,11 +185,11 @@ namespace talus
   /// @param loss Strength that further remoulding can remove, Pa; G > decay
   ///   loss.
   /// @param r Resistance to shear.
-  template <typename Number, typename Modulus = double>
+  template <typename Number, typename Modulus = double, typename Decay = double>
   TALUS_ALWAYS_INLINE Number
-  plastic_shear(const Number                      excess,
-                const Number                      loss,
-                const ShearResistanceOf<Modulus> &r)
+  plastic_shear(const Number                             excess,
+                const Number                             loss,
+                const ShearResistanceOf<Modulus, Decay> &r)
   {
     const auto yields     = (excess > Number(0.));
     const bool is_viscous = (r.consistency > 0.);
@@ -184,7 +199,7 @@ namespace talus
     const bool    is_linear = (!is_viscous || r.exponent == 1.);
     const Modulus linear =
       r.modulus + (is_linear && is_viscous ? r.consistency / r.dt : 0.);
-    if (is_linear && r.decay == 0.)
+    if (is_linear && is_constant(r.decay))
       return max(excess, Number(0.)) * Number(1. / linear);
 
     // Lanes without excess may have any positive number.

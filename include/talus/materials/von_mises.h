@@ -15,7 +15,8 @@ namespace talus
   /// plastic strain ep,
   ///   sigma_y = f max(sqrt(3) s_u + H ep, sqrt(3) s_residual),
   /// returned exactly @cite simo1998, section 3.3; f is the strength factor of
-  /// the point, or 1.
+  /// the point, or 1. With a softening displacement d, linear in the
+  /// displacement across a band as wide as the cell, h sqrt(3) dep in a step.
   template <int dim>
   class VonMises : public UndrainedLaw<dim, VonMisesFlow>
   {
@@ -39,6 +40,9 @@ namespace talus
     note(double cell_size) const override;
 
   private:
+    double
+    shear_per_plastic_variable() const override;
+
     VonMisesFlow
     flow_rule(double dt) const override;
 

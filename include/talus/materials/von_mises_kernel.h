@@ -10,25 +10,26 @@ namespace talus
 {
   /// Radial return of von Mises' law. The plastic variable is the equivalent
   /// plastic strain; the yield stress is linear in it down to the residual
-  /// yield stress.
+  /// yield stress, or, under a BandStrength, linear in the softening, from the
+  /// initial yield stress at 0 to the residual one at 1.
   struct VonMisesFlow
   {
     double mu;        ///< shear modulus, Pa
     double initial;   ///< yield stress, Pa; with PointStrength of 1 Pa strength
-    double hardening; ///< slope of the yield stress, Pa
+    double hardening; ///< slope of the yield stress, Pa; not with BandStrength
     double residual;  ///< residual yield stress, Pa
 
     template <int dim, typename Number, typename Variable, typename Factor>
     TALUS_ALWAYS_INLINE Flow<Number>
                         operator()(const StressStep<dim, Number> &trial,
-               const Variable                &plastic_strain,
+               const Variable                &softening,
                const Factor                  &strength_factor) const
     {
       const auto  &deviator = trial.deviator_after;
       const Number q        = sqrt(1.5 * contract(deviator, deviator) +
                             std::numeric_limits<double>::min());
       const Number d_ep =
-        plastic_increment(q, Number(plastic_strain), strength_factor);
+        plastic_increment(q, Number(softening), strength_factor);
       return {3. * modulus_of_point(mu, strength_factor) * d_ep / q, d_ep};
     }
 
@@ -36,21 +37,33 @@ namespace talus
     /// yield stress; zero for elastic trials. The yield stress is the larger of
     /// a line and a constant, so the remainder of q is the smaller of two
     /// falling lines, with the smaller of their two roots. All strengths are
-    /// multiplied by @p factor.
+    /// multiplied by @p factor. @p softening is the variable of the line.
     template <typename Number, typename Factor>
     TALUS_ALWAYS_INLINE Number
     plastic_increment(const Number  q,
-                      const Number  plastic_strain,
+                      const Number  softening,
                       const Factor &factor) const
     {
       const auto   modulus = modulus_of_point(mu, factor);
       const auto   given   = share_of_given_strength(factor);
-      const auto   slope   = hardening * given;
+      const auto   slope   = slope_of_line(factor);
       const Number on_line =
-        (q - initial * share_of_strength(factor) - slope * plastic_strain) *
-        (1. / (3. * modulus + slope));
+        (q - initial * share_of_strength(factor) - slope * softening) *
+        (1. / (3. * modulus + slope_of_point(slope, factor)));
       const Number on_residual = (q - residual * given) * (1. / (3. * modulus));
       return max(min(on_line, on_residual), Number{});
+    }
+
+    /// Slope of the yield stress before the residual one, Pa.
+    template <typename Factor>
+    TALUS_ALWAYS_INLINE auto
+    slope_of_line(const Factor &factor) const
+    {
+      if constexpr (is_band_strength<Factor>)
+        return residual * share_of_given_strength(factor) -
+               initial * share_of_strength(factor);
+      else
+        return hardening * share_of_given_strength(factor);
     }
   };
 } // namespace talus

@@ -128,6 +128,7 @@ namespace talus
     locate(const Grid<dim> &grid)
     {
       find_mudline(grid);
+      materials.use_cell_size(grid.cell_size());
       interactions.prepare(grid);
     }
 

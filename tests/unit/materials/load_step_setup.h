@@ -25,7 +25,12 @@ namespace
     double plastic         = 0.; ///< plastic variable at the start
     double strength_factor = 0.; ///< 0: there is no such column
     bool   hyperelastic    = false;
+    double softening       = 0.; ///< column at the start, if there is one
   };
+
+
+
+  constexpr double size_of_cell = 0.5; // m
 
 
 
@@ -63,7 +68,26 @@ namespace
        true,
        0.3},
       {"Hencky", "Hencky", "", false, 0., 0., true},
-      {"neo-Hookean", "neo-Hookean", "", false, 0., 0., true}};
+      {"neo-Hookean", "neo-Hookean", "", false, 0., 0., true},
+      // The same curves by displacement: d = 3 (s_u - s_res) h/30e3, d = 2 h.
+      {"von Mises by displacement",
+       "von Mises",
+       su + "set Softening displacement = 0.095\n"
+            "set Residual undrained shear strength = 600\n",
+       true,
+       0.01,
+       0.,
+       false,
+       std::sqrt(3.) * 0.01 * size_of_cell / 0.095},
+      {"Bingham by displacement, weakened",
+       "Bingham",
+       su + "set Remoulded strength ratio = 0.3\n"
+            "set Softening displacement = 1\nset Viscosity = 40",
+       true,
+       0.3,
+       0.6,
+       false,
+       0.3 * size_of_cell / 1.}};
     return cases;
   }
 
@@ -94,6 +118,12 @@ namespace
       for (const Column &column : points.columns())
         if (column.name.find("plastic") == 0 && column.unit == "-")
           plastic = column.first;
+      for (const Column &column : points.columns())
+        if (column.name == "softening")
+          {
+            points.data(column.first)[0]             = load_case.softening;
+            points.data(points.find("cell size"))[0] = size_of_cell;
+          }
       if (plastic != dealii::numbers::invalid_unsigned_int)
         points.data(plastic)[0] = load_case.plastic;
       if (load_case.strength_factor > 0.)
