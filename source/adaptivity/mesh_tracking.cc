@@ -155,7 +155,7 @@ namespace talus
 
 
 
-  // Used before points exist, hence bounding boxes instead of occupied cells.
+  // Used before points exist, hence boxes instead of occupied cells.
   template <int dim>
   void
   MeshTracking<dim>::adapt(Grid<dim> &grid, const std::vector<Box<dim>> &boxes)

@@ -107,13 +107,29 @@ namespace talus
               std::abs(d) > 1.5 * 0.5 * diagonal / n_parts)
             uncut(part, d);
           else
-            for (const Simplex<dim> &simplex : simplices_of(part))
-              {
-                std::array<double, dim + 1> values;
-                for (unsigned int v = 0; v < dim + 1; ++v)
-                  values[v] = value(simplex[v]);
-                action(simplex, values);
-              }
+            {
+              // The simplices share the corners of the box.
+              std::array<double, (1u << dim)> at_corners;
+              for (unsigned int v = 0; v < at_corners.size(); ++v)
+                {
+                  Point<dim> corner;
+                  for (unsigned int d = 0; d < dim; ++d)
+                    corner[d] = ((v >> d) & 1 ? part.upper : part.lower)[d];
+                  at_corners[v] = value(corner);
+                }
+              for (const Simplex<dim> &simplex : simplices_of(part))
+                {
+                  std::array<double, dim + 1> values;
+                  for (unsigned int v = 0; v <= dim; ++v)
+                    {
+                      unsigned int corner = 0;
+                      for (unsigned int d = 0; d < dim; ++d)
+                        corner |= (simplex[v][d] == part.upper[d]) << d;
+                      values[v] = at_corners[corner];
+                    }
+                  action(simplex, values);
+                }
+            }
         }
     }
 

@@ -52,7 +52,8 @@ namespace talus
 
 
   /// Outside of a part, no further parts are evaluated: they may be undefined
-  /// at @p x.
+  /// at @p x. Once a surface may cut the ball, only a part that leaves out the
+  /// whole ball matters, and such a part does not contain @p x.
   template <int dim>
   bool
   Intersection<dim>::may_cut_ball(const Point<dim> &x,
@@ -60,10 +61,15 @@ namespace talus
   {
     bool may_cut = false;
     for (const auto &part : parts_)
-      if (part->may_cut_ball(x, radius))
-        may_cut = true;
-      else if (part->signed_distance(x) > 0.)
-        return false;
+      {
+        const bool is_outside = part->signed_distance(x) > 0.;
+        if (may_cut && !is_outside)
+          continue;
+        if (part->may_cut_ball(x, radius))
+          may_cut = true;
+        else if (is_outside)
+          return false;
+      }
     return may_cut;
   }
 

@@ -117,36 +117,90 @@ namespace talus
 
 
 
-  /// The simplex is clipped by one limit after another, each linear on the
-  /// remaining parts. Edges between planes are exact, unlike for the maximum of
-  /// the distances.
   template <int dim>
-  std::vector<Simplex<dim>>
-  Region<dim>::clip(const Simplex<dim> &simplex,
-                    const Limits       &limits,
-                    const double        tolerance)
+  typename Region<dim>::DistancesOfLimits
+  Region<dim>::distances_in(const Box<dim> &box, const Limits &limits)
   {
-    std::vector<Simplex<dim>> parts{simplex};
+    DistancesOfLimits result;
     for (const Limit &limit : limits)
       {
-        std::vector<Simplex<dim>> clipped;
-        for (const Simplex<dim> &part : parts)
+        Distances distances;
+        distances.at_centre = limit.signed_distance(centre_of(box));
+        for (unsigned int v = 0; v < (1u << dim); ++v)
           {
-            std::array<double, dim + 1> values;
-            for (unsigned int v = 0; v <= dim; ++v)
-              {
-                values[v] = limit.signed_distance(part[v]);
-                // Otherwise round-off would cut off slivers at a surface on a
-                // face of the lattice.
-                if (std::abs(values[v]) < tolerance)
-                  values[v] = 0.;
-              }
-            const auto left = clip_simplex<dim>(part, values).parts;
-            clipped.insert(clipped.end(), left.begin(), left.end());
+            Point<dim> corner = box.lower;
+            for (unsigned int d = 0; d < dim; ++d)
+              if ((v >> d) & 1)
+                corner[d] = box.upper[d];
+            distances.at_corners[v] = limit.signed_distance(corner);
           }
-        parts = std::move(clipped);
+        result.push_back(distances);
       }
-    return parts;
+    return result;
+  }
+
+
+
+  namespace
+  {
+    /// Return the number of the corner of @p box at @p x, as in distances_in();
+    /// 2^dim at all places that are no corner.
+    template <int dim>
+    unsigned int
+    corner_at(const Box<dim> &box, const Point<dim> &x)
+    {
+      unsigned int v = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        if (x[d] == box.upper[d])
+          v |= 1u << d;
+        else if (x[d] != box.lower[d])
+          return 1u << dim;
+      return v;
+    }
+  } // namespace
+
+
+
+  /// Add the part of @p box within all limits. The simplices of the box are
+  /// clipped by one limit after another, each linear on the remaining parts.
+  /// Edges between planes are exact, unlike for the maximum of the distances.
+  template <int dim>
+  void
+  Region<dim>::add_clipped(const Box<dim>          &box,
+                           const Limits            &limits,
+                           const DistancesOfLimits &distances,
+                           Sum                     &sum)
+  {
+    // Otherwise round-off would cut off slivers at a surface on a face of the
+    // lattice.
+    const double tolerance = 1e-6 * sum.tolerance;
+    for (const Simplex<dim> &simplex : simplices_of(box))
+      {
+        std::vector<Simplex<dim>> parts{simplex};
+        for (std::size_t i = 0; i < limits.size(); ++i)
+          {
+            std::vector<Simplex<dim>> clipped;
+            for (const Simplex<dim> &part : parts)
+              {
+                std::array<double, dim + 1> values;
+                for (unsigned int v = 0; v <= dim; ++v)
+                  {
+                    const unsigned int corner = corner_at(box, part[v]);
+                    if (corner < distances[i].at_corners.size())
+                      values[v] = distances[i].at_corners[corner];
+                    else
+                      values[v] = limits[i].signed_distance(part[v]);
+                    if (std::abs(values[v]) < tolerance)
+                      values[v] = 0.;
+                  }
+                const auto left = clip_simplex<dim>(part, values).parts;
+                clipped.insert(clipped.end(), left.begin(), left.end());
+              }
+            parts = std::move(clipped);
+          }
+        for (const Simplex<dim> &part : parts)
+          sum.add(part);
+      }
   }
 
 
@@ -156,65 +210,42 @@ namespace talus
   /// two surfaces are near.
   template <int dim>
   bool
-  Region<dim>::are_linear(const Box<dim> &box,
-                          const Limits   &limits,
-                          const double    tolerance)
+  Region<dim>::are_linear(const DistancesOfLimits &distances,
+                          const double             tolerance)
   {
-    for (const Limit &limit : limits)
-      {
-        double mean = 0.;
-        for (unsigned int v = 0; v < (1u << dim); ++v)
-          {
-            Point<dim> corner = box.lower;
-            for (unsigned int d = 0; d < dim; ++d)
-              if ((v >> d) & 1)
-                corner[d] = box.upper[d];
-            mean += limit.signed_distance(corner) / (1u << dim);
-          }
-        if (std::abs(limit.signed_distance(centre_of(box)) - mean) > tolerance)
-          return false;
-      }
-    return true;
+    return std::all_of(distances.begin(),
+                       distances.end(),
+                       [tolerance](const Distances &limit) {
+                         double mean = 0.;
+                         for (const double distance : limit.at_corners)
+                           mean += distance / limit.at_corners.size();
+                         return std::abs(limit.at_centre - mean) <= tolerance;
+                       });
   }
 
 
 
-  namespace
+  /// Return whether two limits are one surface in a box, seen from opposite
+  /// sides: their distances at centre and corners differ only in sign, up to
+  /// @p tolerance, m. Beyond the end of a layer both surfaces coincide.
+  template <int dim>
+  bool
+  Region<dim>::have_coinciding_pair(const DistancesOfLimits &distances,
+                                    const double             tolerance)
   {
-    /// Return whether two limits are one surface in @p box, seen from opposite
-    /// sides: their distances at centre and corners differ only in sign, up to
-    /// @p tolerance, m. Beyond the end of a layer both surfaces coincide.
-    template <int dim, typename Limits>
-    bool
-    have_coinciding_pair(const Box<dim> &box,
-                         const Limits   &limits,
-                         const double    tolerance)
-    {
-      const auto coincide = [&](const auto &a, const auto &b) {
-        const auto differ_in_sign = [&](const Point<dim> &x) {
-          return std::abs(a.signed_distance(x) + b.signed_distance(x)) <=
-                 tolerance;
-        };
-        if (!differ_in_sign(centre_of(box)))
-          return false;
-        for (unsigned int v = 0; v < (1u << dim); ++v)
-          {
-            Point<dim> corner = box.lower;
-            for (unsigned int d = 0; d < dim; ++d)
-              if ((v >> d) & 1)
-                corner[d] = box.upper[d];
-            if (!differ_in_sign(corner))
-              return false;
-          }
-        return true;
-      };
-      for (std::size_t i = 0; i < limits.size(); ++i)
-        for (std::size_t j = i + 1; j < limits.size(); ++j)
-          if (coincide(limits[i], limits[j]))
-            return true;
-      return false;
-    }
-  } // namespace
+    const auto differ_in_sign = [tolerance](const double a, const double b) {
+      return std::abs(a + b) <= tolerance;
+    };
+    for (auto a = distances.begin(); a != distances.end(); ++a)
+      for (auto b = a + 1; b != distances.end(); ++b)
+        if (differ_in_sign(a->at_centre, b->at_centre) &&
+            std::equal(a->at_corners.begin(),
+                       a->at_corners.end(),
+                       b->at_corners.begin(),
+                       differ_in_sign))
+          return true;
+    return false;
+  }
 
 
 
@@ -268,26 +299,29 @@ namespace talus
     if (!keep_those_that_cut(box, limits))
       return;
     if (limits.empty())
-      sum.add(box);
-    else if (depth >= min_depth &&
-             have_coinciding_pair(box, limits, 1e-3 * sum.tolerance))
-      return; // no soil in between, however small the parts of the box
-    else if (depth == largest_depth<dim> ||
-             (depth >= min_depth && are_linear(box, limits, sum.tolerance)))
       {
-        for (const Simplex<dim> &simplex : simplices_of(box))
-          for (const auto &part : clip(simplex, limits, 1e-6 * sum.tolerance))
-            sum.add(part);
+        sum.add(box);
+        return;
       }
-    else
-      for (unsigned int v = 0; v < (1u << dim); ++v)
-        {
-          Box<dim>         half   = box;
-          const Point<dim> centre = centre_of(box);
-          for (unsigned int d = 0; d < dim; ++d)
-            ((v >> d) & 1 ? half.lower : half.upper)[d] = centre[d];
-          add_part(half, limits, depth + 1, sum);
-        }
+    if (depth >= min_depth)
+      {
+        const auto distances = distances_in(box, limits);
+        if (have_coinciding_pair(distances, 1e-3 * sum.tolerance))
+          return; // no soil in between, however small the parts of the box
+        if (depth == largest_depth<dim> || are_linear(distances, sum.tolerance))
+          {
+            add_clipped(box, limits, distances, sum);
+            return;
+          }
+      }
+    for (unsigned int v = 0; v < (1u << dim); ++v)
+      {
+        Box<dim>         half   = box;
+        const Point<dim> centre = centre_of(box);
+        for (unsigned int d = 0; d < dim; ++d)
+          ((v >> d) & 1 ? half.lower : half.upper)[d] = centre[d];
+        add_part(half, limits, depth + 1, sum);
+      }
   }
 
 

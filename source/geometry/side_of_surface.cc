@@ -60,8 +60,20 @@ namespace talus
   SideOfSurface<dim>::may_cut_ball(const Point<dim> &x,
                                    const double      radius) const
   {
-    return std::abs(x[1] - surface_->at(x).height) <
-           radius + surface_->largest_change(x, radius);
+    const double height = std::abs(x[1] - surface_->at(x).height);
+    return height < radius ||
+           height < radius + surface_->largest_change(x, radius);
+  }
+
+
+
+  template <int dim>
+  bool
+  SideOfSurface<dim>::is_beyond(const Shape<dim> &other) const
+  {
+    const auto *side = dynamic_cast<const SideOfSurface *>(&other);
+    return side != nullptr && side->surface_ == surface_ &&
+           side->sign_ == -sign_;
   }
 
 

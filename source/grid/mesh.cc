@@ -161,7 +161,7 @@ namespace talus
         changed = true;
         // Only before points exist: points would stay on the former owner of
         // their cell.
-        if (spread)
+        if (spread && Utilities::MPI::n_mpi_processes(communicator()) > 1)
           triangulation_.repartition();
       }
   }

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/geometry/analytic_shapes.h>
+#include <talus/geometry/side_of_surface.h>
 #include <talus/problem/body.h>
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
+#include <iterator>
 
 namespace talus
 {
@@ -227,6 +230,35 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Return the @p solids that may take a part of @p shape. A layer that ends
+    /// at a surface has no part on the opposite side, the terrain below.
+    template <int dim>
+    std::vector<const Shape<dim> *>
+    solids_that_may_cut(const Shape<dim>                      &shape,
+                        const std::vector<const Shape<dim> *> &solids)
+    {
+      const auto parts      = shape.parts();
+      const auto has_no_use = [&parts](const Shape<dim> *solid) {
+        const auto *side = dynamic_cast<const SideOfSurface<dim> *>(solid);
+        return side != nullptr && std::any_of(parts.begin(),
+                                              parts.end(),
+                                              [side](const auto *part) {
+                                                return side->is_beyond(*part);
+                                              });
+      };
+      std::vector<const Shape<dim> *> result;
+      std::remove_copy_if(solids.begin(),
+                          solids.end(),
+                          std::back_inserter(result),
+                          has_no_use);
+      return result;
+    }
+  } // namespace
+
+
+
   /// Make the points. @p others are the points of earlier bodies. The volume
   /// removed by obstacles is the difference to a filling without obstacles: no
   /// volume is lost unnoticed, with any filling. Collective.
@@ -252,18 +284,19 @@ namespace talus
                                          bounds,
                                          points_per_axis());
     };
-    const bool is_cut = cut_by_obstacles_ && !solids.empty();
-    Places     result;
-    if (is_cut)
+    const Solids cutting =
+      cut_by_obstacles_ ? solids_that_may_cut(*shape, solids) : Solids();
+    Places result;
+    if (!cutting.empty())
       {
         result.uncut_volume = volume_of(fill(), grid.communicator());
-        region.cut_away(solids);
+        region.cut_away(cutting);
       }
     check_apart(region, others);
     result.points = fill();
-    if (is_cut)
+    if (!cutting.empty())
       result.volume = volume_of(result.points, grid.communicator());
-    else
+    else if (!cut_by_obstacles_)
       check_clear_of(solids, result.points);
     return result;
   }

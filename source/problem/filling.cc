@@ -105,6 +105,37 @@ namespace talus
 
 
 
+  template <int dim>
+  std::vector<Box<dim>>
+  boxes_with_soil(const Region<dim> &region,
+                  const Box<dim>    &bounds,
+                  const double       size)
+  {
+    std::array<unsigned int, dim> n;
+    unsigned int                  n_boxes = 1;
+    for (unsigned int d = 0; d < dim; ++d)
+      {
+        n[d] = std::max(1., std::ceil(bounds.length(d) / size));
+        n_boxes *= n[d];
+      }
+    std::vector<Box<dim>> result;
+    for (unsigned int i = 0; i < n_boxes; ++i)
+      {
+        Box<dim> box;
+        for (unsigned int d = 0, rest = i; d < dim; rest /= n[d++])
+          {
+            const double length = bounds.length(d) / n[d];
+            box.lower[d]        = bounds.lower[d] + (rest % n[d]) * length;
+            box.upper[d]        = box.lower[d] + length;
+          }
+        if (region.part_inside(box).volume > 0.)
+          result.push_back(box);
+      }
+    return result;
+  }
+
+
+
   /// Boxes are not cut by the surface of the body: the volume is accurate only
   /// to the size of a point, but the boxes tile the cells, and the weights
   /// begin without gaps and overlaps.
@@ -508,6 +539,8 @@ namespace talus
 
 
 
+  template decltype(boxes_with_soil<2>)    boxes_with_soil<2>;
+  template decltype(boxes_with_soil<3>)    boxes_with_soil<3>;
   template decltype(filling_by_centres<2>) filling_by_centres<2>;
   template decltype(filling_by_centres<3>) filling_by_centres<3>;
   template decltype(clipped_filling<2>)    clipped_filling<2>;

@@ -20,12 +20,11 @@ namespace talus
 
 
   /// Return a height free of soil below @p x, m: the radius of the largest ball
-  /// around x, by halving, that no surface cuts.
+  /// around x, by halving @p radius, that no surface cuts.
   template <int dim>
   double
-  Mudline<dim>::clear_height(const Point<dim> &x) const
+  Mudline<dim>::clear_height(const Point<dim> &x, double radius) const
   {
-    double radius = domain_.length(1);
     for (const auto &body : bodies_)
       while (radius > 1e-4 * domain_.length(1) && body->may_cut_ball(x, radius))
         radius *= 0.5;
@@ -37,7 +36,7 @@ namespace talus
   /// Return the height of the uppermost soil above @p bottom in the vertical
   /// through @p x, m; none without soil. The search descends in steps that
   /// cannot pass the surface, or of a ten-thousandth of the mesh, and ends by
-  /// bisection.
+  /// bisection. A step is at most twice as high as the step before.
   template <int dim>
   std::optional<double>
   Mudline<dim>::highest_soil(const Point<dim> &x, const double bottom) const
@@ -46,10 +45,12 @@ namespace talus
     above[1] = std::max(domain_.upper[1], bottom);
     if (is_soil(above))
       return above[1];
+    double height = domain_.length(1);
     for (below = above; !is_soil(below) && below[1] > bottom;)
       {
-        above    = below;
-        below[1] = std::max(bottom, below[1] - clear_height(below));
+        above  = below;
+        height = clear_height(below, std::min(2. * height, domain_.length(1)));
+        below[1] = std::max(bottom, below[1] - height);
       }
     if (!is_soil(below))
       return {};

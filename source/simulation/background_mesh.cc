@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/problem/filling.h>
 #include <talus/simulation/background_mesh.h>
 #include <talus/transfer/send_to_owners.h>
 #include <talus/transfer/weights.h>
@@ -82,8 +83,34 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Return boxes around the soil of @p bodies.
+    template <int dim>
+    std::vector<Box<dim>>
+    boxes_around_soil(const Bodies<dim> &bodies, const Grid<dim> &grid)
+    {
+      const Box<dim>        domain = grid.domain_before_growth();
+      std::vector<Box<dim>> result;
+      for (const auto &body : bodies.list())
+        {
+          const auto            shape = body->shape(domain);
+          std::vector<Box<dim>> boxes{body->bounding_box(domain)};
+          // Displaced points may be anywhere around.
+          if (!body->initial_state().is_displaced())
+            boxes = boxes_with_soil(Region<dim>(*shape),
+                                    boxes[0],
+                                    4. * grid.cell_size());
+          result.insert(result.end(), boxes.begin(), boxes.end());
+        }
+      return result;
+    }
+  } // namespace
+
+
+
   /// The mesh is created without points, because points need cells. With mesh
-  /// tracking the cells are fine around the bounding boxes of the bodies.
+  /// tracking the cells are fine around the bodies.
   template <int dim>
   void
   BackgroundMesh<dim>::create(Log &log)
@@ -102,8 +129,7 @@ namespace talus
                    n_cells,
                    " cells is being made."));
     if (mesh_tracking_.is_enabled())
-      mesh_tracking_.adapt(
-        grid, problem_.bodies().bounding_boxes(grid.domain_before_growth()));
+      mesh_tracking_.adapt(grid, boxes_around_soil(problem_.bodies(), grid));
     else
       grid.refine();
     prepare();

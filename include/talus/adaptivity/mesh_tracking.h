@@ -42,7 +42,7 @@ namespace talus
     }
 
     /// Adapt the mesh before points are created: cells of size h in and around
-    /// @p boxes, the bounding boxes of the bodies. Collective.
+    /// @p boxes, which contain the bodies. Collective.
     void
     adapt(Grid<dim> &grid, const std::vector<Box<dim>> &boxes);
 

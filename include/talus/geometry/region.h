@@ -6,6 +6,9 @@
 #include <talus/geometry/clip_simplex.h>
 #include <talus/geometry/shape.h>
 
+#include <boost/container/small_vector.hpp>
+
+#include <array>
 #include <vector>
 
 namespace talus
@@ -81,7 +84,16 @@ namespace talus
       double            sign;
     };
 
-    using Limits = std::vector<Limit>;
+    using Limits = boost::container::small_vector<Limit, 4>;
+
+    /// Distances of a limit in a box, m: evaluated once for all uses.
+    struct Distances
+    {
+      std::array<double, 1u << dim> at_corners;
+      double                        at_centre;
+    };
+
+    using DistancesOfLimits = boost::container::small_vector<Distances, 4>;
 
     /// Moments of the parts so far, about a place near the box.
     struct Sum
@@ -99,10 +111,17 @@ namespace talus
 
     static bool
     keep_those_that_cut(const Box<dim> &box, Limits &limits);
+    static DistancesOfLimits
+    distances_in(const Box<dim> &box, const Limits &limits);
     static bool
-    are_linear(const Box<dim> &box, const Limits &limits, double tolerance);
-    static std::vector<Simplex<dim>>
-    clip(const Simplex<dim> &simplex, const Limits &limits, double tolerance);
+    are_linear(const DistancesOfLimits &distances, double tolerance);
+    static bool
+    have_coinciding_pair(const DistancesOfLimits &distances, double tolerance);
+    static void
+    add_clipped(const Box<dim>          &box,
+                const Limits            &limits,
+                const DistancesOfLimits &distances,
+                Sum                     &sum);
     static void
     add_part(const Box<dim> &box, Limits limits, unsigned int depth, Sum &sum);
 

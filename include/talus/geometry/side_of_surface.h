@@ -43,6 +43,10 @@ namespace talus
     bool
     may_cut_ball(const dealii::Point<dim> &x, double radius) const override;
 
+    /// Return whether @p other is the opposite side of the same surface.
+    bool
+    is_beyond(const Shape<dim> &other) const;
+
   private:
     std::shared_ptr<const Surface<dim>> surface_;
     double                              sign_;

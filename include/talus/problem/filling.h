@@ -28,6 +28,15 @@ namespace talus
     dealii::Tensor<1, dim> length;
   };
 
+  /// Divide @p bounds, a box around @p region, into boxes of at most @p size,
+  /// m, along each axis, and return the boxes with a part of the region, found
+  /// by Region::part_inside().
+  template <int dim>
+  std::vector<Box<dim>>
+  boxes_with_soil(const Region<dim> &region,
+                  const Box<dim>    &bounds,
+                  double             size);
+
   /// Return points at the centres of the boxes, of a lattice with @p n boxes
   /// per cell and axis, whose centres lie in @p region. @p bounds is a box
   /// around the region. Only owned cells are filled; smaller cells have smaller

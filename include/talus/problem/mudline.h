@@ -40,7 +40,7 @@ namespace talus
     bool
     is_soil(const dealii::Point<dim> &x) const;
     double
-    clear_height(const dealii::Point<dim> &x) const;
+    clear_height(const dealii::Point<dim> &x, double radius) const;
 
     Bodies   bodies_;
     Box<dim> domain_;

@@ -376,6 +376,74 @@ TEST_F(Layers, VolumeBetweenPlanes)
 
 
 
+namespace
+{
+  /// Plane at y = 0 that counts the bounds of its change.
+  struct CountingPlane : Surface<2>
+  {
+    Value
+    at(const Point<2> & /*x*/) const override
+    {
+      return {0., {}};
+    }
+
+    bool
+    is_known_at(const Point<2> & /*x*/) const override
+    {
+      return true;
+    }
+
+    double
+    largest_change(const Point<2> & /*x*/, double /*distance*/) const override
+    {
+      ++n_bounds;
+      return 0.;
+    }
+
+    mutable unsigned int n_bounds = 0;
+  };
+} // namespace
+
+
+
+// Bounds are expensive for expressions: the lower surface is asked only where
+// the upper surface leaves the answer open.
+TEST(SideOfSurface, LayersAskForFewBounds)
+{
+  const auto upper = std::make_shared<CountingPlane>();
+  const auto lower = std::make_shared<CountingPlane>();
+  using Side       = SideOfSurface<2>::Side;
+  Intersection<2>::Parts parts;
+  parts.push_back(std::make_unique<SideOfSurface<2>>(upper, Side::below));
+  parts.push_back(std::make_unique<SideOfSurface<2>>(lower, Side::above));
+  const Intersection<2> nothing(std::move(parts));
+  const Point<2>        above(3., 2.), below(3., -2.);
+  EXPECT_TRUE(nothing.may_cut_ball(above, 3.));
+  EXPECT_EQ(upper->n_bounds + lower->n_bounds, 0u);
+  EXPECT_FALSE(nothing.may_cut_ball(above, 1.));
+  EXPECT_EQ(upper->n_bounds, 1u);
+  EXPECT_EQ(lower->n_bounds, 0u);
+  EXPECT_FALSE(nothing.may_cut_ball(below, 1.));
+  EXPECT_TRUE(nothing.may_cut_ball(below, 3.));
+}
+
+
+
+TEST(SideOfSurface, OppositeSides)
+{
+  using Side                     = SideOfSurface<3>::Side;
+  const auto             surface = terrain<3>(raster_of(plane));
+  const auto             other   = terrain<3>(raster_of(plane));
+  const SideOfSurface<3> below(surface, Side::below);
+  EXPECT_TRUE(below.is_beyond(SideOfSurface<3>(surface, Side::above)));
+  EXPECT_FALSE(below.is_beyond(SideOfSurface<3>(surface, Side::below)));
+  EXPECT_FALSE(below.is_beyond(SideOfSurface<3>(other, Side::above)));
+  EXPECT_FALSE(
+    below.is_beyond(HalfSpace<3>(Point<3>(), Point<3>(0., -1., 0.))));
+}
+
+
+
 // A steep face beside a box is unknown to the tangent plane at the centre of
 // the box.
 TEST_F(Layers, SteepFaceBesideAPlace)

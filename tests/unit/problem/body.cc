@@ -2,6 +2,8 @@
 // Bodies filled with points.
 
 #include <talus/geometry/analytic_shapes.h>
+#include <talus/geometry/expression_surface.h>
+#include <talus/geometry/side_of_surface.h>
 #include <talus/problem/body.h>
 
 #include "core_setup.h"
@@ -394,6 +396,114 @@ namespace
     EXPECT_TRUE(
       contains(message_of<ExcUser>([&] { fill_down_to(bed, buried); }),
                "no part of its shape was found outside of the obstacles"));
+  }
+
+
+
+  /// The surface 'bed', and expressions without names.
+  struct Bed : SurfaceSource<2>
+  {
+    std::shared_ptr<const Surface<2>>
+    surface(const std::string &path,
+            const std::string &expression) const override
+    {
+      using Named = ExpressionSurface<2>::Named;
+      return expression == "bed"
+               ? bed
+               : std::make_shared<ExpressionSurface<2>>(path,
+                                                        expression,
+                                                        constants,
+                                                        std::vector<Named>());
+    }
+
+    const Point<3> &
+    origin() const override
+    {
+      return place;
+    }
+
+    std::vector<Point<2>>
+    section(const std::string & /*path*/) const override
+    {
+      return {};
+    }
+
+    std::vector<Point<2>>
+    read_route(const std::string & /*path*/,
+               const std::string & /*file*/) const override
+    {
+      return {};
+    }
+
+    const Constants                         constants;
+    const std::shared_ptr<const Surface<2>> bed =
+      surface("'bed'", "1 + 0.3*sin(3*x)");
+    const Point<3> place;
+  };
+
+
+
+  // Cut once more by the terrain on which the layer lies, the layer would lose
+  // what the planes of a box lack of the curved surface.
+  TEST(ClippedBodies, LayersLieOnTheirTerrain)
+  {
+    const std::string layer = "set Shape = layer\nset Upper surface = 3\n"
+                              "set Lower surface = bed\n" +
+                              clipped;
+    WithBodies<2> alone({layer}), on_bed({layer}), below({layer});
+    const Bed     surfaces;
+    for (auto *all : {&alone, &on_bed, &below})
+      all->bodies[0]->use_surfaces(surfaces);
+    alone.create();
+    using Side = SideOfSurface<2>::Side;
+    EXPECT_EQ(fill_down_to(SideOfSurface<2>(surfaces.bed, Side::below), on_bed),
+              "");
+    ASSERT_EQ(on_bed.points.size(), alone.points.size());
+    for (unsigned int p = 0; p < alone.points.size(); ++p)
+      for (unsigned int array = 0; array < alone.points.n_arrays(); ++array)
+        EXPECT_EQ(on_bed.points.data(array)[p], alone.points.data(array)[p]);
+    EXPECT_TRUE(
+      contains(message_of<ExcUser>([&] {
+                 fill_down_to(SideOfSurface<2>(surfaces.bed, Side::above),
+                              below);
+               }),
+               "no part of its shape was found outside"));
+  }
+
+
+
+  // Where both surfaces of a layer go on as one there is no soil.
+  TEST(BoxesWithSoil, CoverALens)
+  {
+    const Bed surfaces;
+    using Side                  = SideOfSurface<2>::Side;
+    const std::string      line = "2 + 0.1*x";
+    Region<2>              region;
+    const SideOfSurface<2> top(surfaces.surface("", line), Side::below);
+    const SideOfSurface<2> bottom(
+      surfaces.surface("", line + " - 0.5*max(0, 1 - (x - 2)^2)"), Side::above);
+    region.restrict_to(top);
+    region.restrict_to(bottom);
+    const auto boxes =
+      boxes_with_soil(region, {Point<2>(0., 0.), Point<2>(4., 4.)}, 0.3);
+    for (double x = 0.01; x < 4.; x += 0.02)
+      for (double y = 0.01; y < 4.; y += 0.02)
+        if (region.signed_distance(Point<2>(x, y)) < 0.)
+          EXPECT_TRUE(std::any_of(boxes.begin(),
+                                  boxes.end(),
+                                  [=](auto &box) {
+                                    return box.contains(Point<2>(x, y));
+                                  }))
+            << x << ", " << y;
+    for (const Box<2> &box : boxes)
+      {
+        EXPECT_LE(box.length(0), 0.3);
+        EXPECT_LE(box.length(1), 0.3);
+        EXPECT_GT(box.upper[0], 1.);
+        EXPECT_LT(box.lower[0], 3.);
+        EXPECT_GT(box.upper[1], 1.6);
+        EXPECT_LT(box.lower[1], 2.3);
+      }
   }
 
 

@@ -64,3 +64,39 @@ TEST(Mudline, EndsWithTheMesh)
   EXPECT_NEAR(mudline.depth(Point<3>(1., 1., 2.)), 2., 1e-10);
   EXPECT_NEAR(mudline.depth(Point<3>(3., 1., 1.)), 3., 1e-10);
 }
+
+
+
+namespace
+{
+  /// Counts the questions of a search.
+  struct CountingHalfSpace : HalfSpace<2>
+  {
+    CountingHalfSpace(const Tensor<1, 2> &normal, unsigned int &n_questions)
+      : HalfSpace<2>(Point<2>(), normal)
+      , n_questions(n_questions)
+    {}
+
+    bool
+    may_cut_ball(const Point<2> &x, const double radius) const override
+    {
+      ++n_questions;
+      return HalfSpace<2>::may_cut_ball(x, radius);
+    }
+
+    unsigned int &n_questions;
+  };
+} // namespace
+
+
+
+// Steps do not begin with the height of the mesh each time.
+TEST(Mudline, IsFoundByFewQuestions)
+{
+  unsigned int n_questions = 0;
+  const auto   mudline =
+    mudline_of<2>({Point<2>(-100., -100.), Point<2>(100., 900.)},
+                  CountingHalfSpace(Tensor<1, 2>({-1., 1.}), n_questions));
+  EXPECT_NEAR(mudline.depth(Point<2>(10., -20.)), 30., 1e-9);
+  EXPECT_LT(n_questions, 50u);
+}
