@@ -29,12 +29,20 @@ namespace talus
   FacetConstraints<dim>::prepare_gaps(const Grid<dim>          &grid,
                                       std::vector<unsigned int> slots)
   {
-    gaps_.prepare(grid,
-                  surfaces(),
-                  std::move(slots),
-                  [this](const Point<dim> &x, const double distance) {
-                    return obstacles_.near(x, distance);
-                  });
+    using Plane = typename NodalGaps<dim>::Plane;
+    gaps_.prepare(
+      grid,
+      surfaces(),
+      std::move(slots),
+      [this](const Point<dim> &x, const double distance) {
+        return obstacles_.near(x, distance);
+      },
+      [this](const unsigned int cell) {
+        const ContactFacet<dim> *const facet = facets_.flat_facet(cell);
+        return facet ? std::optional<Plane>(
+                         {facet->obstacle, facet->centroid, facet->normal})
+                     : std::nullopt;
+      });
   }
 
 

@@ -36,6 +36,21 @@ namespace talus
 
 
 
+    /// Return the set of places in each column of a lattice of n^(dim-1)
+    /// places, by axis of the lattice.
+    template <int dim, unsigned int n>
+    constexpr std::array<std::array<unsigned int, n>, dim - 1>
+    places_of_columns()
+    {
+      std::array<std::array<unsigned int, n>, dim - 1> places{};
+      for (unsigned int k = 0; k < dim - 1; ++k)
+        for (unsigned int i = 0; i < power(n, dim - 1); ++i)
+          places[k][i / power(n, k) % n] |= 1u << i;
+      return places;
+    }
+
+
+
     bool
     is_thin(const double volume_fraction)
     {
@@ -55,16 +70,21 @@ namespace talus
                            const VolumeFraction &volume_fraction)
   {
     const auto &owned = facets_.owned();
+    index_segments(state);
+    if (obstacles_.move())
+      samples_.clear();
+    samples_.resize(owned.size());
     reached_.assign(owned.size(), {});
     n_samples_.assign(owned.size(), 0);
     shares_.assign(owned.size(), 1.);
     for (unsigned int f = 0; f < owned.size(); ++f)
       if (is_thin(volume_fraction(owned[f])))
         {
-          const unsigned int axis    = axis_across(owned[f]);
-          const Samples      samples = samples_of(state.grid, owned[f], axis);
-          n_samples_[f]              = samples.size();
-          reached_[f] = reached_samples(state, owned[f], axis, samples);
+          Samples &samples = samples_[f];
+          if (samples.places == 0)
+            samples = samples_of(state.grid, owned[f]);
+          n_samples_[f] = samples.size();
+          reached_[f]   = reached_samples(state, owned[f], samples);
         }
     if (!state.grid.neighbor_ranks().empty())
       {
@@ -79,6 +99,19 @@ namespace talus
       if (n_samples_[f] > 0)
         shares_[f] =
           double(__builtin_popcount(reached_[f].covered())) / n_samples_[f];
+  }
+
+
+
+  /// Fill the table of the first segment in each cell.
+  template <int dim>
+  void
+  FacetCoverage<dim>::index_segments(const State<dim> &state)
+  {
+    const auto &segments = state.points.segments();
+    first_segment_.assign(state.grid.n_owned_cells(), segments.size());
+    for (unsigned int s = segments.size(); s-- > 0;)
+      first_segment_[segments[s].cell] = s;
   }
 
 
@@ -98,48 +131,61 @@ namespace talus
 
 
 
-  /// Return the sample points of a facet, m: places of its plane at the centres
-  /// of columns of the cell along @p axis, inside the cell and outside of all
-  /// obstacles. The centroid if no place is left.
+  /// Whether the place @p x, m, in the plane of a facet lies outside of all
+  /// obstacles. The surface of the facet itself may deviate from the plane.
+  template <int dim>
+  bool
+  FacetCoverage<dim>::is_open(const Cell<dim>         &cell,
+                              const ContactFacet<dim> &facet,
+                              const Point<dim>        &x) const
+  {
+    const auto near = obstacles_.near(x, 0.);
+    return std::all_of(near.begin(), near.end(), [&](const unsigned int k) {
+      return obstacles_[k].signed_distance(x) >
+             -(k == facet.obstacle ? std::min(facet.deviation, 0.05 * cell.size)
+                                   : 1e-6 * cell.size);
+    });
+  }
+
+
+
+  /// Return the sample points of a facet: places of its plane at the centres of
+  /// columns of the cell along the axis nearest to the normal, inside the cell
+  /// and outside of all obstacles. The centroid if no place is left.
   template <int dim>
   typename FacetCoverage<dim>::Samples
   FacetCoverage<dim>::samples_of(const Grid<dim>         &grid,
-                                 const ContactFacet<dim> &facet,
-                                 const unsigned int       axis) const
+                                 const ContactFacet<dim> &facet) const
   {
-    const Cell<dim> &cell      = grid.cells()[facet.cell];
-    const double     tolerance = 1e-6 * cell.size;
-    const bool       is_shared = shares_cell(facet);
-    Samples          samples;
-    for (unsigned int i = 0; i < power(n_columns, dim - 1); ++i)
+    const Cell<dim>   &cell      = grid.cells()[facet.cell];
+    const double       tolerance = 1e-6 * cell.size;
+    const bool         is_shared = shares_cell(facet);
+    Samples            samples;
+    const unsigned int axis = samples.axis = axis_across(facet);
+    for (unsigned int k = 0; k < dim - 1; ++k)
+      for (unsigned int j = 0; j < n_columns; ++j)
+        samples.column[k][j] =
+          cell.lower[across(axis, k)] + (j + 0.5) * cell.size / n_columns;
+    for (unsigned int i = 0; i < n_places; ++i)
       {
-        Point<dim>   y    = facet.centroid;
-        unsigned int rest = i;
-        for (unsigned int d = 0; d < dim; ++d)
-          if (d != axis)
-            {
-              y[d] = cell.lower[d] +
-                     (rest % n_columns + 0.5) * cell.size / n_columns;
-              rest /= n_columns;
-            }
+        Point<dim> y = facet.centroid;
+        for (unsigned int k = 0; k < dim - 1; ++k)
+          y[across(axis, k)] =
+            samples.column[k][i / power(n_columns, k) % n_columns];
         y[axis] -= (y - facet.centroid) * facet.normal / facet.normal[axis];
-        if (y[axis] < cell.lower[axis] - tolerance ||
-            y[axis] > cell.lower[axis] + cell.size + tolerance)
-          continue;
-        // The surface of the facet itself may deviate from the plane.
-        bool is_open = true;
-        if (is_shared)
-          for (const unsigned int k : obstacles_.near(y, 0.))
-            is_open =
-              is_open && obstacles_[k].signed_distance(y) >
-                           -(k == facet.obstacle
-                               ? std::min(facet.deviation, 0.05 * cell.size)
-                               : tolerance);
-        if (is_open)
-          samples.push_back(y);
+        samples.height[i] = y[axis];
+        if (y[axis] >= cell.lower[axis] - tolerance &&
+            y[axis] <= cell.lower[axis] + cell.size + tolerance &&
+            (!is_shared || is_open(cell, facet, y)))
+          samples.places |= Mask(1) << i;
       }
-    if (samples.empty())
-      samples.push_back(facet.centroid);
+    if (samples.places == 0)
+      {
+        samples.places    = 1;
+        samples.height[0] = facet.centroid[axis];
+        for (unsigned int k = 0; k < dim - 1; ++k)
+          samples.column[k][0] = facet.centroid[across(axis, k)];
+      }
     return samples;
   }
 
@@ -152,18 +198,19 @@ namespace talus
   typename FacetCoverage<dim>::Reached
   FacetCoverage<dim>::reached_samples(const State<dim>        &state,
                                       const ContactFacet<dim> &facet,
-                                      const unsigned int       axis,
                                       const Samples           &samples) const
   {
     const Grid<dim> &grid  = state.grid;
     const Cell<dim> &cell  = grid.cells()[facet.cell];
     const auto      &cells = facets_.touching_cells(facet.cell);
-    const Mask       all   = (Mask(1) << samples.size()) - 1;
     Reached          reached;
-    for (unsigned int i = 0; i <= cells.size() && reached.covered() != all; ++i)
+    for (unsigned int i = 0;
+         i <= cells.size() && reached.covered() != samples.places;
+         ++i)
       {
         const unsigned int c = (i == 0 ? facet.cell : cells[i - 1]);
-        if (c >= grid.n_owned_cells() || (i > 0 && c == facet.cell))
+        if (c >= grid.n_owned_cells() || (i > 0 && c == facet.cell) ||
+            first_segment_[c] == state.points.segments().size())
           continue;
         // Across a periodic face the neighbour lies at the opposite end.
         Tensor<1, dim> shift;
@@ -175,7 +222,7 @@ namespace talus
                 length *
                 std::round((cell.lower[d] - grid.cells()[c].lower[d]) / length);
             }
-        add_points_of(state, c, shift, facet, axis, samples, reached);
+        add_points_of(state, c, shift, facet, samples, reached);
       }
     return reached;
   }
@@ -193,68 +240,78 @@ namespace talus
                                     const unsigned int       c,
                                     const Tensor<1, dim>    &shift,
                                     const ContactFacet<dim> &facet,
-                                    const unsigned int       axis,
                                     const Samples           &samples,
                                     Reached                 &reached) const
   {
     const Points<dim> &points   = state.points;
     const auto        &segments = points.segments();
+    const unsigned int axis     = samples.axis;
     const double       h        = state.grid.cells()[facet.cell].size;
     const double       n_axis   = facet.normal[axis];
     const double       outwards = (n_axis > 0 ? 1. : -1.);
     const double       largest_gap =
       largest_gap_of_covering_box * h / std::abs(n_axis);
-    for (auto segment =
-           std::lower_bound(segments.begin(),
-                            segments.end(),
-                            c,
-                            [](const Segment &s, const unsigned int cell) {
-                              return s.cell < cell;
-                            });
-         segment != segments.end() && segment->cell == c;
-         ++segment)
-      for (unsigned int p = segment->begin; p < segment->end; ++p)
+    for (unsigned int s = first_segment_[c];
+         s < segments.size() && segments[s].cell == c;
+         ++s)
+      for (unsigned int p = segments[s].begin; p < segments[s].end; ++p)
         {
           const Point<dim> x = load_place(points, points.position, p) + shift;
           const Tensor<1, dim> half =
             half_lengths_of_box(points, state.constants.box_shape, p);
-          for (unsigned int i = 0; i < samples.size(); ++i)
+          const Reached in_plan = reached_in_plan(samples, x, half, 0.25 * h);
+          Mask          candidates = 0, at_surface = 0;
+          for (const Mask mask : in_plan.from)
+            candidates |= mask;
+          candidates &= samples.places & ~reached.covered();
+          for (; candidates != 0; candidates &= candidates - 1)
             {
-              const Tensor<1, dim> from   = x - samples[i];
-              const double         height = outwards * from[axis];
+              const unsigned int i = __builtin_ctz(candidates);
+              const double height  = outwards * (x[axis] - samples.height[i]);
               if (height - half[axis] < largest_gap && height + half[axis] > 0)
-                add_sample(i, from, half, axis, 0.25 * h, reached);
+                at_surface |= Mask(1) << i;
             }
+          for (unsigned int k = 0; k < reached.from.size(); ++k)
+            reached.from[k] |= in_plan.from[k] & at_surface;
         }
   }
 
 
 
-  /// Add sample @p i to @p reached if a box reaches the sample.
-  /// @param from centre of the box less sample, m
+  /// Return the places reached by a box in projection along the axis of the
+  /// columns.
+  /// @param x centre of the box, m
   /// @param half half lengths of the box, m
-  /// @param axis across the facet
   /// @param beyond reach beyond the ends of the box, m
   template <int dim>
-  void
-  FacetCoverage<dim>::add_sample(const unsigned int    i,
-                                 const Tensor<1, dim> &from,
-                                 const Tensor<1, dim> &half,
-                                 const unsigned int    axis,
-                                 const double          beyond,
-                                 Reached              &reached) const
+  typename FacetCoverage<dim>::Reached
+  FacetCoverage<dim>::reached_in_plan(const Samples        &samples,
+                                      const Point<dim>     &x,
+                                      const Tensor<1, dim> &half,
+                                      const double          beyond) const
   {
+    static constexpr auto     places = places_of_columns<dim, n_columns>();
+    Reached                   reached;
+    std::array<Mask, dim - 1> under{}; // by axis across
     for (unsigned int k = 0; k < dim - 1; ++k)
       {
-        const unsigned int d     = across(axis, k);
-        const unsigned int other = (dim == 2 ? d : across(axis, 1 - k));
-        if (d != other && std::abs(from[other]) > half[other])
-          continue;
-        if (from[d] <= half[d] && -from[d] <= half[d] + beyond)
-          reached.from[2 * k] |= Mask(1) << i;
-        if (-from[d] <= half[d] && from[d] <= half[d] + beyond)
-          reached.from[2 * k + 1] |= Mask(1) << i;
+        const unsigned int d = across(samples.axis, k);
+        for (unsigned int j = 0; j < n_columns; ++j)
+          {
+            const double from = x[d] - samples.column[k][j];
+            if (std::abs(from) <= half[d])
+              under[k] |= places[k][j];
+            if (from <= half[d] && -from <= half[d] + beyond)
+              reached.from[2 * k] |= places[k][j];
+            if (-from <= half[d] && from <= half[d] + beyond)
+              reached.from[2 * k + 1] |= places[k][j];
+          }
       }
+    if (dim == 3)
+      for (unsigned int k = 0; k < dim - 1; ++k)
+        for (unsigned int side = 0; side < 2; ++side)
+          reached.from[2 * k + side] &= under[dim - 2 - k];
+    return reached;
   }
 
 
@@ -293,10 +350,8 @@ namespace talus
       {
         if (!is_thin(volume_fraction(ghosts[f])))
           continue;
-        const unsigned int axis    = axis_across(ghosts[f]);
-        const Samples      samples = samples_of(grid, ghosts[f], axis);
-        const Reached      reached =
-          reached_samples(state, ghosts[f], axis, samples);
+        const Reached reached =
+          reached_samples(state, ghosts[f], samples_of(grid, ghosts[f]));
         const auto to = std::lower_bound(ranks.begin(),
                                          ranks.end(),
                                          grid.owner_of_cell(ghosts[f].cell)) -

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace talus
@@ -58,28 +59,85 @@ namespace talus
 
 
 
-    /// Return the cells up to @p n_rings around @p cell, including @p cell,
-    /// ascending.
+    /// Append the cells up to @p n_rings around cell @p c to @p cells by search
+    /// from the centre of the cell.
     template <int dim>
-    std::vector<unsigned int>
-    cells_around(const Grid<dim>   &grid,
-                 const Cell<dim>   &cell,
-                 const unsigned int n_rings)
+    void
+    search_around(const Grid<dim>           &grid,
+                  const unsigned int         c,
+                  const unsigned int         n_rings,
+                  std::vector<unsigned int> &cells)
     {
+      const Cell<dim>              &cell = grid.cells()[c];
       std::array<unsigned int, dim> n;
       n.fill(2 * n_rings + 1);
       Point<dim> first = centre_of(cell);
       for (unsigned int d = 0; d < dim; ++d)
         first[d] -= n_rings * cell.size;
-      std::set<unsigned int> cells;
       for_each_place<dim>(first, cell.size, n, [&](Point<dim> x) {
         for (unsigned int d = 0; d < dim; ++d)
           x[d] -= grid.periodicity().shift(d, x[d]);
-        if (const unsigned int c = grid.find_cell(x);
-            c != numbers::invalid_unsigned_int)
-          cells.insert(c);
+        if (const unsigned int found = grid.find_cell(x);
+            found != numbers::invalid_unsigned_int)
+          cells.push_back(found);
       });
-      return {cells.begin(), cells.end()};
+    }
+
+
+
+    void
+    sort_unique(std::vector<unsigned int> &cells)
+    {
+      std::sort(cells.begin(), cells.end());
+      cells.erase(std::unique(cells.begin(), cells.end()), cells.end());
+    }
+
+
+
+    /// Return the cells that share a corner with cell @p c, including @p c,
+    /// ascending. Only owned cells know their neighbours.
+    template <int dim>
+    std::vector<unsigned int>
+    cells_touching(const Grid<dim> &grid, const unsigned int c)
+    {
+      std::vector<unsigned int> cells;
+      if (c < grid.n_owned_cells() && grid.cells()[c].uniform)
+        std::copy_if(grid.cells()[c].neighbors.begin(),
+                     grid.cells()[c].neighbors.end(),
+                     std::back_inserter(cells),
+                     [](const unsigned int n) {
+                       return n != numbers::invalid_unsigned_int;
+                     });
+      else
+        search_around(grid, c, 1, cells);
+      sort_unique(cells);
+      return cells;
+    }
+
+
+
+    /// Return the cells up to two rings around cell @p c, including @p c,
+    /// ascending. @p touching: cells_touching() of the cell.
+    template <int dim>
+    std::vector<unsigned int>
+    cells_near(const Grid<dim>                 &grid,
+               const unsigned int               c,
+               const std::vector<unsigned int> &touching)
+    {
+      std::vector<unsigned int> cells;
+      if (std::all_of(touching.begin(), touching.end(), [&](unsigned int t) {
+            return t < grid.n_owned_cells() && grid.cells()[t].uniform;
+          }))
+        for (const unsigned int t : touching)
+          for (const unsigned int n : grid.cells()[t].neighbors)
+            {
+              if (n != numbers::invalid_unsigned_int)
+                cells.push_back(n);
+            }
+      else
+        search_around(grid, c, 2, cells);
+      sort_unique(cells);
+      return cells;
     }
   } // namespace
 
@@ -373,8 +431,8 @@ namespace talus
           facet.node = cell.nodes();
         }
     result.open_volume = section.open_volume;
-    result.touching    = cells_around(grid, cell, 1);
-    result.near        = cells_around(grid, cell, 2);
+    result.touching    = cells_touching(grid, c);
+    result.near        = cells_near(grid, c, result.touching);
   }
 
 

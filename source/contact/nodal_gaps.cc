@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/contact/box_extent.h>
 #include <talus/contact/nodal_gaps.h>
 #include <talus/transfer/weights.h>
 #include <talus/transfer/weights_kernel.h>
@@ -16,11 +17,13 @@ namespace talus
   NodalGaps<dim>::prepare(const Grid<dim>          &grid,
                           std::vector<Surface>      surfaces,
                           std::vector<unsigned int> slots,
-                          Near                      near)
+                          Near                      near,
+                          PlaneOfCell               plane_of_cell)
   {
-    surfaces_ = std::move(surfaces);
-    slots_    = std::move(slots);
-    near_     = std::move(near);
+    plane_of_cell_ = std::move(plane_of_cell);
+    surfaces_      = std::move(surfaces);
+    slots_         = std::move(slots);
+    near_          = std::move(near);
     n_slots_ =
       slots_.empty() ? 0 : *std::max_element(slots_.begin(), slots_.end()) + 1;
     exchange_.prepare(grid, n_slots_);
@@ -165,6 +168,28 @@ namespace talus
 
 
 
+  /// Return whether a box is in contact by a margin that exceeds the deviation
+  /// of the surface from @p plane; if so, set of_point_ to the gap from the
+  /// plane. All gaps within the dead band count as closed, so the exact gap is
+  /// not needed. @p half: half lengths of the box, m.
+  template <int dim>
+  bool
+  NodalGaps<dim>::is_in_contact(const Plane          &plane,
+                                const double          cell_size,
+                                const Point<dim>     &x,
+                                const Tensor<1, dim> &half)
+  {
+    const double gap = (x - plane.place) * plane.normal -
+                       support_of_box<dim>(half, plane.normal);
+    if (gap > closed_ - 0.5 * dead_band * cell_size)
+      return false;
+    std::fill(of_point_.begin(), of_point_.end(), none);
+    of_point_[slots_[plane.surface]] = gap;
+    return true;
+  }
+
+
+
   template <int dim>
   void
   NodalGaps<dim>::lower(const unsigned int node)
@@ -223,8 +248,12 @@ namespace talus
   {
     const Cell<dim> &cell = state.grid.cells()[segment.cell];
     PatchEntries     open = entries_with(is_open_, cell);
-    if (open)
-      look_around(cell);
+    if (!open)
+      return;
+    look_around(cell);
+    const auto plane = plane_of_cell_ && near_cell_.size() == 1
+                         ? plane_of_cell_(segment.cell)
+                         : std::nullopt;
     for (unsigned int p = segment.begin; p < segment.end && open; ++p)
       {
         const Tensor<1, dim> half = half_lengths(state, cell, p);
@@ -232,7 +261,8 @@ namespace talus
         PatchEntries     left = open & entries_in_reach(cell, x, half);
         if (left == 0)
           continue;
-        find_of_point(x, cell.size * half);
+        if (!plane || !is_in_contact(*plane, cell.size, x, cell.size * half))
+          find_of_point(x, cell.size * half);
         for (unsigned int k = 0; left != 0; ++k, left >>= 1)
           if (left & 1)
             {

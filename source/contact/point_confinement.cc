@@ -25,15 +25,6 @@ namespace talus
         half[d] = std::min(half[d], 0.5 * state.grid.cells()[cell].size);
       return half;
     }
-
-
-
-    template <int dim>
-    double
-    distance_from_plane(const ContactFacet<dim> &facet, const Point<dim> &x)
-    {
-      return (x - facet.centroid) * facet.normal;
-    }
   } // namespace
 
 
@@ -63,7 +54,7 @@ namespace talus
                 (load_vector(points, points.velocity, p) * facet.normal);
               const Tensor<1, dim> half =
                 half_lengths_in_cell(state, segment.cell, p);
-              if (distance_from_plane(facet, x) + std::min(0., later) <
+              if (facet.distance_from_plane(x) + std::min(0., later) <
                   facet.deviation + support_of_box(half, facet.normal))
                 candidates_.push_back({p, facet.obstacle, &facet, x, half});
             }
@@ -101,18 +92,14 @@ namespace talus
     constexpr unsigned int     n_passes = 3;
     Points<dim>               &points   = state.points;
     std::vector<unsigned int> &listed   = state.workspace.points_out_of_cell();
-    const std::size_t          n_before = listed.size();
+    is_moved_.resize(points.size(), 0);
     for (unsigned int pass = 0; pass < n_passes; ++pass)
       {
         bool has_moved_one = false;
         for (const Candidate &candidate : candidates_)
           {
-            const unsigned int p         = candidate.point;
-            const auto         is_listed = [&]() {
-              return std::find(listed.begin() + n_before, listed.end(), p) !=
-                     listed.end();
-            };
-            if (pass > 0 && !is_listed())
+            const unsigned int p = candidate.point;
+            if (pass > 0 && !is_moved_[p])
               continue;
             Point<dim> x = load_place(points, points.position, p);
             if (!confine(candidate, state.time, state.time_step, x))
@@ -120,12 +107,15 @@ namespace talus
             for (unsigned int d = 0; d < dim; ++d)
               points.data(points.position, d)[p] = x[d];
             has_moved_one = true;
-            if (!is_listed())
+            if (!is_moved_[p])
               listed.push_back(p);
+            is_moved_[p] = 1;
           }
         if (!has_moved_one)
-          return;
+          break;
       }
+    for (const Candidate &candidate : candidates_)
+      is_moved_[candidate.point] = 0;
   }
 
 
@@ -143,7 +133,7 @@ namespace talus
   {
     const ContactFacet<dim> *const facet = candidate.facet;
     if (facet &&
-        distance_from_plane(*facet, x) >
+        facet->distance_from_plane(x) >
           facet->deviation + support_of_box(candidate.half, facet->normal))
       return false;
     // The distance from a terrain is expensive, and most of the bed is flat
@@ -151,7 +141,7 @@ namespace talus
     const Obstacle<dim> &obstacle = obstacles_[candidate.obstacle];
     const auto [of_centre, normal] =
       facet && facet->is_flat && !obstacle.moves()
-        ? std::make_pair(distance_from_plane(*facet, x), facet->normal)
+        ? std::make_pair(facet->distance_from_plane(x), facet->normal)
         : obstacle.distance_and_normal(x);
     const double distance = of_centre - support_of_box(candidate.half, normal);
     if (distance >= 0)

@@ -2,6 +2,8 @@
 #include <talus/base/errors.h>
 #include <talus/geometry/expression_surface.h>
 
+#include <boost/functional/hash.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -31,20 +33,18 @@ namespace talus
 
 
 
-    /// Return the entry of @p table for @p key; compute the entry if there is
-    /// none. A full table, of 2^15 entries, is emptied before: moving points
-    /// need values at ever new places, and memory must stay small.
-    template <typename Table, typename Compute>
-    typename Table::mapped_type
-    look_up(Table                          &table,
-            const typename Table::key_type &key,
-            const Compute                  &compute)
+    /// Return the result in @p table for @p key; compute the result if it is
+    /// not in the table. Memory stays small where points move and ask for ever
+    /// new places, and no memory is allocated in a step.
+    template <typename Table, typename Key, typename Compute>
+    auto
+    look_up(Table &table, const Key &key, const Compute &compute)
     {
-      if (const auto known = table.find(key); known != table.end())
-        return known->second;
-      if (table.size() == 1u << 15)
-        table.clear();
-      return table.emplace(key, compute()).first->second;
+      table.resize(1u << 15);
+      auto &known = table[boost::hash<Key>()(key) % table.size()];
+      if (known.key != key)
+        known = {key, compute()};
+      return known.result;
     }
   } // namespace
 
@@ -106,9 +106,8 @@ namespace talus
   typename ExpressionSurface<dim>::Value
   ExpressionSurface<dim>::at(const Point<dim> &x) const
   {
-    return look_up(values_, {{x[0], dim == 3 ? x[dim - 1] : 0.}}, [&] {
-      return compute_value(x);
-    });
+    const std::array<double, 2> key = {{x[0], dim == 3 ? x[dim - 1] : 0.}};
+    return look_up(values_, key, [&] { return compute_value(x); });
   }
 
 
@@ -119,34 +118,32 @@ namespace talus
   typename ExpressionSurface<dim>::Value
   ExpressionSurface<dim>::compute_value(const Point<dim> &x) const
   {
-    Arguments                                            arguments{};
-    std::vector<std::pair<unsigned int, Tensor<1, dim>>> slopes;
-    unsigned int                                         n = 0;
+    Arguments                     arguments{};
+    std::array<Tensor<1, dim>, 4> slopes; // of the arguments
+    unsigned int                  n = 0;
     for (unsigned int d = 0; d < dim; d += 2)
       {
-        arguments[n] = x[d];
-        Tensor<1, dim> unit;
-        unit[d] = 1.;
-        slopes.emplace_back(n++, unit);
+        arguments[n]   = x[d];
+        slopes[n++][d] = 1.;
       }
     for (const Named &other : others_)
       {
         const Value value = other.second->at(x);
         arguments[n]      = value.height;
-        slopes.emplace_back(n++, value.slope);
+        slopes[n++]       = value.slope;
       }
     // Small enough to resolve slopes of millimetre features of flumes to 1e-4,
     // and large enough to resolve slopes of heights of kilometres to 1e-7. Only
     // two evaluations, because contact evaluates surfaces in each step.
     constexpr double step = 1e-5;
     Value            result{evaluate(arguments), {}};
-    for (const auto &[i, slope] : slopes)
+    for (unsigned int i = 0; i < n; ++i)
       {
         Arguments after = arguments, before = arguments;
         after[i] += step;
         before[i] -= step;
-        result.slope +=
-          (evaluate(after) - evaluate(before)) / (after[i] - before[i]) * slope;
+        result.slope += (evaluate(after) - evaluate(before)) /
+                        (after[i] - before[i]) * slopes[i];
       }
     return result;
   }
@@ -173,9 +170,11 @@ namespace talus
   ExpressionSurface<dim>::largest_change(const Point<dim> &x,
                                          const double      distance) const
   {
-    return look_up(changes_,
-                   {{x[0], dim == 3 ? x[dim - 1] : 0., distance}},
-                   [&] { return compute_largest_change(x, distance); });
+    const std::array<double, 3> key = {
+      {x[0], dim == 3 ? x[dim - 1] : 0., distance}};
+    return look_up(changes_, key, [&] {
+      return compute_largest_change(x, distance);
+    });
   }
 
 

@@ -9,25 +9,51 @@ namespace talus
 
   namespace
   {
-    /// Nodes of cell @p c on face @p face of the mesh; none if the cell does
-    /// not touch the face or the face is periodic, hence no boundary.
-    template <int dim>
-    std::vector<unsigned int>
-    nodes_on_face(const MeshLayout<dim> &layout,
-                  const CellCache<dim>  &cells,
-                  const unsigned int     c,
-                  const unsigned int     face)
+    /// Cell with the faces of the mesh that the cell touches: bit f is set for
+    /// face f.
+    struct BoundaryCell
     {
-      const unsigned int d = face / 2, side = face % 2;
-      const auto         place = cells.place_of_cell(c);
-      const auto extent = layout.extent_of_lattice(cells.level_of_cell(c));
-      if (layout.periodicity().along(d) ||
-          place[d] != (side == 0 ? 0 : extent[d] - 1))
-        return {};
-      std::vector<unsigned int> nodes;
+      unsigned int  cell;
+      unsigned char faces;
+    };
+
+
+
+    /// List the cells at the faces of the mesh, ascending. Periodic faces are
+    /// no boundary.
+    template <int dim>
+    std::vector<BoundaryCell>
+    find_boundary_cells(const MeshLayout<dim> &layout,
+                        const CellCache<dim>  &cells)
+    {
+      std::vector<BoundaryCell> result;
+      for (unsigned int c = 0; c < cells.cells().size(); ++c)
+        {
+          const auto place  = cells.place_of_cell(c);
+          const auto extent = layout.extent_of_lattice(cells.level_of_cell(c));
+          unsigned char faces = 0;
+          for (unsigned int d = 0; d < dim; ++d)
+            if (!layout.periodicity().along(d))
+              faces |= (place[d] == 0) << (2 * d) | (place[d] == extent[d] - 1)
+                                                      << (2 * d + 1);
+          if (faces != 0)
+            result.push_back({c, faces});
+        }
+      return result;
+    }
+
+
+
+    /// Nodes of a cell on face @p face of the mesh, which the cell must touch.
+    template <int dim>
+    std::array<unsigned int, power(2, dim - 1)>
+    nodes_on_face(const Cell<dim> &cell, const unsigned int face)
+    {
+      std::array<unsigned int, power(2, dim - 1)> nodes;
+      unsigned int                                n = 0;
       for (unsigned int v = 0; v < power(2, dim); ++v)
-        if (((v >> d) & 1) == side)
-          nodes.push_back(cells.cells()[c].patch[patch_of_vertex<dim>(v)]);
+        if (((v >> (face / 2)) & 1) == face % 2)
+          nodes[n++] = cell.patch[patch_of_vertex<dim>(v)];
       return nodes;
     }
   } // namespace
@@ -46,22 +72,27 @@ namespace talus
                                        const NodeNumbering<dim> &nodes,
                                        NodalExchange<dim>       &exchange)
   {
+    const auto boundary_cells = find_boundary_cells(layout, cells);
     faces_of_node_.assign(nodes.n_nodes(), 0);
-    for (unsigned int c = 0; c < cells.cells().size(); ++c)
+    for (const BoundaryCell &at : boundary_cells)
       for (unsigned int face = 0; face < 2 * dim; ++face)
-        for (const unsigned int node : nodes_on_face(layout, cells, c, face))
-          faces_of_node_[node] |= 1u << face;
+        if ((at.faces >> face) & 1)
+          for (const unsigned int node :
+               nodes_on_face(cells.cells()[at.cell], face))
+            faces_of_node_[node] |= 1u << face;
 
     AlignedVector<double> shares(2 * nodes.n_nodes());
     for (unsigned int face = 0; face < 2 * dim; ++face)
       {
         shares.fill(0.);
-        for (unsigned int c = 0; c < cells.n_owned_cells(); ++c)
+        for (const BoundaryCell &at : boundary_cells)
           {
-            const double length = 0.5 * cells.cells()[c].size;
-            const double area   = std::pow(length, dim - 1.);
-            for (const unsigned int node :
-                 nodes_on_face(layout, cells, c, face))
+            if (at.cell >= cells.n_owned_cells() || !((at.faces >> face) & 1))
+              continue;
+            const Cell<dim> &cell   = cells.cells()[at.cell];
+            const double     length = 0.5 * cell.size;
+            const double     area   = std::pow(length, dim - 1.);
+            for (const unsigned int node : nodes_on_face(cell, face))
               {
                 shares[2 * node] += area;
                 shares[2 * node + 1] += area * length;

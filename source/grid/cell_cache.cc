@@ -170,10 +170,17 @@ namespace talus
         // cell exists, hence no cell of another size.
         if (!inside)
           continue;
+        // An earlier owned cell has entered itself.
+        if (cell.neighbors[k] != numbers::invalid_unsigned_int)
+          continue;
         periodicity.wrap(other, extent);
         cell.neighbors[k] = cell_at(other, level);
         if (cell.neighbors[k] != numbers::invalid_unsigned_int)
-          continue;
+          {
+            if (cell.neighbors[k] < n_owned_cells_)
+              cells_[cell.neighbors[k]].neighbors[power(3, dim) - 1 - k] = c;
+            continue;
+          }
         // A neighbour of another size counts for all sides it touches: one side
         // across a face, several across an edge or corner.
         cell.uniform = false;

@@ -34,16 +34,22 @@ namespace talus
     std::vector<Penetration> result(obstacles.size());
     for (const Segment &segment : points.segments())
       {
-        // All other cells are far from the surface.
-        if (!facets.is_near(segment.cell) &&
-            facets.containing(segment.cell).empty())
+        // In all other cells no point can be below a surface.
+        const unsigned int c = segment.cell;
+        if (!facets.is_cut(c) && facets.containing(c).empty())
           continue;
-        const Cell<dim> &cell = state.grid.cells()[segment.cell];
+        const Cell<dim>               &cell = state.grid.cells()[c];
+        const ContactFacet<dim> *const flat = facets.flat_facet(c);
         for (const unsigned int k : obstacles.near(cell.box(), cell.size))
           for (unsigned int p = segment.begin; p < segment.end; ++p)
             {
-              const auto [distance, normal] = obstacles[k].distance_and_normal(
-                load_place(points, points.position, p));
+              const Point<dim> x = load_place(points, points.position, p);
+              // The distance from a terrain is expensive.
+              if (flat && flat->obstacle == k &&
+                  flat->distance_from_plane(x) > 0.02 * cell.size)
+                continue;
+              const auto [distance, normal] =
+                obstacles[k].distance_and_normal(x);
               if (distance >= 0)
                 continue;
               const double support = support_of_box(

@@ -37,6 +37,25 @@ namespace talus
       return true;
     }
 
+    /// Return the cell which contains @p x, m, often cell @p near or a neighbour
+    /// of the cell; nullptr if this rank does not know the cell.
+    template <int dim>
+    const Cell<dim> *
+    cell_around(const Grid<dim>  &grid,
+                const Cell<dim>  &near,
+                const Point<dim> &x)
+    {
+      unsigned int number = 0;
+      for (unsigned int d = 0; d < dim; ++d)
+        number += power(3, d) * (x[d] < near.lower[d]               ? 0
+                                 : x[d] < near.lower[d] + near.size ? 1
+                                                                    : 2);
+      unsigned int c = near.neighbors[number];
+      if (c >= grid.cells().size() || !contains(grid.cells()[c], x))
+        c = grid.find_cell(x);
+      return c < grid.cells().size() ? &grid.cells()[c] : nullptr;
+    }
+
     /// Axis nearest to @p normal: boxes stand on the bed along this axis.
     template <int dim>
     unsigned int
@@ -93,17 +112,18 @@ namespace talus
         if ((!is_at_bottom && !is_at_facets) ||
             is_full(grid, cell, volume_fraction))
           continue;
-        for (unsigned int p = segment.begin; p < segment.end; ++p)
-          {
-            const Point<dim> x =
-              load_place(state.points, state.points.position, p);
-            Plane plane{x[1] - cell.lower[1], Tensor<1, dim>()};
-            plane.normal[1] = 1.;
-            if (is_at_bottom)
-              add_box(state, p, cell, plane, bottom);
-            if (is_at_facets && find_plane(cell, solid, x, plane))
-              add_box(state, p, cell, plane, facets);
-          }
+        if (is_at_bottom)
+          for (unsigned int p = segment.begin; p < segment.end; ++p)
+            {
+              const double y = state.points.data(state.points.position, 1)[p];
+              add_box(state,
+                      p,
+                      cell,
+                      {y - cell.lower[1], Point<dim>::unit_vector(1)},
+                      bottom);
+            }
+        if (is_at_facets)
+          add_boxes_at_facets(state, segment, solid);
       }
     for (const auto &hanging : grid.hanging_nodes())
       for (const unsigned int i : {bottom, facets})
@@ -155,28 +175,38 @@ namespace talus
 
 
 
-  /// Compute the plane of the bed near @p x, m, from the distances of the nodes
-  /// of @p cell from the obstacles. Returns false without a normal.
+  /// Add the boxes of @p segment on the facets in and around the cell. The
+  /// plane of the bed follows from the distances of the nodes from the
+  /// obstacles: one normal per cell. Without a normal no box is added.
   template <int dim>
-  bool
-  BedCoverage<dim>::find_plane(const Cell<dim>         &cell,
-                               const SolidAtNodes<dim> &solid,
-                               const Point<dim>        &x,
-                               Plane                   &plane) const
+  void
+  BedCoverage<dim>::add_boxes_at_facets(const State<dim>        &state,
+                                        const Segment           &segment,
+                                        const SolidAtNodes<dim> &solid)
   {
-    const auto nodes = cell.nodes();
-    const auto N     = shape_values_at<dim>(cell.box(), x);
-    plane            = Plane{0., Tensor<1, dim>()};
+    const Cell<dim>                  &cell  = state.grid.cells()[segment.cell];
+    const auto                        nodes = cell.nodes();
+    std::array<double, power(2, dim)> distance;
+    Plane                             plane{0., Tensor<1, dim>()};
     for (unsigned int v = 0; v < nodes.size(); ++v)
       {
-        const double distance = solid.distance(nodes[v]);
-        plane.distance += N[v] * distance;
+        distance[v] = solid.distance(nodes[v]);
         for (unsigned int d = 0; d < dim; ++d)
-          plane.normal[d] += (((v >> d) & 1) ? distance : -distance);
+          plane.normal[d] += (((v >> d) & 1) ? distance[v] : -distance[v]);
       }
     const double length = plane.normal.norm();
+    if (!(length > 0))
+      return;
     plane.normal /= length;
-    return length > 0;
+    for (unsigned int p = segment.begin; p < segment.end; ++p)
+      {
+        const auto N = shape_values_at<dim>(
+          cell.box(), load_place(state.points, state.points.position, p));
+        plane.distance = 0;
+        for (unsigned int v = 0; v < nodes.size(); ++v)
+          plane.distance += N[v] * distance[v];
+        add_box(state, p, cell, plane, facets);
+      }
   }
 
 
@@ -195,6 +225,13 @@ namespace talus
     const unsigned int    axis = steepest_axis<dim>(n);
     const Tensor<1, dim>  half =
       half_lengths_of_box(state.points, state.constants.box_shape, p);
+    // Most boxes lie above the bed.
+    double lowest = plane.distance - half[axis] * std::abs(n[axis]);
+    for (unsigned int d = 0; d < dim; ++d)
+      if (d != axis)
+        lowest -= 0.5 * half[d] * std::abs(n[d]);
+    if (lowest > (lies_above_bed + 1e-9) * cell.size)
+      return;
     double area = 1. / std::abs(n[axis]);
     for (unsigned int d = 0; d < dim; ++d)
       if (d != axis)
@@ -233,14 +270,9 @@ namespace talus
                              const double      area,
                              const Sum         sum)
   {
-    const Cell<dim> *found = &near;
-    if (!contains(near, foot))
-      {
-        const unsigned int c = grid.find_cell(foot);
-        if (c >= grid.cells().size())
-          return;
-        found = &grid.cells()[c];
-      }
+    const Cell<dim> *const found = cell_around(grid, near, foot);
+    if (found == nullptr)
+      return;
     const Cell<dim> &cell  = *found;
     const auto       nodes = cell.nodes();
     Point<dim>       x     = foot;
@@ -249,8 +281,10 @@ namespace talus
     const auto N = shape_values_at<dim>(cell.box(), x);
     for (unsigned int v = 0; v < nodes.size(); ++v)
       {
-        sums_[width * nodes[v] + sum] += N[v] * area;
-        touched_.push_back(nodes[v]);
+        double *const sums = &sums_[width * nodes[v]];
+        if (sums[bottom] == 0 && sums[facets] == 0)
+          touched_.push_back(nodes[v]);
+        sums[sum] += N[v] * area;
       }
   }
 

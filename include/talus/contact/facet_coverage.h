@@ -6,8 +6,6 @@
 #include <talus/grid/neighbor_exchange.h>
 #include <talus/state/state.h>
 
-#include <boost/container/static_vector.hpp>
-
 #include <functional>
 #include <vector>
 
@@ -32,12 +30,13 @@ namespace talus
       , facets_(facets)
     {}
 
-    /// Set up the messages. Call after each change of the mesh or its
-    /// partition. Collective.
+    /// Set up the messages and delete the sample points. Call after each change
+    /// of the mesh or its partition. Collective.
     void
     prepare(const Grid<dim> &grid)
     {
       messages_.connect(grid.communicator());
+      samples_.clear();
     }
 
     /// Compute the covered share of each facet of Facets::owned(). Only facets
@@ -56,11 +55,29 @@ namespace talus
   private:
     // Sample points on columns of a quarter of a cell.
     static constexpr unsigned int n_columns = 4;
+    static constexpr unsigned int n_places  = power(n_columns, dim - 1);
 
-    using Samples = boost::container::static_vector<dealii::Point<dim>,
-                                                    power(n_columns, dim - 1)>;
-    /// Set of sample points: bit i is sample point i.
+    /// Set of places: bit i is place i, the digits of i in base n_columns are
+    /// the columns along the dim-1 axes across the facet.
     using Mask = unsigned int;
+
+    /// Sample points of a facet. In the plane of the facet they form a lattice,
+    /// so one comparison per column tests all sample points of the column.
+    struct Samples
+    {
+      unsigned int axis   = 0; ///< nearest to the normal
+      Mask         places = 0; ///< sample points; none: not yet computed
+      /// Coordinate of each column, m, by axis across the facet.
+      std::array<std::array<double, n_columns>, dim - 1> column{};
+      /// Coordinate of each sample point along the axis, m.
+      std::array<double, n_places> height{};
+
+      unsigned int
+      size() const
+      {
+        return __builtin_popcount(places);
+      }
+    };
 
     /// Sample points reached by boxes from below (2 d) and from above (2 d + 1)
     /// along axis d of the dim-1 axes along the facet. A sample point is
@@ -80,31 +97,31 @@ namespace talus
     };
 
     Samples
-    samples_of(const Grid<dim>         &grid,
-               const ContactFacet<dim> &facet,
-               unsigned int             axis) const;
+    samples_of(const Grid<dim> &grid, const ContactFacet<dim> &facet) const;
+    bool
+    is_open(const Cell<dim>          &cell,
+            const ContactFacet<dim>  &facet,
+            const dealii::Point<dim> &x) const;
     bool
     shares_cell(const ContactFacet<dim> &facet) const;
+    void
+    index_segments(const State<dim> &state);
     Reached
     reached_samples(const State<dim>        &state,
                     const ContactFacet<dim> &facet,
-                    unsigned int             axis,
                     const Samples           &samples) const;
     void
     add_points_of(const State<dim>             &state,
                   unsigned int                  c,
                   const dealii::Tensor<1, dim> &shift,
                   const ContactFacet<dim>      &facet,
-                  unsigned int                  axis,
                   const Samples                &samples,
                   Reached                      &reached) const;
-    void
-    add_sample(unsigned int                  i,
-               const dealii::Tensor<1, dim> &from,
-               const dealii::Tensor<1, dim> &half,
-               unsigned int                  axis,
-               double                        beyond,
-               Reached                      &reached) const;
+    Reached
+    reached_in_plan(const Samples                &samples,
+                    const dealii::Point<dim>     &x,
+                    const dealii::Tensor<1, dim> &half,
+                    double                        beyond) const;
     void
     pack_ghosts(const State<dim> &state, const VolumeFraction &volume_fraction);
     void
@@ -112,9 +129,11 @@ namespace talus
 
     const Obstacles<dim>                  &obstacles_;
     const Facets<dim>                     &facets_;
-    std::vector<Reached>                   reached_;   ///< by owned facet
-    std::vector<unsigned int>              n_samples_; ///< 0: not sampled
-    std::vector<double>                    shares_;    ///< by owned facet
+    std::vector<Samples>                   samples_;       ///< by owned facet
+    std::vector<unsigned int>              first_segment_; ///< by owned cell
+    std::vector<Reached>                   reached_;       ///< by owned facet
+    std::vector<unsigned int>              n_samples_;     ///< 0: not sampled
+    std::vector<double>                    shares_;        ///< by owned facet
     NeighborExchange                       messages_;
     std::vector<NeighborExchange::Message> outgoing_; ///< by neighbour
   };

@@ -37,6 +37,14 @@ namespace talus
     /// Whether the surface is within 1/200 of the cell size of the plane.
     bool   is_flat;
     double maximum_shear_stress; ///< Pa
+
+    /// Signed distance of @p x, m, from the plane of the facet, m; positive
+    /// outside of the obstacle.
+    double
+    distance_from_plane(const dealii::Point<dim> &x) const
+    {
+      return (x - centroid) * normal;
+    }
   };
 
 
@@ -82,6 +90,25 @@ namespace talus
         for (const auto *facets : {&cut_cell->facets, &cut_cell->hidden})
           for (const ContactFacet<dim> &facet : *facets)
             action(facet);
+    }
+
+    /// Whether cell @p c contains a surface, see for_each_in_cell().
+    bool
+    is_cut(const unsigned int c) const
+    {
+      return cut_cell_at_[c] != nullptr;
+    }
+
+    /// Return the only surface in cell @p c if the surface is flat; nullptr
+    /// otherwise.
+    const ContactFacet<dim> *
+    flat_facet(const unsigned int c) const
+    {
+      const CutCell *const cut = cut_cell_at_[c];
+      return cut && cut->hidden.empty() && cut->facets.size() == 1 &&
+                 cut->facets[0].is_flat
+               ? cut->facets.data()
+               : nullptr;
     }
 
     /// Obstacles, ascending, which contain the whole of cell @p c and so have

@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <limits>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -49,6 +50,19 @@ namespace talus
       std::function<std::vector<unsigned int>(const dealii::Point<dim> &,
                                               double)>;
 
+    /// Plane of the only surface in a cell, where the surface deviates from
+    /// the plane by less than a hundredth of the cell size.
+    struct Plane
+    {
+      unsigned int           surface;
+      dealii::Point<dim>     place;  ///< on the plane, m
+      dealii::Tensor<1, dim> normal; ///< out of the body behind the surface
+    };
+
+    /// Plane of the given cell, if the surface is flat there. The plane saves
+    /// the exact distances of boxes which are in contact anyway.
+    using PlaneOfCell = std::function<std::optional<Plane>(unsigned int)>;
+
     /// Gap at a node which no box reaches.
     static constexpr double none = std::numeric_limits<double>::max();
 
@@ -65,7 +79,8 @@ namespace talus
     prepare(const Grid<dim>          &grid,
             std::vector<Surface>      surfaces,
             std::vector<unsigned int> slots,
-            Near                      near);
+            Near                      near,
+            PlaneOfCell               plane_of_cell = {});
 
     /// Slots of the surfaces, as set by prepare().
     const std::vector<unsigned int> &
@@ -118,6 +133,11 @@ namespace talus
     void
     find_of_point(const dealii::Point<dim>     &x,
                   const dealii::Tensor<1, dim> &half);
+    bool
+    is_in_contact(const Plane                  &plane,
+                  double                        cell_size,
+                  const dealii::Point<dim>     &x,
+                  const dealii::Tensor<1, dim> &half);
     void
     lower(unsigned int node);
     void
@@ -128,6 +148,7 @@ namespace talus
     std::vector<Surface>       surfaces_;
     std::vector<unsigned int>  slots_; ///< by surface
     Near                       near_;
+    PlaneOfCell                plane_of_cell_;
     std::size_t                n_slots_ = 0;
     std::vector<double>        gaps_;      ///< by node and slot, m
     std::vector<unsigned char> is_open_;   ///< by node, used in find()

@@ -61,9 +61,10 @@ namespace talus
             double              dt,
             dealii::Point<dim> &x) const;
 
-    const Obstacles<dim>  &obstacles_;
-    const Facets<dim>     &facets_;
-    std::vector<Candidate> candidates_; ///< pairs of point and surface
+    const Obstacles<dim>      &obstacles_;
+    const Facets<dim>         &facets_;
+    std::vector<Candidate>     candidates_; ///< pairs of point and surface
+    std::vector<unsigned char> is_moved_;   ///< by point, used in confine()
   };
 } // namespace talus
 

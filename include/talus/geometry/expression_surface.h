@@ -5,12 +5,10 @@
 #include <talus/base/expression.h>
 #include <talus/geometry/surface.h>
 
-#include <boost/functional/hash.hpp>
-
 #include <array>
+#include <limits>
 #include <memory>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -59,11 +57,18 @@ namespace talus
     double
     compute_largest_change(const dealii::Point<dim> &x, double distance) const;
 
-    /// Results already computed, by the n numbers that determine a result.
+    /// Result with the numbers that the result depends on.
     template <std::size_t n, typename T>
-    using Table = std::unordered_map<std::array<double, n>,
-                                     T,
-                                     boost::hash<std::array<double, n>>>;
+    struct Known
+    {
+      std::array<double, n> key = {{std::numeric_limits<double>::quiet_NaN()}};
+      T                     result{};
+    };
+
+    /// Recent results, each at the place given by the hash of its key: a newer
+    /// result replaces an older result.
+    template <std::size_t n, typename T>
+    using Table = std::vector<Known<n, T>>;
 
     std::vector<Named>             others_;
     std::unique_ptr<Expression<3>> expression_;

@@ -78,11 +78,10 @@ namespace talus
     is_full(const Grid<dim>      &grid,
             const Cell<dim>      &cell,
             const VolumeFraction &volume_fraction) const;
-    bool
-    find_plane(const Cell<dim>          &cell,
-               const SolidAtNodes<dim>  &solid,
-               const dealii::Point<dim> &x,
-               Plane                    &plane) const;
+    void
+    add_boxes_at_facets(const State<dim>        &state,
+                        const Segment           &segment,
+                        const SolidAtNodes<dim> &solid);
     void
     add_box(const State<dim> &state,
             unsigned int      p,
@@ -90,11 +89,12 @@ namespace talus
             const Plane      &plane,
             Sum               sum);
     void
-                               add_foot(const Grid<dim>          &grid,
-                                        const Cell<dim>          &near,
-                                        const dealii::Point<dim> &foot,
-                                        double                    area,
-                                        Sum                       sum);
+    add_foot(const Grid<dim>          &grid,
+             const Cell<dim>          &near,
+             const dealii::Point<dim> &foot,
+             double                    area,
+             Sum                       sum);
+
     std::vector<unsigned char> is_at_bottom_;   ///< by owned cell
     std::vector<double>        area_of_bottom_; ///< by owned node, m^(dim-1)
     std::vector<double>        sums_;           ///< by node

@@ -287,3 +287,34 @@ TEST(NodalGaps, SearchedAnewInEachStep)
   box.points.data(box.points.position, 1)[0] += 0.1;
   EXPECT_NEAR(box.room({1., 1.}, 1), 0.25, 1e-14);
 }
+
+
+
+// The exact surface lies 5 mm above the plane of the cell. Boxes in contact by
+// more than half the dead band need no exact distance, and all others get it.
+TEST(NodalGaps, PlaneOfCellSavesDistancesOfBoxesInContact)
+{
+  using namespace nodal_gaps_test;
+  for (const double height : {-0.2, 0., 0.02, 0.03, 0.2})
+    {
+      OneBox   box(height);
+      Plane<2> bed;
+      bed.foot[1]           = 1.005;
+      bed.normal[1]         = 1.;
+      unsigned int n_exact  = 0;
+      const auto   distance = [&](const Point<2> &x, const Tensor<1, 2> &half) {
+        ++n_exact;
+        return bed(x, half);
+      };
+      const auto plane_of_cell = [](const unsigned int) {
+        return NodalGaps<2>::Plane{0, Point<2>(0., 1.), Point<2>(0., 1.)};
+      };
+      box.gaps.prepare(
+        box.grid, {distance}, {0}, all_near<2>(1), plane_of_cell);
+      EXPECT_NEAR(box.room({1., 1.}, 2),
+                  std::max(0., height - 0.005 - dead_band),
+                  1e-14)
+        << height;
+      EXPECT_EQ(n_exact, height < 0.025 ? 0u : 1u) << height;
+    }
+}
