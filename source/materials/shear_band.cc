@@ -4,11 +4,11 @@
 
 namespace talus
 {
-  // Softening by strain has no length scale, so shear bands are as wide as cells
-  // of size h: the strain of softening is reached by the displacement xi h, and the
-  // work is G_f = h times the work per volume (doc/method.md, section 4). The
-  // remark gives both numbers for h and h/2. Otherwise users might compare
-  // results on two meshes that belong to two different materials.
+  // Softening by strain has no length scale, so shear bands are as wide as
+  // cells of size h: the strain of softening is reached by the displacement xi
+  // h, and the work is G_f = h times the work per volume (doc/method.md,
+  // section 4). The remark gives both numbers for h and h/2. Otherwise users
+  // might compare results on two meshes that belong to two different materials.
   std::string
   shear_band_note(const Softening   &softening,
                   const double       cell_size,

@@ -140,8 +140,8 @@ namespace talus
   // Condition of check() for the hardening modulus times the factor, with a
   // margin of 1 %: at equality the return has no slope. If residual and initial
   // strength are equal, nothing softens. In simple shear the condition is
-  // ds_u/dgamma > -G, which is (s_u - s_res) h/d < G: the strongest soil decides,
-  // also if G is proportional to s_u.
+  // ds_u/dgamma > -G, which is (s_u - s_res) h/d < G: the strongest soil
+  // decides, also if G is proportional to s_u.
   template <int dim>
   double
   VonMises<dim>::largest_strength_factor(const StrengthRange &range) const

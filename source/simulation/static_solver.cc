@@ -221,7 +221,8 @@ namespace talus
 
 
   /// State the fraction of the load reached and, in softening soil, how far it
-  /// has yielded, in sentences for the user. The points are in the last balance.
+  /// has yielded, in sentences for the user. The points are in the last
+  /// balance.
   template <int dim>
   std::string
   StaticSolver<dim>::no_equilibrium() const

@@ -8,9 +8,9 @@ namespace talus
   namespace
   {
     /// Combine plans element by element: minimum time step, maximum request,
-    /// sum of points, maximum speed. The signature is required by MPI for user-defined
-    /// operations. All four operations commute, including sums of whole
-    /// numbers, so the result does not depend on the order of the ranks.
+    /// sum of points, maximum speed. The signature is required by MPI for
+    /// user-defined operations. All four operations commute, including sums of
+    /// whole numbers, so the result does not depend on the order of the ranks.
     void
     combine(void *more, void *all, int *n, MPI_Datatype *)
     {

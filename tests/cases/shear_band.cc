@@ -127,7 +127,8 @@ namespace shear_band_test
                        "prm/verification/shear-band.prm",
                        source);
     // A row of one cell has one point per cell and axis: with two, the slip is
-    // 3.4 % more. A row of two cells has two: with one, every second cell slips.
+    // 3.4 % more. A row of two cells has two: with one, every second cell
+    // slips.
     const auto hold = [&](const std::string &mesh,
                           const Overrides   &overrides,
                           const double       end) {

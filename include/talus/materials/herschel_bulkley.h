@@ -26,10 +26,11 @@ namespace talus
   /// shear rate and xi its integral in time; in simple shear both refer to the
   /// engineering shear. Remoulding:
   ///   s_u(xi) = f s_u0 [r + (1 - r) exp(-3 xi/xi_95)] @cite einav2005,
-  /// with the strength factor f of the point, or 1. With a softening displacement
-  /// d, xi/xi_95 is the integral of h dxi/d, h the cell size of the point. Backward Euler, see
-  /// plastic_shear(); in a step of length zero viscous material does not flow.
-  /// With K = 0 and r = 1 the law is von Mises' law without hardening.
+  /// with the strength factor f of the point, or 1. With a softening
+  /// displacement d, xi/xi_95 is the integral of h dxi/d, h the cell size of
+  /// the point. Backward Euler, see plastic_shear(); in a step of length zero
+  /// viscous material does not flow. With K = 0 and r = 1 the law is von Mises'
+  /// law without hardening.
   template <int dim>
   class HerschelBulkley : public UndrainedLaw<dim, HerschelBulkleyFlow>
   {

@@ -35,8 +35,8 @@ namespace talus
 
 
   /// Radial return of the law of Herschel and Bulkley. The plastic variable is
-  /// the plastic shear strain. Under a BandStrength all strains of remoulding are
-  /// values of the softening.
+  /// the plastic shear strain. Under a BandStrength all strains of remoulding
+  /// are values of the softening.
   struct HerschelBulkleyFlow
   {
     Strength        strength;
@@ -76,7 +76,7 @@ namespace talus
     Number old_strain;   ///< plastic shear strain at the start of the step [-]
     Number strength;     ///< at the start of the step, Pa
     Number loss;         ///< strength that remoulding can still remove, Pa
-    Decay  decay; ///< rate of the loss per plastic shear strain [-]
+    Decay  decay;        ///< rate of the loss per plastic shear strain [-]
   };
 
 

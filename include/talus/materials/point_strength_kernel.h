@@ -20,8 +20,8 @@ namespace talus
   };
 
   /// PointStrength of soil that softens with the displacement across a shear
-  /// band. The flow rule then takes the softening column in place of the plastic
-  /// variable.
+  /// band. The flow rule then takes the softening column in place of the
+  /// plastic variable.
   template <typename Number>
   struct BandStrength : PointStrength<Number>
   {

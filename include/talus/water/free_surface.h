@@ -39,8 +39,8 @@ namespace talus
   {
   public:
     /// Find the cells around each node, and move the facets to the ranks that
-    /// own their cells now. Call after each change of the mesh or its partition.
-    /// Collective.
+    /// own their cells now. Call after each change of the mesh or its
+    /// partition. Collective.
     void
     prepare(const Grid<dim> &grid);
 

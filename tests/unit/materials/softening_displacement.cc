@@ -114,8 +114,8 @@ namespace softening_displacement_test
 
 
 
-  // A point that enters a larger or smaller cell keeps its strength, and goes on
-  // along the same curve.
+  // A point that enters a larger or smaller cell keeps its strength, and goes
+  // on along the same curve.
   TEST(SofteningDisplacement, StrengthDoesNotJumpBetweenCells)
   {
     for (const std::string &law : laws)
