@@ -7,6 +7,9 @@
 
 #include <deal.II/base/mpi.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace talus
 {
   using namespace dealii;
@@ -96,11 +99,18 @@ namespace talus
         {
           const auto            shape = body->shape(domain);
           std::vector<Box<dim>> boxes{body->bounding_box(domain)};
+          // A search in more than about 1e5 boxes would take too long.
+          double volume = 1e-5;
+          for (unsigned int d = 0; d < dim; ++d)
+            volume *= boxes[0].length(d);
+          const double size =
+            std::max(4. * grid.cell_size(), std::pow(volume, 1. / dim));
           // Displaced points may be anywhere around.
           if (!body->initial_state().is_displaced())
-            boxes = boxes_with_soil(Region<dim>(*shape),
-                                    boxes[0],
-                                    4. * grid.cell_size());
+            if (const auto with_soil =
+                  boxes_with_soil(Region<dim>(*shape), boxes[0], size);
+                !with_soil.empty())
+              boxes = with_soil;
           result.insert(result.end(), boxes.begin(), boxes.end());
         }
       return result;

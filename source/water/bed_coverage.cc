@@ -37,13 +37,8 @@ namespace talus
       return true;
     }
 
-<<<<<<< HEAD
     /// Return the cell which contains @p x, m, often cell @p near or a
     /// neighbour of the cell; nullptr if this rank does not know the cell.
-=======
-    /// Return the cell which contains @p x, m, often cell @p near or one of its
-    /// neighbours; nullptr if this rank does not know the cell.
->>>>>>> bed
     template <int dim>
     const Cell<dim> *
     cell_around(const Grid<dim>  &grid,
