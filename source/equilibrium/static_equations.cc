@@ -330,7 +330,7 @@ namespace talus
     internal_forces_.add_tangent(weights_, matrix_);
     ghost_.add_to_matrix(matrix_);
     contact_.facets().add_to_matrix(matrix_);
-    matrix_.finish();
+    matrix_.finish(1e-13);
   }
 
 

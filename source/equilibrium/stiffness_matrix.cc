@@ -141,7 +141,7 @@ namespace talus
   /// is held, any other value will do.
   template <int dim>
   void
-  StiffnessMatrix<dim>::finish()
+  StiffnessMatrix<dim>::finish(const double shift)
   {
     matrix_.compress(VectorOperation::add);
     const Epetra_CrsMatrix &matrix = matrix_.trilinos_matrix();
@@ -158,7 +158,7 @@ namespace talus
         matrix.ExtractMyRowView(row, n_entries, values, columns);
         for (int k = 0; k < n_entries; ++k)
           if (columns[k] == row)
-            values[k] = (!is_held_[row]    ? (1. + 1e-13) * values[k]
+            values[k] = (!is_held_[row]    ? (1. + shift) * values[k]
                          : values[k] != 0. ? std::abs(values[k])
                                            : 1.);
           else if (is_held_[row] || is_held_[columns[k]])

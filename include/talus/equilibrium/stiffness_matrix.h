@@ -48,12 +48,12 @@ namespace talus
     void
     add(const Nodes &nodes, const dealii::FullMatrix<double> &block);
 
-    /// Send the rows of ghost nodes to their owners, apply the present
-    /// constraints of the unknowns, and increase the diagonal by a factor of
-    /// 1 + 1e-13: where soil can move freely, the solution is large, but not
-    /// infinite. A held unknown keeps only its diagonal entry. Collective.
+    /// Send the rows of ghost nodes to their owners, hold the unknowns that are
+    /// held now, and add the fraction @p shift of the diagonal to the diagonal:
+    /// where soil can move freely, a solution is then large, but not infinite.
+    /// A held unknown keeps only the diagonal entry. Collective.
     void
-    finish();
+    finish(double shift);
 
     const dealii::TrilinosWrappers::SparseMatrix &
     matrix() const

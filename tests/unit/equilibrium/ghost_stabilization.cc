@@ -155,7 +155,7 @@ namespace
     StiffnessMatrix<dim> matrix;
     body.parts->make_full(matrix);
     body.ghost.add_to_matrix(matrix);
-    matrix.finish();
+    matrix.finish(0.);
     for (unsigned int i = 0; i < 3; ++i)
       {
         const auto u      = body.parts->random_field(body, 1.);

@@ -147,7 +147,7 @@ namespace
     StiffnessMatrix<dim> matrix;
     parts.make_full(matrix);
     parts.internal_forces.add_tangent(parts.weights, matrix);
-    matrix.finish();
+    matrix.finish(0.);
 
     const double eps = 1e-7;
     for (unsigned int i = 0; i < 4; ++i)

@@ -181,7 +181,7 @@ TEST(TriggerInTime, ContradictionsAreRefused)
          "shear stress'",
          false);
   expect("set Seabed shear stress fraction = 0.5\nset Region = x",
-         "'Trigger/Strength fraction' is 1, so that no soil becomes weaker");
+         "'Trigger/Strength fraction' is 1: no soil becomes weaker");
   expect("set Strength fraction = 0.5\nset Bodies = sand",
          "lists 'sand', but Bodies/Names lists only: clay, mud, rock");
   expect("set Strength fraction = 0.5\nset Bodies = clay, rock",
