@@ -223,8 +223,7 @@ namespace talus
     // Written to be true also if the correction is not a number.
     moves_freely_ = !(correction.largest < 10. * extent_);
     if (moves_freely_)
-      return "the matrix is singular or nearly so: part of the soil can move "
-             "freely";
+      return "the matrix is nearly singular: soil can move freely";
     iteration.length = line_search(problem, correction.field);
     iteration.seconds =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - start)

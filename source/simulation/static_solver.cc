@@ -228,12 +228,11 @@ namespace talus
   StaticSolver<dim>::no_equilibrium() const
   {
     return text("The stage 'equilibrium' found no balance ",
-                equilibrium_.load() > 0.
-                  ? text(std::setprecision(6),
-                         "beyond ",
-                         equilibrium_.load(),
-                         " of the load. ")
-                  : text("with any share of the load that was tried. "),
+                equilibrium_.load() > 0. ? text(std::setprecision(6),
+                                                "beyond ",
+                                                equilibrium_.load(),
+                                                " of the load. ")
+                                         : text("with any share of the load. "),
                 equilibrium_.failure(),
                 ".",
                 note_on_softening(state_, problem_));

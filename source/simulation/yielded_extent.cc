@@ -98,9 +98,7 @@ namespace talus
       }
     if (list.empty())
       return {};
-    return " Softening is a cause: in the last balance had yielded " + list +
-           ". Soil that softens sheds load on the soil beside it, and beyond a "
-           "critical size of the weak zone a shear band runs on by itself.";
+    return " Softening is a cause: " + list + " had yielded.";
   }
 
 
