@@ -232,7 +232,7 @@ namespace talus
                                                 "beyond ",
                                                 equilibrium_.load(),
                                                 " of the load. ")
-                                         : text("with any share of the load. "),
+                                         : text("at any load. "),
                 equilibrium_.failure(),
                 ".",
                 note_on_softening(state_, problem_));

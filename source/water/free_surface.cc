@@ -132,13 +132,11 @@ namespace talus
   void
   FreeSurface<dim>::prepare(const Grid<dim> &grid)
   {
-    std::vector<double> rows = std::move(restored_);
+    std::vector<double> rows;
     if (!is_restored_)
       for (const std::vector<double> &of_rank :
            Utilities::MPI::all_gather(grid.communicator(), this->rows()))
         rows.insert(rows.end(), of_rank.begin(), of_rank.end());
-    restored_.clear();
-    is_restored_ = false;
     solid_.prepare(grid);
     coverage_.prepare(grid);
     std::vector<std::vector<unsigned int>> cells(grid.n_nodes());
@@ -226,6 +224,8 @@ namespace talus
     filled_nodes_.clear();
     facets_.clear();
     key_of_facet_.clear();
+    restored_.clear();
+    is_restored_ = false;
     solid_.update(grid, contact);
     fill_records(state);
     list_cells(state);
@@ -460,6 +460,10 @@ namespace talus
   void
   FreeSurface<dim>::update_soil(const State<dim> &state)
   {
+    if (is_restored_)
+      make_facets(restored_, state.grid);
+    restored_.clear();
+    is_restored_                  = false;
     const NodalFields<dim> &nodes = state.nodes;
     const auto              soil  = [this](const unsigned int node) {
       return soil_.data() + std::size_t(width_of_soil) * node;

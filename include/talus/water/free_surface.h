@@ -61,8 +61,8 @@ namespace talus
     static constexpr unsigned int n_columns =
       2 + 2 * dim; ///< columns of rows()
 
-    /// Store the @p rows of all ranks for the next prepare(), which makes
-    /// facets of them.
+    /// Store the @p rows of all ranks for the next update_soil(), which makes
+    /// facets of the rows.
     void
     restore(const std::vector<double> &rows)
     {
