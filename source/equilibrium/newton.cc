@@ -194,7 +194,7 @@ namespace talus
         if (!observe(iteration))
           return stopped;
         if (!error.empty())
-          return failure(text("Newton's method does not converge: ", error));
+          return failure(text("Newton's method diverges: ", error));
       }
   }
 

@@ -98,7 +98,7 @@ namespace talus
       }
     if (list.empty())
       return {};
-    return " Softening is a cause: " + list + " had yielded.";
+    return " Softening: " + list + " yielded.";
   }
 
 

@@ -159,7 +159,7 @@ namespace shear_band_test
                failure.share,
                L_cr / 51.,
                0.015 / 0.902);
-    EXPECT_NE(failure.words.find("Softening is a cause"), std::string::npos)
+    EXPECT_NE(failure.words.find("Softening: "), std::string::npos)
       << failure.words;
     EXPECT_NE(failure.words.find("m of 'weak'"), std::string::npos);
   }
