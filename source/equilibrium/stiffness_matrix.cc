@@ -121,60 +121,59 @@ namespace talus
             values[d][place] += block(dim * a + d, dim * b + e);
         }
   }
-}
 
 
 
-template <int dim>
-void
-StiffnessMatrix<dim>::add_to_ghost_rows(const Nodes              &nodes,
-                                        const unsigned int        a,
-                                        const FullMatrix<double> &block)
-{
-  indices_.clear();
-  for (const unsigned int node : nodes)
-    for (unsigned int d = 0; d < dim; ++d)
-      indices_.push_back(unknowns_->first(node) + d);
-  for (unsigned int d = 0; d < dim; ++d)
-    matrix_.add(indices_[dim * a + d],
-                indices_.size(),
-                indices_.data(),
-                &block(dim * a + d, 0));
-}
-
-
-
-/// An unknown without stiffness has a diagonal entry of zero; if the unknown
-/// is held, any other value will do.
-template <int dim>
-void
-StiffnessMatrix<dim>::finish(const double shift)
-{
-  matrix_.compress(VectorOperation::add);
-  const Epetra_CrsMatrix &matrix = matrix_.trilinos_matrix();
-  is_held_.assign(matrix.NumMyCols(), false);
-  for (unsigned int node = 0; node < column_of_node_.size(); ++node)
-    if (column_of_node_[node] >= 0)
+  template <int dim>
+  void
+  StiffnessMatrix<dim>::add_to_ghost_rows(const Nodes              &nodes,
+                                          const unsigned int        a,
+                                          const FullMatrix<double> &block)
+  {
+    indices_.clear();
+    for (const unsigned int node : nodes)
       for (unsigned int d = 0; d < dim; ++d)
-        is_held_[column_of_node_[node] + d] =
-          unknowns_->is_constrained(node, d);
-  for (int row = 0; row < matrix.NumMyRows(); ++row)
-    {
-      int     n_entries, *columns;
-      double *values;
-      matrix.ExtractMyRowView(row, n_entries, values, columns);
-      for (int k = 0; k < n_entries; ++k)
-        if (columns[k] == row)
-          values[k] = (!is_held_[row]    ? (1. + shift) * values[k]
-                       : values[k] != 0. ? std::abs(values[k])
-                                         : 1.);
-        else if (is_held_[row] || is_held_[columns[k]])
-          values[k] = 0.;
-    }
-}
+        indices_.push_back(unknowns_->first(node) + d);
+    for (unsigned int d = 0; d < dim; ++d)
+      matrix_.add(indices_[dim * a + d],
+                  indices_.size(),
+                  indices_.data(),
+                  &block(dim * a + d, 0));
+  }
 
 
 
-template class StiffnessMatrix<2>;
-template class StiffnessMatrix<3>;
+  /// An unknown without stiffness has a diagonal entry of zero; if the unknown
+  /// is held, any other value will do.
+  template <int dim>
+  void
+  StiffnessMatrix<dim>::finish(const double shift)
+  {
+    matrix_.compress(VectorOperation::add);
+    const Epetra_CrsMatrix &matrix = matrix_.trilinos_matrix();
+    is_held_.assign(matrix.NumMyCols(), false);
+    for (unsigned int node = 0; node < column_of_node_.size(); ++node)
+      if (column_of_node_[node] >= 0)
+        for (unsigned int d = 0; d < dim; ++d)
+          is_held_[column_of_node_[node] + d] =
+            unknowns_->is_constrained(node, d);
+    for (int row = 0; row < matrix.NumMyRows(); ++row)
+      {
+        int     n_entries, *columns;
+        double *values;
+        matrix.ExtractMyRowView(row, n_entries, values, columns);
+        for (int k = 0; k < n_entries; ++k)
+          if (columns[k] == row)
+            values[k] = (!is_held_[row]    ? (1. + shift) * values[k]
+                         : values[k] != 0. ? std::abs(values[k])
+                                           : 1.);
+          else if (is_held_[row] || is_held_[columns[k]])
+            values[k] = 0.;
+      }
+  }
+
+
+
+  template class StiffnessMatrix<2>;
+  template class StiffnessMatrix<3>;
 } // namespace talus
