@@ -50,11 +50,11 @@ namespace talus
     matrix_.reinit(*pattern_);
     pattern_.reset();
     const Epetra_Map &columns = matrix_.trilinos_matrix().ColMap();
-    column_of_node_.assign(unknowns_->field().size() / dim, -1);
-    for (unsigned int node = 0; node < column_of_node_.size(); ++node)
-      if (unknowns_->is_active(node))
-        column_of_node_[node] =
-          columns.LID(static_cast<int>(unknowns_->first(node)));
+    column_of_node_.assign(unknowns_->field().size(), -1);
+    for (unsigned int k = 0; k < column_of_node_.size(); ++k)
+      if (unknowns_->is_active(k / dim))
+        column_of_node_[k] =
+          columns.LID(static_cast<int>(unknowns_->first(k / dim) + k % dim));
   }
 
 
@@ -76,7 +76,8 @@ namespace talus
   {
     columns_.clear();
     for (unsigned int a = 0; a < nodes.size(); ++a)
-      columns_.emplace_back(column_of_node_[nodes[a]], a);
+      for (unsigned int d = 0; d < dim; ++d)
+        columns_.emplace_back(column_of_node_[dim * nodes[a] + d], dim * a + d);
     std::sort(columns_.begin(), columns_.end());
     for (unsigned int a = 0; a < nodes.size(); ++a)
       if (unknowns_->owned().is_element(unknowns_->first(nodes[a])))
@@ -96,7 +97,7 @@ namespace talus
                                         const FullMatrix<double> &block)
   {
     // Owned columns come first and in the order of the rows.
-    const int row = column_of_node_[node];
+    const int row = column_of_node_[dim * node];
     int       n_entries, *entries;
     double   *values[dim];
     for (unsigned int d = 0; d < dim; ++d)
@@ -113,13 +114,12 @@ namespace talus
       place %= n_entries;
       Assert(entries[place] == column, ExcInternalError());
     };
-    for (const auto &[column, b] : columns_)
-      for (unsigned int e = 0; e < dim; ++e)
-        {
-          advance_to(column + e);
-          for (unsigned int d = 0; d < dim; ++d)
-            values[d][place] += block(dim * a + d, dim * b + e);
-        }
+    for (const auto &[column, j] : columns_)
+      {
+        advance_to(column);
+        for (unsigned int d = 0; d < dim; ++d)
+          values[d][place] += block(dim * a + d, j);
+      }
   }
 
 
@@ -152,11 +152,10 @@ namespace talus
     matrix_.compress(VectorOperation::add);
     const Epetra_CrsMatrix &matrix = matrix_.trilinos_matrix();
     is_held_.assign(matrix.NumMyCols(), false);
-    for (unsigned int node = 0; node < column_of_node_.size(); ++node)
-      if (column_of_node_[node] >= 0)
-        for (unsigned int d = 0; d < dim; ++d)
-          is_held_[column_of_node_[node] + d] =
-            unknowns_->is_constrained(node, d);
+    for (unsigned int k = 0; k < column_of_node_.size(); ++k)
+      if (column_of_node_[k] >= 0)
+        is_held_[column_of_node_[k]] =
+          unknowns_->is_constrained(k / dim, k % dim);
     for (int row = 0; row < matrix.NumMyRows(); ++row)
       {
         int     n_entries, *columns;
