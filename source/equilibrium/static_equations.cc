@@ -138,7 +138,7 @@ namespace talus
   void
   StaticEquations<dim>::make_pattern()
   {
-    factorization_.clear();
+    direct_solver_.clear();
     matrix_.begin_pattern(unknowns_);
     for (unsigned int c = 0; c < weights_.cells().size(); ++c)
       matrix_.couple(weights_.nodes(c));
@@ -376,7 +376,13 @@ namespace talus
     rhs.compress(VectorOperation::insert);
     const RigidModes     modes   = free_rigid_modes();
     const LinearSolution outcome = linear_solver.solve(
-      {matrix_.matrix(), factorization_, modes, dim, is_symmetric()},
+      {matrix_.matrix(),
+       direct_solver_,
+       modes,
+       dim,
+       is_symmetric(),
+       measure_ == StrainMeasure::small &&
+         contact_.facets().is_matrix_symmetric()},
       solution,
       rhs);
     Correction result{unknowns_.field(),
