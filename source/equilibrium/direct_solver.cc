@@ -13,8 +13,8 @@ namespace talus
                       const TrilinosWrappers::MPI::Vector  &rhs)
   {
     const bool is_on_one_rank = (matrix.local_size() == matrix.m());
-    return (is_symmetric && is_on_one_rank &&
-            solve_symmetric(matrix, n_components, x, rhs)) ||
+    return (is_on_one_rank && solve_without_pivoting(
+                                matrix, n_components, is_symmetric, x, rhs)) ||
            lu_.solve(matrix, x, rhs);
   }
 
@@ -24,21 +24,23 @@ namespace talus
   /// small where soil is about to fail. A second solution, for the residual of
   /// the first, removes most of the round-off.
   bool
-  DirectSolver::solve_symmetric(const TrilinosWrappers::SparseMatrix &matrix,
-                                const unsigned int             n_components,
-                                TrilinosWrappers::MPI::Vector &x,
-                                const TrilinosWrappers::MPI::Vector &rhs)
+  DirectSolver::solve_without_pivoting(
+    const TrilinosWrappers::SparseMatrix &matrix,
+    const unsigned int                    n_components,
+    const bool                            is_symmetric,
+    TrilinosWrappers::MPI::Vector        &x,
+    const TrilinosWrappers::MPI::Vector  &rhs)
   {
-    if (!ldl_.is_analyzed())
-      ldl_.analyze(matrix.trilinos_matrix(), n_components);
-    if (!ldl_.factorize(matrix.trilinos_matrix()))
+    if (!multifrontal_.is_analyzed())
+      multifrontal_.analyze(matrix.trilinos_matrix(), n_components);
+    if (!multifrontal_.factorize(matrix.trilinos_matrix(), is_symmetric))
       return false;
     constexpr double              largest_residual = 1e-10;
     TrilinosWrappers::MPI::Vector residual(rhs);
     x = 0.;
     for (unsigned int trial = 0; trial < 2; ++trial)
       {
-        ldl_.solve(residual.begin());
+        multifrontal_.solve(residual.begin());
         x += residual;
         if (matrix.residual(residual, x, rhs) <=
             largest_residual * rhs.l2_norm())

@@ -21,7 +21,8 @@ namespace talus
     double
     n_entries(const EliminationFronts::Front &front)
     {
-      return front.n_columns * (front.rows.size() - 0.5 * (front.n_columns - 1));
+      return front.n_columns *
+             (front.rows.size() - 0.5 * (front.n_columns - 1));
     }
 
 
@@ -54,8 +55,8 @@ namespace talus
 
   EliminationFronts::EliminationFronts(const SymmetricPattern &pattern)
   {
-    const int                 n = pattern.n_unknowns();
-    std::vector<int>          permutation(n);
+    const int                  n = pattern.n_unknowns();
+    std::vector<int>           permutation(n);
     [[maybe_unused]] const int status = amd_order(n,
                                                   pattern.first.data(),
                                                   pattern.neighbours.data(),
@@ -141,10 +142,9 @@ namespace talus
         std::sort(rows[k].begin(), rows[k].end());
         if (parent[k] != no_parent)
           children[parent[k]].push_back(k);
-        const bool continues =
-          k > 0 && parent[k - 1] == k &&
-          fronts_.back().rows.size() ==
-            rows[k].size() + fronts_.back().n_columns;
+        const bool continues = k > 0 && parent[k - 1] == k &&
+                               fronts_.back().rows.size() ==
+                                 rows[k].size() + fronts_.back().n_columns;
         if (continues)
           ++fronts_.back().n_columns;
         else

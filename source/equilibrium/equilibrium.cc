@@ -141,14 +141,14 @@ namespace talus
   Equilibrium<dim>::begin(const StrainMeasure      measure,
                           const EquilibriumLimits &limits)
   {
-    limits_                             = limits;
-    newton_parameters_.measure          = measure;
-    newton_parameters_.is_well_balanced = limits.is_well_balanced;
+    limits_                              = limits;
+    newton_parameters_.measure           = measure;
+    newton_parameters_.is_well_balanced  = limits.is_well_balanced;
     newton_parameters_.contact_tolerance = limits.contact_tolerance;
-    load_                               = 0;
-    step_                               = 1. / limits.n_load_steps;
+    load_                                = 0;
+    step_                                = 1. / limits.n_load_steps;
     n_steps_ = n_settling_ = n_failures_ = 0;
-    imbalance_                          = 0;
+    imbalance_                           = 0;
     is_found_ = is_stopped_ = false;
     imbalances_.clear();
     failure_.clear();

@@ -179,9 +179,9 @@ namespace talus
         NewtonIteration iteration{
           i, norm == 0. ? 0. : norm / equations_.reference_force(), 0, 0., 0.};
         if (i == 0)
-          tolerance = std::max(tolerance,
-                               std::min(largest_tolerance,
-                                        0.01 * iteration.residual));
+          tolerance =
+            std::max(tolerance,
+                     std::min(largest_tolerance, 0.01 * iteration.residual));
         const bool converged = (iteration.residual <= tolerance);
         if (converged || i == parameters_.largest_iterations ||
             !std::isfinite(norm))

@@ -73,7 +73,7 @@ namespace talus
       return;
     StaticProblem<dim> problem = given;
     problem.mudline            = with_memory<dim>(given.mudline);
-    unit_weight_ = mean_unit_weight(problem);
+    unit_weight_               = mean_unit_weight(problem);
     if (!(unit_weight_ > 0.))
       return;
     find_pressure(problem);

@@ -2,14 +2,14 @@
 #ifndef talus_equilibrium_direct_solver_h
 #define talus_equilibrium_direct_solver_h
 
-#include <talus/equilibrium/ldl_factorization.h>
 #include <talus/equilibrium/lu_factorization.h>
+#include <talus/equilibrium/multifrontal_factorization.h>
 
 namespace talus
 {
-  /// Direct solver of linear systems whose matrices have the same pattern:
-  /// LdlFactorization for symmetric matrices on one rank, LuFactorization for
-  /// others and where the pivots on the diagonal are too small.
+  /// Direct solver of linear systems whose matrices have the same, symmetric
+  /// pattern: MultifrontalFactorization on one rank, LuFactorization on several
+  /// ranks and where pivots on the diagonal are too small.
   class DirectSolver
   {
   public:
@@ -17,7 +17,7 @@ namespace talus
     void
     clear()
     {
-      ldl_.clear();
+      multifrontal_.clear();
       lu_.clear();
     }
 
@@ -33,13 +33,14 @@ namespace talus
 
   private:
     bool
-    solve_symmetric(const dealii::TrilinosWrappers::SparseMatrix &matrix,
-                    unsigned int                                  n_components,
-                    dealii::TrilinosWrappers::MPI::Vector        &x,
-                    const dealii::TrilinosWrappers::MPI::Vector  &rhs);
+    solve_without_pivoting(const dealii::TrilinosWrappers::SparseMatrix &matrix,
+                           unsigned int                           n_components,
+                           bool                                   is_symmetric,
+                           dealii::TrilinosWrappers::MPI::Vector &x,
+                           const dealii::TrilinosWrappers::MPI::Vector &rhs);
 
-    LdlFactorization ldl_;
-    LuFactorization  lu_;
+    MultifrontalFactorization multifrontal_;
+    LuFactorization           lu_;
   };
 } // namespace talus
 

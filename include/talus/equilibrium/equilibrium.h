@@ -198,17 +198,17 @@ namespace talus
     bool                             is_well_balanced_ = true;
     LinearSolver                     linear_solver_;
 
-    Newton<dim>       newton_;
-    double            load_ = 0;
-    double            step_ = 1;
-    EquilibriumLimits limits_{};
-    unsigned int      n_steps_    = 0;
-    unsigned int      n_settling_ = 0; ///< steps taken at full load
-    unsigned int      n_failures_ = 0; ///< load steps that failed
-    double      imbalance_  = 0;
-    bool        is_found_   = false;
-    bool        is_stopped_ = false;
-    std::string failure_;
+    Newton<dim>         newton_;
+    double              load_ = 0;
+    double              step_ = 1;
+    EquilibriumLimits   limits_{};
+    unsigned int        n_steps_    = 0;
+    unsigned int        n_settling_ = 0; ///< steps taken at full load
+    unsigned int        n_failures_ = 0; ///< load steps that failed
+    double              imbalance_  = 0;
+    bool                is_found_   = false;
+    bool                is_stopped_ = false;
+    std::string         failure_;
     std::vector<double> imbalances_; ///< history at full load [-]
   };
 } // namespace talus

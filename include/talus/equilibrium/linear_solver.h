@@ -36,8 +36,8 @@ namespace talus
     DirectSolver     &direct; ///< used for previous matrices of the pattern
     const RigidModes &modes;  ///< for multigrid
     unsigned int      dim;    ///< number of unknowns per node
-    bool always_symmetric; ///< whether all matrices of the problem are
-    bool symmetric;        ///< whether this matrix is symmetric
+    bool always_symmetric;    ///< whether all matrices of the problem are
+    bool symmetric;           ///< whether this matrix is symmetric
   };
 
 

@@ -32,14 +32,14 @@ namespace talus
   public:
     struct Parameters
     {
-      StrainMeasure measure            = StrainMeasure::small;
-      double        tolerance          = 1e-8; ///< relative residual [-]
+      StrainMeasure measure   = StrainMeasure::small;
+      double        tolerance = 1e-8; ///< relative residual [-]
       /// Relative residual that suffices for an update of the contact states
       /// [-]; the states are updated again at the solution.
-      double        contact_tolerance  = 0.;
-      unsigned int  largest_iterations = 30;
-      double        ghost_penalty      = 0.01; ///< gamma [-]
-      bool          is_well_balanced   = true; ///< at small strain only
+      double       contact_tolerance  = 0.;
+      unsigned int largest_iterations = 30;
+      double       ghost_penalty      = 0.01; ///< gamma [-]
+      bool         is_well_balanced   = true; ///< at small strain only
     };
 
     /// Outcome of solve().

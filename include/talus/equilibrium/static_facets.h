@@ -169,8 +169,8 @@ namespace talus
                  tangent(const ContactPoint &point) const;
     bool         is_symmetric_        = true;
     bool         is_matrix_symmetric_ = true;
-    unsigned int n_loops_      = 0; ///< in this load step
-    unsigned int n_facets_     = 0;
+    unsigned int n_loops_             = 0; ///< in this load step
+    unsigned int n_facets_            = 0;
     /// Contact points of the facets of this rank, followed by the contact
     /// points of nodes inside obstacles that touch no facet.
     std::vector<ContactPoint> points_;

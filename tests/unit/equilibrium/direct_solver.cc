@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace
 {
@@ -45,7 +47,7 @@ namespace
 
 
 
-  /// Two unknowns at each place of a rectangle. All matrices are symmetric.
+  /// Two unknowns at each place of a rectangle.
   struct System
   {
     System(const int n_x, const int n_y)
@@ -55,9 +57,8 @@ namespace
       , x(rhs)
     {
       dealii::TrilinosWrappers::SparsityPattern all(owned, MPI_COMM_SELF);
-      for_each_entry([&](const unsigned int i, const unsigned int j) {
-        all.add(i, j);
-      });
+      for_each_entry(
+        [&](const unsigned int i, const unsigned int j) { all.add(i, j); });
       all.compress();
       matrix.reinit(all);
       for (unsigned int i = 0; i < rhs.size(); ++i)
@@ -77,17 +78,21 @@ namespace
 
     /// Set the diagonal entries; the others are between -1 and 1.
     void
-    set(const double diagonal)
+    set(const double diagonal, const bool is_symmetric = true)
     {
       for_each_entry([&](const unsigned int i, const unsigned int j) {
-        matrix.set(i, j, i == j ? diagonal : std::cos(1. * i * j + i + j));
+        matrix.set(i,
+                   j,
+                   i == j ? diagonal
+                          : std::cos(1. * i * j + i + j +
+                                     (is_symmetric ? 0. : 0.3 * i)));
       });
       matrix.compress(dealii::VectorOperation::insert);
     }
 
     /// Largest residual of the solution over the right-hand side.
     double
-    residual(LdlFactorization &factorization)
+    residual(MultifrontalFactorization &factorization)
     {
       x = rhs;
       factorization.solve(x.begin());
@@ -151,34 +156,35 @@ TEST(EliminationFronts, HaveLittleFillIn)
 
 
 
-TEST(LdlFactorization, SolvesDefiniteAndIndefiniteSystems)
+TEST(MultifrontalFactorization, SolvesDefiniteAndIndefiniteSystems)
 {
   for (const auto &[n_x, n_y] : {std::pair(1, 1), {5, 1}, {40, 7}, {33, 31}})
     {
-      System           system(n_x, n_y);
-      LdlFactorization factorization;
+      System                    system(n_x, n_y);
+      MultifrontalFactorization factorization;
       factorization.analyze(system.matrix.trilinos_matrix(), 2);
       for (const double diagonal : {20., -20., 40.})
-        {
-          system.set(diagonal);
-          ASSERT_TRUE(
-            factorization.factorize(system.matrix.trilinos_matrix()));
-          EXPECT_LT(system.residual(factorization), 1e-14);
-        }
+        for (const bool is_symmetric : {true, false})
+          {
+            system.set(diagonal, is_symmetric);
+            ASSERT_TRUE(factorization.factorize(system.matrix.trilinos_matrix(),
+                                                is_symmetric));
+            EXPECT_LT(system.residual(factorization), 1e-14);
+          }
     }
 }
 
 
 
-TEST(LdlFactorization, ReportsPivotsOfZero)
+TEST(MultifrontalFactorization, ReportsPivotsOfZero)
 {
-  System           system(1, 1);
-  LdlFactorization factorization;
+  System                    system(1, 1);
+  MultifrontalFactorization factorization;
   factorization.analyze(system.matrix.trilinos_matrix(), 2);
   system.set(0.);
-  EXPECT_FALSE(factorization.factorize(system.matrix.trilinos_matrix()));
+  EXPECT_FALSE(factorization.factorize(system.matrix.trilinos_matrix(), true));
   system.set(std::nan(""));
-  EXPECT_FALSE(factorization.factorize(system.matrix.trilinos_matrix()));
+  EXPECT_FALSE(factorization.factorize(system.matrix.trilinos_matrix(), true));
 }
 
 
@@ -191,7 +197,7 @@ TEST(DirectSolver, FallsBackToPivots)
       {
         System       system(12, 5);
         DirectSolver solver;
-        system.set(diagonal);
+        system.set(diagonal, is_symmetric);
         ASSERT_TRUE(
           solver.solve(system.matrix, 2, is_symmetric, system.x, system.rhs));
         Vector residual(system.rhs);
