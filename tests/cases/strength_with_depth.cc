@@ -159,10 +159,9 @@ TEST(StrengthWithDepth, RandomFieldInStatics)
       .factor_of_safety();
   };
   const double    alone = factor_of_safety({});
-  const Overrides field = {
-    clay + "Strength field/Coefficient of variation=0.3",
-    clay + "Strength field/Correlation lengths=1e30",
-    clay + "Strength field/Seed=5"};
+  const Overrides field = {clay + "Strength field/Coefficient of variation=0.3",
+                           clay + "Strength field/Correlation lengths=1e30",
+                           clay + "Strength field/Seed=5"};
   const StaticCase<2> at(infinite_slope, "random-strength-field", field);
   const auto         &points = at.points();
   const double       *s = points.data(points.find("undrained shear strength"));

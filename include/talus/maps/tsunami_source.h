@@ -71,7 +71,7 @@ namespace talus
       /// Changed columns, with the change of the thickness since the start, m.
       std::vector<std::pair<unsigned int, double>> change;
 
-      double                 volume = 0; ///< of all points, m^dim
+      double                 volume = 0; ///< volume of all points, m^dim
       double                 mass   = 0; ///< kg
       dealii::Tensor<1, dim> momentum;   ///< kg m/s
     };
