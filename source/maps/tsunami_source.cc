@@ -118,7 +118,8 @@ namespace talus
   {
     if (n_blocks_ * settings_.interval() > state.time)
       return;
-    const Block now = block(state);
+    const Block now     = block(state);
+    step_of_last_block_ = state.step;
     for (; n_blocks_ * settings_.interval() <= state.time; ++n_blocks_)
       if (is_first_rank(state.communicator()))
         blocks_.push_back(now);
@@ -156,8 +157,8 @@ namespace talus
   void
   TsunamiSource<dim>::observe(const State<dim> &state)
   {
-    // At a time between two blocks the current state stands for the next one.
-    const bool is_between = (n_blocks_ - 1) * settings_.interval() < state.time;
+    // Between two blocks the current state stands for the next block.
+    const bool is_between = step_of_last_block_ != state.step;
     const Block now       = is_between ? block(state) : Block();
     if (!is_first_rank(state.communicator()))
       return;

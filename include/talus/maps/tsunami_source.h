@@ -104,6 +104,7 @@ namespace talus
     MapAxes<dim>                       axes_;
     std::unique_ptr<ColumnSums<dim>>   sums_;
     unsigned int                       n_blocks_ = 0; ///< on all ranks
+    unsigned long                      step_of_last_block_ = 0;
 
     // On the first rank only
     std::vector<std::pair<unsigned int, double>> thickness_at_start_; ///< m
