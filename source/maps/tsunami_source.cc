@@ -44,8 +44,9 @@ namespace talus
   TsunamiSource<dim>::check(const State<dim> &state) const
   {
     settings_.check(dim);
-    double n = 1;
-    for (const auto &axis : axes(state))
+    const MapAxes<dim> axes = this->axes(state);
+    double             n = (dim == 2 ? settings_.width() / axes[0].size : 1.);
+    for (const auto &axis : axes)
       n *= axis.number;
     AssertThrow(n <= max_cells,
                 ExcUser(text("The tsunami source would have ",
@@ -118,6 +119,12 @@ namespace talus
   {
     if (n_blocks_ * settings_.interval() > state.time)
       return;
+    AssertThrow(state.time_step <= settings_.interval(),
+                ExcUser(text("'Tsunami source/Interval' is ",
+                             settings_.interval(),
+                             " s, shorter than the time step of ",
+                             state.time_step,
+                             " s. Give a longer interval.")));
     const Block now     = block(state);
     step_of_last_block_ = state.step;
     for (; n_blocks_ * settings_.interval() <= state.time; ++n_blocks_)
@@ -158,8 +165,8 @@ namespace talus
   TsunamiSource<dim>::observe(const State<dim> &state)
   {
     // Between two blocks the current state stands for the next block.
-    const bool is_between = step_of_last_block_ != state.step;
-    const Block now       = is_between ? block(state) : Block();
+    const bool  is_between = step_of_last_block_ != state.step;
+    const Block now        = is_between ? block(state) : Block();
     if (!is_first_rank(state.communicator()))
       return;
     if (is_between)

@@ -176,7 +176,12 @@ class Tsunami(Case):
                 ("landslide-3d.prm", self.SLIDE_3D + ["Tsunami source/Width=3"],
                  "has a width of its own"),
                 ("landslide-3d.prm", self.SLIDE_3D
-                 + ["Tsunami source/Cell size=1e-3"], "where 10000000 are the most")):
+                 + ["Tsunami source/Cell size=1e-3"], "where 10000000 are the most"),
+                ("landslide-quick.prm", self.SECTION
+                 + ["Tsunami source/Width=1e30"], "are the most"),
+                ("landslide-quick.prm", self.SECTION
+                 + ["Tsunami source/Interval=1e-6"],
+                 "shorter than the time step")):
             result = self.start("run", 1, settings, file)
             self.assertEqual(result.returncode, 1)
             self.assertIn(words, result.stderr)
