@@ -113,8 +113,8 @@ namespace talus
     std::vector<Panel>       panels_;
     std::array<Half, 2>      halves_; ///< the second is empty if symmetric
     std::vector<Block>       blocks_;
-    std::vector<std::size_t> first_block_; ///< of the node at each place
-    std::vector<std::size_t> rest_;        ///< of each front on the stack
+    std::vector<std::size_t> first_block_; ///< first block of each place
+    std::vector<std::size_t> rest_;        ///< index on the stack, by front
     std::size_t              stack_size_ = 0, n_factors_ = 0;
 
     // Scratch memory
