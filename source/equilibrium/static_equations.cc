@@ -138,7 +138,7 @@ namespace talus
   void
   StaticEquations<dim>::make_pattern()
   {
-    direct_solver_.clear();
+    factorization_.clear();
     matrix_.begin_pattern(unknowns_);
     for (unsigned int c = 0; c < weights_.cells().size(); ++c)
       matrix_.couple(weights_.nodes(c));
@@ -374,17 +374,11 @@ namespace talus
         rhs(unknowns_.first(node) + d) = residual[dim * node + d];
       });
     rhs.compress(VectorOperation::insert);
-    const RigidModes     modes = free_rigid_modes();
-    const LinearSolution outcome =
-      linear_solver.solve({matrix_.matrix(),
-                           direct_solver_,
-                           modes,
-                           dim,
-                           is_symmetric(),
-                           measure_ == StrainMeasure::small &&
-                             contact_.facets().is_matrix_symmetric()},
-                          solution,
-                          rhs);
+    const RigidModes     modes   = free_rigid_modes();
+    const LinearSolution outcome = linear_solver.solve(
+      {matrix_.matrix(), factorization_, modes, dim, is_symmetric()},
+      solution,
+      rhs);
     Correction result{unknowns_.field(),
                       0.,
                       outcome.n_iterations,

@@ -350,11 +350,9 @@ namespace talus
   {
     std::vector<unsigned int> nodes, vertices;
     FullMatrix<double>        block;
-    is_matrix_symmetric_ = true;
     for (ContactPoint &point : points_)
       {
         const Tensor<2, dim> k = tangent(point);
-        is_matrix_symmetric_   = is_matrix_symmetric_ && k == transpose(k);
         point.sticks_first     = false;
         if (!point.is_closed)
           continue;
