@@ -61,6 +61,7 @@ namespace talus
                    " Pa (minus three times the shear modulus).")));
     if (!this->has_strength_column())
       check_strength({this->strength(), this->strength()});
+    this->check_rate_effect();
   }
 
 
@@ -141,7 +142,8 @@ namespace talus
   // margin of 1 %: at equality the return has no slope. If residual and initial
   // strength are equal, nothing softens. In simple shear the condition is
   // ds_u/dgamma > -G, which is (s_u - s_res) h/d < G: the strongest soil
-  // decides, also if G is proportional to s_u.
+  // decides, also if G is proportional to s_u. The rate of shearing multiplies
+  // the slope, too.
   template <int dim>
   double
   VonMises<dim>::largest_strength_factor(const StrengthRange &range) const
@@ -154,7 +156,8 @@ namespace talus
         const double mu =
           this->moduli().mu * (this->has_moduli_of_points() ? strongest : 1.);
         return lost > 0. ? 0.99 * mu * this->softening_displacement() /
-                             (lost * this->largest_cell_size())
+                             (lost * this->largest_cell_size()) /
+                             this->steepening_by_rate()
                          : std::numeric_limits<double>::infinity();
       }
     if (hardening_ >= 0. || (!this->has_strength_column() &&
@@ -162,7 +165,8 @@ namespace talus
       return std::numeric_limits<double>::infinity();
     // Use the softest soil if moduli differ.
     const double stiffness = this->has_moduli_of_points() ? range.least : 1.;
-    return -0.99 * 3. * this->moduli().mu * stiffness / hardening_;
+    return -0.99 * 3. * this->moduli().mu * stiffness / hardening_ /
+           this->steepening_by_rate();
   }
 
 

@@ -60,6 +60,8 @@ namespace talus
     HerschelBulkleyFlow
     flow_rule(double dt) const override;
 
+    std::string
+    name_of_consistency() const;
     double
     strain_to_remould(double cell_size) const;
     Strength
