@@ -189,6 +189,28 @@ namespace talus
 
 
 
+  template <int dim>
+  bool
+  HerschelBulkley<dim>::softens() const
+  {
+    return remoulded_ratio_ < 1.;
+  }
+
+
+
+  template <int dim>
+  double
+  HerschelBulkley<dim>::fraction_of_strength_loss(const Points<dim> &points,
+                                                  const unsigned int p) const
+  {
+    const double scale =
+      this->softens_by_displacement() ? 1. : strain_to_remould_;
+    return softens() ? -std::expm1(-3. * this->softening(points, p) / scale)
+                     : 0.;
+  }
+
+
+
   // Condition of check() for the strength times the factor, with a margin of 1
   // %: at equality the return has no slope.
   template <int dim>

@@ -124,16 +124,52 @@ namespace talus
   // divided by sqrt(3), too. Softening by displacement ends at 1.
   template <int dim>
   double
-  VonMises<dim>::shear_strength(const Points<dim> &points,
-                                const unsigned int p) const
+  VonMises<dim>::strength_without_factor(const Points<dim> &points,
+                                         const unsigned int p) const
   {
     const double initial = this->strength(points, p);
     const double slope   = this->softens_by_displacement()
                              ? residual_strength_ - initial
                              : hardening_ / std::sqrt(3.);
     const double on_line = initial + slope * this->softening(points, p);
+    return std::max(on_line, residual_strength_);
+  }
+
+
+
+  template <int dim>
+  double
+  VonMises<dim>::shear_strength(const Points<dim> &points,
+                                const unsigned int p) const
+  {
     return this->strength_factor(points, p) *
-           std::max(on_line, residual_strength_);
+           strength_without_factor(points, p);
+  }
+
+
+
+  template <int dim>
+  bool
+  VonMises<dim>::softens() const
+  {
+    return (this->softens_by_displacement() || hardening_ < 0.) &&
+           (this->has_strength_column() ||
+            residual_strength_ < this->strength());
+  }
+
+
+
+  // Soil whose initial and residual strengths are equal has nothing to lose.
+  template <int dim>
+  double
+  VonMises<dim>::fraction_of_strength_loss(const Points<dim> &points,
+                                           const unsigned int p) const
+  {
+    const double initial = this->strength(points, p);
+    return softens() && initial > residual_strength_
+             ? (initial - strength_without_factor(points, p)) /
+                 (initial - residual_strength_)
+             : 0.;
   }
 
 

@@ -47,6 +47,13 @@ namespace talus
     double
     shear_strength(const Points<dim> &points, unsigned int p) const override;
 
+    bool
+    softens() const override;
+
+    double
+    fraction_of_strength_loss(const Points<dim> &points,
+                              unsigned int       p) const override;
+
     std::string
     note(double cell_size) const override;
 

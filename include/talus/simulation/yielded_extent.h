@@ -9,9 +9,25 @@
 
 namespace talus
 {
+  /// Extent in plan of a body and of its yielded soil, by columns of cells of
+  /// size h: m in 2-D, m^2 in 3-D. A column counts if it holds one such point.
+  struct YieldedExtent
+  {
+    double all      = 0.;
+    double yielded  = 0.; ///< where soil has flowed plastically
+    double residual = 0.; ///< where soil has lost 95 % of what softening takes
+  };
+
+  /// Measure body number @p body. Collective.
+  template <int dim>
+  YieldedExtent
+  yielded_extent(const State<dim>   &state,
+                 const Problem<dim> &problem,
+                 unsigned int        body);
+
   /// Return sentences on the bodies that soften, for a search without balance:
-  /// how much of each has yielded in plan, by cells of size h. Empty if no
-  /// softening body has yielded. Collective.
+  /// how much of each has yielded in plan. Empty if no softening body has
+  /// yielded. Collective.
   template <int dim>
   std::string
   note_on_softening(const State<dim> &state, const Problem<dim> &problem);
