@@ -44,7 +44,6 @@ namespace shear_band_runs_test
               "Trigger/Bodies=zone",
               "Trigger/Duration=12",
               "Trigger/Strength fraction=0.428571428571",
-              "Splitting/Enabled=false",
               "Bodies/slab/Points per cell and axis=1",
               "Bodies/zone/Points per cell and axis=1",
               "Bodies/weak/Points per cell and axis=1",

@@ -17,7 +17,7 @@ namespace talus
     Number  strength; ///< at the start of the step
     Number  line;     ///< line minus strength at the start of the step, <= 0
     Number  lowest;   ///< constant minus strength at the start of the step
-    Slope   slope;    ///< of the line per plastic variable
+    Slope   slope;    ///< slope of the line per plastic variable
     Modulus modulus;  ///< elastic stress per plastic variable
 
     /// Change of the strength by the plastic variable @p x, and its slope.

@@ -41,7 +41,7 @@ namespace talus
     softening_bodies() const;
 
     const Problem<dim> &problem_;
-    double              time_ = 0.; ///< of the last row, s
+    double              time_ = 0.; ///< time of the last row, s
     std::vector<double> length_;    ///< yielded, by body, m (3-D: m^2)
   };
 } // namespace talus

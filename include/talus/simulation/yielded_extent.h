@@ -14,8 +14,8 @@ namespace talus
   struct YieldedExtent
   {
     double all      = 0.;
-    double yielded  = 0.; ///< where soil has flowed plastically
-    double residual = 0.; ///< where soil has lost 95 % of what softening takes
+    double yielded  = 0.; ///< with plastic flow
+    double residual = 0.; ///< with 95 % of the strength loss
   };
 
   /// Measure body number @p body. Collective.
