@@ -3,6 +3,7 @@
 #define talus_maps_maps_h
 
 #include <talus/maps/envelope_observer.h>
+#include <talus/maps/map_axes.h>
 
 namespace talus
 {
@@ -41,8 +42,6 @@ namespace talus
     static constexpr const char *folder_name  = "maps";
 
   private:
-    using Axis = typename LatticeColumns<dim>::Axis;
-
     std::shared_ptr<const PlanColumns<dim>>
     make_columns(const State<dim> &state) const override
     {
@@ -51,7 +50,7 @@ namespace talus
     void
     write_files(const State<dim> &state) override;
 
-    std::array<Axis, dim - 1>
+    MapAxes<dim>
     axes(const State<dim> &state) const;
     void
     find_ground(const State<dim> &state);
@@ -68,7 +67,7 @@ namespace talus
     void
     write_surface(const State<dim> &state);
 
-    std::array<Axis, dim - 1> axes_;
+    MapAxes<dim> axes_;
     /// Height of the ground at the corners of the columns, m, x fastest.
     std::vector<double> ground_;
   };

@@ -69,6 +69,7 @@ namespace talus
       "3e-6 (1 % per hour) in the laboratory, about 0.5 with a T-bar.",
       ParameterAcceptor::prm,
       Patterns::Double(1e-12));
+    strength_.variation().add_parameters(*this);
   }
 
 
@@ -94,6 +95,7 @@ namespace talus
   UndrainedLaw<dim, FlowRule>::check() const
   {
     RateLaw<dim, FlowRule>::check();
+    strength_.variation().check(dim, this->section());
     const bool needs_strength = !stiffness_ratio_.empty();
     AssertThrow(strength() > 0. || (strength() == 0. && !needs_strength),
                 ExcUser(text("Section ",
