@@ -40,7 +40,7 @@ PAGES = [
          ["InfiniteSlope", "TaylorSlope", "PaperSlopeSafety", "ClaySlope",
           "ClaySlopeFine", "SlopeStability", "StripFooting",
           "StripFootingFine", "VerticalCutSafety", "VerticalCutSafetyFine"]),
-        ("Shear bands", ["ShearBand", "ShearBandFine"]),
+        ("Shear bands", ["ShearBand", "ShearBandFine", "SofteningSeabed"]),
         ("Initial stress, trigger and ground motion",
          ["Geostatic", "Trigger", "GroundMotion", "LandslideFromEquilibrium",
           "LandslideFromEquilibriumFine"]),

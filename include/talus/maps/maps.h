@@ -2,7 +2,12 @@
 #ifndef talus_maps_maps_h
 #define talus_maps_maps_h
 
+#include <talus/maps/bed_columns.h>
 #include <talus/maps/envelope_observer.h>
+
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace talus
 {
@@ -49,7 +54,21 @@ namespace talus
       return std::make_shared<LatticeColumns<dim>>(axes(state));
     }
     void
+    prepare_files(const State<dim> &state) override
+    {
+      bed_.sum(state, this->problem(), this->columns());
+    }
+    void
     write_files(const State<dim> &state) override;
+
+    /// Quantity of a map by column, written to each kind of file.
+    struct MapField
+    {
+      std::string                                name, unit;
+      std::function<double(unsigned int column)> value;
+    };
+    std::vector<MapField>
+    fields() const;
 
     std::array<Axis, dim - 1>
     axes(const State<dim> &state) const;
@@ -68,6 +87,7 @@ namespace talus
     void
     write_surface(const State<dim> &state);
 
+    BedColumns<dim>           bed_;
     std::array<Axis, dim - 1> axes_;
     /// Height of the ground at the corners of the columns, m, x fastest.
     std::vector<double> ground_;
