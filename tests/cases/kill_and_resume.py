@@ -265,7 +265,7 @@ class SlideOnSofteningSeabed(KillAndResume):
     """A seabed that softens by slip under a mesh that changes: places without a
     node keep their slip."""
 
-    N_KILLS = 4
+    N_KILLS = 8
     settings = SETTINGS + ["Mesh tracking/Enabled=true",
                            "Mesh tracking/Margin=4",
                            "Mesh tracking/Interval=50",
@@ -279,7 +279,7 @@ class SlideOnSofteningSeabed(KillAndResume):
 class SlideOnSofteningObstacle(KillAndResume):
     """A bed across the cells that softens by slip, beside a pipe that moves."""
 
-    N_KILLS = 4
+    N_KILLS = 8
     file = "landslide-inclined.prm"
     settings = SETTINGS + ["Mesh tracking/Enabled=true",
                            "Mesh tracking/Margin=6",
