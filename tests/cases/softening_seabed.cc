@@ -271,6 +271,40 @@ namespace softening_seabed_test
 
 
 
+  // Strengths over F and the weight: F times the weight on the strengths, and
+  // 1/F times the work.
+  void
+  expect_factor_of_safety()
+  {
+    const Slab   slab(5e6);
+    Verification gates("Softening bed with a zone without friction: factor of "
+                       "safety",
+                       "prm/" + file + ", strength reduction",
+                       source + ", strengths over F: L_cr(F) = L");
+    for (const double L : {13., 17.})
+      {
+        const StaticCase<2> band(file,
+                                 "softening-seabed-safety",
+                                 frictionless_zone(face, L) +
+                                   Overrides{"Stages=equilibrium, strength "
+                                             "reduction",
+                                             "Strength reduction/Tolerance="
+                                             "0.002"});
+        const double        F = bisect(
+          [&](const double F) {
+            return std::sqrt(F) * slab.critical_length(0., F) - L;
+          },
+          1.,
+          1.36);
+        gates.near(text("factor of safety, L = ", L, " m"),
+                   band.factor_of_safety(),
+                   F,
+                   0.005);
+      }
+  }
+
+
+
   /// Zones of 41 and 51 m, in time: the critical length is 46.02 m.
   void
   expect_run(const Bed &bed)
@@ -336,6 +370,14 @@ TEST(SofteningSeabed, NoBalanceOnAnObstacle)
 {
   using namespace softening_seabed_test;
   expect_failure(off_cells);
+}
+
+
+
+TEST(SofteningSeabed, FactorOfSafety)
+{
+  using namespace softening_seabed_test;
+  expect_factor_of_safety();
 }
 
 
