@@ -16,18 +16,19 @@ install(DIRECTORY prm DESTINATION share/talus COMPONENT program)
 install(FILES doc/parameters.prm DESTINATION share/doc/talus COMPONENT program)
 # Reports and studies; they compare with the reference of all parameters.
 install(PROGRAMS share/talus/talus-report share/talus/talus-study share/talus/talus-animate
-    share/talus/talus-compare
+    share/talus/talus-compare share/talus/talus-pipe
   DESTINATION bin COMPONENT program)
 install(DIRECTORY share/talus/talus_tools DESTINATION share/talus
   COMPONENT program PATTERN __pycache__ EXCLUDE)
-install(FILES share/talus/study-example.prm share/talus/paraview.py doc/parameters.prm
+install(FILES share/talus/study-example.prm share/talus/pipe-example.prm share/talus/paraview.py
+    doc/parameters.prm
   DESTINATION share/talus COMPONENT program)
 install(DIRECTORY share/talus/examples DESTINATION share/talus COMPONENT program)
 
 # The pages name the options of `--help`, as tests check. Debian wants them packed.
 find_program(TALUS_GZIP gzip REQUIRED)
 mark_as_advanced(TALUS_GZIP)
-foreach(tool talus talus-report talus-study talus-animate talus-compare)
+foreach(tool talus talus-report talus-study talus-animate talus-compare talus-pipe)
   set(source ${CMAKE_SOURCE_DIR}/doc/man/${tool}.1)
   set(page ${CMAKE_BINARY_DIR}/${tool}.1.gz)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${source})

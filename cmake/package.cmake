@@ -61,7 +61,7 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SHLIBDEPS ON)
 # For talus-report and talus-study, with what they need besides.
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "python3:any")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS
-  "python3-numpy, python3-matplotlib, python3-jinja2, python3-scipy")
+  "python3-numpy, python3-matplotlib, python3-jinja2, python3-scipy, python3-sklearn")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA
   ${CMAKE_BINARY_DIR}/shlibs ${CMAKE_BINARY_DIR}/triggers)
 # Of a package the loader finds the libraries without.

@@ -168,8 +168,9 @@ namespace talus
     is_output_name(const std::string &file_name)
     {
       static const std::regex names(
-        "(statistics|profile|obstacles|boundaries|newton|maps|stations|lines)"
-        "\\.csv|log\\.txt|parameters\\.prm|maps\\.vtu|"
+        "(statistics|profile|obstacles|boundaries|newton|maps|stations|lines|"
+        "runout|tsunami-source)\\.csv|tsunami-source\\.(tt3|nc)|log\\.txt|"
+        "parameters\\.prm|maps\\.vtu|"
         "maps/(ground|erosion|thickness-at-start|final-(thickness|mass)|"
         "(time-of-)?maximum-(thickness|speed|momentum-flux|bed-shear)|"
         "arrival-time-[-+.0-9e]*-m)\\.(asc|prj|tif)|"

@@ -5,6 +5,7 @@
 #include <talus/io/coordinate_system.h>
 #include <talus/io/gdal_features.h>
 #include <talus/io/gdal_raster.h>
+#include <talus/io/surface_motion.h>
 
 namespace talus
 {
@@ -123,5 +124,23 @@ namespace talus
   write_geotiff(const std::filesystem::path &, const Raster &raster)
   {
     check_geotiff(raster.coordinate_system);
+  }
+
+
+
+  void
+  check_netcdf()
+  {
+    refuse_without_gdal("'Tsunami source/Write netCDF' is true",
+                        "Set it to false; tsunami-source.tt3 has the same "
+                        "numbers.");
+  }
+
+
+
+  void
+  write_netcdf(const std::filesystem::path &, const SurfaceMotion &)
+  {
+    check_netcdf();
   }
 } // namespace talus

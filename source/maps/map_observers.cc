@@ -4,6 +4,7 @@
 #include <talus/maps/maps.h>
 #include <talus/maps/runout.h>
 #include <talus/maps/stations.h>
+#include <talus/maps/tsunami_source.h>
 
 namespace talus
 {
@@ -18,6 +19,8 @@ namespace talus
     output.add_row_observer(std::make_unique<Stations<dim>>(problem, list));
     output.add_field_observer(
       std::make_unique<Lines<dim>>(problem, settings, list));
+    output.add_field_observer(
+      std::make_unique<TsunamiSource<dim>>(problem, settings));
   }
 
 

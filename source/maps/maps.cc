@@ -30,7 +30,7 @@ namespace talus
     const Box<dim> domain = state.grid.domain_before_growth();
     this->settings().check(domain.length(1));
     double n = 1;
-    for (const Axis &axis : axes(state))
+    for (const auto &axis : axes(state))
       n *= axis.number;
     AssertThrow(this->settings().cell_size() <= domain.length(0),
                 ExcUser(text("'Maps/Cell size' is ",
@@ -59,43 +59,14 @@ namespace talus
 
 
 
-  // Faces of columns coincide with cell faces of the raster. The columns cover
-  // the mesh, also outside of the raster.
   template <int dim>
-  std::array<typename Maps<dim>::Axis, dim - 1>
+  MapAxes<dim>
   Maps<dim>::axes(const State<dim> &state) const
   {
-    const Box<dim>            domain = state.grid.domain_before_growth();
-    const Raster             *raster = nullptr;
-    std::array<Axis, dim - 1> axes;
-    if (dim == 3)
-      raster = this->problem().surfaces().raster(this->settings().raster());
-    for (unsigned int a = 0; a < dim - 1; ++a)
-      {
-        const unsigned int d    = (a == 0 ? 0 : dim - 1);
-        Axis              &axis = axes[a];
-        axis.lower              = domain.lower[d];
-        axis.size               = state.grid.cell_size();
-        if (raster != nullptr)
-          {
-            const Point<3> &origin = this->problem().origin();
-            axis.size              = (a == 0 ? raster->dx : raster->dy);
-            axis.lower =
-              a == 0
-                ? raster->west - origin[0]
-                : origin[1] - (raster->south + raster->n_rows * raster->dy);
-          }
-        if (this->settings().cell_size() > 0)
-          axis.size = this->settings().cell_size();
-        // Round-off must not add a column.
-        axis.lower +=
-          axis.size *
-          std::floor((domain.lower[d] - axis.lower) / axis.size + 1e-9);
-        const double n = (domain.upper[d] - axis.lower) / axis.size;
-        axis.number =
-          static_cast<unsigned int>(std::clamp(std::ceil(n - 1e-9), 1., 1e9));
-      }
-    return axes;
+    return map_axes(this->problem(),
+                    state,
+                    this->settings().raster(),
+                    this->settings().cell_size());
   }
 
 
@@ -243,23 +214,15 @@ namespace talus
 
 
 
-  /// The rows of a raster have the order of the columns: z points south, and
-  /// the first row of a raster is the northernmost row.
   template <int dim>
   void
   Maps<dim>::write_rasters()
   {
     if constexpr (dim == 3)
       {
-        const Point<3> &origin = this->problem().origin();
-        Raster          raster;
-        raster.n_columns = axes_[0].number;
-        raster.n_rows    = axes_[1].number;
-        raster.dx        = axes_[0].size;
-        raster.dy        = axes_[1].size;
-        raster.west      = origin[0] + axes_[0].lower;
-        raster.south = origin[1] - axes_[1].lower - raster.n_rows * raster.dy;
-        const unsigned int n = raster.n_columns * raster.n_rows;
+        const Point<3>    &origin = this->problem().origin();
+        Raster             raster = map_frame(axes_, origin);
+        const unsigned int n      = raster.n_columns * raster.n_rows;
         for (unsigned int column = 0; column < n; ++column)
           raster.values.push_back(origin[2] + elevation(column));
         raster.coordinate_system = coordinate_system();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
 #include <talus/problem/mudline.h>
+#include <talus/problem/random_field.h>
 #include <talus/problem/strength_field.h>
 #include <talus/problem/time_table.h>
 
@@ -25,7 +26,8 @@ namespace talus
 
 
 
-    /// Strength of a material as a function of place and depth.
+    /// Strength of a material as a function of place and depth, including the
+    /// random field.
     template <int dim>
     class StrengthField
     {
@@ -43,6 +45,7 @@ namespace talus
       std::optional<double>            number_;
       std::optional<TimeTable>         table_;
       std::unique_ptr<Expression<dim>> expression_;
+      std::optional<RandomField<dim>>  variation_;
     };
 
 
@@ -64,6 +67,8 @@ namespace talus
                                             constants,
                                             dim == 2 ? "x,y,depth"
                                                      : "x,y,z,depth");
+      if (strength.variation().is_active())
+        variation_.emplace(strength.variation());
     }
 
 
@@ -72,9 +77,10 @@ namespace talus
     double
     StrengthField<dim>::at(const Point<dim> &x, const double depth)
     {
-      return number_  ? *number_
-             : table_ ? table_->value(0, depth)
-                      : expression_->finite_value(x, depth, 0);
+      const double mean = (number_  ? *number_
+                           : table_ ? table_->value(0, depth)
+                                    : expression_->finite_value(x, depth, 0));
+      return variation_ ? mean * (*variation_)(x) : mean;
     }
 
 

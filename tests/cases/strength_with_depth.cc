@@ -144,6 +144,36 @@ TEST(StrengthWithDepth, FactorOfSafetyOfInfiniteSlopes)
 
 
 
+// A random field of infinite length is one factor of the strength, hence of the
+// factor of safety; a short field weakens some place of every depth.
+TEST(StrengthWithDepth, RandomFieldInStatics)
+{
+  const auto factor_of_safety = [](const Overrides &field) {
+    return StaticCase<2>(infinite_slope,
+                         "random-strength",
+                         Overrides{"Grid/Cell size=0.025",
+                                   "Grid/Upper corner=0.05, 5.1",
+                                   "Bodies/layer/Upper corner=0.05, 5",
+                                   clay + "Stiffness ratio=400"} +
+                           field)
+      .factor_of_safety();
+  };
+  const double    alone = factor_of_safety({});
+  const Overrides field = {clay + "Strength field/Coefficient of variation=0.3",
+                           clay + "Strength field/Correlation lengths=1e30",
+                           clay + "Strength field/Seed=5"};
+  const StaticCase<2> at(infinite_slope, "random-strength-field", field);
+  const auto         &points = at.points();
+  const double       *s = points.data(points.find("undrained shear strength"));
+  for (unsigned int p = 1; p < points.size(); ++p)
+    EXPECT_DOUBLE_EQ(s[p], s[0]);
+  const double factor = s[0] / 25651.51;
+  EXPECT_GT(std::abs(factor - 1.), 0.05);
+  EXPECT_NEAR(factor_of_safety(field), factor * alone, 0.01 * factor * alone);
+}
+
+
+
 // Two layers are two bodies, or one body with two strengths: cells that they
 // share have one mean stress in either case.
 TEST(StrengthWithDepth, LayersAsBodiesOrAsStrength)

@@ -18,6 +18,7 @@ from tools_case import ROOT, SHARE, TALUS, Case, main, read_csv
 from talus_tools.errors import UserError
 from talus_tools.study.design import design, quantile
 from talus_tools.study.ensemble import lock, make_members, program_version
+from talus_tools.study.member import written
 from talus_tools.study.settings import ENTRIES, Settings
 
 # The first slope on cells of 2 m: half a second.
@@ -317,6 +318,26 @@ class Exceedance(StudyCase):
         self.assertEqual((self.output(study) / "exceedance-maps.csv").read_text(),
                          "x [m],share of members with maximum thickness above 6 [-]\n"
                          "0.0,0.5\n1.0,0.0\n")
+
+
+class Seeds(StudyCase):
+    def test_random_strength(self):
+        """Realizations of the strength, by whole numbers: each seed has a runout of its own, and
+        a seed that is given twice has the same."""
+        start = "Materials/mud/Strength field/"
+        study = self.write(
+            "seeds", "subsection Design\nset Kind = grid\nend", names="seed",
+            varied=f"subsection seed\nset Parameter = {start}Seed\nset Values = 1, 2, 1\nend",
+            parameters=COARSE | {start + "Coefficient of variation": "0.3",
+                                 start + "Correlation lengths": "20, 2"})
+        self.study(study)
+        fronts = [float(row["front [m]"]) for row in read_csv(self.output(study) / "study.csv")]
+        self.assertEqual(fronts[0], fronts[2])
+        self.assertGreater(abs(fronts[0] - fronts[1]), 1e-3)
+
+    def test_whole_numbers_have_no_point(self):
+        for value, text in ((3.0, "3"), (-2.0, "-2"), (0.1, "0.1"), (1e22, "1e+22")):
+            self.assertEqual(written(value), text)
 
 
 class Design(StudyCase):

@@ -4,6 +4,7 @@
 
 #include <talus/maps/bed_columns.h>
 #include <talus/maps/envelope_observer.h>
+#include <talus/maps/map_axes.h>
 
 #include <functional>
 #include <string>
@@ -46,8 +47,6 @@ namespace talus
     static constexpr const char *folder_name  = "maps";
 
   private:
-    using Axis = typename LatticeColumns<dim>::Axis;
-
     std::shared_ptr<const PlanColumns<dim>>
     make_columns(const State<dim> &state) const override
     {
@@ -70,7 +69,7 @@ namespace talus
     std::vector<MapField>
     fields() const;
 
-    std::array<Axis, dim - 1>
+    MapAxes<dim>
     axes(const State<dim> &state) const;
     void
     find_ground(const State<dim> &state);
@@ -87,8 +86,8 @@ namespace talus
     void
     write_surface(const State<dim> &state);
 
-    BedColumns<dim>           bed_;
-    std::array<Axis, dim - 1> axes_;
+    BedColumns<dim> bed_;
+    MapAxes<dim>    axes_;
     /// Height of the ground at the corners of the columns, m, x fastest.
     std::vector<double> ground_;
   };

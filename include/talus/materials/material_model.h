@@ -96,7 +96,7 @@ namespace talus
     has_strength_column() const
     {
       const UndrainedStrength *strength = undrained_strength();
-      return strength != nullptr && !strength->is_number();
+      return strength != nullptr && strength->varies();
     }
 
     /// Throw ExcUser if the law does not allow undrained shear strengths in the

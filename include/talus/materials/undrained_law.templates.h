@@ -50,6 +50,7 @@ namespace talus
         softening_strain + ". Empty: that is used.",
       ParameterAcceptor::prm,
       Patterns::List(Patterns::Double(1e-12), 0, 1));
+    strength_.variation().add_parameters(*this);
   }
 
 
@@ -75,6 +76,7 @@ namespace talus
   UndrainedLaw<dim, FlowRule>::check() const
   {
     RateLaw<dim, FlowRule>::check();
+    strength_.variation().check(dim, this->section());
     const bool needs_strength = !stiffness_ratio_.empty();
     AssertThrow(strength() > 0. || (strength() == 0. && !needs_strength),
                 ExcUser(text("Section ",

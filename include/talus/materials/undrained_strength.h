@@ -2,13 +2,15 @@
 #ifndef talus_materials_undrained_strength_h
 #define talus_materials_undrained_strength_h
 
+#include <talus/materials/strength_variation.h>
+
 #include <optional>
 #include <string>
 
 namespace talus
 {
   /// Undrained shear strength of undisturbed soil as given by the user: a
-  /// number for all points, an expression, or a table.
+  /// number for all points, an expression, or a table; times a random field.
   class UndrainedStrength
   {
   public:
@@ -36,10 +38,23 @@ namespace talus
     std::string
     table() const;
 
-    bool
-    is_number() const
+    /// Random field by which the strength is multiplied.
+    StrengthVariation &
+    variation()
     {
-      return number().has_value();
+      return variation_;
+    }
+    const StrengthVariation &
+    variation() const
+    {
+      return variation_;
+    }
+
+    /// Return whether the strength may differ from point to point.
+    bool
+    varies() const
+    {
+      return !number().has_value() || variation_.is_active();
     }
 
     /// Strength for the flow rule, Pa: the number, or 1 if a column has the
@@ -47,11 +62,12 @@ namespace talus
     double
     of_flow_rule() const
     {
-      return number().value_or(1.);
+      return varies() ? 1. : *number();
     }
 
   private:
-    std::string words_;
+    std::string       words_;
+    StrengthVariation variation_;
     // Meaning of words_, cached by number().
     mutable std::string           understood_;
     mutable std::optional<double> number_;

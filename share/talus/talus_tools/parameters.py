@@ -89,7 +89,7 @@ class Defaults:
     def of(self, name, entries):
         """Default of an entry among `entries`; None where the reference has none."""
         parts = name.split("/")
-        if len(parts) == 3 and parts[0] == "Materials":
+        if len(parts) >= 3 and parts[0] == "Materials":
             parts[1] = entries.get(f"Materials/{parts[1]}/Law", "")
         elif len(parts) == 3 and parts[0] in ("Bodies", "Obstacles", "Surfaces"):
             # Obstacles have the shapes of bodies, which a reference may have alone.

@@ -74,6 +74,9 @@ def write_results(settings, members):
     places, shares = section_maps(results)
     if shares:
         pictures.exceedance_lines(settings, places, shares)
+    if settings.emulates:
+        from talus_tools.study.emulation import write_emulation
+        write_emulation(results)
     failed = results.having(FAILED)
     for member, reason in failed:
         print(f"{member.name} failed: {reason}")

@@ -15,20 +15,31 @@ except ImportError as error:
                     "python3-scipy has it.") from error
 
 
-def quantile(varied, share):
-    """Values below which these shares of a distribution are."""
+def distribution(varied):
+    """Distribution of a varied number. Mean and standard deviation are those of the number, not
+    of its logarithm."""
     n = varied.numbers
     if varied.distribution == "uniform":
-        return n["Lower"] + share * (n["Upper"] - n["Lower"])
+        return scipy.stats.uniform(n["Lower"], n["Upper"] - n["Lower"])
     if varied.distribution == "triangular":
         width = n["Upper"] - n["Lower"]
-        return scipy.stats.triang.ppf(share, (n["Mode"] - n["Lower"]) / width, n["Lower"], width)
+        return scipy.stats.triang((n["Mode"] - n["Lower"]) / width, n["Lower"], width)
     if varied.distribution == "normal":
-        return scipy.stats.norm.ppf(share, n["Mean"], n["Standard deviation"])
-    # Mean and standard deviation are those of the quantity, not of its logarithm.
+        return scipy.stats.norm(n["Mean"], n["Standard deviation"])
     variance = math.log1p((n["Standard deviation"] / n["Mean"])**2)
-    return scipy.stats.lognorm.ppf(share, math.sqrt(variance),
-                                   scale=n["Mean"] * math.exp(-variance / 2))
+    return scipy.stats.lognorm(math.sqrt(variance), scale=n["Mean"] * math.exp(-variance / 2))
+
+
+def quantile(varied, share):
+    """Values below which these shares of a distribution are."""
+    return distribution(varied).ppf(share)
+
+
+def shares_of(settings, values):
+    """Shares of the distributions below numbers, both of shape (members, varied)."""
+    values = numpy.asarray(values, dtype=float)
+    return numpy.column_stack([distribution(one).cdf(values[:, i])
+                               for i, one in enumerate(settings.varied)])
 
 
 def design(settings):

@@ -11,7 +11,6 @@ import time
 from talus_tools.errors import UserError
 from talus_tools.study.design import design
 from talus_tools.study.member import FAILED, FINISHED, Member
-from talus_tools.tables import header
 
 
 def program_version(settings):
@@ -73,19 +72,9 @@ class ColumnCheck:
 
     def __call__(self, member, has_finished=False):
         """Throw a UserError if a table of this member has no column of that name, or if the
-        member has finished without the table."""
-        for quantity in list(self.pending):
-            path = member.path(quantity.file)
-            names = header(path)
-            if quantity.column in names:
-                self.pending.remove(quantity)
-            elif names:
-                raise UserError(f"'{path}' has no column '{quantity.column}', which the quantity "
-                                f"'{quantity.name}' asks for; it has {', '.join(names)}.")
-            elif has_finished:
-                raise UserError(f"{member.name} has finished without '{path}', which the quantity "
-                                f"'{quantity.name}' asks for. Let its case write that table, or "
-                                f"correct 'Quantities/{quantity.name}/File'.")
+        member has finished without the table or the map."""
+        self.pending = [quantity for quantity in self.pending
+                        if not quantity.is_found(member, has_finished)]
 
 
 def run_members(members, at_once, quantities):

@@ -52,6 +52,12 @@ def digest(version, text, paths):
     return result.hexdigest()
 
 
+def written(value):
+    """A number as text for a parameter file, with all digits. A whole number has no point, since
+    it may be the value of an entry that counts, such as a seed."""
+    return repr(int(value)) if value.is_integer() and abs(value) < 1e15 else repr(value)
+
+
 class Member:
     """Number, varied values and folder of a member; `hash` is that of all that its results
     depend on."""
@@ -60,7 +66,7 @@ class Member:
         self.settings, self.number, self.values = settings, number, [float(v) for v in values]
         self.name = f"member-{number:04d}"
         self.folder = os.path.join(settings.folder, self.name)
-        varied = {one.parameter: one.template.replace("{}", repr(value))
+        varied = {one.parameter: one.template.replace("{}", written(value))
                   for one, value in zip(settings.varied, self.values)}
         text = (f"# {self.name} of a study: the case with its includes, then what differs "
                 f"from it.\n{expand(settings.case)}\n\n# For all members:\n"
@@ -109,8 +115,8 @@ class Member:
 
     def remove_results(self):
         """Remove the log, by which has_ended() knows that this run came to its end, and the
-        tables of the quantities, which may be those of another member."""
-        for name in {"log.txt", *(one.file for one in self.settings.quantities)}:
+        tables and maps of the quantities, which may be those of another member."""
+        for name in {"log.txt"}.union(*(one.files() for one in self.settings.quantities)):
             if os.path.exists(self.path(name)):
                 os.remove(self.path(name))
 

@@ -51,6 +51,37 @@ def overview(results):
     save(figure, settings, "study.png")
 
 
+def emulator(results, emulation, sobol, exceedance):
+    """Per quantity: the members over their prediction by the others, the indices of Sobol', and
+    the exceedance curve."""
+    settings = results.settings
+    n_rows = len(settings.quantities)
+    figure, rows = subplots(n_rows, 3, height=0.3 + 2.6 * n_rows, squeeze=False)
+    for q, (quantity, axes) in enumerate(zip(settings.quantities, rows)):
+        fitted = emulation.emulators[q]
+        predicted, deviation = fitted.leave_one_out()
+        ends = [fitted.values.min(), fitted.values.max()]
+        axes[0].plot(ends, ends, color="0.6", lw=0.8)
+        axes[0].errorbar(fitted.values, predicted, 2 * deviation, fmt=".", color=BLUE, lw=0.6)
+        axes[0].set(xlabel=quantity.label(), ylabel="by the other members",
+                    title=f"explained: {100 * fitted.explained_variance():.1f} %")
+        first, total = sobol[q]
+        places = numpy.arange(len(settings.varied))
+        axes[1].barh(places - 0.2, first, 0.4, color=BLUE, label="alone")
+        axes[1].barh(places + 0.2, total, 0.4, color=COLORS[1], label="with interactions")
+        axes[1].set(yticks=places, yticklabels=[one.name for one in settings.varied],
+                    xlabel="share of the variance", xlim=(0, 1.05))
+        axes[1].legend(fontsize=7)
+        axes[2].plot(*exceedance[q], color=BLUE, label="emulator")
+        values, shares = results.exceedance(q)
+        axes[2].step(values, shares, where="pre", color="0.5", lw=0.8, label="members")
+        axes[2].set(xlabel=quantity.label(), ylabel="probability of exceedance", ylim=(0, 1.05))
+        axes[2].legend(fontsize=7)
+    figure.suptitle(f"{settings.title or settings.case}: emulator of {len(emulation.values)} "
+                    "members", fontsize=10)
+    save(figure, settings, "emulator.png")
+
+
 def label(settings, threshold):
     """What is exceeded, with the unit if it is known."""
     unit = meaning(settings.map)[0]

@@ -13,14 +13,6 @@ from talus_tools.study.member import FINISHED
 from talus_tools.tables import header, read_table
 
 
-def quantity_of(member, quantity):
-    """The number of a finished member."""
-    column = read_table(member.path(quantity.file))[quantity.column]
-    if quantity.take == "final":
-        return float(column[-1])
-    return float(numpy.nanmax(column) if quantity.take == "maximum" else numpy.nanmin(column))
-
-
 def is_moving(member):
     """Whether the soil of a finished member still moved at its end: 1 or 0, or nothing where its
     run did not note it, as one without dynamics."""
@@ -41,7 +33,7 @@ class Results:
         self.values = numpy.full((len(members), len(settings.quantities)), numpy.nan)
         for i, member in enumerate(members):
             if self.states[i][0] == FINISHED:
-                self.values[i] = [quantity_of(member, q) for q in settings.quantities]
+                self.values[i] = [q.value(member) for q in settings.quantities]
         self.moving = [is_moving(member) if status == FINISHED else ""
                        for member, (status, _) in zip(members, self.states)]
 

@@ -9,6 +9,7 @@ import shlex
 
 from talus_tools.errors import UserError
 from talus_tools.parameters import read_parameters
+from talus_tools.study.quantities import MapQuantity, Quantity
 
 # Entries and their defaults; NAME stands for the names that `Names` lists.
 ENTRIES = {
@@ -21,8 +22,15 @@ ENTRIES = {
     "Varied/NAME/Standard deviation": "",
     "Quantities/Names": "", "Quantities/NAME/File": "statistics.csv",
     "Quantities/NAME/Column": "front x [m]", "Quantities/NAME/Take": "final",
+    "Quantities/NAME/Map": "", "Quantities/NAME/Place": "", "Quantities/NAME/Outline": "",
+    "Quantities/NAME/Threshold": "0.1",
     "Exceedance/Map": "maximum-thickness", "Exceedance/Thresholds": "0.1, 1",
+    "Emulator/Write": "false", "Emulator/Samples": "100000",
+    "Observed/Names": "", "Observed/NAME/Quantity": "", "Observed/NAME/Value": "",
+    "Observed/NAME/Standard deviation": "",
 }
+# Sections with names of the user's.
+NAMED = ("Varied", "Quantities", "Observed")
 # Columns of study.csv beside the varied numbers and the quantities.
 MEMBER, STATUS, MOVING, HASH, REASON = ("member", "status", "moving at the end", "hash",
                                         "reason")
@@ -49,17 +57,12 @@ class Varied:
 
 
 @dataclasses.dataclass
-class Quantity:
-    """A result of each member: one number of a column of one of its tables."""
+class Observation:
+    """An observed value of a quantity, with its standard deviation."""
     name: str
-    file: str
-    column: str
-    take: str
-
-    def label(self):
-        """Its name with the unit of the column."""
-        unit = re.search(r" \[.*\]$", self.column)
-        return self.name + (unit[0] if unit else "")
+    quantity: int  # index among the quantities
+    value: float
+    deviation: float
 
 
 class Settings:
@@ -92,6 +95,9 @@ class Settings:
             Quantity("front", "statistics.csv", "front x [m]", "final")]
         self.map = self.get("Exceedance/Map")
         self.thresholds = self.numbers("Exceedance/Thresholds")
+        self.emulates = self.one_of("Emulator/Write", ("false", "true")) == "true"
+        self.emulator_samples = self.whole("Emulator/Samples", 100, 10**7)
+        self.observed = [self.read_observation(name) for name in self.names("Observed")]
         self.check_varied()
         self.check_columns()
 
@@ -102,7 +108,7 @@ class Settings:
 
     def get(self, name):
         """Value of an entry or its default."""
-        pattern = re.sub(r"^(Varied|Quantities)/[^/]+/", r"\1/NAME/", name)
+        pattern = re.sub(rf"^({'|'.join(NAMED)})/[^/]+/", r"\1/NAME/", name)
         return self.entries.get(name, ENTRIES[pattern]).strip()
 
     def needed(self, name):
@@ -117,7 +123,7 @@ class Settings:
 
     def check_section_names(self):
         """A slash separates sections and cannot be part of a name."""
-        for section in ("Varied", "Quantities"):
+        for section in NAMED:
             for name in self.names(section):
                 if "/" in name:
                     raise UserError(f"'{self.path}': the name '{name}' in '{section}/Names' has a "
@@ -143,7 +149,7 @@ class Settings:
     def check_names(self):
         """No entry is overlooked because it is misspelt."""
         known = set(ENTRIES)
-        for section in ("Varied", "Quantities"):
+        for section in NAMED:
             for name in self.names(section):
                 known |= {e.replace("NAME", name) for e in ENTRIES
                           if e.startswith(section + "/NAME/")}
@@ -151,8 +157,8 @@ class Settings:
             if name not in known:
                 raise UserError(f"'{self.path}' sets '{name}', which is no entry of a study; "
                                 "doc/study.md lists them. Entries of the case belong into the "
-                                "section 'Parameters'; sections in 'Varied' and 'Quantities' need "
-                                "to be listed in 'Names' there.")
+                                "section 'Parameters'; sections in 'Varied', 'Quantities' and "
+                                "'Observed' need to be listed in 'Names' there.")
 
     def one_of(self, name, words):
         """One of several words."""
@@ -185,11 +191,7 @@ class Settings:
         numbers, values = {}, self.numbers(start + "Values")
         if self.kind != "grid":
             for key in DISTRIBUTIONS[distribution]:
-                self.needed(start + key)
-                found = self.numbers(start + key)
-                if len(found) != 1:
-                    raise self.error(start + key, "one number")
-                numbers[key] = found[0]
+                numbers[key] = self.number(start + key)
         elif not values:
             raise self.error(start + "Values", "the numbers of the grid, separated by commas,")
         before, *after = self.get(start + "Template").split("{}")
@@ -202,6 +204,8 @@ class Settings:
     def read_quantity(self, name):
         """One section of Quantities."""
         start = f"Quantities/{name}/"
+        if self.get(start + "Map"):
+            return self.read_map_quantity(name)
         # A launcher may write tables of its own.
         file = self.get(start + "File")
         if file not in TABLES and not (self.launcher and os.path.basename(file) == file):
@@ -210,6 +214,43 @@ class Settings:
                              "folder of the member")
         return Quantity(name, self.get(start + "File"), self.get(start + "Column"),
                         self.one_of(start + "Take", TAKES))
+
+    def read_map_quantity(self, name):
+        """One section of Quantities that asks for a map."""
+        start = f"Quantities/{name}/"
+        place, outline = self.get(start + "Place"), self.get(start + "Outline")
+        if bool(place) == bool(outline):
+            raise UserError(f"'{self.path}': 'Quantities/{name}' asks for a map, where either "
+                            "'Place' or 'Outline' was expected.")
+        ends = re.fullmatch(r"\s*([-+.\deE]+)\s*,\s*([-+.\deE]+)\s*", outline)
+        if ends:
+            outline = self.numbers(start + "Outline")
+            if not outline[0] < outline[1]:
+                raise self.error(start + "Outline", "the left and the right end of the deposit [m]")
+        return MapQuantity(name, self.get(start + "Map"),
+                           self.numbers(start + "Place") if place else None, outline or None,
+                           self.number(start + "Threshold"))
+
+    def number(self, name):
+        """One number."""
+        self.needed(name)
+        found = self.numbers(name)
+        if len(found) != 1:
+            raise self.error(name, "one number")
+        return found[0]
+
+    def read_observation(self, name):
+        """One section of Observed."""
+        start = f"Observed/{name}/"
+        names = [quantity.name for quantity in self.quantities]
+        if self.get(start + "Quantity") not in names:
+            raise self.error(start + "Quantity", "one of 'Quantities/Names' (" + ", ".join(names)
+                             + ")")
+        deviation = self.number(start + "Standard deviation")
+        if not deviation > 0:
+            raise self.error(start + "Standard deviation", "a positive number")
+        return Observation(name, names.index(self.get(start + "Quantity")),
+                           self.number(start + "Value"), deviation)
 
     def check_varied(self):
         """Something must vary, each parameter once, within limits that make sense."""

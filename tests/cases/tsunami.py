@@ -1,0 +1,191 @@
+# SPDX-License-Identifier: LGPL-2.1-or-later
+"""Source of a tsunami model: volumes, places, times, ranks and resumed runs.
+
+Usage: tsunami.py TALUS FOLDER MPIEXEC PRM_FOLDER.
+"""
+
+import csv
+import math
+import subprocess
+import sys
+import time
+import unittest
+
+from ranks_case import PRM, TALUS, Case
+
+WITH_GDAL = "GDAL" in subprocess.run(
+    [TALUS, "--version"], capture_output=True, text=True, check=True).stdout
+
+
+def read_dtopo(path):
+    """Header, and the blocks as lists of rows, the northernmost row first."""
+    lines = path.read_text().splitlines()
+    head = {label: float(value) for value, label in map(str.split, lines[:9])}
+    rows = [[float(number) for number in line.split()] for line in lines[9:]]
+    n = int(head["my"])
+    assert len(rows) == n * head["mt"], (len(rows), head)
+    assert all(len(row) == head["mx"] for row in rows)
+    return head, [rows[i:i + n] for i in range(0, len(rows), n)]
+
+
+def read_table(path):
+    with open(path) as file:
+        return [{k: float(v or "nan") for k, v in row.items()}
+                for row in csv.DictReader(file)]
+
+
+def read_raster(path):
+    """Head and the values by row; zeros where there is no soil."""
+    lines = path.read_text().splitlines()
+    n = sum(line[0].isalpha() for line in lines)
+    head = {key: float(value) for key, value in map(str.split, lines[:n])}
+    return head, [[0. if float(v) == head["nodata_value"] else float(v)
+                   for v in line.split()] for line in lines[n:]]
+
+
+class Tsunami(Case):
+    SECTION = ["Grid/Cell size=0.8", "End time=2", "Output/Write points=false",
+               "Output/Write grid=false", "Maps/Write=true",
+               "Tsunami source/Write=true", "Tsunami source/Interval=0.5",
+               "Tsunami source/Width=40", "Tsunami source/Water depth=100"]
+    SLIDE_3D = ["Grid/Cell size=1.2", "End time=0.35", "Maps/Write=true",
+                "Maps/Cell size=2.4", "Output/Field interval=0.1",
+                "Grid/Origin=5e5, 6.5e6, -100", "Tsunami source/Write=true",
+                "Tsunami source/Interval=0.1", "Tsunami source/Start time=60"]
+
+    def check_volumes(self, head, blocks, table, soil):
+        """The sum of a block is the change of the volume of the soil."""
+        area = head["dx"] * head["dy"]
+        self.assertEqual(len(table), len(blocks))
+        for block, row in zip(blocks, table):
+            total = area * math.fsum(map(math.fsum, block))
+            self.assertLessEqual(
+                abs(total - row["change of soil volume [m^3]"]), 1e-12 * soil)
+            self.assertLessEqual(abs(row["closure [m^3]"]), 1e-12 * soil)
+            raised = area * math.fsum(v for r in block for v in r if v > 0)
+            self.assertLessEqual(abs(raised - row["volume raised [m^3]"]),
+                                 1e-12 * soil)
+        self.assertEqual(set(map(tuple, blocks[0])), {(0.,) * len(blocks[0][0])})
+        self.assertGreater(table[-1]["volume raised [m^3]"], 1e-3 * soil)
+
+    def test_section(self):
+        folder = self.run_talus("one", "landslide-quick.prm", self.SECTION)
+        head, blocks = read_dtopo(folder / "tsunami-source.tt3")
+        table = read_table(folder / "tsunami-source.csv")
+        maps = {round(row["x [m]"], 9): row
+                for row in read_table(folder / "maps.csv")}
+        statistics = read_table(folder / "statistics.csv")
+        self.check_volumes(head, blocks, table, 40 * sum(
+            0.8 * row["thickness at start [m]"] for row in maps.values()))
+        # Time of the tsunami run 0 is before the slide: t0 is an interval.
+        self.assertEqual((head["mt"], head["t0"], head["dt"]), (5, .5, .5))
+        self.assertEqual(head["dy"] * head["my"], 40)
+        self.assertAlmostEqual(head["ylower"], -20 + head["dy"] / 2, 12)
+        # Numbers lie on centres of cells: the last block is that of the maps.
+        found = 0
+        for i, change in enumerate(blocks[-1][0]):
+            column = maps.get(round(head["xlower"] + i * head["dx"], 9))
+            exact = (column["final thickness [m]"]
+                     - column["thickness at start [m]"]) if column else 0.
+            self.assertLessEqual(abs(change - exact), 2e-15)
+            found += change != 0
+        self.assertGreater(found, 40)
+        for block in blocks:
+            self.assertEqual(len(set(map(tuple, block))), 1)
+        # The centre of mass: velocity at the end, acceleration from rest.
+        self.assertAlmostEqual(table[-1]["centre velocity x [m/s]"],
+                               statistics[-1]["centre velocity x [m/s]"], 9)
+        for k in range(1, 5):
+            self.assertAlmostEqual(
+                table[k]["centre acceleration x [m/s^2]"],
+                (table[k]["centre velocity x [m/s]"]
+                 - table[k - 1]["centre velocity x [m/s]"]) / 0.5, 12)
+        self.assertGreater(table[-1]["speed over sqrt(g d) [-]"],
+                           table[-1]["centre velocity x [m/s]"]
+                           / math.sqrt(981) * (1 - 1e-12))
+
+    def test_slide_3d(self):
+        folder = self.run_talus("one", "landslide-3d.prm", self.SLIDE_3D)
+        head, blocks = read_dtopo(folder / "tsunami-source.tt3")
+        grid, start = read_raster(folder / "maps" / "thickness-at-start.asc")
+        _, final = read_raster(folder / "maps" / "final-thickness.asc")
+        self.check_volumes(head, blocks,
+                           read_table(folder / "tsunami-source.csv"),
+                           2.4**2 * sum(map(sum, start)))
+        # Blocks at 0, 0.1, 0.2, 0.3 s, and the end in place of the next one.
+        self.assertEqual((head["mt"], head["t0"], head["dt"]), (5, 60, .1))
+        self.assertEqual((head["mx"], head["my"]),
+                         (grid["ncols"], grid["nrows"]))
+        # Half a cell from the corner of the raster.
+        self.assertAlmostEqual(head["xlower"], grid["xllcorner"] + 1.2, 9)
+        self.assertAlmostEqual(head["ylower"], grid["yllcorner"] + 1.2, 9)
+        changed = 0
+        for rows in zip(blocks[-1], start, final):
+            for change, before, after in zip(*rows):
+                self.assertLessEqual(abs(change - (after - before)), 2e-15)
+                changed += change != 0
+        self.assertGreater(changed, 20)
+        other = self.run_talus("two", "landslide-3d.prm", self.SLIDE_3D, 2)
+        other_head, other_blocks = read_dtopo(other / "tsunami-source.tt3")
+        self.assertEqual(head, other_head)
+        for rows in zip(sum(blocks, []), sum(other_blocks, [])):
+            for a, b in zip(*rows):
+                self.assertLessEqual(abs(a - b), 1e-9)
+
+    def test_resumed(self):
+        """Killed after a checkpoint with some blocks: the same files bit by bit."""
+        whole = self.run_talus("whole", "landslide-quick.prm", self.SECTION)
+        command = [TALUS, PRM / "landslide-quick.prm", "--output", "killed", *[
+            o for s in self.SECTION + ["Checkpoint/Step interval=50"]
+            for o in ("--set", s)]]
+        checkpoints = self.folder / "killed" / "checkpoints"
+        with subprocess.Popen(command, cwd=self.folder,
+                              stdout=subprocess.DEVNULL) as process:
+            while process.poll() is None and not [
+                    p for p in checkpoints.glob("*[0-9]") if int(p.name) > 600]:
+                time.sleep(0.002)
+            process.kill()
+        steps = [int(p.name) for p in checkpoints.glob("*[0-9]")]
+        self.assertLess(max(steps), 1000, "the run had nearly ended")
+        subprocess.run([*command, "--resume"], cwd=self.folder, check=True,
+                       stdout=subprocess.DEVNULL, timeout=600)
+        for name in ("tsunami-source.tt3", "tsunami-source.csv"):
+            self.assertEqual((whole / name).read_bytes(),
+                             (self.folder / "killed" / name).read_bytes(), name)
+
+    def test_netcdf(self):
+        """Read back by GDAL in the unit tests; here the file is there, or
+        refused in a sentence."""
+        result = self.start("run", 1, self.SECTION + [
+            "End time=0.6", "Tsunami source/Write netCDF=true"],
+            "landslide-quick.prm")
+        if not WITH_GDAL:
+            self.assertEqual(result.returncode, 1)
+            self.assertIn("'Tsunami source/Write netCDF' is true", result.stderr)
+            return
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
+        content = (self.folder / "run" / "tsunami-source.nc").read_bytes()
+        self.assertEqual(content[:4], b"\x89HDF")
+        # The next run without a source removes the files.
+        self.run_talus("run", "landslide-quick.prm", self.SECTION[:4])
+        self.assertEqual(list((self.folder / "run").glob("tsunami*")), [])
+
+    def test_refused(self):
+        for file, settings, words in (
+                ("landslide-quick.prm", self.SECTION[:7], "'Tsunami source/Width' is 0"),
+                ("landslide-3d.prm", self.SLIDE_3D + ["Tsunami source/Width=3"],
+                 "has a width of its own"),
+                ("landslide-3d.prm", self.SLIDE_3D
+                 + ["Tsunami source/Cell size=1e-3"], "where 10000000 are the most"),
+                ("landslide-quick.prm", self.SECTION
+                 + ["Tsunami source/Width=1e30"], "are the most"),
+                ("landslide-quick.prm", self.SECTION
+                 + ["Tsunami source/Interval=1e-6"],
+                 "shorter than the time step")):
+            result = self.start("run", 1, settings, file)
+            self.assertEqual(result.returncode, 1)
+            self.assertIn(words, result.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1], verbosity=2)
