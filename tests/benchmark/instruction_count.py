@@ -54,7 +54,8 @@ KERNELS = {
     "points to grid": (r"talus::Transfer<2>::scatter\(", 0.43),
     "grid to points": (r"(talus::Transfer<2>::gather\(|"
                        r".*interpolate_to_block<2>)", 0.47),
-    "stress": (r".*talus::RateLaw<2, talus::VonMisesFlow>::update_stress\(", 0.58),
+    "stress": (r".*talus::RateLaw<2, talus::VonMisesFlow>::"
+               r"update_stress_by<talus::VonMisesFlow>\(", 0.58),
     "time step": (r"talus::TimeStep<2>::add_batch\(", 0.35),
 }
 # Single entries or halves of registers. (Transpositions move halves.)
