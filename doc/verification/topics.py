@@ -41,7 +41,7 @@ PAGES = [
           "ClaySlopeFine", "SlopeStability", "StripFooting",
           "StripFootingFine", "VerticalCutSafety", "VerticalCutSafetyFine"]),
         ("Shear bands", ["ShearBand", "ShearBandFine", "ShearBandRuns",
-                         "SlabFailure"]),
+                         "SlabFailure", "SofteningSeabed"]),
         ("Retrogression in sensitive clay", ["Retrogression"]),
         ("Initial stress, trigger and ground motion",
          ["Geostatic", "Trigger", "GroundMotion", "LandslideFromEquilibrium",

@@ -267,16 +267,26 @@ namespace talus
 
 
   template <int dim>
+  CoulombLimit
+  FacetConstraints<dim>::limit(const unsigned int facet) const
+  {
+    const ContactFacet<dim> &at = facets_.owned()[facet];
+    return obstacles_[at.obstacle].friction().limit(at.maximum_shear_stress,
+                                                    constraints_[facet].area,
+                                                    slip_.places().empty()
+                                                      ? SurfaceState()
+                                                      : slip_.state(facet));
+  }
+
+
+
+  template <int dim>
   double
   FacetConstraints<dim>::friction_limit(const unsigned int facet,
                                         const double       normal_impulse,
                                         const double       dt) const
   {
-    const ContactFacet<dim> &at = facets_.owned()[facet];
-    return dt * obstacles_[at.obstacle]
-                  .friction()
-                  .limit(at.maximum_shear_stress, constraints_[facet].area)
-                  .force(normal_impulse / dt);
+    return dt * limit(facet).force(normal_impulse / dt);
   }
 
 

@@ -91,30 +91,82 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// How much of each softening body has yielded, in words; empty if nothing
+    /// has. Collective.
+    template <int dim>
+    std::string
+    yielded_bodies(const State<dim> &state, const Problem<dim> &problem)
+    {
+      const auto  names = problem.bodies().names();
+      std::string list;
+      for (unsigned int b = 0; b < names.size(); ++b)
+        {
+          if (!problem.materials.of_body(b).softens())
+            continue;
+          const YieldedExtent extent = yielded_extent(state, problem, b);
+          if (extent.yielded > 0.)
+            list += text(list.empty() ? "" : "; ",
+                         std::setprecision(4),
+                         extent.yielded,
+                         " of ",
+                         extent.all,
+                         dim == 2 ? " m of '" : " m^2 (in plan) of '",
+                         names[b],
+                         "'");
+        }
+      return list.empty() ? list : list + " yielded";
+    }
+
+
+
+    /// How much of the softening surfaces soil has slipped over, in words;
+    /// empty if nothing has. Collective.
+    template <int dim>
+    std::string
+    slipped_surfaces(const State<dim> &state, const Problem<dim> &problem)
+    {
+      const Obstacles<dim>    &obstacles = problem.obstacles;
+      std::vector<double>      areas(1 + obstacles.size(), 0.);
+      std::vector<std::string> names{"the seabed"};
+      areas[0] = problem.boundaries.seabed().slip().slipped_area();
+      problem.contact.slip().for_each(
+        [&areas](const BedPlace<dim> &place, const SurfaceState &place_state) {
+          if (place_state.slip > 0)
+            areas[1 + place.name[2]] += place.area;
+        });
+      for (unsigned int k = 0; k < obstacles.size(); ++k)
+        names.push_back("the obstacle '" + obstacles[k].name() + "'");
+      Utilities::MPI::sum(areas, state.communicator(), areas);
+      std::string list;
+      for (unsigned int i = 0; i < areas.size(); ++i)
+        if (areas[i] > 0.)
+          list += text(list.empty() ? "" : "; ",
+                       std::setprecision(4),
+                       areas[i],
+                       dim == 2 ? " m of " : " m^2 of ",
+                       names[i]);
+      return list.empty() ? list : list + " slipped";
+    }
+  } // namespace
+
+
+
   template <int dim>
   std::string
   note_on_softening(const State<dim> &state, const Problem<dim> &problem)
   {
-    const auto  names = problem.bodies().names();
-    std::string list;
-    for (unsigned int b = 0; b < names.size(); ++b)
-      {
-        if (!problem.materials.of_body(b).softens())
-          continue;
-        const YieldedExtent extent = yielded_extent(state, problem, b);
-        if (extent.yielded > 0.)
-          list += text(list.empty() ? "" : "; ",
-                       std::setprecision(4),
-                       extent.yielded,
-                       " of ",
-                       extent.all,
-                       dim == 2 ? " m of '" : " m^2 (in plan) of '",
-                       names[b],
-                       "'");
-      }
+    std::string       list    = yielded_bodies(state, problem);
+    const std::string slipped = slipped_surfaces(state, problem);
+    if (!list.empty() && !slipped.empty())
+      list += "; ";
+    list += slipped;
     if (list.empty())
       return {};
-    return " Softening: " + list + " yielded.";
+    return " Softening: " + list +
+           ". The strength lost there is the likely cause: the rest cannot "
+           "carry what softened soil and surfaces have lost.";
   }
 
 

@@ -2,6 +2,7 @@
 #ifndef talus_contact_facet_constraints_h
 #define talus_contact_facet_constraints_h
 
+#include <talus/boundaries/bed_slip.h>
 #include <talus/contact/contact_nodes.h>
 #include <talus/contact/facet_coverage.h>
 #include <talus/contact/facets.h>
@@ -39,10 +40,12 @@ namespace talus
   public:
     FacetConstraints(const Obstacles<dim>    &obstacles,
                      const Facets<dim>       &facets,
-                     const ContactNodes<dim> &nodes)
+                     const ContactNodes<dim> &nodes,
+                     const BedSlip<dim>      &slip)
       : obstacles_(obstacles)
       , facets_(facets)
       , nodes_(nodes)
+      , slip_(slip)
     {}
 
     /// Delete all constraints. Call after each change of the mesh or its
@@ -89,6 +92,10 @@ namespace talus
     {
       return velocity(facets_.owned()[facet], constraints_[facet]);
     }
+
+    /// Limit of friction of soil at rest at facet @p facet of Facets::owned().
+    CoulombLimit
+    limit(unsigned int facet) const;
 
     /// Return the maximum friction impulse on soil at rest, N s.
     /// @param facet index in Facets::owned()
@@ -146,6 +153,7 @@ namespace talus
     const Obstacles<dim>             &obstacles_;
     const Facets<dim>                &facets_;
     const ContactNodes<dim>          &nodes_;
+    const BedSlip<dim>               &slip_; ///< by facet; empty: not kept
     NodalGaps<dim>                    gaps_; ///< surfaces: the obstacles
     FacetCoverage<dim>                coverage_{obstacles_, facets_};
     std::vector<FacetConstraint<dim>> constraints_;

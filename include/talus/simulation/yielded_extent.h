@@ -25,9 +25,10 @@ namespace talus
                  const Problem<dim> &problem,
                  unsigned int        body);
 
-  /// Return sentences on the bodies that soften, for a search without balance:
-  /// how much of each has yielded in plan. Empty if no softening body has
-  /// yielded. Collective.
+  /// Return sentences on softening, for a search without balance: how much of
+  /// each softening body has yielded in plan, by cells of size h, and over how
+  /// much of softening surfaces soil has slipped. Empty if nothing has.
+  /// Collective.
   template <int dim>
   std::string
   note_on_softening(const State<dim> &state, const Problem<dim> &problem);
