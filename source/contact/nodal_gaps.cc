@@ -47,6 +47,7 @@ namespace talus
     // open: only the owner knows all surfaces near a node, and whole records
     // are exchanged.
     present_.clear();
+    n_open_ = 0;
     for (const NodeAndSurface &pair : pairs)
       if (pair.node >= n_owned || state.nodes.mass(pair.node) > 0)
         {
@@ -54,6 +55,7 @@ namespace talus
             {
               std::fill_n(gaps_.begin() + n * pair.node, n, -none);
               is_open_[pair.node] = 1;
+              ++n_open_;
               present_.push_back(pair.node);
             }
           gaps_[n * pair.node + slots_[pair.surface]] = none;
@@ -69,7 +71,11 @@ namespace talus
       else if (nearness[segment.cell] == 1)
         later_.push_back(segment);
     for (const Segment &segment : later_)
-      add_segment(state, segment);
+      {
+        if (n_open_ == 0)
+          break;
+        add_segment(state, segment);
+      }
     for (const unsigned int node : present_)
       is_open_[node] = 0;
     exchange_.minimum_to_owners(gaps_.data());
@@ -144,6 +150,11 @@ namespace talus
   void
   NodalGaps<dim>::look_around(const Cell<dim> &cell)
   {
+    if (surfaces_.size() == 1)
+      {
+        near_cell_.assign(1, 0u);
+        return;
+      }
     Point<dim> centre = cell.lower;
     for (unsigned int d = 0; d < dim; ++d)
       centre[d] += 0.5 * cell.size;
@@ -202,6 +213,8 @@ namespace talus
         gap         = std::min(gap, of_point_[k]);
         is_open     = is_open || gap > closed_;
       }
+    if (is_open_[node] && !is_open)
+      --n_open_;
     is_open_[node] = is_open;
   }
 

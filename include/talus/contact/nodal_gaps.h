@@ -150,8 +150,9 @@ namespace talus
     Near                       near_;
     PlaneOfCell                plane_of_cell_;
     std::size_t                n_slots_ = 0;
-    std::vector<double>        gaps_;      ///< by node and slot, m
-    std::vector<unsigned char> is_open_;   ///< by node, used in find()
+    std::vector<double>        gaps_;    ///< by node and slot, m
+    std::vector<unsigned char> is_open_; ///< by node, used in find()
+    std::size_t                n_open_ = 0;
     std::vector<unsigned int>  near_cell_; ///< surfaces near the current cell
     std::vector<double>        of_point_;  ///< gaps of a point, by slot, m
     std::vector<unsigned int>  present_;   ///< nodes of the step

@@ -3,8 +3,11 @@
 #define talus_contact_point_confinement_h
 
 #include <talus/contact/facets.h>
+#include <talus/contact/surface_table.h>
 #include <talus/state/state.h>
 
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace talus
@@ -48,12 +51,22 @@ namespace talus
       unsigned int             obstacle;
       const ContactFacet<dim> *facet; ///< nullptr if the obstacle contains the
                                       ///< whole cell
-      dealii::Point<dim>     place;   ///< before the motion, m
-      dealii::Tensor<1, dim> half;    ///< half lengths of the box, m
+      const SurfaceTable<dim> *table; ///< nullptr: exact distances
+      dealii::Point<dim>       place; ///< before the motion, m
+      dealii::Tensor<1, dim>   half;  ///< half lengths of the box, m
     };
 
     void
     note_contained(const State<dim> &state, const Segment &segment);
+    void
+    note_at_facet(const State<dim>        &state,
+                  const Segment           &segment,
+                  const ContactFacet<dim> &facet);
+    const SurfaceTable<dim> *
+    table(const Cell<dim> &cell, const ContactFacet<dim> &facet);
+    std::pair<double, dealii::Tensor<1, dim>>
+    distance_and_normal(const Candidate          &candidate,
+                        const dealii::Point<dim> &x) const;
 
     bool
     confine(const Candidate    &candidate,
@@ -65,6 +78,8 @@ namespace talus
     const Facets<dim>         &facets_;
     std::vector<Candidate>     candidates_; ///< pairs of point and surface
     std::vector<unsigned char> is_moved_;   ///< by point, used in confine()
+    /// Tables of costly surfaces, by key of the cell and obstacle.
+    std::map<std::pair<unsigned long, unsigned int>, SurfaceTable<dim>> tables_;
   };
 } // namespace talus
 
