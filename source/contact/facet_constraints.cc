@@ -42,6 +42,13 @@ namespace talus
         return facet ? std::optional<Plane>(
                          {facet->obstacle, facet->centroid, facet->normal})
                      : std::nullopt;
+      },
+      [this, &grid](const unsigned int cell) {
+        const ContactFacet<dim> *const facet = facets_.only_surface(cell);
+        return facet ? std::make_pair(tables_.table(grid.cells()[cell], *facet),
+                                      facet->obstacle)
+                     : std::make_pair<const SurfaceTable<dim> *, unsigned int>(
+                         nullptr, 0);
       });
   }
 
@@ -55,6 +62,7 @@ namespace talus
     if (obstacles_.move())
       if (auto slots_now = slots(state.grid); slots_now != gaps_.slots())
         prepare_gaps(state.grid, std::move(slots_now));
+    tables_.limit(state.points.size());
     gaps_.find(state,
                facets_.nodes_and_obstacles(),
                facets_.nearness_of_cells());

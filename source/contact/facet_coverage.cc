@@ -36,16 +36,18 @@ namespace talus
 
 
 
-    /// Return the set of places in each column of a lattice of n^(dim-1)
-    /// places, by axis of the lattice.
+    /// Return the set of places for each set of columns of a lattice of
+    /// n^(dim-1) places, by axis of the lattice: bit j is column j.
     template <int dim, unsigned int n>
-    constexpr std::array<std::array<unsigned int, n>, dim - 1>
+    constexpr std::array<std::array<unsigned int, power(2, n)>, dim - 1>
     places_of_columns()
     {
-      std::array<std::array<unsigned int, n>, dim - 1> places{};
+      std::array<std::array<unsigned int, power(2, n)>, dim - 1> places{};
       for (unsigned int k = 0; k < dim - 1; ++k)
-        for (unsigned int i = 0; i < power(n, dim - 1); ++i)
-          places[k][i / power(n, k) % n] |= 1u << i;
+        for (unsigned int columns = 0; columns < power(2, n); ++columns)
+          for (unsigned int i = 0; i < power(n, dim - 1); ++i)
+            places[k][columns] |= ((columns >> (i / power(n, k) % n)) & 1u)
+                                  << i;
       return places;
     }
 
@@ -273,15 +275,23 @@ namespace talus
           const Point<dim> x = load_place(points, points.position, p) + shift;
           const Tensor<1, dim> half =
             half_lengths_of_box(points, state.constants.box_shape, p);
-          // Most boxes lie above all sample points.
-          if (outwards * (x[axis] - nearest) - half[axis] >= largest_gap ||
-              outwards * (x[axis] - farthest) + half[axis] <= 0)
+          // Most boxes lie above, below or beside all sample points.
+          const double min_height = outwards * (x[axis] - nearest);
+          const double max_height = outwards * (x[axis] - farthest);
+          if (min_height - half[axis] >= largest_gap ||
+              max_height + half[axis] <= 0)
             continue;
           const Reached in_plan = reached_in_plan(samples, x, half, 0.25 * h);
           Mask          candidates = 0, at_surface = 0;
           for (const Mask mask : in_plan.from)
             candidates |= mask;
           candidates &= samples.places & ~reached.covered();
+          if (max_height - half[axis] < largest_gap &&
+              min_height + half[axis] > 0)
+            {
+              at_surface = candidates; // all of them
+              candidates = 0;
+            }
           for (; candidates != 0; candidates &= candidates - 1)
             {
               const unsigned int i = __builtin_ctz(candidates);
@@ -313,17 +323,22 @@ namespace talus
     std::array<Mask, dim - 1> under{}; // by axis across
     for (unsigned int k = 0; k < dim - 1; ++k)
       {
-        const unsigned int d = across(samples.axis, k);
+        // Sets of columns, without branches that could not be predicted.
+        const unsigned int d      = across(samples.axis, k);
+        const double       h      = half[d];
+        unsigned int       within = 0, from_below = 0, from_above = 0;
         for (unsigned int j = 0; j < n_columns; ++j)
           {
-            const double from = x[d] - samples.column[k][j];
-            if (std::abs(from) <= half[d])
-              under[k] |= places[k][j];
-            if (from <= half[d] && -from <= half[d] + beyond)
-              reached.from[2 * k] |= places[k][j];
-            if (-from <= half[d] && from <= half[d] + beyond)
-              reached.from[2 * k + 1] |= places[k][j];
+            const double       from     = x[d] - samples.column[k][j];
+            const unsigned int is_below = from <= h;
+            const unsigned int is_above = -from <= h;
+            within |= (is_below & is_above) << j;
+            from_below |= (is_below & (-from <= h + beyond)) << j;
+            from_above |= (is_above & (from <= h + beyond)) << j;
           }
+        under[k]                = places[k][within];
+        reached.from[2 * k]     = places[k][from_below];
+        reached.from[2 * k + 1] = places[k][from_above];
       }
     if (dim == 3)
       for (unsigned int k = 0; k < dim - 1; ++k)

@@ -18,8 +18,10 @@ namespace talus
                           std::vector<Surface>      surfaces,
                           std::vector<unsigned int> slots,
                           Near                      near,
-                          PlaneOfCell               plane_of_cell)
+                          PlaneOfCell               plane_of_cell,
+                          TableOfCell               table_of_cell)
   {
+    table_of_cell_ = std::move(table_of_cell);
     plane_of_cell_ = std::move(plane_of_cell);
     surfaces_      = std::move(surfaces);
     slots_         = std::move(slots);
@@ -179,6 +181,27 @@ namespace talus
 
 
 
+  /// Compute of_point_ for a box by the table of the only surface near the
+  /// cell, where the table reaches.
+  template <int dim>
+  void
+  NodalGaps<dim>::find_of_point(const SurfaceTable<dim> &table,
+                                const unsigned int       surface,
+                                const Point<dim>        &x,
+                                const Tensor<1, dim>    &half)
+  {
+    if (!table.reaches(x))
+      {
+        find_of_point(x, half);
+        return;
+      }
+    const auto [distance, normal] = table.distance_and_normal(x);
+    std::fill(of_point_.begin(), of_point_.end(), none);
+    of_point_[slots_[surface]] = distance - support_of_box(half, normal);
+  }
+
+
+
   /// Return whether a box is in contact by a margin that exceeds the deviation
   /// of the surface from @p plane; if so, set of_point_ to the gap from the
   /// plane. All gaps within the dead band count as closed, so the exact gap is
@@ -267,6 +290,9 @@ namespace talus
     const auto plane = plane_of_cell_ && near_cell_.size() == 1
                          ? plane_of_cell_(segment.cell)
                          : std::nullopt;
+    std::pair<const SurfaceTable<dim> *, unsigned int> table(nullptr, 0);
+    if (table_of_cell_ && near_cell_.size() == 1 && !plane)
+      table = table_of_cell_(segment.cell);
     for (unsigned int p = segment.begin; p < segment.end && open; ++p)
       {
         const Tensor<1, dim> half = half_lengths(state, cell, p);
@@ -274,15 +300,18 @@ namespace talus
         PatchEntries     left = open & entries_in_reach(cell, x, half);
         if (left == 0)
           continue;
-        if (!plane || !is_in_contact(*plane, cell.size, x, cell.size * half))
+        if (table.first)
+          find_of_point(*table.first, table.second, x, cell.size * half);
+        else if (!plane ||
+                 !is_in_contact(*plane, cell.size, x, cell.size * half))
           find_of_point(x, cell.size * half);
-        for (unsigned int k = 0; left != 0; ++k, left >>= 1)
-          if (left & 1)
-            {
-              lower(cell.patch[k]);
-              if (!is_open_[cell.patch[k]])
-                open &= ~(PatchEntries(1) << k);
-            }
+        for (; left != 0; left &= left - 1)
+          {
+            const unsigned int k = __builtin_ctzll(left);
+            lower(cell.patch[k]);
+            if (!is_open_[cell.patch[k]])
+              open &= ~(PatchEntries(1) << k);
+          }
       }
   }
 

@@ -43,9 +43,7 @@ namespace talus
     candidates_.clear();
     if (obstacles_.empty())
       return;
-    // Results do not depend on it: a table is made again with the same values.
-    if (tables_.size() > std::max(20000u, state.points.size()))
-      tables_.clear();
+    tables_.limit(state.points.size());
     const Points<dim> &points = state.points;
     for (const Segment &segment : points.segments(batch))
       note_contained(state, segment);
@@ -140,31 +138,10 @@ namespace talus
       }
     if (candidates_.size() > n_before && !facet.is_flat)
       {
-        const SurfaceTable<dim> *const of_cell = table(cell, facet);
+        const SurfaceTable<dim> *const of_cell = tables_.table(cell, facet);
         for (std::size_t i = n_before; i < candidates_.size(); ++i)
           candidates_[i].table = of_cell;
       }
-  }
-
-
-
-  /// Return the table of the obstacle of @p facet in @p cell; nullptr if exact
-  /// distances are needed. The table is made when soil comes to the cell.
-  template <int dim>
-  const SurfaceTable<dim> *
-  PointConfinement<dim>::table(const Cell<dim>         &cell,
-                               const ContactFacet<dim> &facet)
-  {
-    const Obstacle<dim> &obstacle = obstacles_[facet.obstacle];
-    if (obstacle.moves() || !obstacle.shape().is_costly())
-      return nullptr;
-    const auto key  = std::make_pair(facet.key, facet.obstacle);
-    auto       made = tables_.find(key);
-    if (made == tables_.end())
-      made =
-        tables_.emplace(key, SurfaceTable<dim>(obstacle.shape(), cell.box()))
-          .first;
-    return made->second.is_accurate() ? &made->second : nullptr;
   }
 
 

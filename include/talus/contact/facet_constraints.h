@@ -6,6 +6,7 @@
 #include <talus/contact/facet_coverage.h>
 #include <talus/contact/facets.h>
 #include <talus/contact/nodal_gaps.h>
+#include <talus/contact/surface_tables.h>
 #include <talus/state/state.h>
 
 #include <vector>
@@ -145,6 +146,7 @@ namespace talus
     const Obstacles<dim>             &obstacles_;
     const Facets<dim>                &facets_;
     const ContactNodes<dim>          &nodes_;
+    SurfaceTables<dim>                tables_{obstacles_};
     NodalGaps<dim>                    gaps_; ///< surfaces: the obstacles
     FacetCoverage<dim>                coverage_{obstacles_, facets_};
     std::vector<FacetConstraint<dim>> constraints_;

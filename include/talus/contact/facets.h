@@ -102,16 +102,24 @@ namespace talus
       return in_cell_[c].begin != in_cell_[c].end;
     }
 
-    /// Return the only surface in cell @p c if the surface is flat; nullptr
+    /// Return the facet in cell @p c if it is the only surface there; nullptr
     /// otherwise.
+    const ContactFacet<dim> *
+    only_surface(const unsigned int c) const
+    {
+      const SurfacesInCell &range = in_cell_[c];
+      return range.end - range.begin == 1 &&
+                 !surfaces_[range.begin].only_confines
+               ? &surfaces_[range.begin]
+               : nullptr;
+    }
+
+    /// Return only_surface() if flat; nullptr otherwise.
     const ContactFacet<dim> *
     flat_facet(const unsigned int c) const
     {
-      const SurfacesInCell &range = in_cell_[c];
-      if (range.end - range.begin != 1)
-        return nullptr;
-      const ContactFacet<dim> &facet = surfaces_[range.begin];
-      return facet.is_flat && !facet.only_confines ? &facet : nullptr;
+      const ContactFacet<dim> *const facet = only_surface(c);
+      return facet && facet->is_flat ? facet : nullptr;
     }
 
     /// Obstacles, ascending, which contain the whole of cell @p c and so have

@@ -3,10 +3,9 @@
 #define talus_contact_point_confinement_h
 
 #include <talus/contact/facets.h>
-#include <talus/contact/surface_table.h>
+#include <talus/contact/surface_tables.h>
 #include <talus/state/state.h>
 
-#include <map>
 #include <utility>
 #include <vector>
 
@@ -31,6 +30,7 @@ namespace talus
     PointConfinement(const Obstacles<dim> &obstacles, const Facets<dim> &facets)
       : obstacles_(obstacles)
       , facets_(facets)
+      , tables_(obstacles)
     {}
 
     /// Store the positions of the points of @p batch which may reach a surface
@@ -62,8 +62,6 @@ namespace talus
     note_at_facet(const State<dim>        &state,
                   const Segment           &segment,
                   const ContactFacet<dim> &facet);
-    const SurfaceTable<dim> *
-    table(const Cell<dim> &cell, const ContactFacet<dim> &facet);
     std::pair<double, dealii::Tensor<1, dim>>
     distance_and_normal(const Candidate          &candidate,
                         const dealii::Point<dim> &x) const;
@@ -78,8 +76,7 @@ namespace talus
     const Facets<dim>         &facets_;
     std::vector<Candidate>     candidates_; ///< pairs of point and surface
     std::vector<unsigned char> is_moved_;   ///< by point, used in confine()
-    /// Tables of costly surfaces, by key of the cell and obstacle.
-    std::map<std::pair<unsigned long, unsigned int>, SurfaceTable<dim>> tables_;
+    SurfaceTables<dim>         tables_;
   };
 } // namespace talus
 
