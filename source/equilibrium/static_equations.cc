@@ -310,6 +310,7 @@ namespace talus
         contact_.facets().add_forces(-1., u, forces);
         unknowns_.add_to_owners(forces);
         residual = target_;
+        contact_.set_slip(u);
         contact_.add_friction(residual);
         for (std::size_t i = 0; i < residual.size(); ++i)
           residual[i] -= forces[i];
@@ -330,6 +331,7 @@ namespace talus
     internal_forces_.add_tangent(weights_, matrix_);
     ghost_.add_to_matrix(matrix_);
     contact_.facets().add_to_matrix(matrix_);
+    contact_.add_to_matrix(matrix_);
     matrix_.finish(1e-13);
   }
 
@@ -434,7 +436,7 @@ namespace talus
   StaticEquations<dim>::commit(StaticProblem<dim>        &problem,
                                const std::vector<double> &u)
   {
-    contact_.facets().commit(problem, u, measure_);
+    contact_.commit(problem, u, measure_);
     Points<dim> &points = problem.state.points;
     // Set the gradients of u, as the last evaluation may be at different
     // displacements.

@@ -130,8 +130,9 @@ namespace talus
       Force                  given, found;
       bool                   is_closed = false, slips = false;
       dealii::Tensor<1, dim> direction; ///< direction of friction when slipping
-      double                 cut = 0;   ///< friction over spring force [-]
-      bool sticks_first          = false; ///< next tangent as if it stuck
+      double                 cut  = 0;  ///< friction over spring force [-]
+      double                 slip = 0; ///< in the step where the point slips, m
+      bool sticks_first           = false; ///< next tangent as if it stuck
     };
 
     /// State of a contact point that is carried from load step to load step.
