@@ -103,11 +103,7 @@ namespace talus
     unsigned char seabed_faces = 0;
     for (unsigned int face = 0; face < 2 * dim; ++face)
       seabed_faces |= is_seabed(face) << face;
-    seabed_.prepare_nodes(grid, seabed_faces);
-    if (has_seabed() && seabed_.depends_on_place())
-      seabed_.locate(places_, [&](const unsigned int node) {
-        return grid.faces_of_node(node) & seabed_faces;
-      });
+    seabed_.prepare_nodes(grid, seabed_faces, places_);
   }
 
 
@@ -361,6 +357,8 @@ namespace talus
   {
     BoundaryWork<dim> work;
     bed_friction_.clear();
+    if (has_seabed())
+      seabed_.slip().begin_step(grid.communicator());
     seabed_.begin_step();
     for (const unsigned int node : nodes.active_boundary_nodes())
       if (nodes.mass(node) > mass_cutoff)
@@ -540,11 +538,27 @@ namespace talus
     for (unsigned int face = 0; face < 2 * dim; ++face)
       check_expressions(face);
     seabed_.prepare(constants);
+    AssertThrow(has_seabed() || !seabed_.friction().softens(),
+                ExcUser("'Boundaries/Seabed/Slip to remould' is given, but no "
+                        "face of the mesh is a seabed. Give the entry in the "
+                        "section of an obstacle, set 'seabed' at a face, or "
+                        "remove the entry."));
     make_conditions(constants);
     std::vector<std::string> names;
     for (const auto &condition : conditions_)
       names.push_back(face_names[condition->face()]);
     reactions_.prepare(names, writes_forces_);
+  }
+
+
+
+  template <int dim>
+  void
+  Boundaries<dim>::list_quantities(const State<dim> &state,
+                                   Quantities       &list) const
+  {
+    if (seabed_.friction().softens())
+      append_slip("seabed", seabed_.slip(), state.communicator(), list);
   }
 
 

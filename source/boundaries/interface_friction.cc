@@ -50,6 +50,23 @@ namespace talus
       "Thickness b of the film [m]; needed with 'Film consistency'.",
       this->prm,
       Patterns::Double(0.));
+    add_parameter(
+      "Slip to remould",
+      slip_to_remould_,
+      "Slip s_95 of the soil over a place of the surface after which 95 % of "
+      "the loss of maximum shear stress has happened [m]: the maximum shear "
+      "stress is multiplied by r + (1 - r) exp(-3 s/s_95) after the slip s, "
+      "with the ratio r of 'Remoulded shear stress ratio'. The slip belongs to "
+      "the place of the surface, not to the soil. 0: slip takes nothing away.",
+      this->prm,
+      Patterns::Double(0.));
+    add_parameter("Remoulded shear stress ratio",
+                  remoulded_ratio_,
+                  "Share r of the maximum shear stress left after a long slip "
+                  "[-], one over the sensitivity of clay; needed with 'Slip to "
+                  "remould'.",
+                  this->prm,
+                  Patterns::Double(0., 1.));
   }
 
 
@@ -77,18 +94,64 @@ namespace talus
                              "/Film consistency' is 0, so that the film passes "
                              "no stress. Give the consistency in Pa s^n, or "
                              "remove the thickness.")));
+    AssertThrow(softens() == (remoulded_ratio_ < 1),
+                ExcUser(text("'",
+                             section,
+                             "/Slip to remould' is ",
+                             slip_to_remould_,
+                             " m and '",
+                             section,
+                             "/Remoulded shear stress ratio' is ",
+                             remoulded_ratio_,
+                             "; a surface that softens by slip needs a slip of "
+                             "more than 0 and a ratio of less than 1. Give "
+                             "both or neither.")));
+  }
+
+
+
+  double
+  InterfaceFriction::share_after_slip(const double slip) const
+  {
+    return softens()
+             ? remoulded_ratio_ + (1. - remoulded_ratio_) *
+                                    std::exp(-3. * slip / slip_to_remould_)
+             : 1.;
+  }
+
+
+
+  // Not the product: a triggered place is brought to a share of its strength,
+  // and remoulded soil cannot be remoulded again.
+  double
+  InterfaceFriction::share_left(const SurfaceState &state) const
+  {
+    const double share = share_after_slip(state.slip);
+    return state.is_triggered ? std::min(region_factor_, share) : share;
   }
 
 
 
   CoulombLimit
-  InterfaceFriction::limit(const double maximum_shear_stress,
-                           const double area) const
+  InterfaceFriction::limit(const double        maximum_shear_stress,
+                           const double        area,
+                           const SurfaceState &state) const
   {
-    return {coefficient(),
-            std::isinf(maximum_shear_stress)
-              ? std::numeric_limits<double>::infinity()
-              : shear_stress_factor_ * maximum_shear_stress * area};
+    CoulombLimit result;
+    result.coefficient = coefficient();
+    result.cap         = std::numeric_limits<double>::infinity();
+    if (std::isinf(maximum_shear_stress))
+      return result;
+    const double intact = shear_stress_factor_ * maximum_shear_stress * area;
+    result.cap          = intact * share_left(state);
+    if (!softens())
+      return result;
+    result.residual = remoulded_ratio_ * intact;
+    result.excess   = intact * share_after_slip(state.slip) - result.residual;
+    result.rate     = 3. / slip_to_remould_;
+    if (state.is_triggered)
+      result.ceiling = region_factor_ * intact;
+    return result;
   }
 
 

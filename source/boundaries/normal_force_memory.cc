@@ -35,7 +35,7 @@ namespace talus
           if (grid.faces_of_node(node) & (1u << face))
             {
               index_[face][node] = means_.size();
-              means_.push_back({keys[node], face});
+              means_.push_back({keys[node], face, node});
             }
       }
     take(all);
@@ -59,12 +59,11 @@ namespace talus
 
   template <int dim>
   double
-  NormalForceMemory<dim>::update(const unsigned int face,
-                                 const unsigned int node,
+  NormalForceMemory<dim>::update(const unsigned int number,
                                  const double       force,
                                  const double       weight)
   {
-    Mean &mean = means_[index_[face].at(node)];
+    Mean &mean = means_[number];
     mean.force =
       (mean.step + 1 == step_ ? mean.force + weight * (force - mean.force)
                               : force);

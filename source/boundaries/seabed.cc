@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/key_halves.h>
 #include <talus/boundaries/contact_area.h>
 #include <talus/boundaries/seabed.h>
 
@@ -53,14 +54,46 @@ namespace talus
 
   template <int dim>
   void
-  Seabed<dim>::locate(
-    const std::vector<Point<dim>>                &places,
-    const std::function<bool(unsigned int node)> &is_on_seabed)
+  Seabed<dim>::prepare_nodes(const Grid<dim>               &grid,
+                             const unsigned char            faces,
+                             const std::vector<Point<dim>> &places)
   {
-    cap_of_node_.assign(places.size(), 0.);
-    for (unsigned int node = 0; node < places.size(); ++node)
-      if (is_on_seabed(node))
-        cap_of_node_[node] = cap_->at(places[node]);
+    memory_.prepare(grid, faces);
+    if (faces == 0)
+      return;
+    if (!cap_->number())
+      {
+        cap_of_node_.assign(places.size(), 0.);
+        for (unsigned int node = 0; node < places.size(); ++node)
+          if (grid.faces_of_node(node) & faces)
+            cap_of_node_[node] = cap_->at(places[node]);
+      }
+    if (!keeps_slip())
+      return;
+    std::vector<BedPlace<dim>> on_bed;
+    memory_.for_each_node([&](const unsigned long key,
+                              const unsigned int  face,
+                              const unsigned int  node) {
+      const auto [upper, lower] = halves_of_key(key);
+      on_bed.push_back({{{upper, lower, double(face), 0.}},
+                        places[node],
+                        grid.face_share(face, node).area});
+    });
+    slip_.prepare(std::move(on_bed), grid.communicator());
+  }
+
+
+
+  template <int dim>
+  CoulombLimit
+  Seabed<dim>::limit(const unsigned int face,
+                     const unsigned int node,
+                     const double       area) const
+  {
+    return friction_.limit(maximum_shear_stress(node),
+                           area,
+                           keeps_slip() ? slip_.state(place_of(face, node))
+                                        : SurfaceState());
   }
 
 
@@ -108,27 +141,32 @@ namespace talus
     if (gap > 0 && v_n <= 0)
       return {};
 
-    Tensor<1, dim> v_t     = trial;
-    v_t[axis]              = 0;
-    const double speed     = v_t.norm();
-    const auto  &share     = grid.face_share(face, node);
-    const double cell_size = 2. * share.volume / share.area;
-    const double normal    = mass * std::max(0., v_n);
-    const double mean_normal_force =
-      memory_.update(face,
-                     node,
+    Tensor<1, dim> v_t           = trial;
+    v_t[axis]                    = 0;
+    const double       speed     = v_t.norm();
+    const auto        &share     = grid.face_share(face, node);
+    const double       cell_size = 2. * share.volume / share.area;
+    const double       normal    = mass * std::max(0., v_n);
+    const unsigned int place     = place_of(face, node);
+    const double       mean_normal_force =
+      memory_.update(place,
                      normal / dt,
                      InterfaceFriction::averaging_weight(speed * dt,
                                                          cell_size));
     const double area = contact_area(nodes, grid, face, node);
     if (face == bottom && mean_normal_force > 0)
       area_in_contact_ += area;
-    const double friction =
-      friction_.impulse(mass * speed,
-                        mass,
-                        max_friction(node, mean_normal_force, area),
-                        mean_normal_force > 0 ? area : 0.,
-                        dt);
+    const double largest_friction =
+      limit(face, node, area).force(mean_normal_force);
+    const double friction = friction_.impulse(mass * speed,
+                                              mass,
+                                              largest_friction,
+                                              mean_normal_force > 0 ? area : 0.,
+                                              dt);
+    // A sticking node does not slip, and soil without friction remoulds
+    // nothing.
+    if (friction_.softens() && largest_friction > 0 && friction < mass * speed)
+      slip_.add(place, (speed - friction / mass) * dt);
 
     Tensor<1, dim> normal_impulse;
     normal_impulse[axis] = -outwards * normal;

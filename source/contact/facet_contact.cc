@@ -73,8 +73,50 @@ namespace talus
     obstacles_.locate(); // a checkpoint may have restored their places
     facets_.prepare(grid, obstacles_);
     impulses_.take(rows);
+    if (keeps_slip())
+      slip_.prepare(places_of_facets(), grid.communicator());
     nodes_.prepare(grid);
     constraints_.prepare(grid);
+  }
+
+
+
+  template <int dim>
+  std::vector<BedPlace<dim>>
+  FacetContact<dim>::places_of_facets() const
+  {
+    std::vector<BedPlace<dim>> result;
+    for (const ContactFacet<dim> &facet : facets_.owned())
+      result.push_back({name_of(facet), facet.centroid, facet.area});
+    return result;
+  }
+
+
+
+  /// Add the slip of the step at the facets with friction at the limit. Facets
+  /// that stick move a little against their neighbours, as the iteration ends
+  /// after one sweep: such motion is no slip. Obstacles that soften are at
+  /// rest.
+  template <int dim>
+  void
+  FacetContact<dim>::add_slip(const State<dim> &state)
+  {
+    const double dt = state.time_step;
+    for (const unsigned int c : constraints_.loaded())
+      {
+        const ContactFacet<dim> &facet   = facets_.owned()[c];
+        const FacetImpulse<dim> &impulse = impulses_[c];
+        if (!obstacles_[facet.obstacle].friction().softens() ||
+            constraints_[c].normal_mass == 0)
+          continue;
+        const double limit =
+          constraints_.friction_limit(c, impulse.mean_normal, dt);
+        if (!(limit > 0) || impulse.tangential.norm() < (1. - 1e-9) * limit)
+          continue;
+        const Tensor<1, dim> u   = constraints_.velocity(c);
+        const Tensor<1, dim> u_t = u - (u * facet.normal) * facet.normal;
+        slip_.add(c, u_t.norm() * dt);
+      }
   }
 
 
@@ -91,6 +133,7 @@ namespace talus
   {
     if (obstacles_.empty())
       return;
+    slip_.begin_step(state.communicator());
     nodes_.hold_walls(state, boundaries_);
     find_constraints(state);
     warm_start(state);
@@ -102,6 +145,8 @@ namespace talus
     for (const unsigned int c : constraints_.loaded())
       impulses_[c].mean_normal =
         mean_normal(impulses_[c], constraints_[c], impulses_[c].normal);
+    if (obstacles_.soften())
+      add_slip(state);
     has_begun_          = true;
     previous_time_step_ = state.time_step;
     nodes_.write(state);
@@ -146,6 +191,8 @@ namespace talus
       {
         obstacles_.locate();
         facets_.update(state.grid, obstacles_);
+        if (keeps_slip())
+          slip_.update(places_of_facets());
       }
     impulses_.take_restored();
   }
@@ -166,6 +213,8 @@ namespace talus
     obstacles_.advance(state.time, state.time_step);
     facets_.update(state.grid, obstacles_);
     impulses_.take(rows);
+    if (keeps_slip())
+      slip_.update(places_of_facets());
   }
 
 
@@ -218,7 +267,7 @@ namespace talus
                     impulse.normal * facets_.owned()[c].normal +
                       impulse.tangential);
       }
-    nodes_.update_velocities(state);
+    nodes_.update_velocities();
   }
 
 
@@ -261,7 +310,7 @@ namespace talus
         impulse.normal     = normal;
         impulse.tangential = tangential;
       }
-    nodes_.update_velocities(state);
+    nodes_.update_velocities();
   }
 
 
@@ -361,6 +410,17 @@ namespace talus
 
   template <int dim>
   void
+  FacetContact<dim>::list_quantities(const State<dim> &state,
+                                     Quantities       &list) const
+  {
+    if (obstacles_.soften())
+      append_slip("obstacles", slip_, state.communicator(), list);
+  }
+
+
+
+  template <int dim>
+  void
   FacetContact<dim>::list_state(StateList &list)
   {
     if (obstacles_.empty())
@@ -373,6 +433,8 @@ namespace talus
     for (unsigned int k = 0; k < obstacles_.size(); ++k)
       reactions_[k].list_state("obstacle " + obstacles_[k].name(), list);
     impulses_.list_state(list);
+    if (obstacles_.soften())
+      slip_.list_state("slip of obstacles", list);
   }
 
 

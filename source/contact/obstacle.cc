@@ -99,6 +99,19 @@ namespace talus
                              "the obstacle moves (",
                              path("Velocity"),
                              "). Give a stress without `depth`.")));
+    AssertThrow(!friction_.softens() || limits_shear_stress(),
+                ExcUser(text(path("Slip to remould"),
+                             " is given, but ",
+                             path("Maximum shear stress"),
+                             " is empty, so that slip has nothing to take "
+                             "away. Give the stress of the intact surface in "
+                             "Pa, or remove the slip.")));
+    AssertThrow(!friction_.softens() || !moves(),
+                ExcUser(text(path("Slip to remould"),
+                             " is given, but the obstacle moves (",
+                             path("Velocity"),
+                             "). Slip is kept by place, and only surfaces at "
+                             "rest can soften. Remove one of the entries.")));
     prepare_reference_point();
     velocity(0.); // throws here rather than in the first step
   }

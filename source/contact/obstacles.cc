@@ -184,6 +184,29 @@ namespace talus
 
 
   template <int dim>
+  bool
+  Obstacles<dim>::soften() const
+  {
+    return std::any_of(obstacles_.begin(),
+                       obstacles_.end(),
+                       [](const auto &obstacle) {
+                         return obstacle->friction().softens();
+                       });
+  }
+
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::scale_triggered_region(const double factor)
+  {
+    for (const auto &obstacle : obstacles_)
+      obstacle->friction().scale_triggered_region(factor);
+  }
+
+
+
+  template <int dim>
   void
   Obstacles<dim>::scale_maximum_shear_stress(const double factor)
   {

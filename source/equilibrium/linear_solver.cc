@@ -106,12 +106,11 @@ namespace talus
                       const TrilinosWrappers::MPI::Vector &rhs) const
   {
     const auto       &matrix = system.matrix;
-    const std::string type =
-      choice(matrix.m(), system.dim, system.always_symmetric);
-    x = 0.;
+    const std::string type   = choice(matrix.m(), system.dim, system.symmetric);
+    x                        = 0.;
     if (type == "direct")
       return {0,
-              system.direct.solve(matrix, system.dim, system.symmetric, x, rhs)
+              system.factorization.solve(matrix, x, rhs)
                 ? ""
                 : "the matrix is singular"};
 

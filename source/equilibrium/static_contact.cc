@@ -45,9 +45,12 @@ namespace talus
             // Same area as in the dynamics: both must find the same friction.
             contact.area = problem.boundaries.seabed().contact_area(
               problem.state.nodes, problem.state.grid, face, contact.node);
+            contact.limit = problem.boundaries.seabed().limit(face,
+                                                              contact.node,
+                                                              contact.area);
             contacts_.push_back(contact);
           }
-    take(before, problem.boundaries.seabed());
+    take(before);
   }
 
 
@@ -81,8 +84,7 @@ namespace talus
   /// Restore state and forces of the nodes listed in @p rows.
   template <int dim>
   void
-  StaticContact<dim>::take(const std::vector<double> &rows,
-                           const Seabed<dim>         &seabed)
+  StaticContact<dim>::take(const std::vector<double> &rows)
   {
     std::map<std::array<double, 3>, const double *> known;
     for (std::size_t r = 0; r < rows.size(); r += n_columns)
@@ -98,7 +100,7 @@ namespace talus
         for (Tensor<1, dim> *force : {&contact.friction, &contact.reaction})
           for (unsigned int d = 0; d < dim; ++d)
             (*force)[d] = *value++;
-        limit_friction(contact, seabed);
+        limit_friction(contact);
       }
   }
 
@@ -152,17 +154,110 @@ namespace talus
 
 
 
-  /// The friction of a slipping node is a given force, not a function of the
-  /// displacement: the matrix stays symmetric, and update_active_set() corrects
-  /// the force between the loops.
+  /// Friction on the soil after the slip in the step, N.
+  template <int dim>
+  Tensor<1, dim>
+  StaticContact<dim>::Contact::friction_after_slip() const
+  {
+    const double before = limit.force(normal_force);
+    return limit.softens() && slip > 0 && before > 0
+             ? (limit.force(normal_force, slip) / before) * friction
+             : friction;
+  }
+
+
+
+  /// Derivative of the length of friction_after_slip() by the slip, N/m.
+  template <int dim>
+  double
+  StaticContact<dim>::Contact::softening() const
+  {
+    const double before = limit.force(normal_force);
+    return limit.softens() && before > 0
+             ? friction.norm() / before * limit.slope(normal_force, slip)
+             : 0.;
+  }
+
+
+
+  template <int dim>
+  void
+  StaticContact<dim>::set_slip(const std::vector<double> &u)
+  {
+    for (Contact &contact : contacts_)
+      {
+        contact.slip = 0;
+        if (contact.state != State::slips || !contact.limit.softens())
+          continue;
+        const double length = contact.friction.norm();
+        // Soil slips against the friction.
+        for (unsigned int d = 0; d < dim && length > 0; ++d)
+          contact.slip -=
+            contact.friction[d] / length * u[dim * contact.node + d];
+        contact.slip = std::max(contact.slip, 0.);
+      }
+  }
+
+
+
+  /// The friction of a slipping node does not depend on the normal force within
+  /// a loop of Newton's method: the matrix stays symmetric, and
+  /// update_active_set() corrects the force between the loops. What slip takes
+  /// away depends on the displacement, so that a load step either ends on a
+  /// balance or fails.
   template <int dim>
   void
   StaticContact<dim>::add_friction(std::vector<double> &forces) const
   {
     for (const Contact &contact : contacts_)
       if (contact.state == State::slips)
-        for (unsigned int d = 0; d < dim; ++d)
-          forces[dim * contact.node + d] += contact.friction[d];
+        {
+          const Tensor<1, dim> friction = contact.friction_after_slip();
+          for (unsigned int d = 0; d < dim; ++d)
+            forces[dim * contact.node + d] += friction[d];
+        }
+  }
+
+
+
+  template <int dim>
+  void
+  StaticContact<dim>::add_to_matrix(StiffnessMatrix<dim> &matrix) const
+  {
+    FullMatrix<double> block(dim, dim);
+    for (const Contact &contact : contacts_)
+      {
+        const double softening =
+          contact.state == State::slips ? contact.softening() : 0.;
+        if (softening == 0)
+          continue;
+        const Tensor<1, dim> along = contact.friction / contact.friction.norm();
+        for (unsigned int i = 0; i < dim; ++i)
+          for (unsigned int j = 0; j < dim; ++j)
+            block(i, j) = softening * along[i] * along[j];
+        matrix.add(ArrayView<const unsigned int>(&contact.node, 1), block);
+      }
+  }
+
+
+
+  template <int dim>
+  void
+  StaticContact<dim>::commit(const StaticProblem<dim>  &problem,
+                             const std::vector<double> &u,
+                             const StrainMeasure        measure)
+  {
+    set_slip(u);
+    Seabed<dim> &seabed = problem.boundaries.seabed();
+    for (Contact &contact : contacts_)
+      if (contact.slip > 0)
+        {
+          seabed.slip().add(seabed.place_of(contact.face, contact.node),
+                            contact.slip);
+          contact.friction = contact.friction_after_slip();
+          contact.slip     = 0;
+        }
+    facets_.commit(problem, u, measure);
   }
 
 
@@ -192,18 +287,15 @@ namespace talus
   /// by walls are not friction and stay.
   template <int dim>
   void
-  StaticContact<dim>::limit_friction(Contact           &contact,
-                                     const Seabed<dim> &seabed) const
+  StaticContact<dim>::limit_friction(Contact &contact) const
   {
     // The seabed pushes against the outer normal; the force is positive on
     // pressed soil.
-    const unsigned int axis         = contact.face / 2;
-    const double       outwards     = (contact.face % 2 == 0 ? -1. : 1.);
-    const double       normal_force = -outwards * contact.reaction[axis];
-    const double       limit        = seabed.max_friction(contact.node,
-                                             std::max(normal_force, 0.),
-                                             contact.area);
-    Tensor<1, dim>    &force =
+    const unsigned int axis     = contact.face / 2;
+    const double       outwards = (contact.face % 2 == 0 ? -1. : 1.);
+    contact.normal_force  = std::max(-outwards * contact.reaction[axis], 0.);
+    const double    limit = contact.limit.force(contact.normal_force);
+    Tensor<1, dim> &force =
       (contact.state == State::slips ? contact.friction : contact.reaction);
     Tensor<1, dim> tangential = force;
     tangential[axis]          = 0.;
@@ -230,7 +322,6 @@ namespace talus
   template <int dim>
   bool
   StaticContact<dim>::update_active_set(Contact              &contact,
-                                        const Seabed<dim>    &seabed,
                                         const Tensor<1, dim> &reaction,
                                         const Tensor<1, dim> &u,
                                         const double          weight) const
@@ -250,9 +341,9 @@ namespace talus
         contact.state = State::open;
         return true;
       }
-    const double   limit = seabed.max_friction(contact.node,
-                                             std::max(normal_force, 0.),
-                                             contact.area);
+    const Tensor<1, dim> before = contact.friction_after_slip();
+    contact.normal_force        = std::max(normal_force, 0.);
+    const double   limit        = contact.limit.force(contact.normal_force);
     Tensor<1, dim> tangential;
     for (unsigned int d = 0; d < dim; ++d)
       if (d != axis && !(contact.walls & (1u << d)))
@@ -272,10 +363,9 @@ namespace talus
         contact.state = State::sticks;
         return true;
       }
-    const Tensor<1, dim> before = contact.friction;
     if (tangential.norm() > 0.)
       contact.friction = limit / tangential.norm() * tangential;
-    return (contact.friction - before).norm() > 1e-6 * weight;
+    return (contact.friction_after_slip() - before).norm() > 1e-6 * weight;
   }
 
 
@@ -309,11 +399,7 @@ namespace talus
           force.norm() + unknowns.mass(contact.node) *
                            problem.loads.acceleration_of_body[0].norm();
         const bool was_open = (contact.state == State::open);
-        if (!update_active_set(contact,
-                               problem.boundaries.seabed(),
-                               force,
-                               displacement,
-                               weight))
+        if (!update_active_set(contact, force, displacement, weight))
           continue;
         ++n_changes;
         // The next loop holds the normal displacement at zero: on the seabed.

@@ -138,7 +138,7 @@ namespace talus
   void
   StaticEquations<dim>::make_pattern()
   {
-    direct_solver_.clear();
+    factorization_.clear();
     matrix_.begin_pattern(unknowns_);
     for (unsigned int c = 0; c < weights_.cells().size(); ++c)
       matrix_.couple(weights_.nodes(c));
@@ -310,6 +310,7 @@ namespace talus
         contact_.facets().add_forces(-1., u, forces);
         unknowns_.add_to_owners(forces);
         residual = target_;
+        contact_.set_slip(u);
         contact_.add_friction(residual);
         for (std::size_t i = 0; i < residual.size(); ++i)
           residual[i] -= forces[i];
@@ -330,6 +331,7 @@ namespace talus
     internal_forces_.add_tangent(weights_, matrix_);
     ghost_.add_to_matrix(matrix_);
     contact_.facets().add_to_matrix(matrix_);
+    contact_.add_to_matrix(matrix_);
     matrix_.finish(1e-13);
   }
 
@@ -374,17 +376,11 @@ namespace talus
         rhs(unknowns_.first(node) + d) = residual[dim * node + d];
       });
     rhs.compress(VectorOperation::insert);
-    const RigidModes     modes = free_rigid_modes();
-    const LinearSolution outcome =
-      linear_solver.solve({matrix_.matrix(),
-                           direct_solver_,
-                           modes,
-                           dim,
-                           is_symmetric(),
-                           measure_ == StrainMeasure::small &&
-                             contact_.facets().is_matrix_symmetric()},
-                          solution,
-                          rhs);
+    const RigidModes     modes   = free_rigid_modes();
+    const LinearSolution outcome = linear_solver.solve(
+      {matrix_.matrix(), factorization_, modes, dim, is_symmetric()},
+      solution,
+      rhs);
     Correction result{unknowns_.field(),
                       0.,
                       outcome.n_iterations,
@@ -440,7 +436,7 @@ namespace talus
   StaticEquations<dim>::commit(StaticProblem<dim>        &problem,
                                const std::vector<double> &u)
   {
-    contact_.facets().commit(problem, u, measure_);
+    contact_.commit(problem, u, measure_);
     Points<dim> &points = problem.state.points;
     // Set the gradients of u, as the last evaluation may be at different
     // displacements.

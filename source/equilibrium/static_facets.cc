@@ -128,11 +128,7 @@ namespace talus
             point.area      = constraint.area;
             point.stiffness = spring * modulus * constraint.area /
                               problem.state.grid.cells()[facets[k].cell].size;
-            const Obstacle<dim> &obstacle =
-              problem.contact.obstacles()[facets[k].obstacle];
-            point.limit =
-              obstacle.friction().limit(facets[k].maximum_shear_stress,
-                                        constraint.area);
+            point.limit = problem.contact.constraints().limit(k);
             point.given = {impulse.normal, impulse.tangential};
             if (const auto memory = before.find(point.name);
                 memory != before.end())
@@ -209,6 +205,8 @@ namespace talus
   // With the gap g, the displacement u and the spring k,
   //   N = max(0, N_given - k (g + u n)),
   //   T = T_given - k (u - (u n) n), cut to min(mu N, tau_max A).
+  // A point that slips has slipped by its displacement along the surface: at
+  // the end of the loops the spring is not deformed.
   template <int dim>
   void
   StaticFacets<dim>::find_force(ContactPoint              &point,
@@ -216,6 +214,7 @@ namespace talus
   {
     point.found     = {};
     point.is_closed = point.slips = false;
+    point.slip                    = 0;
     if (point.stiffness == 0)
       return;
     const Tensor<1, dim> d   = displacement(point, u);
@@ -224,13 +223,19 @@ namespace talus
       point.given.normal - point.stiffness * (point.gap + d_n);
     if (normal < 0)
       return;
-    point.is_closed    = true;
-    point.found.normal = normal;
+    point.is_closed          = true;
+    point.found.normal       = normal;
+    const Tensor<1, dim> d_t = d - d_n * point.normal;
     const Tensor<1, dim> tangential =
-      point.given.tangential - point.stiffness * (d - d_n * point.normal);
+      point.given.tangential - point.stiffness * d_t;
     const double length   = tangential.norm();
-    const double friction = point.limit.force(normal);
+    double       friction = point.limit.force(normal);
     point.slips           = (friction == 0 || length > friction * slack);
+    if (point.slips && friction > 0 && point.limit.softens())
+      {
+        point.slip = d_t.norm();
+        friction   = point.limit.force(normal, point.slip);
+      }
     if (point.slips && length > 0)
       point.direction = tangential / length;
     point.cut = (point.slips && length > 0 ? friction / length : 0.);
@@ -258,10 +263,14 @@ namespace talus
       along_normal +
       point.cut * (identity - along_normal -
                    outer_product(point.direction, point.direction));
-    if (point.limit.increases_at(point.found.normal))
+    if (point.limit.increases_at(point.found.normal, point.slip))
       result +=
         point.limit.coefficient * outer_product(point.direction, point.normal);
-    return point.stiffness * result;
+    result *= point.stiffness;
+    if (point.limit.softens())
+      result += point.limit.slope(point.found.normal, point.slip) *
+                outer_product(point.direction, point.direction);
+    return result;
   }
 
 
@@ -350,11 +359,9 @@ namespace talus
   {
     std::vector<unsigned int> nodes, vertices;
     FullMatrix<double>        block;
-    is_matrix_symmetric_ = true;
     for (ContactPoint &point : points_)
       {
         const Tensor<2, dim> k = tangent(point);
-        is_matrix_symmetric_   = is_matrix_symmetric_ && k == transpose(k);
         point.sticks_first     = false;
         if (!point.is_closed)
           continue;
@@ -445,7 +452,9 @@ namespace talus
     for (unsigned int k = 0; k < points_.size(); ++k)
       {
         ContactPoint &point = points_[k];
-        const double  moved = displacement(point, u) * point.normal;
+        if (point.slip > 0)
+          problem.contact.slip().add(k, point.slip);
+        const double moved = displacement(point, u) * point.normal;
         point.opened =
           (measure == StrainMeasure::small ? point.opened + moved : 0.);
         if (k < n_facets_)

@@ -143,17 +143,31 @@ namespace talus
 
 
 
-  namespace
+  /// All fields of the history, including the arrival time for each threshold
+  /// of the settings, and the state of a bed that softens.
+  template <int dim>
+  std::vector<typename Maps<dim>::MapField>
+  Maps<dim>::fields() const
   {
-    /// Fields of the table: all fields of the history, including the arrival
-    /// time for each threshold of the settings.
-    template <int dim>
-    std::vector<HistoryField>
-    fields_of(const Envelope<dim> &envelope)
-    {
-      return history_fields(envelope.settings().arrival_thresholds);
-    }
-  } // namespace
+    std::vector<MapField> result;
+    for (const HistoryField &field :
+         history_fields(this->envelope().settings().arrival_thresholds))
+      result.push_back(
+        {field.name, field.unit, [this, field](const unsigned int column) {
+           return field.value(this->envelope()[column]);
+         }});
+    if (bed_.is_used())
+      {
+        result.push_back({"slip of the bed", "m", [this](unsigned int column) {
+                            return bed_.slip(column);
+                          }});
+        result.push_back(
+          {"share of bed shear stress left", "-", [this](unsigned int column) {
+             return bed_.share_left(column);
+           }});
+      }
+    return result;
+  }
 
 
 
@@ -163,17 +177,17 @@ namespace talus
   {
     const Envelope<dim>      &envelope = this->envelope();
     const LatticeColumns<dim> columns(axes_);
-    const auto                fields = fields_of(envelope);
+    const auto                fields = this->fields();
     write_file(this->path_of_output(table_name), [&](std::ostream &out) {
       out.precision(16);
       out << "x [m],ground [m]";
-      for (const HistoryField &field : fields)
+      for (const MapField &field : fields)
         out << ',' << field.name << " [" << field.unit << ']';
       for (const unsigned int column : envelope.reached())
         {
           out << '\n' << columns.centre(column)[0] << ',' << elevation(column);
-          for (const HistoryField &field : fields)
-            out << ',' << csv_field(field.value(envelope[column]));
+          for (const MapField &field : fields)
+            out << ',' << csv_field(field.value(column));
         }
       out << '\n';
     });
@@ -218,11 +232,11 @@ namespace talus
           write_raster(path, raster);
         };
         write("ground");
-        for (const HistoryField &field : fields_of(this->envelope()))
+        for (const MapField &field : fields())
           {
             raster.values.assign(n, std::numeric_limits<double>::quiet_NaN());
             for (const unsigned int column : this->envelope().reached())
-              raster.values[column] = field.value(this->envelope()[column]);
+              raster.values[column] = field.value(column);
             write(field.name);
           }
       }
@@ -236,14 +250,13 @@ namespace talus
   {
     const Envelope<dim> &envelope = this->envelope();
     std::vector<Field>   fields;
-    for (const HistoryField &field : fields_of(envelope))
-      fields.push_back(
-        {field.name,
-         field.unit,
-         FieldKind::scalar,
-         [&envelope, field](const unsigned int column, double *value) {
-           *value = field.value(envelope[column]);
-         }});
+    for (const MapField &field : this->fields())
+      fields.push_back({field.name,
+                        field.unit,
+                        FieldKind::scalar,
+                        [field](const unsigned int column, double *value) {
+                          *value = field.value(column);
+                        }});
     OutputCells cells =
       state_cells(state, fields, ItemsAt::cells, CellShape::quad);
     const unsigned int n_x = axes_[0].number;

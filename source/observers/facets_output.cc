@@ -110,6 +110,29 @@ namespace talus
 
 
 
+    /// Add slip and share left of the facets, where either matters.
+    template <int dim>
+    void
+    add_slip_fields(const FacetContact<dim> &contact,
+                    std::vector<Field>      &fields)
+    {
+      const BedSlip<dim> &slip = contact.slip();
+      if (slip.places().empty())
+        return;
+      fields.push_back(
+        scalar_field("slip of the bed", "m", [&slip](const unsigned int c) {
+          return slip.state(c).slip;
+        }));
+      fields.push_back(scalar_field(
+        "share of bed shear stress left", "", [&contact](const unsigned int c) {
+          const ContactFacet<dim> &facet = contact.facets().owned()[c];
+          return contact.obstacles()[facet.obstacle].friction().share_left(
+            contact.slip().state(c));
+        }));
+    }
+
+
+
     // Stresses refer to the whole area of the facet, which may be covered by
     // soil only partly: the integrals are correct, and the stresses stay
     // bounded where soil is thin.
@@ -127,7 +150,7 @@ namespace talus
                                         const auto        &impulse) {
         return impulse / (dt * facets[c].area);
       };
-      return {
+      std::vector<Field> fields = {
         vector_field<dim>("traction",
                           "Pa",
                           [&, stress](const unsigned int c) {
@@ -167,6 +190,8 @@ namespace talus
         scalar_field("obstacle", "", [&](const unsigned int c) {
           return facets[c].obstacle;
         })};
+      add_slip_fields(contact, fields);
+      return fields;
     }
   } // namespace
 

@@ -73,6 +73,9 @@ namespace talus
                           trigger.changes_strength() || changes_strength);
     trigger.add_columns(points);
     loading.prepare(materials, bodies_.size(), inputs_.constants, end_time);
+    const BedRegion<dim> region = trigger.seabed_region(inputs_.constants);
+    boundaries.seabed().slip().set_region(region);
+    contact.set_region(region);
     boundaries.parse(inputs_.constants);
     obstacles.prepare(inputs_.constants, &inputs_.surfaces);
   }
@@ -130,6 +133,10 @@ namespace talus
     if (bodies_.may_leave_cells())
       send_points_to_owners(points, state.grid);
     trigger.choose_points(points, inputs_.constants, state.communicator());
+    trigger.check_seabed_region(
+      Utilities::MPI::sum(boundaries.seabed().slip().n_triggered() +
+                            contact.slip().n_triggered(),
+                          state.communicator()));
   }
 
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace talus
 {
@@ -53,6 +54,15 @@ namespace talus
                  "Fraction of `Maximum shear stress` of the seabed and of "
                  "obstacles that remains in the end [-]; friction "
                  "coefficients stay. 1: no reduction.");
+    add_parameter("Seabed region",
+                  seabed_region_,
+                  "Expression in x, y (, z), positive where seabed and "
+                  "obstacles are brought to the fraction 'Seabed shear stress "
+                  "fraction', for instance 20 - abs(x) for a weak zone; a "
+                  "surface that softens by slip keeps there the smaller of the "
+                  "fraction and the share left by slip. Empty: the fraction "
+                  "multiplies the maximum shear stress everywhere, also what "
+                  "slip has left.");
   }
 
 
@@ -68,7 +78,8 @@ namespace talus
   {
     const bool is_on = changes_strength() || seabed_fraction_ != 1.;
     AssertThrow(is_on || (start_time_ == 0. && duration_ == 0. &&
-                          names_of_bodies_.empty() && region_.empty()),
+                          names_of_bodies_.empty() && region_.empty() &&
+                          seabed_region_.empty()),
                 ExcUser("The section Trigger has entries, but nothing would "
                         "become weaker: set 'Trigger/Strength fraction' or "
                         "'Trigger/Seabed shear stress fraction' to less than "
@@ -94,6 +105,11 @@ namespace talus
                   "'Trigger/Bodies' or 'Trigger/Region' is given, but "
                   "'Trigger/Strength fraction' is 1: no soil becomes weaker. "
                   "Set the fraction to less than 1 or remove the entries."));
+    AssertThrow(seabed_fraction_ != 1. || seabed_region_.empty(),
+                ExcUser("'Trigger/Seabed region' is given, but 'Trigger/Seabed "
+                        "shear stress fraction' is 1: no surface becomes "
+                        "weaker. Set the fraction to less than 1 or remove the "
+                        "region."));
     if (changes_strength())
       check_bodies(names_of_bodies, materials);
   }
@@ -195,6 +211,41 @@ namespace talus
 
 
 
+  template <int dim>
+  BedRegion<dim>
+  Trigger<dim>::seabed_region(const Constants &constants) const
+  {
+    if (seabed_region_.empty())
+      return {};
+    const auto expression =
+      std::make_shared<Expression<dim>>("'Trigger/Seabed region'",
+                                        seabed_region_,
+                                        1,
+                                        constants,
+                                        // A region does not change in time.
+                                        dim == 2 ? "x,y,unused_t"
+                                                 : "x,y,z,unused_t");
+    return [expression](const Point<dim> &x) {
+      return expression->finite_value(x, 0., 0) > 0.;
+    };
+  }
+
+
+
+  template <int dim>
+  void
+  Trigger<dim>::check_seabed_region(const unsigned int n_places) const
+  {
+    AssertThrow(seabed_region_.empty() || n_places > 0,
+                ExcUser("'Trigger/Seabed region' = '" + seabed_region_ +
+                        "' is positive at no node of a seabed and at no "
+                        "surface of an obstacle. Give an expression that is "
+                        "positive in the weak part of the bed, or leave the "
+                        "entry empty."));
+  }
+
+
+
   /// 0 before the start, 1 after the end, half a cosine in between. Without
   /// duration, a jump in the first step that ends after the start time.
   template <int dim>
@@ -249,7 +300,10 @@ namespace talus
       what += text(what.empty() ? "" : ", and ",
                    "the seabed's maximum shear stress falls to ",
                    seabed_fraction_,
-                   " of itself");
+                   " of itself",
+                   seabed_region_.empty() ? ""
+                                          : " in the region of the section "
+                                            "Trigger");
     const std::string when =
       duration_ > 0.
         ? text(

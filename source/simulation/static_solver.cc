@@ -251,8 +251,10 @@ namespace talus
     for (unsigned int i = 0; i < points.n_arrays(); ++i)
       saved.columns.emplace_back(points.data(i),
                                  points.data(i) + points.size());
-    saved.contact      = equilibrium_.contact();
-    saved.facet_forces = problem_.contact.save();
+    saved.contact       = equilibrium_.contact();
+    saved.facet_forces  = problem_.contact.save();
+    saved.seabed_slip   = problem_.boundaries.seabed().slip().rows();
+    saved.obstacle_slip = problem_.contact.slip().rows();
     return saved;
   }
 
@@ -270,6 +272,8 @@ namespace talus
                 points.data(i));
     equilibrium_.contact() = saved.contact;
     problem_.contact.restore(saved.facet_forces);
+    problem_.boundaries.seabed().slip().restore(saved.seabed_slip);
+    problem_.contact.slip().restore(saved.obstacle_slip);
   }
 
 

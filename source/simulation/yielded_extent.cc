@@ -15,13 +15,15 @@ namespace talus
 
   namespace
   {
+    constexpr double nearly_residual = 0.95; // fraction of the strength loss
+
     /// Place of a column of cells of size h, in x and z.
     using Place = std::array<long, 2>;
 
     /// Columns of cells with soil of a body.
     struct Columns
     {
-      std::set<Place> all, yielded;
+      std::set<Place> all, yielded, residual;
     };
 
 
@@ -30,7 +32,9 @@ namespace talus
     /// one point, so columns of the largest size have no gaps.
     template <int dim>
     Columns
-    columns_of(const State<dim> &state, const unsigned int body)
+    columns_of(const State<dim>         &state,
+               const MaterialModel<dim> &material,
+               const unsigned int        body)
     {
       const Points<dim> &points = state.points;
       const double       h      = state.grid.cell_size();
@@ -46,6 +50,8 @@ namespace talus
           columns.all.insert(place);
           if (points.data(points.plastic_work)[p] > 0.)
             columns.yielded.insert(place);
+          if (material.fraction_of_strength_loss(points, p) >= nearly_residual)
+            columns.residual.insert(place);
         }
       return columns;
     }
@@ -56,6 +62,8 @@ namespace talus
     unsigned int
     count(const std::set<Place> &places, const MPI_Comm communicator)
     {
+      if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+        return places.size();
       std::set<Place> together;
       for (const auto &part : Utilities::MPI::all_gather(
              communicator, std::vector<Place>(places.begin(), places.end())))
@@ -66,43 +74,105 @@ namespace talus
 
 
 
-  // A law softens if a larger strength would have to be refused.
   template <int dim>
-  std::string
-  note_on_softening(const State<dim> &state, const Problem<dim> &problem)
+  YieldedExtent
+  yielded_extent(const State<dim>   &state,
+                 const Problem<dim> &problem,
+                 const unsigned int  body)
   {
     const MPI_Comm communicator = state.communicator();
-    const auto    &materials    = problem.materials;
-    const auto     names        = problem.bodies().names();
-    const double   h            = state.grid.cell_size();
-    const double   unit         = dim == 2 ? h : h * h;
-    std::string    list;
-    for (unsigned int b = 0; b < names.size(); ++b)
-      {
-        const auto range =
-          materials.strength_range(state.points, b, communicator);
-        if (std::isinf(materials.of_body(b).largest_strength_factor(range)))
-          continue;
-        const Columns columns   = columns_of(state, b);
-        const double  n_yielded = count(columns.yielded, communicator);
-        const double  n_all     = count(columns.all, communicator);
-        if (n_yielded > 0.)
-          list += text(list.empty() ? "" : "; ",
-                       std::setprecision(4),
-                       n_yielded * unit,
-                       " of ",
-                       n_all * unit,
-                       dim == 2 ? " m of '" : " m^2 (in plan) of '",
-                       names[b],
-                       "'");
-      }
-    if (list.empty())
-      return {};
-    return " Softening: " + list + " yielded.";
+    const Columns  columns =
+      columns_of(state, problem.materials.of_body(body), body);
+    const double unit = std::pow(state.grid.cell_size(), dim - 1);
+    return {unit * count(columns.all, communicator),
+            unit * count(columns.yielded, communicator),
+            unit * count(columns.residual, communicator)};
   }
 
 
 
+  namespace
+  {
+    /// How much of each softening body has yielded, in words; empty if nothing
+    /// has. Collective.
+    template <int dim>
+    std::string
+    yielded_bodies(const State<dim> &state, const Problem<dim> &problem)
+    {
+      const auto  names = problem.bodies().names();
+      std::string list;
+      for (unsigned int b = 0; b < names.size(); ++b)
+        {
+          if (!problem.materials.of_body(b).softens())
+            continue;
+          const YieldedExtent extent = yielded_extent(state, problem, b);
+          if (extent.yielded > 0.)
+            list += text(list.empty() ? "" : "; ",
+                         std::setprecision(4),
+                         extent.yielded,
+                         " of ",
+                         extent.all,
+                         dim == 2 ? " m of '" : " m^2 (in plan) of '",
+                         names[b],
+                         "'");
+        }
+      return list.empty() ? list : list + " yielded";
+    }
+
+
+
+    /// How much of the softening surfaces soil has slipped over, in words;
+    /// empty if nothing has. Collective.
+    template <int dim>
+    std::string
+    slipped_surfaces(const State<dim> &state, const Problem<dim> &problem)
+    {
+      const Obstacles<dim>    &obstacles = problem.obstacles;
+      std::vector<double>      areas(1 + obstacles.size(), 0.);
+      std::vector<std::string> names{"the seabed"};
+      areas[0] = problem.boundaries.seabed().slip().slipped_area();
+      problem.contact.slip().for_each(
+        [&areas](const BedPlace<dim> &place, const SurfaceState &place_state) {
+          if (place_state.slip > 0)
+            areas[1 + place.name[2]] += place.area;
+        });
+      for (unsigned int k = 0; k < obstacles.size(); ++k)
+        names.push_back("the obstacle '" + obstacles[k].name() + "'");
+      Utilities::MPI::sum(areas, state.communicator(), areas);
+      std::string list;
+      for (unsigned int i = 0; i < areas.size(); ++i)
+        if (areas[i] > 0.)
+          list += text(list.empty() ? "" : "; ",
+                       std::setprecision(4),
+                       areas[i],
+                       dim == 2 ? " m of " : " m^2 of ",
+                       names[i]);
+      return list.empty() ? list : list + " slipped";
+    }
+  } // namespace
+
+
+
+  template <int dim>
+  std::string
+  note_on_softening(const State<dim> &state, const Problem<dim> &problem)
+  {
+    std::string       list    = yielded_bodies(state, problem);
+    const std::string slipped = slipped_surfaces(state, problem);
+    if (!list.empty() && !slipped.empty())
+      list += "; ";
+    list += slipped;
+    if (list.empty())
+      return {};
+    return " Softening: " + list +
+           ". The strength lost there is the likely cause: the rest cannot "
+           "carry what softened soil and surfaces have lost.";
+  }
+
+
+
+  template decltype(yielded_extent<2>)    yielded_extent<2>;
+  template decltype(yielded_extent<3>)    yielded_extent<3>;
   template decltype(note_on_softening<2>) note_on_softening<2>;
   template decltype(note_on_softening<3>) note_on_softening<3>;
 } // namespace talus

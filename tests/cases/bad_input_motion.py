@@ -51,6 +51,33 @@ class BadInputMotion(Case):
                             "no obstacle has a 'Maximum shear stress'",
                             content=self.CLAY + obstacle)
 
+    def test_softening_by_slip(self):
+        seabed = ["Boundaries/Bottom=seabed"]
+        softens = ["Slip to remould=0.1", "Remoulded shear stress ratio=0.5"]
+        on_seabed = ["Boundaries/Seabed/" + s for s in softens]
+        bed = ["Obstacles/Names=bed", "Obstacles/bed/Shape=half-plane",
+               "Obstacles/bed/Normal=0, 1"]
+        on_bed = bed + ["Obstacles/bed/" + s for s in softens]
+        half = "Trigger/Seabed shear stress fraction=0.5"
+        for settings, *words in (
+                (seabed + on_seabed[:1], "'Boundaries/Seabed/Slip to remould' is 0.1 m",
+                 "Give both or neither"),
+                (seabed + on_seabed[1:], "ratio of less than 1", "Give both or neither"),
+                (on_seabed, "'Boundaries/Seabed/Slip to remould'", "no face of the mesh"),
+                (on_bed, "'Obstacles/bed/Slip to remould'",
+                 "'Obstacles/bed/Maximum shear stress' is empty"),
+                (on_bed + ["Obstacles/bed/Maximum shear stress=1e3",
+                           "Obstacles/bed/Velocity=1; 0"],
+                 "'Obstacles/bed/Slip to remould'", "the obstacle moves",
+                 "only surfaces at rest can soften"),
+                (seabed + [half, "Trigger/Seabed region=-1-y"],
+                 "'Trigger/Seabed region' = '-1-y'", "at no node of a seabed"),
+                (seabed + [half, "Trigger/Seabed region=2*"], "'Trigger/Seabed region'",
+                 "cannot be understood"),
+                (seabed + ["Trigger/Seabed region=x"], "nothing would become weaker")):
+            with self.subTest(settings):
+                self.refuse_set(settings, *words)
+
     def test_trigger_of_a_body_without_strength(self):
         weaker = "Strength fraction=0.5"
         self.refuse_trigger([weaker], "/Materials/clay", "no strength",

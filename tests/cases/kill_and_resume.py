@@ -261,6 +261,39 @@ class SlideOverObstacles(KillAndResume):
                            "Stations/Lines=route: 20; 60"]
 
 
+class SlideOnSofteningSeabed(KillAndResume):
+    """A seabed that softens by slip under a mesh that changes: places without a
+    node keep their slip."""
+
+    N_KILLS = 8
+    settings = SETTINGS + ["Mesh tracking/Enabled=true",
+                           "Mesh tracking/Margin=4",
+                           "Mesh tracking/Interval=50",
+                           "Boundaries/Seabed/Slip to remould=2",
+                           "Boundaries/Seabed/Remoulded shear stress ratio=0.2",
+                           "Trigger/Duration=1",
+                           "Trigger/Seabed shear stress fraction=0.5",
+                           "Trigger/Seabed region=20-x", "Maps/Write=true"]
+
+
+class SlideOnSofteningObstacle(KillAndResume):
+    """A bed across the cells that softens by slip, beside a pipe that moves."""
+
+    N_KILLS = 8
+    file = "landslide-inclined.prm"
+    settings = SETTINGS + ["Mesh tracking/Enabled=true",
+                           "Mesh tracking/Margin=6",
+                           "Mesh tracking/Interval=50",
+                           "Obstacles/Names=bed, pipe",
+                           "Obstacles/pipe/Shape=ball",
+                           "Obstacles/pipe/Centre=52, -3.5",
+                           "Obstacles/pipe/Radius=0.8",
+                           "Obstacles/pipe/Velocity=0.02; 0",
+                           "Obstacles/bed/Slip to remould=2",
+                           "Obstacles/bed/Remoulded shear stress ratio=0.2",
+                           "Maps/Write=true"]
+
+
 class DrivenAndDamped(KillAndResume):
     """Soil that the bottom drives, under growing gravity, with damping, on a
     mesh that changes."""

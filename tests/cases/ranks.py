@@ -339,6 +339,36 @@ class Tracking(Runs):
                 self.assertAlmostEqual(there, here, delta=1e-8)
 
 
+class SofteningBed(Runs):
+    """A bed that softens by slip: uniform mesh, mesh that follows the soil, and
+    several ranks."""
+
+    def compare(self, file, surface, slipped):
+        settings = SLIDE + TERSE + [f"{surface}/Slip to remould=2",
+                                    f"{surface}/Remoulded shear stress ratio=0.2"]
+        uniform = self.run_on(1, settings, file, name="uniform")
+        self.assertGreater(uniform[f"slipped {slipped} [m]"][-1], 30)
+        self.assertGreater(uniform[f"largest slip of {slipped} [m]"][-1], 4)
+        hard = self.run_on(1, SLIDE + TERSE, file, name="hard")
+        self.assertGreater(uniform["kinetic energy [J]"][-1],
+                           1.1 * hard["kinetic energy [J]"][-1])
+        tracked = settings + TRACKING + BALANCE
+        for n_ranks in (1, 4):
+            found = self.run_on(n_ranks, tracked, file)
+            self.assert_same(found, uniform)
+            self.assertGreaterEqual(self.changes(f"ranks-{n_ranks}")[0], 3)
+            if n_ranks == 1:  # bit by bit
+                for name in uniform:
+                    if "slip" in name or name == "front x [m]":
+                        self.assertEqual(found[name], uniform[name], name)
+
+    def test_seabed(self):
+        self.compare("landslide.prm", "Boundaries/Seabed", "seabed")
+
+    def test_obstacle(self):
+        self.compare("landslide-inclined.prm", "Obstacles/bed", "obstacles")
+
+
 class Graded(Runs):
     """Smaller cells at the seabed, soil across hanging nodes."""
 

@@ -175,6 +175,12 @@ namespace talus
       return seabed_;
     }
 
+    Seabed<dim> &
+    seabed()
+    {
+      return seabed_;
+    }
+
     /// Components that a wall or the seabed may hold at a node on @p faces: bit
     /// d stands for axis d.
     unsigned char
@@ -271,6 +277,11 @@ namespace talus
     {
       return reactions_;
     }
+
+    /// Area that soil has slipped over, and the largest slip, where a surface
+    /// softens.
+    void
+    list_quantities(const State<dim> &state, Quantities &list) const override;
 
     void
     list_state(StateList &list) override;

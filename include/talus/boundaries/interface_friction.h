@@ -5,29 +5,75 @@
 #include <deal.II/base/parameter_acceptor.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
 
 namespace talus
 {
+  /// State of a place of a surface that changes the maximum shear stress.
+  struct SurfaceState
+  {
+    double slip         = 0;     ///< slip of soil so far, m
+    bool   is_triggered = false; ///< whether the place is in the region of
+                                 ///< scale_triggered_region()
+  };
+
+
+
   /// Maximum friction force of soil at rest on a surface: proportional to the
-  /// normal force up to a cap.
+  /// normal force up to a cap, which slip may reduce.
   struct CoulombLimit
   {
     double coefficient = 0; ///< Coulomb friction [-]
     double cap         = 0; ///< maximum shear stress times area, N
 
-    /// Return the maximum friction force, N, for a normal force, N.
-    double
-    force(const double normal_force) const
+    // Where slip reduces the cap: min(ceiling, residual + excess e^(-rate s))
+    // after a further slip s.
+    double residual = 0; ///< N
+    double excess   = 0; ///< N
+    double rate     = 0; ///< 1/m; 0: the cap is constant
+    double ceiling  = std::numeric_limits<double>::infinity(); ///< N
+
+    bool
+    softens() const
     {
-      return std::min(coefficient * normal_force, cap);
+      return rate > 0;
     }
 
-    /// Whether the maximum friction force increases with the normal force, N.
-    bool
-    increases_at(const double normal_force) const
+    /// Return the cap, N, after a further slip, m.
+    double
+    cap_after(const double slip) const
     {
-      return coefficient * normal_force < cap;
+      return softens()
+               ? std::min(ceiling, residual + excess * std::exp(-rate * slip))
+               : cap;
+    }
+
+    /// Return the maximum friction force, N, for a normal force, N, after a
+    /// further slip, m.
+    double
+    force(const double normal_force, const double slip = 0.) const
+    {
+      return std::min(coefficient * normal_force, cap_after(slip));
+    }
+
+    /// Return the derivative of force() by the slip, N/m; at most 0.
+    double
+    slope(const double normal_force, const double slip) const
+    {
+      const double lost = softens() ? excess * std::exp(-rate * slip) : 0.;
+      return residual + lost < std::min(ceiling, coefficient * normal_force)
+               ? -rate * lost
+               : 0.;
+    }
+
+    /// Whether the maximum friction force after a further slip, m, increases
+    /// with the normal force, N.
+    bool
+    increases_at(const double normal_force, const double slip = 0.) const
+    {
+      return coefficient * normal_force < cap_after(slip);
     }
   };
 
@@ -36,8 +82,9 @@ namespace talus
   /// Friction law of a rigid surface: Coulomb friction, with a maximum shear
   /// stress on the area in contact, since soft soil cannot pass more than its
   /// remoulded strength (@cite dong2017); plus, if defined, the stress of a
-  /// film of viscous mud. Nodes of a seabed on a mesh face and facets of
-  /// obstacles obey the same law.
+  /// film of viscous mud. Slip may take a part of the maximum shear stress
+  /// away, see share_after_slip(). Nodes of a seabed on a mesh face and facets
+  /// of obstacles obey the same law.
   ///
   /// Coulomb friction follows a running mean of the normal force. Otherwise a
   /// ringing elastic body has no steady sliding on a rigid surface: normal
@@ -75,10 +122,40 @@ namespace talus
       shear_stress_factor_ = coefficient_factor_ = factor;
     }
 
+    /// Set the fraction @p factor [-] of maximum shear stresses to which the
+    /// trigger brings the places of its region, unless slip took more.
+    void
+    scale_triggered_region(const double factor)
+    {
+      region_factor_ = factor;
+    }
+
+    /// Whether slip takes a part of the maximum shear stress away.
+    bool
+    softens() const
+    {
+      return slip_to_remould_ > 0;
+    }
+
+    /// Share of the maximum shear stress left after a slip, m [-]:
+    /// r + (1 - r) exp(-3 s/s_95) @cite einav2005.
+    double
+    share_after_slip(double slip) const;
+
+    /// Share of the maximum shear stress left at a place [-], by slip and
+    /// trigger; without scale_shear_stress() and scale_strength().
+    double
+    share_left(const SurfaceState &state) const;
+
     /// Return the friction of soil at rest on @p area, m^(dim-1), in contact
-    /// with a surface of @p maximum_shear_stress, Pa, which may be infinite.
+    /// with a place of the surface.
+    /// @param maximum_shear_stress of intact soil, Pa, which may be infinite
+    /// @param area in contact, m^(dim-1)
+    /// @param state of the place
     CoulombLimit
-    limit(double maximum_shear_stress, double area) const;
+    limit(double              maximum_shear_stress,
+          double              area,
+          const SurfaceState &state = {}) const;
 
     /// Force of the film, N, at a slip velocity, m/s, on an area in contact,
     /// m^(dim-1).
@@ -112,9 +189,12 @@ namespace talus
     double film_consistency_ = 0.;
     double film_exponent_    = 1.;
     double film_thickness_   = 0.;
+    double slip_to_remould_  = 0.;
+    double remoulded_ratio_  = 1.;
 
     double coefficient_factor_  = 1.;
     double shear_stress_factor_ = 1.;
+    double region_factor_       = 1.;
   };
 } // namespace talus
 

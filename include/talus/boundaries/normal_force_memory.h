@@ -27,11 +27,27 @@ namespace talus
     void
     begin_step();
 
-    /// Update the mean at @p node on @p face by the normal force of the step,
-    /// @p force, N, with @p weight [-], and return the mean, N. After a step
-    /// without update(), or in the first step, the mean is @p force.
+    /// Number of the mean of @p node on @p face.
+    unsigned int
+    number(const unsigned int face, const unsigned int node) const
+    {
+      return index_[face].at(node);
+    }
+
+    /// Update mean @p number by the normal force of the step, @p force, N, with
+    /// @p weight [-], and return the mean, N. After a step without update(), or
+    /// in the first step, the mean is @p force.
     double
-    update(unsigned int face, unsigned int node, double force, double weight);
+    update(unsigned int number, double force, double weight);
+
+    /// Call action(key, face, node) for all means, in the order of number().
+    template <typename Action>
+    void
+    for_each_node(const Action &action) const
+    {
+      for (const Mean &mean : means_)
+        action(mean.key, mean.face, mean.node);
+    }
 
     void
     list_state(StateList &list);
@@ -39,8 +55,9 @@ namespace talus
   private:
     struct Mean
     {
-      unsigned long key;       ///< place of the node
-      unsigned int  face;      ///< face of the mesh
+      unsigned long key;  ///< place of the node
+      unsigned int  face; ///< face of the mesh
+      unsigned int  node;
       double        force = 0; ///< N
       unsigned long step  = 0; ///< last update(); 0: none
     };

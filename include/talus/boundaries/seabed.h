@@ -3,6 +3,7 @@
 #define talus_boundaries_seabed_h
 
 #include <talus/base/shear_stress_cap.h>
+#include <talus/boundaries/bed_slip.h>
 #include <talus/boundaries/boundary_condition.h>
 #include <talus/boundaries/interface_friction.h>
 #include <talus/boundaries/normal_force_memory.h>
@@ -29,13 +30,13 @@ namespace talus
     void
     prepare(const Constants &constants);
 
-    /// Whether locate() must be called.
+    /// Whether places must be passed to prepare_nodes().
     bool
     depends_on_place() const
     {
-      return !cap_->number();
+      return !cap_->number() || keeps_slip();
     }
-    /// Whether set_depth() must be called before locate().
+    /// Whether set_depth() must be called before prepare_nodes().
     bool
     depends_on_depth() const
     {
@@ -47,12 +48,6 @@ namespace talus
     {
       cap_->set_depth(depth);
     }
-
-    /// Evaluate the maximum shear stress at the nodes with @p is_on_seabed.
-    /// @p places: places of all owned nodes, m.
-    void
-    locate(const std::vector<dealii::Point<dim>>        &places,
-           const std::function<bool(unsigned int node)> &is_on_seabed);
 
     /// Area of @p face at @p node covered by boxes of points, m^(dim-1), from
     /// SeabedCoverage; may slightly exceed the node's share of the face. Until
@@ -81,6 +76,33 @@ namespace talus
       area_in_contact_ = 0;
     }
 
+    /// Whether slip() matters: the seabed softens, or the trigger has a region.
+    bool
+    keeps_slip() const
+    {
+      return friction_.softens() || slip_.has_region();
+    }
+
+    /// Slip of soil over the nodes.
+    BedSlip<dim> &
+    slip()
+    {
+      return slip_;
+    }
+
+    const BedSlip<dim> &
+    slip() const
+    {
+      return slip_;
+    }
+
+    /// Number of @p node on @p face in slip().
+    unsigned int
+    place_of(const unsigned int face, const unsigned int node) const
+    {
+      return memory_.number(face, node);
+    }
+
     /// Area on which soil pressed on a seabed at the bottom of the mesh in the
     /// last step, sum over the nodes of this rank, m^(dim-1); 0 before the
     /// first step of a run or a resumed run.
@@ -95,7 +117,8 @@ namespace talus
     /// v_n becomes zero by the force N = m v_n/dt. Friction, limited by the
     /// running mean of N, acts against the tangential velocity, also in steps
     /// in which the node moves away. @p gap: clearance between soil and face,
-    /// m; soil that does not close the gap in the step is free. Returns the
+    /// m; soil that does not close the gap in the step is free. The slip of a
+    /// softening seabed grows where friction is at the limit. Returns the
     /// normal and the tangential impulse on the soil, N s.
     std::pair<dealii::Tensor<1, dim>, dealii::Tensor<1, dim>>
     apply(NodalFields<dim> &nodes,
@@ -114,16 +137,10 @@ namespace talus
       return has_gap_;
     }
 
-    /// Maximum friction force, N, on soil at rest at @p node, for a normal
-    /// force, N, and an area in contact, m^(dim-1).
-    double
-    max_friction(const unsigned int node,
-                 const double       normal_force,
-                 const double       area) const
-    {
-      return friction_.limit(maximum_shear_stress(node), area)
-        .force(normal_force);
-    }
+    /// Limit of friction on soil at rest at @p node on @p face, for an area in
+    /// contact, m^(dim-1).
+    CoulombLimit
+    limit(unsigned int face, unsigned int node, double area) const;
 
     InterfaceFriction &
     friction()
@@ -131,18 +148,27 @@ namespace talus
       return friction_;
     }
 
-    /// List the nodes of @p faces (bit f for face f). Call after each change of
-    /// the mesh or its partition. Collective.
-    void
-    prepare_nodes(const Grid<dim> &grid, const unsigned char faces)
+    const InterfaceFriction &
+    friction() const
     {
-      memory_.prepare(grid, faces);
+      return friction_;
     }
+
+    /// List the nodes of @p faces (bit f for face f) and evaluate the maximum
+    /// shear stress there. @p places: places of all owned nodes, m, if
+    /// depends_on_place(). Call after each change of the mesh or its partition.
+    /// Collective.
+    void
+    prepare_nodes(const Grid<dim>                       &grid,
+                  unsigned char                          faces,
+                  const std::vector<dealii::Point<dim>> &places);
 
     void
     list_state(StateList &list)
     {
       memory_.list_state(list);
+      if (friction_.softens())
+        slip_.list_state("slip of the seabed", list);
     }
 
   private:
@@ -160,6 +186,7 @@ namespace talus
 
     InterfaceFriction      friction_;
     NormalForceMemory<dim> memory_;
+    BedSlip<dim>           slip_;
     CoveredArea            covered_area_ = [](unsigned int, unsigned int) {
       return std::numeric_limits<double>::max();
     };

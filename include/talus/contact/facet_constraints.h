@@ -2,10 +2,12 @@
 #ifndef talus_contact_facet_constraints_h
 #define talus_contact_facet_constraints_h
 
+#include <talus/boundaries/bed_slip.h>
 #include <talus/contact/contact_nodes.h>
 #include <talus/contact/facet_coverage.h>
 #include <talus/contact/facets.h>
 #include <talus/contact/nodal_gaps.h>
+#include <talus/contact/surface_tables.h>
 #include <talus/state/state.h>
 
 #include <vector>
@@ -39,10 +41,12 @@ namespace talus
   public:
     FacetConstraints(const Obstacles<dim>    &obstacles,
                      const Facets<dim>       &facets,
-                     const ContactNodes<dim> &nodes)
+                     const ContactNodes<dim> &nodes,
+                     const BedSlip<dim>      &slip)
       : obstacles_(obstacles)
       , facets_(facets)
       , nodes_(nodes)
+      , slip_(slip)
     {}
 
     /// Delete all constraints. Call after each change of the mesh or its
@@ -90,6 +94,10 @@ namespace talus
       return velocity(facets_.owned()[facet], constraints_[facet]);
     }
 
+    /// Limit of friction of soil at rest at facet @p facet of Facets::owned().
+    CoulombLimit
+    limit(unsigned int facet) const;
+
     /// Return the maximum friction impulse on soil at rest, N s.
     /// @param facet index in Facets::owned()
     /// @param normal_impulse impulse along the normal, N s
@@ -127,18 +135,17 @@ namespace talus
     find_shares(const ContactFacet<dim> &facet,
                 FacetConstraint<dim>    &constraint) const;
     void
-    require_uniform(const Cell<dim>         &cell,
-                    const ContactFacet<dim> &facet) const;
+    require_uniform(const ContactFacet<dim> &facet) const;
     void
     find_masses(const ContactFacet<dim> &facet,
-                double                   cell_size,
                 FacetConstraint<dim>    &constraint) const;
     double
     averaging_weight(const State<dim>           &state,
                      const ContactFacet<dim>    &facet,
                      const FacetConstraint<dim> &constraint) const;
-    double
-    volume_fraction(const ContactFacet<dim> &facet) const;
+    void
+    find_volume_fractions(const std::vector<ContactFacet<dim>> &facets,
+                          std::vector<double> &fractions) const;
     dealii::Tensor<1, dim>
     velocity(const ContactFacet<dim>    &facet,
              const FacetConstraint<dim> &constraint) const;
@@ -146,10 +153,14 @@ namespace talus
     const Obstacles<dim>             &obstacles_;
     const Facets<dim>                &facets_;
     const ContactNodes<dim>          &nodes_;
+    const BedSlip<dim>               &slip_; ///< by facet; empty: not kept
+    SurfaceTables<dim>                tables_{obstacles_};
     NodalGaps<dim>                    gaps_; ///< surfaces: the obstacles
     FacetCoverage<dim>                coverage_{obstacles_, facets_};
     std::vector<FacetConstraint<dim>> constraints_;
     std::vector<unsigned int>         loaded_;
+    std::vector<double>               fractions_; ///< by owned facet [-]
+    std::vector<double> fractions_of_ghosts_;     ///< by ghost facet [-]
   };
 } // namespace talus
 

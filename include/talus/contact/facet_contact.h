@@ -98,6 +98,28 @@ namespace talus
       return previous_time_step_;
     }
 
+    /// Set the region where the trigger brings surfaces to a share of their
+    /// maximum shear stress. Call before prepare().
+    void
+    set_region(const BedRegion<dim> &region)
+    {
+      slip_.set_region(region);
+    }
+
+    /// Slip of soil over facets().owned(); without places unless an obstacle
+    /// softens by slip or the trigger has a region.
+    BedSlip<dim> &
+    slip()
+    {
+      return slip_;
+    }
+
+    const BedSlip<dim> &
+    slip() const
+    {
+      return slip_;
+    }
+
     /// Compute the constraints of facets().owned() from masses and volumes of
     /// the soil at the nodes. Collective.
     void
@@ -131,10 +153,24 @@ namespace talus
       impulses_.take(saved);
     }
 
+    /// Area that soil has slipped over, and the largest slip, where a surface
+    /// softens.
+    void
+    list_quantities(const State<dim> &state, Quantities &list) const override;
+
     void
     list_state(StateList &list) override;
 
   private:
+    bool
+    keeps_slip() const
+    {
+      return obstacles_.soften() || slip_.has_region();
+    }
+    std::vector<BedPlace<dim>>
+    places_of_facets() const;
+    void
+    add_slip(const State<dim> &state);
     void
     take_restored(const State<dim> &state);
     void
@@ -162,13 +198,14 @@ namespace talus
     Boundaries<dim>           &boundaries_;
     Facets<dim>                facets_;
     FacetImpulses<dim>         impulses_{facets_};
+    BedSlip<dim>               slip_; ///< by facet
     std::vector<Reaction<dim>> reactions_;
     bool                       has_begun_          = false;
     double                     previous_time_step_ = 0; ///< s
 
     // Data of one step
     ContactNodes<dim>          nodes_{facets_};
-    FacetConstraints<dim>      constraints_{obstacles_, facets_, nodes_};
+    FacetConstraints<dim>      constraints_{obstacles_, facets_, nodes_, slip_};
     std::vector<ImpulseInside> impulses_inside_;
   };
 } // namespace talus

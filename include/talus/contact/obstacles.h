@@ -118,6 +118,15 @@ namespace talus
     bool
     limit_shear_stress() const;
 
+    /// Whether slip takes a part of a maximum shear stress away.
+    bool
+    soften() const;
+
+    /// Set the fraction @p factor [-] of all maximum shear stresses in the
+    /// region of the trigger.
+    void
+    scale_triggered_region(double factor);
+
     /// Multiply all maximum shear stresses of the parameters by @p factor [-].
     void
     scale_maximum_shear_stress(double factor);

@@ -2,7 +2,7 @@
 #ifndef talus_equilibrium_linear_solver_h
 #define talus_equilibrium_linear_solver_h
 
-#include <talus/equilibrium/direct_solver.h>
+#include <talus/equilibrium/lu_factorization.h>
 
 #include <deal.II/base/parameter_acceptor.h>
 
@@ -33,11 +33,10 @@ namespace talus
   struct LinearSystem
   {
     const dealii::TrilinosWrappers::SparseMatrix &matrix; ///< N/m
-    DirectSolver     &direct; ///< used for previous matrices of the pattern
-    const RigidModes &modes;  ///< for multigrid
-    unsigned int      dim;    ///< number of unknowns per node
-    bool always_symmetric;    ///< whether all matrices of the problem are
-    bool symmetric;           ///< whether this matrix is symmetric
+    LuFactorization  &factorization; ///< factors of previous matrices
+    const RigidModes &modes;         ///< for multigrid
+    unsigned int      dim;           ///< number of unknowns per node
+    bool symmetric; ///< whether the matrix is symmetric, positive definite
   };
 
 

@@ -34,9 +34,26 @@ namespace talus
     constrained(const StaticProblem<dim> &problem,
                 const Unknowns<dim>      &unknowns) const;
 
-    /// Add the friction of slipping nodes on the soil, N, to @p forces.
+    /// Set the slip of slipping nodes from the displacements @p u of the step,
+    /// m, where the seabed softens.
+    void
+    set_slip(const std::vector<double> &u);
+
+    /// Add the friction of slipping nodes on the soil after the slip of
+    /// set_slip(), N, to @p forces.
     void
     add_friction(std::vector<double> &forces) const;
+
+    /// Add the negative derivative of the last add_friction() to @p matrix.
+    void
+    add_to_matrix(StiffnessMatrix<dim> &matrix) const;
+
+    /// Store the slip of the displacements @p u, m, at the places of seabed and
+    /// obstacles, and the forces of facets.
+    void
+    commit(const StaticProblem<dim>  &problem,
+           const std::vector<double> &u,
+           StrainMeasure              measure);
 
     /// Add @p factor times the force of the seabed on the soil after the last
     /// step, reaction and friction, N, to @p forces.
@@ -92,27 +109,35 @@ namespace talus
 
     struct Contact
     {
-      unsigned int           node;
-      unsigned long          key; ///< place of the node
-      unsigned int           k;   ///< index among the active nodes
-      unsigned int           face;
-      unsigned char          walls; ///< components held by walls, as bits
-      double                 area;  ///< m^(dim-1)
-      State                  state = State::sticks;
-      dealii::Tensor<1, dim> friction; ///< on the soil, N
+      unsigned int  node;
+      unsigned long key; ///< place of the node
+      unsigned int  k;   ///< index among the active nodes
+      unsigned int  face;
+      unsigned char walls; ///< components held by walls, as bits
+      double        area;  ///< m^(dim-1)
+      CoulombLimit  limit; ///< at the start of the step
+      State         state        = State::sticks;
+      double        slip         = 0; ///< in the step, m
+      double        normal_force = 0; ///< limits friction, N
+      /// On the soil without slip in the step, N.
+      dealii::Tensor<1, dim> friction;
       dealii::Tensor<1, dim> reaction; ///< on the soil, held components, N
+
+      dealii::Tensor<1, dim>
+      friction_after_slip() const;
+      double
+      softening() const;
     };
 
     std::vector<double>
     rows() const;
     void
-    take(const std::vector<double> &rows, const Seabed<dim> &seabed);
+    take(const std::vector<double> &rows);
     void
-    limit_friction(Contact &contact, const Seabed<dim> &seabed) const;
+    limit_friction(Contact &contact) const;
 
     bool
     update_active_set(Contact                      &contact,
-                      const Seabed<dim>            &seabed,
                       const dealii::Tensor<1, dim> &reaction,
                       const dealii::Tensor<1, dim> &u,
                       double                        weight) const;

@@ -203,7 +203,7 @@ namespace talus
     bool                    is_well_balanced_ = false;
 
     StiffnessMatrix<dim>            matrix_;
-    DirectSolver                    direct_solver_;
+    LuFactorization                 factorization_;
     RigidModes                      modes_;
     std::vector<dealii::Point<dim>> places_;
 

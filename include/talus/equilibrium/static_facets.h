@@ -67,14 +67,6 @@ namespace talus
       return is_symmetric_;
     }
 
-    /// Return whether the last contribution to a matrix was symmetric: no
-    /// friction that grows with the normal force.
-    bool
-    is_matrix_symmetric() const
-    {
-      return is_matrix_symmetric_;
-    }
-
     /// Make the forces computed with the displacements @p u, m, the given
     /// forces of the next loop. Returns whether the loops may end: the forces
     /// hardly change, so the soil neither enters obstacles nor moves where it
@@ -138,8 +130,9 @@ namespace talus
       Force                  given, found;
       bool                   is_closed = false, slips = false;
       dealii::Tensor<1, dim> direction; ///< direction of friction when slipping
-      double                 cut = 0;   ///< friction over spring force [-]
-      bool sticks_first          = false; ///< next tangent as if it stuck
+      double                 cut  = 0;  ///< friction over spring force [-]
+      double                 slip = 0; ///< in the step where the point slips, m
+      bool sticks_first           = false; ///< next tangent as if it stuck
     };
 
     /// State of a contact point that is carried from load step to load step.
@@ -167,10 +160,9 @@ namespace talus
     find_force(ContactPoint &point, const std::vector<double> &u) const;
     dealii::Tensor<2, dim>
                  tangent(const ContactPoint &point) const;
-    bool         is_symmetric_        = true;
-    bool         is_matrix_symmetric_ = true;
-    unsigned int n_loops_             = 0; ///< in this load step
-    unsigned int n_facets_            = 0;
+    bool         is_symmetric_ = true;
+    unsigned int n_loops_      = 0; ///< in this load step
+    unsigned int n_facets_     = 0;
     /// Contact points of the facets of this rank, followed by the contact
     /// points of nodes inside obstacles that touch no facet.
     std::vector<ContactPoint> points_;

@@ -60,6 +60,7 @@ namespace talus
       // The last files must show the final state.
       if (last_sample_ != state.step)
         sample(state);
+      prepare_files(state);
       if (is_first_rank(state.communicator()))
         write_files(state);
     }
@@ -84,6 +85,12 @@ namespace talus
     envelope() const
     {
       return *envelope_;
+    }
+
+    const PlanColumns<dim> &
+    columns() const
+    {
+      return sums_->columns();
     }
 
     const Problem<dim> &
@@ -116,6 +123,11 @@ namespace talus
     {
       return {};
     }
+
+    /// Collect further data for the files. Collective.
+    virtual void
+    prepare_files(const State<dim> & /*state*/)
+    {}
 
     /// Write the envelope to files. Called on the first rank only.
     virtual void

@@ -2,8 +2,13 @@
 #ifndef talus_maps_maps_h
 #define talus_maps_maps_h
 
+#include <talus/maps/bed_columns.h>
 #include <talus/maps/envelope_observer.h>
 #include <talus/maps/map_axes.h>
+
+#include <functional>
+#include <string>
+#include <vector>
 
 namespace talus
 {
@@ -48,7 +53,21 @@ namespace talus
       return std::make_shared<LatticeColumns<dim>>(axes(state));
     }
     void
+    prepare_files(const State<dim> &state) override
+    {
+      bed_.sum(state, this->problem(), this->columns());
+    }
+    void
     write_files(const State<dim> &state) override;
+
+    /// Quantity of a map by column, written to each kind of file.
+    struct MapField
+    {
+      std::string                                name, unit;
+      std::function<double(unsigned int column)> value;
+    };
+    std::vector<MapField>
+    fields() const;
 
     MapAxes<dim>
     axes(const State<dim> &state) const;
@@ -67,7 +86,8 @@ namespace talus
     void
     write_surface(const State<dim> &state);
 
-    MapAxes<dim> axes_;
+    BedColumns<dim> bed_;
+    MapAxes<dim>    axes_;
     /// Height of the ground at the corners of the columns, m, x fastest.
     std::vector<double> ground_;
   };

@@ -11,7 +11,8 @@ namespace talus
 {
   /// Weakens seabeds and surfaces of obstacles by the trigger: multiplies the
   /// maximum shear stresses by the trigger's factor at the end of the step, as
-  /// the trigger does with the strength of the points.
+  /// the trigger does with the strength of the points. In a region of the
+  /// trigger the factor is the share that softening by slip may go below.
   template <int dim>
   class SurfaceWeakening : public NodalInteraction<dim>
   {
@@ -29,8 +30,11 @@ namespace talus
     {
       const double factor =
         trigger_.seabed_factor(state.time + state.time_step);
-      boundaries_.scale_seabed_shear_stress(factor);
-      obstacles_.scale_maximum_shear_stress(factor);
+      const bool has_region = boundaries_.seabed().slip().has_region();
+      boundaries_.scale_seabed_shear_stress(has_region ? 1. : factor);
+      obstacles_.scale_maximum_shear_stress(has_region ? 1. : factor);
+      boundaries_.seabed().friction().scale_triggered_region(factor);
+      obstacles_.scale_triggered_region(factor);
     }
 
   private:

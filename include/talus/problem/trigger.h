@@ -3,6 +3,7 @@
 #define talus_problem_trigger_h
 
 #include <talus/base/expression.h>
+#include <talus/boundaries/bed_slip.h>
 #include <talus/materials/materials.h>
 
 #include <deal.II/base/mpi.h>
@@ -63,6 +64,16 @@ namespace talus
            double       before,
            double       now) const;
 
+    /// Return the region of seabeds and obstacles brought to seabed_factor();
+    /// empty if the factor multiplies all maximum shear stresses.
+    BedRegion<dim>
+    seabed_region(const Constants &constants) const;
+
+    /// Throw ExcUser if the trigger has a seabed region, but @p n_places, the
+    /// number of places of seabed and obstacles in the region, is 0.
+    void
+    check_seabed_region(unsigned int n_places) const;
+
     /// Fraction of the maximum shear stress of the seabed at time @p t, s [-].
     double
     seabed_factor(const double t) const
@@ -97,7 +108,8 @@ namespace talus
     double                   strength_fraction_ = 1.;
     double                   seabed_fraction_   = 1.;
     std::vector<std::string> names_of_bodies_;
-    std::string              region_ = "";
+    std::string              region_        = "";
+    std::string              seabed_region_ = "";
 
     std::vector<bool> weakens_body_; ///< by body
     unsigned int      weakened_ = dealii::numbers::invalid_unsigned_int;

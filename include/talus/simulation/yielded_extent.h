@@ -9,9 +9,26 @@
 
 namespace talus
 {
-  /// Return sentences on the bodies that soften, for a search without balance:
-  /// how much of each has yielded in plan, by cells of size h. Empty if no
-  /// softening body has yielded. Collective.
+  /// Extent in plan of a body and of its yielded soil, by columns of cells of
+  /// size h: m in 2-D, m^2 in 3-D. A column counts if it holds one such point.
+  struct YieldedExtent
+  {
+    double all      = 0.;
+    double yielded  = 0.; ///< with plastic flow
+    double residual = 0.; ///< with 95 % of the strength loss
+  };
+
+  /// Measure body number @p body. Collective.
+  template <int dim>
+  YieldedExtent
+  yielded_extent(const State<dim>   &state,
+                 const Problem<dim> &problem,
+                 unsigned int        body);
+
+  /// Return sentences on softening, for a search without balance: how much of
+  /// each softening body has yielded in plan, by cells of size h, and over how
+  /// much of softening surfaces soil has slipped. Empty if nothing has.
+  /// Collective.
   template <int dim>
   std::string
   note_on_softening(const State<dim> &state, const Problem<dim> &problem);

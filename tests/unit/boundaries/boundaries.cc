@@ -171,6 +171,44 @@ namespace
 
 
 
+  // A heavy node is dragged over the seabed: friction takes
+  //   r tau_p s + (1 - r) tau_p s_95/3 (1 - e^(-3 s/s_95))
+  // per area. Before, it sticks, which is no slip.
+  TEST(Seabed, WorkOfSofteningBySlip)
+  {
+    constexpr double tau = 3500., r = 0.4, s_95 = 0.1, m = 1e12, v = 2e-4;
+    const auto moves = [](const double speed) { return Point<2>(speed, -1.); };
+    OneNode<2> n(bottom,
+                 law(10., tau) + text("\nset Slip to remould = ",
+                                      s_95,
+                                      "\nset Remoulded shear stress ratio = ",
+                                      r),
+                 on_bottom,
+                 m,
+                 Point<2>(),
+                 moves(1e-12));
+    const BedSlip<2> &slip = n.boundaries.seabed().slip();
+    EXPECT_EQ(slip.slipped_area(), 0.);
+    double work = 0.;
+    for (const double end : {0.03, 0.1, 0.4})
+      {
+        while (slip.largest_slip() < end)
+          {
+            n.nodes.clear();
+            n.nodes.set_sums(n.node, m, 1e3, m * moves(v), Point<2>());
+            n.nodes.update_momentum(dt, 0.);
+            work += n.boundaries.apply(n.nodes, n.grid, 0., dt, 0.).friction;
+          }
+        const double s        = slip.largest_slip();
+        const double expected = r * tau * s + (1. - r) * tau * s_95 / 3. *
+                                                (1. - std::exp(-3. * s / s_95));
+        EXPECT_NEAR(work, expected, 1e-3 * expected) << s;
+        EXPECT_EQ(slip.slipped_area(), 1.);
+      }
+  }
+
+
+
   /// The face looks the other way; friction acts against both tangents.
   TEST(Seabed, UpperFaceIn3D)
   {

@@ -145,6 +145,51 @@ TEST(FacetContact, ImpulsesAreForcesOfThePreviousStep)
 
 
 
+// Soil is dragged over the bed: friction takes
+//   r tau_p s + (1 - r) tau_p s_95/3 (1 - e^(-3 s/s_95))
+// per area. Before, it sticks, which is no slip.
+TEST(FacetContact, WorkOfSofteningBySlip)
+{
+  constexpr double tau = 3500., r = 0.4, s_95 = 0.1;
+  const double     dt = 1e-5;
+
+  facet_contact_test::Step<2> soil(
+    text("set Friction coefficient = 10\nset Maximum shear stress = ",
+         tau,
+         "\nset Slip to remould = ",
+         s_95,
+         "\nset Remoulded shear stress ratio = ",
+         r),
+    Point<2>(1e-9, -1e-3),
+    dt);
+  const BedSlip<2> &slip  = soil.contact.slip();
+  const auto        s_max = [&]() {
+    return MPI::max(slip.largest_slip(), soil.grid.communicator());
+  };
+  const double area = 6.;
+  EXPECT_EQ(s_max(), 0.);
+  double before = soil.account("friction work");
+  for (const double end : {0.03, 0.1, 0.2})
+    {
+      while (s_max() < end)
+        {
+          soil.move(Point<2>(5., -1e-3));
+          soil.contact.correct_velocities(soil);
+          soil.nodes.share_with_ghosts(soil.grid);
+          soil.contact.record(soil);
+        }
+      const double s = s_max();
+      const double expected =
+        area * (r * tau * s +
+                (1. - r) * tau * s_95 / 3. * (1. - std::exp(-3. * s / s_95)));
+      const double work = soil.account("friction work") - before;
+      EXPECT_NEAR(work, expected, 1e-3 * expected) << s;
+      EXPECT_EQ(MPI::sum(slip.slipped_area(), soil.grid.communicator()), area);
+    }
+}
+
+
+
 // Impulses survive a checkpoint by name of the facet, on any rank.
 TEST(FacetContact, ImpulsesSurviveACheckpoint)
 {

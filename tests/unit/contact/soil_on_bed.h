@@ -104,7 +104,11 @@ namespace
 
     Facets<dim>           facets;
     ContactNodes<dim>     contact_nodes{facets};
-    FacetConstraints<dim> constraints{obstacles, facets, contact_nodes};
+    BedSlip<dim>          no_slip;
+    FacetConstraints<dim> constraints{obstacles,
+                                      facets,
+                                      contact_nodes,
+                                      no_slip};
   };
 
 

@@ -79,14 +79,14 @@ namespace
     LinearSolution
     solve(const SystemMatrix &a, Vector &x)
     {
-      return solver.solve({a, factorization, modes, dim, true, true}, x, rhs);
+      return solver.solve({a, factorization, modes, dim, true}, x, rhs);
     }
 
     // Before the parameters are parsed, which the base class does.
     LinearSolver                  solver;
     std::optional<StepParts<dim>> parts;
     StiffnessMatrix<dim>          matrix;
-    DirectSolver                  factorization;
+    LuFactorization               factorization;
     Vector                        rhs;
     RigidModes                    modes;
   };

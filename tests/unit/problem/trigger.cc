@@ -182,6 +182,10 @@ TEST(TriggerInTime, ContradictionsAreRefused)
          false);
   expect("set Seabed shear stress fraction = 0.5\nset Region = x",
          "'Trigger/Strength fraction' is 1: no soil becomes weaker");
+  expect("set Strength fraction = 0.5\nset Seabed region = x",
+         "'Trigger/Seabed region' is given, but 'Trigger/Seabed shear stress "
+         "fraction' is 1");
+  expect("set Seabed region = x", "nothing would become weaker");
   expect("set Strength fraction = 0.5\nset Bodies = sand",
          "lists 'sand', but Bodies/Names lists only: clay, mud, rock");
   expect("set Strength fraction = 0.5\nset Bodies = clay, rock",
@@ -198,4 +202,27 @@ TEST(TriggerInTime, RegionWithoutPointsIsRefused)
   EXPECT_TRUE(contains(
     message_of<ExcUser>([&]() { soil.add_points(); }),
     "'Trigger/Region' = 'x - 2' is positive at no point of the bodies"));
+}
+
+
+
+TEST(TriggerInTime, SeabedRegion)
+{
+  using namespace trigger_test;
+  const std::string half = "set Seabed shear stress fraction = 0.5\n";
+  {
+    Triggered soil(half);
+    EXPECT_FALSE(soil.trigger.seabed_region(Constants()));
+    soil.trigger.check_seabed_region(0);
+  }
+  Triggered soil(half + "set Seabed region = 20 - abs(x)");
+  soil.check();
+  const BedRegion<2> region = soil.trigger.seabed_region(Constants());
+  for (const double x : {-30., -20., -19., 0., 19., 21.})
+    EXPECT_EQ(region(Point<2>(x, 7.)), std::abs(x) < 20.) << x;
+  soil.trigger.check_seabed_region(1);
+  EXPECT_TRUE(contains(message_of<ExcUser>(
+                         [&]() { soil.trigger.check_seabed_region(0); }),
+                       "is positive at no node of a seabed"));
+  EXPECT_TRUE(contains(soil.trigger.note(), "in the region of the section"));
 }
