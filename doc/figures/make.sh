@@ -41,6 +41,7 @@ for stress in 0 1e3; do
       --set "Obstacles/pipe/Maximum shear stress=$stress" \
       --set "Output/Boxes as cells=true" --set "Output/Field interval=10"
 done
+run slab-failure prm/slab-failure.prm
 run slope prm/slope.prm
 run slope-3d prm/slope-3d.prm
 run first-slope prm/first-slope.prm --set "Output/Boxes as cells=true" \
@@ -68,6 +69,7 @@ draw bar $here/bar.png $scratch/bar $scratch/bar-unsplit
 draw landslide $scratch/landslide $here/landslide.png
 draw landslide $scratch/first-slope $here/first-slope.png
 draw pipeline $here/pipeline.png $scratch/pipeline
+draw slab_failure $here/slab-failure.png $scratch/slab-failure
 draw slope $here/slope.png $scratch/slope-3d $scratch/slope
 draw pipe_flow $here/pipe-flow.png \
           $scratch/pipe-0=smooth $scratch/pipe-1e3=rough

@@ -40,7 +40,9 @@ PAGES = [
          ["InfiniteSlope", "TaylorSlope", "PaperSlopeSafety", "ClaySlope",
           "ClaySlopeFine", "SlopeStability", "StripFooting",
           "StripFootingFine", "VerticalCutSafety", "VerticalCutSafetyFine"]),
-        ("Shear bands", ["ShearBand", "ShearBandFine", "SofteningSeabed"]),
+        ("Shear bands", ["ShearBand", "ShearBandFine", "ShearBandRuns",
+                         "SlabFailure", "SofteningSeabed"]),
+        ("Retrogression in sensitive clay", ["Retrogression"]),
         ("Initial stress, trigger and ground motion",
          ["Geostatic", "Trigger", "GroundMotion", "LandslideFromEquilibrium",
           "LandslideFromEquilibriumFine"]),
@@ -92,7 +94,8 @@ RULES = [
     ("reference", "Trigger|Outflow", ""),
     ("balance", "", r"momentum"),
     ("agreement", "LandslideInclined|LandslideSimilarity|LandslideOfLayers|"
-     "LandslideMerged|Landslide3d|QuietPoints|PaperSlopeSafety", ""),
+     "LandslideMerged|Landslide3d|QuietPoints|PaperSlopeSafety|SlabFailure|"
+     "Retrogression", ""),
     ("agreement", "", r"the same pipe|to the right|no splits|against T/6|"
      r"well-balanced load|after equilibrium with|difference to \d+ s"),
 ]

@@ -30,8 +30,8 @@ namespace talus
       "Interval",
       interval_,
       "Number of steps between two searches for cells that the soil has "
-      "left, to coarsen the mesh [-]; 0: coarsen only when the mesh "
-      "changes for another reason.",
+      "left, to coarsen the mesh if a tenth of the small cells is not "
+      "needed [-]; 0: coarsen only when the mesh changes for another reason.",
       this->prm,
       Patterns::Integer(0));
   }
@@ -72,25 +72,74 @@ namespace talus
 
 
 
-    /// Refine the mesh to cells of size h in the blocks @p wanted by any rank.
-    /// Returns whether the mesh changed.
+    /// Add the blocks wanted by all other ranks to @p wanted. All ranks receive
+    /// all blocks, as a block may lie in a cell of any rank; messages are short
+    /// and rare. Collective.
+    template <int dim>
+    void
+    add_wanted_by_other_ranks(const Grid<dim>                   &grid,
+                              std::unordered_set<unsigned long> &wanted)
+    {
+      const std::vector<unsigned long> own(wanted.begin(), wanted.end());
+      for (const auto &blocks :
+           Utilities::MPI::all_gather(grid.communicator(), own))
+        wanted.insert(blocks.begin(), blocks.end());
+    }
+
+
+
+    /// Return the key of the block that contains the cell of size h or smaller
+    /// at @p place on @p level.
+    template <int dim>
+    unsigned long
+    block_of_cell(const Grid<dim>            &grid,
+                  typename Grid<dim>::Lattice place,
+                  const unsigned int          level)
+    {
+      for (auto &p : place)
+        p >>= (level - block_level(grid));
+      return key_of_place<dim>(place, block_level(grid));
+    }
+
+
+
+    /// Return the number of cells of size h on all ranks outside of the blocks
+    /// @p wanted, divided by the number of all cells of size h. Collective.
+    template <int dim>
+    double
+    share_not_wanted(const Grid<dim>                         &grid,
+                     const std::unordered_set<unsigned long> &wanted)
+    {
+      double n_cells = 0, n_not_wanted = 0;
+      for (unsigned int c = 0; c < grid.n_owned_cells(); ++c)
+        if (grid.level_of_cell(c) == grid.base_level())
+          {
+            ++n_cells;
+            n_not_wanted +=
+              1. -
+              wanted.count(
+                block_of_cell(grid, grid.place_of_cell(c), grid.base_level()));
+          }
+      n_cells      = Utilities::MPI::sum(n_cells, grid.communicator());
+      n_not_wanted = Utilities::MPI::sum(n_not_wanted, grid.communicator());
+      return n_cells > 0 ? n_not_wanted / n_cells : 0.;
+    }
+
+
+
+    /// Refine the mesh to cells of size h in the blocks @p wanted, the same on
+    /// all ranks. Returns whether the mesh changed.
     ///
-    /// All ranks receive all blocks, as a block may lie in a cell of any rank;
-    /// messages are short and rare. A cell must be refined if it contains a
-    /// block, so all ancestors of the blocks are added to the set, level by
-    /// level: one look-up then answers for a cell of any size.
+    /// A cell must be refined if it contains a block, so all ancestors of the
+    /// blocks are added to the set, level by level: one look-up then answers
+    /// for a cell of any size.
     template <int dim>
     bool
     refine(Grid<dim>                        &grid,
            std::unordered_set<unsigned long> wanted,
            const bool                        spread)
     {
-      // Exchange the blocks between the ranks, then add their ancestors.
-      const unsigned int               at_level = block_level(grid);
-      const std::vector<unsigned long> own(wanted.begin(), wanted.end());
-      for (const auto &blocks :
-           Utilities::MPI::all_gather(grid.communicator(), own))
-        wanted.insert(blocks.begin(), blocks.end());
+      const unsigned int         at_level = block_level(grid);
       std::vector<unsigned long> blocks(wanted.begin(), wanted.end());
       for (unsigned int level = at_level; level > 0; --level)
         {
@@ -105,15 +154,9 @@ namespace talus
         [&](typename Grid<dim>::Lattice place, unsigned int level) {
           if (level >= grid.base_level())
             return false;
-          // For a cell smaller than a block, look up the block that contains
-          // it.
-          if (level > at_level)
-            {
-              for (auto &p : place)
-                p >>= (level - at_level);
-              level = at_level;
-            }
-          return wanted.count(key_of_place<dim>(place, level)) > 0;
+          return wanted.count(level > at_level
+                                ? block_of_cell(grid, place, level)
+                                : key_of_place<dim>(place, level)) > 0;
         },
         spread);
     }
@@ -166,19 +209,23 @@ namespace talus
            grid.lattice_place(box.lower, grid.base_level()),
            grid.lattice_place(box.upper, grid.base_level()),
            wanted);
+    add_wanted_by_other_ranks(grid, wanted);
     refine(grid, wanted, /*spread=*/true);
   }
 
 
 
-  // The mesh depends only on the current place of the soil: cells left by the
-  // soil become larger at once, and two runs with the same soil have the same
-  // mesh. Points keep their rank; LoadBalance distributes them afterwards.
+  // A change of the mesh takes as long as tens of steps, and empty cells cost
+  // nothing in a step: only to coarsen, the mesh changes seldom. The new mesh
+  // depends only on the current place of the soil. Points keep their rank;
+  // LoadBalance distributes them afterwards.
   template <int dim>
   bool
   MeshTracking<dim>::adapt(Grid<dim>                       &grid,
-                           const std::vector<unsigned int> &occupied_cells)
+                           const std::vector<unsigned int> &occupied_cells,
+                           const bool                       is_urgent)
   {
+    constexpr double min_share_not_wanted = 0.1;
     // Many cells share a block: request each block once.
     const unsigned int at_level = block_level(grid);
     const unsigned int shift    = grid.base_level() - at_level;
@@ -199,7 +246,10 @@ namespace talus
         if (occupied.insert(key_of_place<dim>(block, at_level)).second)
           want(grid, first, last, wanted);
       }
-    return refine(grid, wanted, /*spread=*/false);
+    add_wanted_by_other_ranks(grid, wanted);
+    return (is_urgent ||
+            share_not_wanted(grid, wanted) > min_share_not_wanted) &&
+           refine(grid, wanted, /*spread=*/false);
   }
 
 

@@ -55,6 +55,7 @@ namespace talus
         std::fill_n(totals_.begin() + std::size_t(dim) * node, dim, 0.);
       }
     active_.clear();
+    masses_.clear();
     for (const unsigned int node : facets_.owned_nodes())
       {
         const double mass = nodes.mass(node);
@@ -62,6 +63,7 @@ namespace talus
         if (mass <= state.constants.mass_cutoff || room <= 0)
           continue;
         active_.push_back(node);
+        masses_.push_back(mass);
         double *const record = records_.data() + std::size_t(width) * node;
         record[filling]      = std::min(1., nodes.volume(node) / room);
         record[splitting]    = facets_.n_facets(node) / mass;
@@ -75,17 +77,18 @@ namespace talus
 
   template <int dim>
   void
-  ContactNodes<dim>::update_velocities(const State<dim> &state)
+  ContactNodes<dim>::update_velocities()
   {
     exchange_of_impulses_.add_to_owners(impulses_.data());
-    for (const unsigned int node : active_)
+    for (std::size_t i = 0; i < active_.size(); ++i)
       {
-        double *const impulse = impulses_.data() + std::size_t(dim) * node;
-        double *const record  = records_.data() + std::size_t(width) * node;
+        const unsigned int node    = active_[i];
+        double *const      impulse = impulses_.data() + std::size_t(dim) * node;
+        double *const      record = records_.data() + std::size_t(width) * node;
         for (unsigned int d = 0; d < dim; ++d)
           {
             if (!is_held(node, d))
-              record[moving + d] += impulse[d] / state.nodes.mass(node);
+              record[moving + d] += impulse[d] / masses_[i];
             totals_[std::size_t(dim) * node + d] += impulse[d];
             impulse[d] = 0;
           }

@@ -42,6 +42,13 @@ namespace talus
         return facet ? std::optional<Plane>(
                          {facet->obstacle, facet->centroid, facet->normal})
                      : std::nullopt;
+      },
+      [this, &grid](const unsigned int cell) {
+        const ContactFacet<dim> *const facet = facets_.only_surface(cell);
+        return facet ? std::make_pair(tables_.table(grid.cells()[cell], *facet),
+                                      facet->obstacle)
+                     : std::make_pair<const SurfaceTable<dim> *, unsigned int>(
+                         nullptr, 0);
       });
   }
 
@@ -55,6 +62,7 @@ namespace talus
     if (obstacles_.move())
       if (auto slots_now = slots(state.grid); slots_now != gaps_.slots())
         prepare_gaps(state.grid, std::move(slots_now));
+    tables_.limit(state.points.size());
     gaps_.find(state,
                facets_.nodes_and_obstacles(),
                facets_.nearness_of_cells());
@@ -119,21 +127,20 @@ namespace talus
       constraints_[c] = {};
     loaded_.clear();
     constraints_.resize(facets_.owned().size());
-    coverage_.find(state, [this](const ContactFacet<dim> &facet) {
-      return volume_fraction(facet);
-    });
+    find_volume_fractions(facets_.owned(), fractions_);
+    find_volume_fractions(facets_.ghosts(), fractions_of_ghosts_);
+    coverage_.find(state, fractions_, fractions_of_ghosts_);
     for (unsigned int c = 0; c < constraints_.size(); ++c)
       {
         const ContactFacet<dim> &facet      = facets_.owned()[c];
         FacetConstraint<dim>    &constraint = constraints_[c];
-        if (!find_shares(facet, constraint))
+        if (fractions_[c] == 0 || !find_shares(facet, constraint))
           continue;
         loaded_.push_back(c);
-        const Cell<dim> &cell = state.grid.cells()[facet.cell];
-        require_uniform(cell, facet);
-        find_masses(facet, cell.size, constraint);
+        require_uniform(facet);
+        find_masses(facet, constraint);
         constraint.area =
-          facet.area * share_in_contact(coverage_[c], volume_fraction(facet));
+          facet.area * share_in_contact(coverage_[c], fractions_[c]);
         if (has_memory)
           constraint.averaging_weight =
             averaging_weight(state, facet, constraint);
@@ -143,13 +150,20 @@ namespace talus
 
 
   template <int dim>
-  double
-  FacetConstraints<dim>::volume_fraction(const ContactFacet<dim> &facet) const
+  void
+  FacetConstraints<dim>::find_volume_fractions(
+    const std::vector<ContactFacet<dim>> &facets,
+    std::vector<double>                  &fractions) const
   {
-    double result = 0;
-    for (unsigned int v = 0; v < facet.node.size(); ++v)
-      result += facet.shape_value[v] * nodes_.fill(facet.node[v]);
-    return result;
+    fractions.assign(facets.size(), 0.);
+    for (unsigned int f = 0; f < facets.size(); ++f)
+      {
+        const ContactFacet<dim> &facet = facets[f];
+        double                   sum   = 0;
+        for (unsigned int v = 0; v < facet.node.size(); ++v)
+          sum += facet.shape_value[v] * nodes_.fill(facet.node[v]);
+        fractions[f] = sum;
+      }
   }
 
 
@@ -182,10 +196,9 @@ namespace talus
 
   template <int dim>
   void
-  FacetConstraints<dim>::require_uniform(const Cell<dim>         &cell,
-                                         const ContactFacet<dim> &facet) const
+  FacetConstraints<dim>::require_uniform(const ContactFacet<dim> &facet) const
   {
-    AssertThrow(cell.uniform,
+    AssertThrow(facet.cell_is_uniform,
                 ExcPoint(text("Soil has come to the surface of the obstacle '",
                               obstacles_[facet.obstacle].name(),
                               "' at (",
@@ -204,7 +217,6 @@ namespace talus
   template <int dim>
   void
   FacetConstraints<dim>::find_masses(const ContactFacet<dim> &facet,
-                                     const double             cell_size,
                                      FacetConstraint<dim>    &constraint) const
   {
     double inverse_mass = 0, inverse_normal_mass = 0;
@@ -223,7 +235,8 @@ namespace talus
         inverse_mass += inverse;
         inverse_normal_mass += free * inverse;
         constraint.gap =
-          std::min(constraint.gap, gaps_.room(node, facet.obstacle, cell_size));
+          std::min(constraint.gap,
+                   gaps_.room(node, facet.obstacle, facet.cell_size));
       }
     constraint.mass = 1. / inverse_mass;
     constraint.normal_mass =
@@ -247,8 +260,7 @@ namespace talus
       velocity(facet, constraint) -
       obstacles_[facet.obstacle].velocity(state.time + 0.5 * dt);
     const double slip = (u - (u * facet.normal) * facet.normal).norm() * dt;
-    return InterfaceFriction::averaging_weight(
-      slip, state.grid.cells()[facet.cell].size);
+    return InterfaceFriction::averaging_weight(slip, facet.cell_size);
   }
 
 

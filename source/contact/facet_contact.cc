@@ -267,7 +267,7 @@ namespace talus
                     impulse.normal * facets_.owned()[c].normal +
                       impulse.tangential);
       }
-    nodes_.update_velocities(state);
+    nodes_.update_velocities();
   }
 
 
@@ -310,7 +310,7 @@ namespace talus
         impulse.normal     = normal;
         impulse.tangential = tangential;
       }
-    nodes_.update_velocities(state);
+    nodes_.update_velocities();
   }
 
 

@@ -36,16 +36,18 @@ namespace talus
 
 
 
-    /// Return the set of places in each column of a lattice of n^(dim-1)
-    /// places, by axis of the lattice.
+    /// Return the set of places for each set of columns of a lattice of
+    /// n^(dim-1) places, by axis of the lattice: bit j is column j.
     template <int dim, unsigned int n>
-    constexpr std::array<std::array<unsigned int, n>, dim - 1>
+    constexpr std::array<std::array<unsigned int, power(2, n)>, dim - 1>
     places_of_columns()
     {
-      std::array<std::array<unsigned int, n>, dim - 1> places{};
+      std::array<std::array<unsigned int, power(2, n)>, dim - 1> places{};
       for (unsigned int k = 0; k < dim - 1; ++k)
-        for (unsigned int i = 0; i < power(n, dim - 1); ++i)
-          places[k][i / power(n, k) % n] |= 1u << i;
+        for (unsigned int columns = 0; columns < power(2, n); ++columns)
+          for (unsigned int i = 0; i < power(n, dim - 1); ++i)
+            places[k][columns] |= ((columns >> (i / power(n, k) % n)) & 1u)
+                                  << i;
       return places;
     }
 
@@ -66,8 +68,9 @@ namespace talus
   // samples covered in ghost cells to the owners.
   template <int dim>
   void
-  FacetCoverage<dim>::find(const State<dim>     &state,
-                           const VolumeFraction &volume_fraction)
+  FacetCoverage<dim>::find(const State<dim>          &state,
+                           const std::vector<double> &fractions,
+                           const std::vector<double> &fractions_of_ghosts)
   {
     const auto &owned = facets_.owned();
     index_segments(state);
@@ -78,7 +81,7 @@ namespace talus
     n_samples_.assign(owned.size(), 0);
     shares_.assign(owned.size(), 1.);
     for (unsigned int f = 0; f < owned.size(); ++f)
-      if (is_thin(volume_fraction(owned[f])))
+      if (is_thin(fractions[f]))
         {
           Samples &samples = samples_[f];
           if (samples.places == 0)
@@ -88,7 +91,7 @@ namespace talus
         }
     if (!state.grid.neighbor_ranks().empty())
       {
-        pack_ghosts(state, volume_fraction);
+        pack_ghosts(state, fractions_of_ghosts);
         messages_.exchange(state.grid.neighbor_ranks(),
                            outgoing_,
                            [&](const NeighborExchange::Message &message) {
@@ -186,6 +189,14 @@ namespace talus
         for (unsigned int k = 0; k < dim - 1; ++k)
           samples.column[k][0] = facet.centroid[across(axis, k)];
       }
+    samples.lowest = samples.highest =
+      samples.height[__builtin_ctz(samples.places)];
+    for (unsigned int i = 0; i < n_places; ++i)
+      if (samples.places & (Mask(1) << i))
+        {
+          samples.lowest  = std::min(samples.lowest, samples.height[i]);
+          samples.highest = std::max(samples.highest, samples.height[i]);
+        }
     return samples;
   }
 
@@ -200,10 +211,13 @@ namespace talus
                                       const ContactFacet<dim> &facet,
                                       const Samples           &samples) const
   {
-    const Grid<dim> &grid  = state.grid;
-    const Cell<dim> &cell  = grid.cells()[facet.cell];
-    const auto      &cells = facets_.touching_cells(facet.cell);
-    Reached          reached;
+    const Grid<dim> &grid        = state.grid;
+    const Cell<dim> &cell        = grid.cells()[facet.cell];
+    const auto      &cells       = facets_.touching_cells(facet.cell);
+    bool             is_periodic = false;
+    for (unsigned int d = 0; d < dim; ++d)
+      is_periodic = is_periodic || grid.periodicity().along(d);
+    Reached reached;
     for (unsigned int i = 0;
          i <= cells.size() && reached.covered() != samples.places;
          ++i)
@@ -214,7 +228,7 @@ namespace talus
           continue;
         // Across a periodic face the neighbour lies at the opposite end.
         Tensor<1, dim> shift;
-        for (unsigned int d = 0; d < dim; ++d)
+        for (unsigned int d = 0; d < dim && is_periodic; ++d)
           if (grid.periodicity().along(d))
             {
               const double length = grid.domain().length(d);
@@ -249,7 +263,9 @@ namespace talus
     const double       h        = state.grid.cells()[facet.cell].size;
     const double       n_axis   = facet.normal[axis];
     const double       outwards = (n_axis > 0 ? 1. : -1.);
-    const double       largest_gap =
+    const double nearest  = (n_axis > 0 ? samples.highest : samples.lowest);
+    const double farthest = (n_axis > 0 ? samples.lowest : samples.highest);
+    const double largest_gap =
       largest_gap_of_covering_box * h / std::abs(n_axis);
     for (unsigned int s = first_segment_[c];
          s < segments.size() && segments[s].cell == c;
@@ -259,11 +275,23 @@ namespace talus
           const Point<dim> x = load_place(points, points.position, p) + shift;
           const Tensor<1, dim> half =
             half_lengths_of_box(points, state.constants.box_shape, p);
+          // Most boxes lie above, below or beside all sample points.
+          const double min_height = outwards * (x[axis] - nearest);
+          const double max_height = outwards * (x[axis] - farthest);
+          if (min_height - half[axis] >= largest_gap ||
+              max_height + half[axis] <= 0)
+            continue;
           const Reached in_plan = reached_in_plan(samples, x, half, 0.25 * h);
           Mask          candidates = 0, at_surface = 0;
           for (const Mask mask : in_plan.from)
             candidates |= mask;
           candidates &= samples.places & ~reached.covered();
+          if (max_height - half[axis] < largest_gap &&
+              min_height + half[axis] > 0)
+            {
+              at_surface = candidates; // all of them
+              candidates = 0;
+            }
           for (; candidates != 0; candidates &= candidates - 1)
             {
               const unsigned int i = __builtin_ctz(candidates);
@@ -295,17 +323,22 @@ namespace talus
     std::array<Mask, dim - 1> under{}; // by axis across
     for (unsigned int k = 0; k < dim - 1; ++k)
       {
-        const unsigned int d = across(samples.axis, k);
+        // Sets of columns, without branches that could not be predicted.
+        const unsigned int d      = across(samples.axis, k);
+        const double       h      = half[d];
+        unsigned int       within = 0, from_below = 0, from_above = 0;
         for (unsigned int j = 0; j < n_columns; ++j)
           {
-            const double from = x[d] - samples.column[k][j];
-            if (std::abs(from) <= half[d])
-              under[k] |= places[k][j];
-            if (from <= half[d] && -from <= half[d] + beyond)
-              reached.from[2 * k] |= places[k][j];
-            if (-from <= half[d] && from <= half[d] + beyond)
-              reached.from[2 * k + 1] |= places[k][j];
+            const double       from     = x[d] - samples.column[k][j];
+            const unsigned int is_below = from <= h;
+            const unsigned int is_above = -from <= h;
+            within |= (is_below & is_above) << j;
+            from_below |= (is_below & (-from <= h + beyond)) << j;
+            from_above |= (is_above & (from <= h + beyond)) << j;
           }
+        under[k]                = places[k][within];
+        reached.from[2 * k]     = places[k][from_below];
+        reached.from[2 * k + 1] = places[k][from_above];
       }
     if (dim == 3)
       for (unsigned int k = 0; k < dim - 1; ++k)
@@ -337,8 +370,8 @@ namespace talus
   /// cell, number_in_cell(), masks.
   template <int dim>
   void
-  FacetCoverage<dim>::pack_ghosts(const State<dim>     &state,
-                                  const VolumeFraction &volume_fraction)
+  FacetCoverage<dim>::pack_ghosts(const State<dim>          &state,
+                                  const std::vector<double> &fractions)
   {
     const Grid<dim> &grid   = state.grid;
     const auto      &ranks  = grid.neighbor_ranks();
@@ -348,7 +381,7 @@ namespace talus
       message.clear();
     for (unsigned int f = 0; f < ghosts.size(); ++f)
       {
-        if (!is_thin(volume_fraction(ghosts[f])))
+        if (!is_thin(fractions[f]))
           continue;
         const Reached reached =
           reached_samples(state, ghosts[f], samples_of(grid, ghosts[f]));

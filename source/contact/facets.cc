@@ -116,8 +116,9 @@ namespace talus
 
 
 
-    /// Return the cells up to two rings around cell @p c, including @p c,
-    /// ascending. @p touching: cells_touching() of the cell.
+    /// Return the cells up to two rings around cell @p c, including @p c, in
+    /// any order; none if they are the neighbours of the cells @p touching
+    /// cell @p c.
     template <int dim>
     std::vector<unsigned int>
     cells_near(const Grid<dim>                 &grid,
@@ -125,18 +126,10 @@ namespace talus
                const std::vector<unsigned int> &touching)
     {
       std::vector<unsigned int> cells;
-      if (std::all_of(touching.begin(), touching.end(), [&](unsigned int t) {
-            return t < grid.n_owned_cells() && grid.cells()[t].uniform;
+      if (std::any_of(touching.begin(), touching.end(), [&](unsigned int t) {
+            return t >= grid.n_owned_cells() || !grid.cells()[t].uniform;
           }))
-        for (const unsigned int t : touching)
-          for (const unsigned int n : grid.cells()[t].neighbors)
-            {
-              if (n != numbers::invalid_unsigned_int)
-                cells.push_back(n);
-            }
-      else
         search_around(grid, c, 2, cells);
-      sort_unique(cells);
       return cells;
     }
   } // namespace
@@ -409,6 +402,7 @@ namespace talus
     const Cell<dim> &cell    = grid.cells()[c];
     const Section   &section = sections_.at(grid.key_of_cell(c));
     section_at_[c]           = &section;
+    in_cell_[c].is_contained = !section.containing.empty();
     if (section.distance <= 0 &&
         section.distance > -2. * std::sqrt(double(dim)) * cell.size)
       cells_inside_.insert(c);
@@ -427,9 +421,13 @@ namespace talus
     for (auto *facets : {&result.facets, &result.hidden})
       for (ContactFacet<dim> &facet : *facets)
         {
-          facet.cell = c;
-          facet.node = cell.nodes();
+          facet.cell            = c;
+          facet.node            = cell.nodes();
+          facet.cell_size       = cell.size;
+          facet.cell_is_uniform = cell.uniform;
         }
+    for (ContactFacet<dim> &facet : result.hidden)
+      facet.only_confines = true;
     result.open_volume = section.open_volume;
     result.touching    = cells_touching(grid, c);
     result.near        = cells_near(grid, c, result.touching);
@@ -446,6 +444,7 @@ namespace talus
     section_at_.assign(grid.cells().size(), nullptr);
     cells_inside_.clear();
     clear_sums();
+    in_cell_.assign(grid.cells().size(), {});
     n_facets_.assign(grid.n_nodes(), 0);
     open_volume_.assign(grid.n_nodes(), 0.);
     is_contact_node_.assign(grid.n_nodes(), 0);
@@ -520,6 +519,9 @@ namespace talus
     for (const NodeAndSurface &pair : nodes_and_obstacles_)
       is_contact_node_[pair.node] = 0;
     nodes_and_obstacles_.clear();
+    for (const ContactFacet<dim> &facet : surfaces_)
+      in_cell_[facet.cell].begin = in_cell_[facet.cell].end = 0;
+    surfaces_.clear();
     for (const unsigned int c : listed_near_)
       is_near_[c] = 0;
     nodes_.clear();
@@ -540,7 +542,7 @@ namespace talus
   void
   Facets<dim>::collect(const Grid<dim> &grid, const Obstacles<dim> &obstacles)
   {
-    std::set<unsigned int> touching;
+    std::vector<unsigned int> touching;
     for (const auto &[c, cut_cell] : cut_cells_)
       {
         for (const ContactFacet<dim> &facet : cut_cell.facets)
@@ -553,17 +555,13 @@ namespace talus
                   nodes_.push_back(node);
               }
           }
-        touching.insert(cut_cell.touching.begin(), cut_cell.touching.end());
-        for (const unsigned int near : cut_cell.near)
-          if (near < grid.n_owned_cells() && !is_near_[near])
-            {
-              is_near_[near] = 1;
-              listed_near_.push_back(near);
-            }
+        touching.insert(touching.end(),
+                        cut_cell.touching.begin(),
+                        cut_cell.touching.end());
       }
-    for (const auto &[c, cut_cell] : cut_cells_)
-      if (c < grid.n_owned_cells() && !cut_cell.facets.empty())
-        is_near_[c] = 2;
+    sort_unique(touching);
+    list_surfaces();
+    mark_near(grid);
     for (const unsigned int node : nodes_)
       {
         const bool is_on_face  = grid.faces_of_node(node) != 0;
@@ -586,6 +584,53 @@ namespace talus
     nodes_and_obstacles_.erase(std::unique(nodes_and_obstacles_.begin(),
                                            nodes_and_obstacles_.end()),
                                nodes_and_obstacles_.end());
+  }
+
+
+
+  template <int dim>
+  void
+  Facets<dim>::list_surfaces()
+  {
+    for (const auto &[c, cut_cell] : cut_cells_)
+      {
+        in_cell_[c].begin = surfaces_.size();
+        for (const auto *facets : {&cut_cell.facets, &cut_cell.hidden})
+          surfaces_.insert(surfaces_.end(), facets->begin(), facets->end());
+        in_cell_[c].end = surfaces_.size();
+      }
+  }
+
+
+
+  /// Fill nearness_of_cells(). Most cut cells share their touching cells, so
+  /// the neighbours of each touching cell are marked once.
+  template <int dim>
+  void
+  Facets<dim>::mark_near(const Grid<dim> &grid)
+  {
+    const auto mark = [&](const auto &cells) {
+      for (const unsigned int c : cells)
+        if (c < grid.n_owned_cells() && !is_near_[c])
+          {
+            is_near_[c] = 1;
+            listed_near_.push_back(c);
+          }
+    };
+    std::vector<unsigned int> touching;
+    for (const auto &[c, cut_cell] : cut_cells_)
+      if (cut_cell.near.empty())
+        touching.insert(touching.end(),
+                        cut_cell.touching.begin(),
+                        cut_cell.touching.end());
+      else
+        mark(cut_cell.near);
+    sort_unique(touching);
+    for (const unsigned int t : touching)
+      mark(grid.cells()[t].neighbors);
+    for (const auto &[c, cut_cell] : cut_cells_)
+      if (c < grid.n_owned_cells() && !cut_cell.facets.empty())
+        is_near_[c] = 2;
   }
 
 

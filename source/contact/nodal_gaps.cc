@@ -18,8 +18,10 @@ namespace talus
                           std::vector<Surface>      surfaces,
                           std::vector<unsigned int> slots,
                           Near                      near,
-                          PlaneOfCell               plane_of_cell)
+                          PlaneOfCell               plane_of_cell,
+                          TableOfCell               table_of_cell)
   {
+    table_of_cell_ = std::move(table_of_cell);
     plane_of_cell_ = std::move(plane_of_cell);
     surfaces_      = std::move(surfaces);
     slots_         = std::move(slots);
@@ -47,6 +49,7 @@ namespace talus
     // open: only the owner knows all surfaces near a node, and whole records
     // are exchanged.
     present_.clear();
+    n_open_ = 0;
     for (const NodeAndSurface &pair : pairs)
       if (pair.node >= n_owned || state.nodes.mass(pair.node) > 0)
         {
@@ -54,6 +57,7 @@ namespace talus
             {
               std::fill_n(gaps_.begin() + n * pair.node, n, -none);
               is_open_[pair.node] = 1;
+              ++n_open_;
               present_.push_back(pair.node);
             }
           gaps_[n * pair.node + slots_[pair.surface]] = none;
@@ -69,7 +73,11 @@ namespace talus
       else if (nearness[segment.cell] == 1)
         later_.push_back(segment);
     for (const Segment &segment : later_)
-      add_segment(state, segment);
+      {
+        if (n_open_ == 0)
+          break;
+        add_segment(state, segment);
+      }
     for (const unsigned int node : present_)
       is_open_[node] = 0;
     exchange_.minimum_to_owners(gaps_.data());
@@ -144,6 +152,11 @@ namespace talus
   void
   NodalGaps<dim>::look_around(const Cell<dim> &cell)
   {
+    if (surfaces_.size() == 1)
+      {
+        near_cell_.assign(1, 0u);
+        return;
+      }
     Point<dim> centre = cell.lower;
     for (unsigned int d = 0; d < dim; ++d)
       centre[d] += 0.5 * cell.size;
@@ -164,6 +177,27 @@ namespace talus
         double &gap = of_point_[slots_[k]];
         gap         = std::min(gap, surfaces_[k](x, half));
       }
+  }
+
+
+
+  /// Compute of_point_ for a box by the table of the only surface near the
+  /// cell, where the table reaches.
+  template <int dim>
+  void
+  NodalGaps<dim>::find_of_point(const SurfaceTable<dim> &table,
+                                const unsigned int       surface,
+                                const Point<dim>        &x,
+                                const Tensor<1, dim>    &half)
+  {
+    if (!table.reaches(x))
+      {
+        find_of_point(x, half);
+        return;
+      }
+    const auto [distance, normal] = table.distance_and_normal(x);
+    std::fill(of_point_.begin(), of_point_.end(), none);
+    of_point_[slots_[surface]] = distance - support_of_box(half, normal);
   }
 
 
@@ -202,6 +236,8 @@ namespace talus
         gap         = std::min(gap, of_point_[k]);
         is_open     = is_open || gap > closed_;
       }
+    if (is_open_[node] && !is_open)
+      --n_open_;
     is_open_[node] = is_open;
   }
 
@@ -254,6 +290,9 @@ namespace talus
     const auto plane = plane_of_cell_ && near_cell_.size() == 1
                          ? plane_of_cell_(segment.cell)
                          : std::nullopt;
+    std::pair<const SurfaceTable<dim> *, unsigned int> table(nullptr, 0);
+    if (table_of_cell_ && near_cell_.size() == 1 && !plane)
+      table = table_of_cell_(segment.cell);
     for (unsigned int p = segment.begin; p < segment.end && open; ++p)
       {
         const Tensor<1, dim> half = half_lengths(state, cell, p);
@@ -261,15 +300,18 @@ namespace talus
         PatchEntries     left = open & entries_in_reach(cell, x, half);
         if (left == 0)
           continue;
-        if (!plane || !is_in_contact(*plane, cell.size, x, cell.size * half))
+        if (table.first)
+          find_of_point(*table.first, table.second, x, cell.size * half);
+        else if (!plane ||
+                 !is_in_contact(*plane, cell.size, x, cell.size * half))
           find_of_point(x, cell.size * half);
-        for (unsigned int k = 0; left != 0; ++k, left >>= 1)
-          if (left & 1)
-            {
-              lower(cell.patch[k]);
-              if (!is_open_[cell.patch[k]])
-                open &= ~(PatchEntries(1) << k);
-            }
+        for (; left != 0; left &= left - 1)
+          {
+            const unsigned int k = __builtin_ctzll(left);
+            lower(cell.patch[k]);
+            if (!is_open_[cell.patch[k]])
+              open &= ~(PatchEntries(1) << k);
+          }
       }
   }
 

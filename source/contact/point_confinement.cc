@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/simd.h>
 #include <talus/contact/box_extent.h>
 #include <talus/contact/point_confinement.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 namespace talus
 {
@@ -40,25 +43,105 @@ namespace talus
     candidates_.clear();
     if (obstacles_.empty())
       return;
+    tables_.limit(state.points.size());
     const Points<dim> &points = state.points;
     for (const Segment &segment : points.segments(batch))
       note_contained(state, segment);
     for (const Segment &segment : points.segments(batch))
-      facets_.for_each_in_cell(
-        segment.cell, [&](const ContactFacet<dim> &facet) {
-          for (unsigned int p = segment.begin; p < segment.end; ++p)
+      facets_.for_each_in_cell(segment.cell,
+                               [&](const ContactFacet<dim> &facet) {
+                                 note_at_facet(state, segment, facet);
+                               });
+  }
+
+
+
+  namespace
+  {
+    /// Half lengths of the boxes of as many points as a register holds, from
+    /// @p p on, m, without the limit of half_lengths_in_cell().
+    template <int dim>
+    TALUS_ALWAYS_INLINE std::array<Simd<simd_width>, dim>
+                        load_half_lengths(const Points<dim> &points,
+                                          const BoxShape    &shape,
+                                          const unsigned int p,
+                                          const unsigned int n)
+    {
+      using Number = Simd<simd_width>;
+      std::array<Number, dim> half;
+      if (shape.rule != BoxRule::convected_domain)
+        {
+          for (unsigned int d = 0; d < dim; ++d)
             {
-              const Point<dim> x = load_place(points, points.position, p);
-              const double     later =
-                2. * state.time_step *
-                (load_vector(points, points.velocity, p) * facet.normal);
-              const Tensor<1, dim> half =
-                half_lengths_in_cell(state, segment.cell, p);
-              if (facet.distance_from_plane(x) + std::min(0., later) <
-                  facet.deviation + support_of_box(half, facet.normal))
-                candidates_.push_back({p, facet.obstacle, &facet, x, half});
+              half[d] =
+                0.5 * load<Number>(points.data(points.reference_length, d) + p);
+              if (shape.rule != BoxRule::fixed)
+                half[d] =
+                  half[d] * load<Number>(points.data(points.stretch, d) + p);
             }
-        });
+          return half;
+        }
+      double by_point[dim][simd_width] = {};
+      for (unsigned int i = 0; i < n; ++i)
+        {
+          const auto of_point = half_lengths_of_box(points, shape, p + i);
+          for (unsigned int d = 0; d < dim; ++d)
+            by_point[d][i] = of_point[d];
+        }
+      for (unsigned int d = 0; d < dim; ++d)
+        half[d] = load<Number>(by_point[d]);
+      return half;
+    }
+  } // namespace
+
+
+
+  /// Note the points of a cell which may reach @p facet within the step.
+  template <int dim>
+  void
+  PointConfinement<dim>::note_at_facet(const State<dim>        &state,
+                                       const Segment           &segment,
+                                       const ContactFacet<dim> &facet)
+  {
+    using Number                = Simd<simd_width>;
+    const Points<dim> &points   = state.points;
+    const Cell<dim>   &cell     = state.grid.cells()[segment.cell];
+    const std::size_t  n_before = candidates_.size();
+    const Number       longest(0.5 * cell.size);
+    for (unsigned int p = segment.begin; p < segment.end; p += simd_width)
+      {
+        const unsigned int n = std::min(simd_width, segment.end - p);
+        const auto         half =
+          load_half_lengths(points, state.constants.box_shape, p, n);
+        Number distance(0.), speed(0.), support(0.);
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            distance += (load<Number>(points.data(points.position, d) + p) -
+                         facet.centroid[d]) *
+                        facet.normal[d];
+            speed += load<Number>(points.data(points.velocity, d) + p) *
+                     facet.normal[d];
+            support += min(half[d], longest) * std::abs(facet.normal[d]);
+          }
+        const auto is_near =
+          distance + min(Number(0.), 2. * state.time_step * speed) <
+          support + facet.deviation;
+        for (unsigned int i = 0; i < n; ++i)
+          if (is_near[i])
+            candidates_.push_back(
+              {p + i,
+               facet.obstacle,
+               &facet,
+               nullptr,
+               load_place(points, points.position, p + i),
+               half_lengths_in_cell(state, segment.cell, p + i)});
+      }
+    if (candidates_.size() > n_before && !facet.is_flat)
+      {
+        const SurfaceTable<dim> *const of_cell = tables_.table(cell, facet);
+        for (std::size_t i = n_before; i < candidates_.size(); ++i)
+          candidates_[i].table = of_cell;
+      }
   }
 
 
@@ -75,6 +158,7 @@ namespace talus
       for (unsigned int p = segment.begin; p < segment.end; ++p)
         candidates_.push_back({p,
                                k,
+                               nullptr,
                                nullptr,
                                load_place(points, points.position, p),
                                half_lengths_in_cell(state, segment.cell, p)});
@@ -120,6 +204,25 @@ namespace talus
 
 
 
+  /// Return distance from the obstacle of a candidate, m, and normal at @p x.
+  /// The distance from a terrain is costly, and most of the bed is flat within
+  /// a cell. An obstacle that moves has left the plane of the facet.
+  template <int dim>
+  std::pair<double, Tensor<1, dim>>
+  PointConfinement<dim>::distance_and_normal(const Candidate  &candidate,
+                                             const Point<dim> &x) const
+  {
+    const Obstacle<dim>           &obstacle = obstacles_[candidate.obstacle];
+    const ContactFacet<dim> *const facet    = candidate.facet;
+    if (facet && facet->is_flat && !obstacle.moves())
+      return {facet->distance_from_plane(x), facet->normal};
+    if (candidate.table && candidate.table->reaches(x))
+      return candidate.table->distance_and_normal(x);
+    return obstacle.distance_and_normal(x);
+  }
+
+
+
   /// Correct the new position @p x, m, of a candidate; return whether it
   /// changed. The step of @p dt, s, begins at @p time, s; obstacles are at
   /// their positions at the end. A moving obstacle takes points at its surface
@@ -136,18 +239,13 @@ namespace talus
         facet->distance_from_plane(x) >
           facet->deviation + support_of_box(candidate.half, facet->normal))
       return false;
-    // The distance from a terrain is expensive, and most of the bed is flat
-    // within a cell. An obstacle that moves has left the plane of the facet.
-    const Obstacle<dim> &obstacle = obstacles_[candidate.obstacle];
-    const auto [of_centre, normal] =
-      facet && facet->is_flat && !obstacle.moves()
-        ? std::make_pair(facet->distance_from_plane(x), facet->normal)
-        : obstacle.distance_and_normal(x);
+    const auto [of_centre, normal] = distance_and_normal(candidate, x);
     const double distance = of_centre - support_of_box(candidate.half, normal);
     if (distance >= 0)
       return false;
-    const Tensor<1, dim> drift   = dt * obstacle.velocity(time + 0.5 * dt);
-    const double         inwards = (drift - (x - candidate.place)) * normal;
+    const Obstacle<dim> &obstacle = obstacles_[candidate.obstacle];
+    const Tensor<1, dim> drift    = dt * obstacle.velocity(time + 0.5 * dt);
+    const double         inwards  = (drift - (x - candidate.place)) * normal;
     if (inwards <= 0)
       return false;
     x += std::min(inwards, -distance) * normal;

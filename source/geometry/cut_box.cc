@@ -168,14 +168,13 @@ namespace talus
   shape_values_at(const Box<dim> &box, const Point<dim> &x)
   {
     std::array<double, (1u << dim)> result;
-    for (unsigned int v = 0; v < result.size(); ++v)
+    result.fill(1.);
+    for (unsigned int d = 0; d < dim; ++d)
       {
-        result[v] = 1.;
-        for (unsigned int d = 0; d < dim; ++d)
-          {
-            const double xi = (x[d] - box.lower[d]) / box.length(d);
-            result[v] *= ((v >> d) & 1) ? xi : 1. - xi;
-          }
+        const double xi    = (x[d] - box.lower[d]) / box.length(d);
+        const double at[2] = {1. - xi, xi};
+        for (unsigned int v = 0; v < result.size(); ++v)
+          result[v] *= at[(v >> d) & 1];
       }
     return result;
   }

@@ -36,12 +36,14 @@ namespace talus
     /// Return the result in @p table for @p key; compute the result if it is
     /// not in the table. Memory stays small where points move and ask for ever
     /// new places, and no memory is allocated in a step.
+    /// The table fits into the second-level cache.
     template <typename Table, typename Key, typename Compute>
     auto
     look_up(Table &table, const Key &key, const Compute &compute)
     {
-      table.resize(1u << 15);
-      auto &known = table[boost::hash<Key>()(key) % table.size()];
+      constexpr unsigned int n = 1u << 13;
+      table.resize(n);
+      auto &known = table[boost::hash<Key>()(key) % n];
       if (known.key != key)
         known = {key, compute()};
       return known.result;

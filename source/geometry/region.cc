@@ -327,6 +327,17 @@ namespace talus
 
 
   template <int dim>
+  bool
+  Region<dim>::may_overlap(const Box<dim> &box) const
+  {
+    Limits limits =
+      limits_near(centre_of(box), 0.5 * box.lower.distance(box.upper));
+    return keep_those_that_cut(box, limits);
+  }
+
+
+
+  template <int dim>
   PartInside<dim>
   Region<dim>::part_inside(const Box<dim> &box) const
   {

@@ -74,7 +74,9 @@ namespace talus
   {
     const auto cells = mesh_.cells_in_order();
     cells_.clear();
+    cells_.reserve(cells.size());
     level_of_cell_.clear();
+    level_of_cell_.reserve(cells.size());
     cell_map_.clear();
     cell_map_.reserve(cells.size());
     owner_of_ghost_.clear();

@@ -2,6 +2,7 @@
 #include <talus/grid/nodal_fields.h>
 
 #include <algorithm>
+#include <array>
 
 namespace talus
 {
@@ -49,6 +50,45 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Call action(k) for the entries k of the patch of a uniform cell that are
+    /// in no patch of a face neighbour with a nonzero value in @p is_visited:
+    /// along each axis, a neighbour has three of the four layers. Most cells
+    /// have a visited neighbour along each axis, and a single new entry.
+    template <int dim, typename Action>
+    void
+    for_each_new_entry(const Cell<dim>                  &cell,
+                       const std::vector<unsigned char> &is_visited,
+                       const Action                     &action)
+    {
+      constexpr unsigned int        middle = power(3, dim) / 2;
+      std::array<unsigned int, dim> first, n;
+      unsigned int                  n_entries = 1;
+      for (unsigned int d = 0; d < dim; ++d)
+        {
+          const auto has_visited = [&](const unsigned int neighbor) {
+            const unsigned int c = cell.neighbors[neighbor];
+            return c < is_visited.size() && is_visited[c];
+          };
+          const bool below = has_visited(middle - power(3, d));
+          const bool above = has_visited(middle + power(3, d));
+          first[d]         = below ? 3 : 0;
+          n[d]             = below && above ? 0 : below || above ? 1 : 4;
+          n_entries *= n[d];
+        }
+      for (unsigned int i = 0; i < n_entries; ++i)
+        {
+          unsigned int k = 0;
+          for (unsigned int d = 0, rest = i; d < dim; rest /= n[d++])
+            k += (first[d] + rest % n[d]) * power(4, d);
+          action(k);
+        }
+    }
+  } // namespace
+
+
+
   // The cost of a step must depend on the number of points and not on the size
   // of the mesh, which may be mostly empty. Therefore loops run over lists of
   // the nodes that points may touch. The lists change only with the set of
@@ -71,11 +111,18 @@ namespace talus
 
     // For a cell that is not uniform only its own nodes: the touching cells add
     // the nodes around.
-    const auto add_patch = [&](const unsigned int c) {
+    std::vector<unsigned char> is_visited(grid.cells().size(), 0);
+    const auto                 add_patch = [&](const unsigned int c) {
       const Cell<dim> &cell = grid.cells()[c];
-      for (unsigned int k = 0; k < cell.patch.size(); ++k)
-        if (cell.uniform || is_own_node<dim>(k))
+      if (cell.uniform)
+        for_each_new_entry(cell, is_visited, [&](const unsigned int k) {
           add_active(grid, cell.patch[k]);
+        });
+      else
+        for (unsigned int k = 0; k < cell.patch.size(); ++k)
+          if (is_own_node<dim>(k))
+            add_active(grid, cell.patch[k]);
+      is_visited[c] = cell.uniform;
     };
     for (const unsigned int c : cells)
       if (grid.cells()[c].uniform)
@@ -193,34 +240,6 @@ namespace talus
 
 
 
-  /// The sum of the contributions of points. Unlike velocity times mass it is
-  /// not changed by the step.
-  template <int dim>
-  Tensor<1, dim>
-  NodalFields<dim>::momentum(const unsigned int node) const
-  {
-    Tensor<1, dim> result;
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] = sum(node)[Sum::momentum + d];
-    return result;
-  }
-
-
-
-  /// Sum of the two parts of NodalSum.
-  template <int dim>
-  Tensor<1, dim>
-  NodalFields<dim>::force(const unsigned int node) const
-  {
-    const double  *s = sum(node);
-    Tensor<1, dim> result;
-    for (unsigned int d = 0; d < dim; ++d)
-      result[d] = s[Sum::force + d] + s[Sum::force_by_x + d];
-    return result;
-  }
-
-
-
   template <int dim>
   void
   NodalFields<dim>::add_force(const unsigned int    node,
@@ -242,17 +261,6 @@ namespace talus
   {
     std::fill_n(sum(node), Sum::width, 0.);
     add_sums(node, mass, volume, momentum, force);
-  }
-
-
-
-  template <int dim>
-  void
-  NodalFields<dim>::scale_inertia(const unsigned int node, const double factor)
-  {
-    sum(node)[Sum::mass] *= factor;
-    for (unsigned int d = 0; d < dim; ++d)
-      sum(node)[Sum::momentum + d] *= factor;
   }
 
 
@@ -289,22 +297,6 @@ namespace talus
         impulse[d] = mass(node) * change;
       }
     return impulse;
-  }
-
-
-
-  // A constant force over dt does exactly the work dt f . (v_before +
-  // v_after)/2; with v_after alone the energy budget would have an error of (dt
-  // f)^2/(2 m).
-  template <int dim>
-  Tensor<1, dim>
-  NodalFields<dim>::mean_velocity(const unsigned int node) const
-  {
-    Tensor<1, dim> v;
-    for (unsigned int d = 0; d < dim; ++d)
-      v[d] = motion(node)[Motion::velocity + d] -
-             0.5 * motion(node)[Motion::increment + d];
-    return v;
   }
 
 

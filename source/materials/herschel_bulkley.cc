@@ -93,13 +93,11 @@ namespace talus
                              "`Remoulded strength ratio` is 1, so that nothing "
                              "softens: give a ratio of less than 1, or remove "
                              "the displacement.")));
-    if (remoulded_ratio_ == 1. || this->has_strength_column() ||
-        this->softens_by_displacement())
-      return;
     const double least =
       3. * this->strength() * (1. - remoulded_ratio_) / this->moduli().mu;
     AssertThrow(
-      strain_to_remould_ > least,
+      remoulded_ratio_ == 1. || this->has_strength_column() ||
+        this->softens_by_displacement() || strain_to_remould_ > least,
       ExcUser(text("Section ",
                    this->section(),
                    ": `Plastic shear strain to remould` is ",
@@ -110,6 +108,17 @@ namespace talus
                    " (three times the strength loss by remoulding over the "
                    "shear modulus), or set `Remoulded strength ratio` to 1 for "
                    "material without remoulding.")));
+    AssertThrow(!this->has_rate_effect() || consistency_ == 0.,
+                ExcUser(text("Section ",
+                             this->section(),
+                             ": `Rate coefficient` is more than 0, and ",
+                             name_of_consistency(),
+                             " is ",
+                             consistency_,
+                             ", but only one of them can describe how the "
+                             "strength grows with the rate: set the other to "
+                             "0.")));
+    this->check_rate_effect();
   }
 
 
@@ -147,6 +156,15 @@ namespace talus
 
 
 
+  template <int dim>
+  std::string
+  HerschelBulkley<dim>::name_of_consistency() const
+  {
+    return flow_law_ == FlowLaw::bingham ? "`Viscosity`" : "`Consistency`";
+  }
+
+
+
   // Plastic shear strain that remoulds to 95 % in cells of the given size.
   template <int dim>
   double
@@ -171,6 +189,28 @@ namespace talus
 
 
 
+  template <int dim>
+  bool
+  HerschelBulkley<dim>::softens() const
+  {
+    return remoulded_ratio_ < 1.;
+  }
+
+
+
+  template <int dim>
+  double
+  HerschelBulkley<dim>::fraction_of_strength_loss(const Points<dim> &points,
+                                                  const unsigned int p) const
+  {
+    const double scale =
+      this->softens_by_displacement() ? 1. : strain_to_remould_;
+    return softens() ? -std::expm1(-3. * this->softening(points, p) / scale)
+                     : 0.;
+  }
+
+
+
   // Condition of check() for the strength times the factor, with a margin of 1
   // %: at equality the return has no slope.
   template <int dim>
@@ -187,7 +227,8 @@ namespace talus
     if (lost == 0.)
       return std::numeric_limits<double>::infinity();
     return 0.99 * this->moduli().mu *
-           strain_to_remould(this->largest_cell_size()) / (3. * lost);
+           strain_to_remould(this->largest_cell_size()) / (3. * lost) /
+           this->steepening_by_rate();
   }
 
 
@@ -205,8 +246,7 @@ namespace talus
                         this->softening_displacement(),
                         lost * this->softening_displacement() / 3.,
                         "95 %"});
-    const std::string viscosity =
-      flow_law_ == FlowLaw::bingham ? "`Viscosity`" : "`Consistency`";
+    const std::string viscosity = name_of_consistency();
     return shear_band_note(
       {this->section(),
        strain_to_remould_,

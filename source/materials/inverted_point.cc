@@ -103,8 +103,8 @@ namespace talus
                          " at (",
                          load_place(points, points.position, p),
                          ") m could not be computed. Find the cause of large "
-                         "velocities there, or change the consistency of the "
-                         "material.")));
+                         "velocities there, or change the consistency or the "
+                         "rate coefficient of the material.")));
   }
 
 

@@ -61,6 +61,7 @@ namespace talus
                    " Pa (minus three times the shear modulus).")));
     if (!this->has_strength_column())
       check_strength({this->strength(), this->strength()});
+    this->check_rate_effect();
   }
 
 
@@ -123,16 +124,52 @@ namespace talus
   // divided by sqrt(3), too. Softening by displacement ends at 1.
   template <int dim>
   double
-  VonMises<dim>::shear_strength(const Points<dim> &points,
-                                const unsigned int p) const
+  VonMises<dim>::strength_without_factor(const Points<dim> &points,
+                                         const unsigned int p) const
   {
     const double initial = this->strength(points, p);
     const double slope   = this->softens_by_displacement()
                              ? residual_strength_ - initial
                              : hardening_ / std::sqrt(3.);
     const double on_line = initial + slope * this->softening(points, p);
+    return std::max(on_line, residual_strength_);
+  }
+
+
+
+  template <int dim>
+  double
+  VonMises<dim>::shear_strength(const Points<dim> &points,
+                                const unsigned int p) const
+  {
     return this->strength_factor(points, p) *
-           std::max(on_line, residual_strength_);
+           strength_without_factor(points, p);
+  }
+
+
+
+  template <int dim>
+  bool
+  VonMises<dim>::softens() const
+  {
+    return (this->softens_by_displacement() || hardening_ < 0.) &&
+           (this->has_strength_column() ||
+            residual_strength_ < this->strength());
+  }
+
+
+
+  // Soil whose initial and residual strengths are equal has nothing to lose.
+  template <int dim>
+  double
+  VonMises<dim>::fraction_of_strength_loss(const Points<dim> &points,
+                                           const unsigned int p) const
+  {
+    const double initial = this->strength(points, p);
+    return softens() && initial > residual_strength_
+             ? (initial - strength_without_factor(points, p)) /
+                 (initial - residual_strength_)
+             : 0.;
   }
 
 
@@ -141,7 +178,8 @@ namespace talus
   // margin of 1 %: at equality the return has no slope. If residual and initial
   // strength are equal, nothing softens. In simple shear the condition is
   // ds_u/dgamma > -G, which is (s_u - s_res) h/d < G: the strongest soil
-  // decides, also if G is proportional to s_u.
+  // decides, also if G is proportional to s_u. The rate of shearing multiplies
+  // the slope, too.
   template <int dim>
   double
   VonMises<dim>::largest_strength_factor(const StrengthRange &range) const
@@ -154,7 +192,8 @@ namespace talus
         const double mu =
           this->moduli().mu * (this->has_moduli_of_points() ? strongest : 1.);
         return lost > 0. ? 0.99 * mu * this->softening_displacement() /
-                             (lost * this->largest_cell_size())
+                             (lost * this->largest_cell_size()) /
+                             this->steepening_by_rate()
                          : std::numeric_limits<double>::infinity();
       }
     if (hardening_ >= 0. || (!this->has_strength_column() &&
@@ -162,7 +201,8 @@ namespace talus
       return std::numeric_limits<double>::infinity();
     // Use the softest soil if moduli differ.
     const double stiffness = this->has_moduli_of_points() ? range.least : 1.;
-    return -0.99 * 3. * this->moduli().mu * stiffness / hardening_;
+    return -0.99 * 3. * this->moduli().mu * stiffness / hardening_ /
+           this->steepening_by_rate();
   }
 
 

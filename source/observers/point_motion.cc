@@ -87,6 +87,8 @@ namespace talus
 
 
     /// Maximum height of a point of the local rank above the ground below, m.
+    /// Most points are not higher than the maximum so far: the place so far
+    /// below them is in the ground.
     template <int dim>
     double
     height_above(const Ground<dim> &ground, const Points<dim> &points)
@@ -94,8 +96,11 @@ namespace talus
       double height = std::numeric_limits<double>::lowest();
       for (unsigned int p = 0; p < points.size(); ++p)
         {
-          const Point<dim> x = load_place(points, points.position, p);
-          height             = std::max(height, x[1] - ground.elevation(x));
+          const Point<dim> x     = load_place(points, points.position, p);
+          Point<dim>       below = x;
+          below[1] -= height;
+          if (p == 0 || !ground.encloses(below))
+            height = std::max(height, x[1] - ground.elevation(x));
         }
       return height;
     }

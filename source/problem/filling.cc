@@ -310,6 +310,8 @@ namespace talus
     ClippedBoxes<dim>::parts_of_cell(const Cell<dim>   &cell,
                                      const Region<dim> &region) const
     {
+      if (!region.may_overlap(cell.box()))
+        return {};
       const Tensor<1, dim> length   = lattice_lengths<dim>(cell, n_);
       const double         whole    = volume_of_box(cell);
       bool                 is_empty = true;

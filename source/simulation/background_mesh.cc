@@ -318,11 +318,11 @@ namespace talus
     PhaseTimer::Scope scope(timer_, "mesh");
     const MPI_Comm    communicator = state_.communicator();
     const auto       &occupied     = relocation_.occupied_cells();
-    if (mesh_tracking_.is_enabled() &&
-        (mesh_tracking_.is_due(state_.step) ||
-         Utilities::MPI::logical_or(
-           mesh_tracking_.is_urgent(state_.grid, occupied), communicator)))
-      if (mesh_tracking_.adapt(state_.grid, occupied))
+    if (mesh_tracking_.is_enabled())
+      if (const bool is_urgent = Utilities::MPI::logical_or(
+            mesh_tracking_.is_urgent(state_.grid, occupied), communicator);
+          (is_urgent || mesh_tracking_.is_due(state_.step)) &&
+          mesh_tracking_.adapt(state_.grid, occupied, is_urgent))
         {
           ++n_mesh_changes_;
           prepare_cells();

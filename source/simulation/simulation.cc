@@ -11,6 +11,7 @@
 #include <talus/observers/obstacles_output.h>
 #include <talus/simulation/contact_area_remark.h>
 #include <talus/simulation/pace.h>
+#include <talus/simulation/shear_bands.h>
 #include <talus/simulation/simulation.h>
 #include <talus/simulation/split_limit_remark.h>
 #include <talus/version.h>
@@ -55,6 +56,7 @@ namespace talus
       std::make_unique<ObstacleForces<dim>>(problem_.contact));
     output_.add_row_observer(
       std::make_unique<BoundaryForces<dim>>(problem_.boundaries.reactions()));
+    output_.add_row_observer(std::make_unique<ShearBands<dim>>(problem_));
     output_.add_row_observer(
       std::make_unique<SplitLimitRemark<dim>>(scheme_.splitter(), log_));
     auto contact_area =

@@ -15,13 +15,15 @@ namespace talus
 
   namespace
   {
+    constexpr double nearly_residual = 0.95; // fraction of the strength loss
+
     /// Place of a column of cells of size h, in x and z.
     using Place = std::array<long, 2>;
 
     /// Columns of cells with soil of a body.
     struct Columns
     {
-      std::set<Place> all, yielded;
+      std::set<Place> all, yielded, residual;
     };
 
 
@@ -30,7 +32,9 @@ namespace talus
     /// one point, so columns of the largest size have no gaps.
     template <int dim>
     Columns
-    columns_of(const State<dim> &state, const unsigned int body)
+    columns_of(const State<dim>         &state,
+               const MaterialModel<dim> &material,
+               const unsigned int        body)
     {
       const Points<dim> &points = state.points;
       const double       h      = state.grid.cell_size();
@@ -46,6 +50,8 @@ namespace talus
           columns.all.insert(place);
           if (points.data(points.plastic_work)[p] > 0.)
             columns.yielded.insert(place);
+          if (material.fraction_of_strength_loss(points, p) >= nearly_residual)
+            columns.residual.insert(place);
         }
       return columns;
     }
@@ -56,6 +62,8 @@ namespace talus
     unsigned int
     count(const std::set<Place> &places, const MPI_Comm communicator)
     {
+      if (Utilities::MPI::n_mpi_processes(communicator) == 1)
+        return places.size();
       std::set<Place> together;
       for (const auto &part : Utilities::MPI::all_gather(
              communicator, std::vector<Place>(places.begin(), places.end())))
@@ -66,36 +74,44 @@ namespace talus
 
 
 
+  template <int dim>
+  YieldedExtent
+  yielded_extent(const State<dim>   &state,
+                 const Problem<dim> &problem,
+                 const unsigned int  body)
+  {
+    const MPI_Comm communicator = state.communicator();
+    const Columns  columns =
+      columns_of(state, problem.materials.of_body(body), body);
+    const double unit = std::pow(state.grid.cell_size(), dim - 1);
+    return {unit * count(columns.all, communicator),
+            unit * count(columns.yielded, communicator),
+            unit * count(columns.residual, communicator)};
+  }
+
+
+
   namespace
   {
     /// How much of each softening body has yielded, in words; empty if nothing
-    /// has. A law softens if a larger strength would have to be refused.
-    /// Collective.
+    /// has. Collective.
     template <int dim>
     std::string
     yielded_bodies(const State<dim> &state, const Problem<dim> &problem)
     {
-      const MPI_Comm communicator = state.communicator();
-      const auto    &materials    = problem.materials;
-      const auto     names        = problem.bodies().names();
-      const double   h            = state.grid.cell_size();
-      const double   unit         = dim == 2 ? h : h * h;
-      std::string    list;
+      const auto  names = problem.bodies().names();
+      std::string list;
       for (unsigned int b = 0; b < names.size(); ++b)
         {
-          const auto range =
-            materials.strength_range(state.points, b, communicator);
-          if (std::isinf(materials.of_body(b).largest_strength_factor(range)))
+          if (!problem.materials.of_body(b).softens())
             continue;
-          const Columns columns   = columns_of(state, b);
-          const double  n_yielded = count(columns.yielded, communicator);
-          const double  n_all     = count(columns.all, communicator);
-          if (n_yielded > 0.)
+          const YieldedExtent extent = yielded_extent(state, problem, b);
+          if (extent.yielded > 0.)
             list += text(list.empty() ? "" : "; ",
                          std::setprecision(4),
-                         n_yielded * unit,
+                         extent.yielded,
                          " of ",
-                         n_all * unit,
+                         extent.all,
                          dim == 2 ? " m of '" : " m^2 (in plan) of '",
                          names[b],
                          "'");
@@ -155,6 +171,8 @@ namespace talus
 
 
 
+  template decltype(yielded_extent<2>)    yielded_extent<2>;
+  template decltype(yielded_extent<3>)    yielded_extent<3>;
   template decltype(note_on_softening<2>) note_on_softening<2>;
   template decltype(note_on_softening<3>) note_on_softening<3>;
 } // namespace talus

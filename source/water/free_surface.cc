@@ -45,24 +45,18 @@ namespace talus
                     std::max(squares, std::numeric_limits<double>::min()));
     }
 
-    /// Interpolate the records of hanging nodes, @p width numbers each, from
-    /// their masters, and append the hanging nodes to @p filled.
-    template <int dim>
+    /// Interpolate the record of a hanging node, @p width numbers, from its
+    /// masters.
     void
-    interpolate_hanging(const Grid<dim>           &grid,
-                        std::vector<double>       &records,
-                        const unsigned int         width,
-                        std::vector<unsigned int> &filled)
+    interpolate(const HangingNode   &hanging,
+                std::vector<double> &records,
+                const unsigned int   width)
     {
-      for (const auto &hanging : grid.hanging_nodes())
-        {
-          double *const to = &records[std::size_t(width) * hanging.node];
-          std::fill_n(to, width, 0.);
-          filled.push_back(hanging.node);
-          for (const auto &[master, weight] : hanging.masters)
-            for (unsigned int i = 0; i < width; ++i)
-              to[i] += weight * records[std::size_t(width) * master + i];
-        }
+      double *const to = &records[std::size_t(width) * hanging.node];
+      std::fill_n(to, width, 0.);
+      for (const auto &[master, weight] : hanging.masters)
+        for (unsigned int i = 0; i < width; ++i)
+          to[i] += weight * records[std::size_t(width) * master + i];
     }
 
     /// Area of a face of a cell, m^(dim-1).
@@ -158,8 +152,9 @@ namespace talus
     areas_of_nodes_.assign(std::size_t(width_of_areas) * grid.n_nodes(), 0.);
     vector_areas_.assign(grid.cells().size(), Tensor<1, dim>());
     is_listed_.assign(grid.cells().size(), 0);
+    is_node_of_facets_.assign(grid.n_nodes(), 0);
+    nodes_of_facets_.clear();
     filled_nodes_.clear();
-    nodes_of_soil_.clear();
     soil_nodes_.clear();
     listed_cells_.clear();
     facets_.clear();
@@ -209,6 +204,38 @@ namespace talus
           }
         key_of_facet_.push_back(key);
       }
+    list_nodes_of_facets(grid);
+  }
+
+
+
+  /// List the nodes whose soil determines the velocities of the facets: nodes
+  /// of facets, masters of hanging nodes among them, and nodes of other ranks.
+  template <int dim>
+  void
+  FreeSurface<dim>::list_nodes_of_facets(const Grid<dim> &grid)
+  {
+    for (const unsigned int node : nodes_of_facets_)
+      is_node_of_facets_[node] = 0;
+    nodes_of_facets_.clear();
+    hanging_nodes_.clear();
+    const auto add = [this](const unsigned int node) {
+      if (!is_node_of_facets_[node])
+        nodes_of_facets_.push_back(node);
+      is_node_of_facets_[node] = 1;
+    };
+    for (const SurfaceFacet<dim> &facet : facets_)
+      std::for_each(facet.node.begin(), facet.node.end(), add);
+    std::for_each(grid.interface_nodes().begin(),
+                  grid.interface_nodes().end(),
+                  add);
+    for (const HangingNode &hanging : grid.hanging_nodes())
+      if (is_node_of_facets_[hanging.node])
+        {
+          hanging_nodes_.push_back(&hanging);
+          for (const auto &master : hanging.masters)
+            add(master.first);
+        }
   }
 
 
@@ -245,6 +272,7 @@ namespace talus
         facet.node = cell.nodes();
         key_of_facet_.push_back(grid.key_of_cell(c));
       }
+    list_nodes_of_facets(grid);
   }
 
 
@@ -272,7 +300,11 @@ namespace talus
         to[bottom]         = coverage_.of_bottom(node, to[fraction]);
       }
     exchange_.copy_to_ghosts(records_.data());
-    interpolate_hanging(state.grid, records_, width, filled_nodes_);
+    for (const HangingNode &hanging : state.grid.hanging_nodes())
+      {
+        interpolate(hanging, records_, width);
+        filled_nodes_.push_back(hanging.node);
+      }
   }
 
 
@@ -465,23 +497,19 @@ namespace talus
     restored_.clear();
     is_restored_                  = false;
     const NodalFields<dim> &nodes = state.nodes;
-    const auto              soil  = [this](const unsigned int node) {
-      return soil_.data() + std::size_t(width_of_soil) * node;
-    };
-    for (const unsigned int node : nodes_of_soil_)
-      std::fill_n(soil(node), width_of_soil, 0.);
-    nodes_of_soil_.clear();
-    for (const unsigned int node : nodes.active_nodes())
-      if (nodes.mass(node) > state.constants.mass_cutoff)
-        {
-          const Tensor<1, dim> momentum = nodes.momentum(node);
-          soil(node)[0]                 = nodes.mass(node);
-          for (unsigned int d = 0; d < dim; ++d)
-            soil(node)[1 + d] = momentum[d];
-          nodes_of_soil_.push_back(node);
-        }
+    for (const unsigned int node : nodes_of_facets_)
+      {
+        double *const soil = soil_.data() + std::size_t(width_of_soil) * node;
+        const double  mass = nodes.mass(node);
+        const bool    has_soil        = mass > state.constants.mass_cutoff;
+        const Tensor<1, dim> momentum = nodes.momentum(node);
+        soil[0]                       = has_soil ? mass : 0.;
+        for (unsigned int d = 0; d < dim; ++d)
+          soil[1 + d] = has_soil ? momentum[d] : 0.;
+      }
     exchange_of_soil_.copy_to_ghosts(soil_.data());
-    interpolate_hanging(state.grid, soil_, width_of_soil, nodes_of_soil_);
+    for (const HangingNode *const hanging : hanging_nodes_)
+      interpolate(*hanging, soil_, width_of_soil);
     for (SurfaceFacet<dim> &facet : facets_)
       set_soil(facet);
   }

@@ -239,16 +239,17 @@ namespace talus
         for (unsigned int v = 0; v < facet.node.size(); ++v)
           add(facet.node[v], facet.share[v] * force);
       }
-    for (const auto &hanging : state.grid.hanging_nodes())
+    for (const HangingNode *const hanging : surface_.hanging_nodes_of_facets())
       {
-        const Tensor<1, dim> force = force_at(hanging.node);
-        for (const auto &[master, weight] : hanging.masters)
+        const Tensor<1, dim> force = force_at(hanging->node);
+        for (const auto &[master, weight] : hanging->masters)
           add(master, weight * force);
-        add(hanging.node, -force);
+        add(hanging->node, -force);
       }
     exchange_of_forces_.add_to_owners(forces_.data());
-    for (const unsigned int node : state.nodes.active_nodes())
-      state.nodes.add_force(node, force_at(node));
+    for (const unsigned int node : surface_.nodes_of_facets())
+      if (node < state.grid.n_owned_nodes())
+        state.nodes.add_force(node, force_at(node));
   }
 
 
@@ -264,11 +265,15 @@ namespace talus
     Tensor<1, dim> &total = state.accounts.impulse("drag impulse");
     for (const unsigned int node : state.nodes.active_nodes())
       {
-        const Tensor<1, dim> impulse = dt * force_at(node);
+        const Tensor<1, dim> force = force_at(node);
+        if (force == Tensor<1, dim>())
+          continue;
+        const Tensor<1, dim> impulse = dt * force;
         work -= impulse * state.nodes.mean_velocity(node);
         total += impulse;
-        std::fill_n(forces_.begin() + std::size_t(dim) * node, dim, 0.);
       }
+    for (const unsigned int node : surface_.nodes_of_facets())
+      std::fill_n(forces_.begin() + std::size_t(dim) * node, dim, 0.);
   }
 
 

@@ -1,33 +1,35 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""Count the instructions of the time steps of a short slide.
+"""Count the instructions of short runs: a slide, a slope in 3-D and a strength
+reduction.
 
-    tests/benchmark/instruction_count.py BUILD [--write] [--program TALUS]
+    tests/benchmark/instruction_count.py BUILD [--write] [--case NAME]
+                                         [--program TALUS]
 
 BUILD is a build folder, whose compiler and deal.II are used. Time is noisy and
 instructions are not: the count is the same on a busy machine. Two guards:
 
-The number of all instructions. Fails if the steps take over 5 % more than
-instruction_count.txt says; if they take over 5 % fewer, it asks for a new
-reference, which --write writes. Left out with a compiler whose major version is
-not that of the reference, as each compiler has its own count.
+The number of all instructions of a run, without set-up. Fails if a case takes
+over 5 % more than instruction_count.txt says; if a case takes over 5 % fewer, the
+script asks for a new reference, which --write writes. Left out with a compiler
+whose major version is not the one of the reference, as each compiler has its own
+count.
 
-What the instructions of the kernels do, whatever the compiler. Code that
-takes registers apart, entry by entry or through memory, is right and slow, and it
-comes of a small change: a comparison of vectors that are wider than a register,
-a selection that the compiler does not see through. It is looked for where it
-costs: each instruction of the compiled functions counts as often as it was
-executed, so that what is left over at the end of a loop, and what is hardly ever
-done, does not count. Fails if too few of the instructions of a kernel work on
-whole registers, or if over 4 % of those on registers move single entries or
-halves. (Instructions per operation of operations.py would say less: half of the
-instructions are no operations, but addresses and loops.)
+The work of the instructions in the kernels of the slide, whatever the compiler.
+Code that takes registers apart, entry by entry or through memory, is right and
+slow. A small change is enough: a comparison of vectors wider than a register, or a
+selection hidden from the compiler. Each instruction of the compiled functions
+counts as often as it was executed, so remainders of loops and rare branches do not
+count. Fails if too few of the instructions of a kernel work on whole registers, or
+if over 4 % of those on registers move single entries or halves. (Instructions per
+operation of operations.py would say less: half of the instructions are no
+operations, but addresses and loops.)
 
-Valgrind counts. It knows AVX2 and FMA but not AVX-512, so the program is built
-anew for x86-64-v3 in BUILD/instruction-count, with registers of four doubles, and
-the C library is told to do without AVX-512: the count is the same on every
-machine. --program counts with a program that is already there. Skipped (status
-77) without valgrind and on other processors.
+Valgrind counts. Valgrind knows AVX2 and FMA but not AVX-512, so the program is
+built anew for x86-64-v3 in BUILD/instruction-count, with registers of four
+doubles, and the C library is told to do without AVX-512: the count is the same on
+every machine. --program counts with a program built before, --case counts a single
+case. Skipped (status 77) without valgrind and on other processors.
 """
 
 import argparse
@@ -54,7 +56,8 @@ KERNELS = {
     "points to grid": (r"talus::Transfer<2>::scatter\(", 0.43),
     "grid to points": (r"(talus::Transfer<2>::gather\(|"
                        r".*interpolate_to_block<2>)", 0.47),
-    "stress": (r".*talus::RateLaw<2, talus::VonMisesFlow>::update_stress\(", 0.58),
+    "stress": (r".*talus::RateLaw<2, talus::VonMisesFlow>::"
+               r"update_stress_by<talus::VonMisesFlow>\(", 0.58),
     "time step": (r"talus::TimeStep<2>::add_batch\(", 0.35),
 }
 # Single entries or halves of registers. (Transpositions move halves.)
@@ -64,21 +67,38 @@ MOVES = re.compile(
 )
 MOST_MOVES = 0.04
 
-# The quick landslide on large cells, with points that split soon: all phases of
-# a step take part, and nothing else is counted.
-CASE = [
-    os.path.join(ROOT, "prm", "landslide-quick.prm"),
-    "--set", "Grid/Cell size=0.8",
-    "--set", "End time=0.6",
-    "--set", "Splitting/Threshold=1.05",
-    "--set", "Splitting/Minimum length=0",
-    "--set", "Output/Write points=false",
-    "--set", "Output/Write grid=false",
-    "--set", "Checkpoint/At the end=false",
-]
-# The time loop: a function that main() calls in another file, so that it is
-# not inlined.
-COUNTED = "talus::Simulation<2>::run()"
+class Case:
+    """A short run of which all instructions in the function `counted` count: a
+    function that main() calls in another file, so that it is not inlined."""
+
+    def __init__(self, file, settings, dim, has_kernels=False):
+        self.arguments = [os.path.join(ROOT, "prm", file)]
+        for setting in [*settings, "Output/Write points=false",
+                        "Output/Write grid=false", "Checkpoint/At the end=false"]:
+            self.arguments += ["--set", setting]
+        self.counted = f"talus::Simulation<{dim}>::run()"
+        self.has_kernels = has_kernels
+
+
+CASES = {
+    # The quick landslide on large cells, with points that split soon: all phases
+    # of a step take part.
+    "slide": Case(
+        "landslide-quick.prm",
+        ["Grid/Cell size=0.8", "End time=0.6", "Splitting/Threshold=1.05",
+         "Splitting/Minimum length=0"],
+        dim=2, has_kernels=True),
+    # A slope in 3-D on large cells, with bed, water, tracked mesh and maps.
+    "slope-3d": Case(
+        "slope-3d.prm",
+        ["Grid/Cell size=20", "End time=3", "Output/Statistics interval=3"],
+        dim=3),
+    # Factor of safety of a slope on large cells.
+    "strength-reduction": Case(
+        "slope-stability.prm",
+        ["Grid/Cell size=20"],
+        dim=2),
+}
 
 
 def skip(reason):
@@ -108,22 +128,23 @@ def compiler_version(compiler):
 
 
 def read_reference():
-    """Compiler and count."""
+    """Compiler, and instructions by case."""
     with open(REFERENCE) as file:
         text = "".join(line for line in file if not line.startswith("#"))
     values = dict(line.split(" = ") for line in text.strip().splitlines())
-    return values["compiler"], int(values["instructions"])
+    compiler = values.pop("compiler")
+    return compiler, {name: int(count) for name, count in values.items()}
 
 
-def write_reference(compiler, count):
+def write_reference(compiler, counts):
     with open(REFERENCE, "w") as file:
         file.write(
-            "# Instructions of the time steps of the slide in "
-            "instruction_count.py, by valgrind.\n"
-            "# tests/benchmark/instruction_count.py BUILD --write renews it.\n"
+            "# Instructions of the cases in instruction_count.py, by valgrind.\n"
+            "# tests/benchmark/instruction_count.py BUILD --write renews them.\n"
             f"compiler = {compiler}\n"
-            f"instructions = {count}\n"
         )
+        for name, count in counts.items():
+            file.write(f"{name} = {count}\n")
 
 
 def build_program(build):
@@ -155,17 +176,18 @@ def without_avx512():
     return dict(os.environ, GLIBC_TUNABLES="glibc.cpu.hwcaps=-AVX512F")
 
 
-def run_under_valgrind(program):
-    """Returns point-steps and callgrind's result, instruction by instruction."""
+def run_under_valgrind(program, case):
+    """Returns point-steps, zero without time steps, and callgrind's result,
+    instruction by instruction."""
     with tempfile.TemporaryDirectory(prefix="talus-count-") as folder:
         result = os.path.join(folder, "callgrind.out")
         done = subprocess.run(
             [
                 "valgrind", "--tool=callgrind",
                 "--callgrind-out-file=" + result,
-                "--toggle-collect=" + COUNTED,
+                "--toggle-collect=" + case.counted,
                 "--dump-instr=yes", "--compress-pos=no", "--compress-strings=no",
-                program, *CASE, "--output", os.path.join(folder, "run"),
+                program, *case.arguments, "--output", os.path.join(folder, "run"),
             ],
             env=without_avx512(), stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT, text=True,
@@ -175,16 +197,17 @@ def run_under_valgrind(program):
         with open(result) as file:
             text = file.read()
     steps = re.search(r"(\S+) point-steps in", done.stdout)
-    return float(steps.group(1)), text
+    return float(steps.group(1)) if steps else 0., text
 
 
-def total(result):
-    """Of all calls of COUNTED in one run."""
+def total(result, case):
+    """Instructions of all calls of the counted function in a run."""
     count = int(re.search(r"^(?:totals|summary): (\d+)", result, re.M).group(1))
     if count == 0:
         sys.exit(
-            f"No instruction of {COUNTED} was counted: the function is no longer "
-            "called by that name, or was inlined. Correct COUNTED in " + __file__
+            f"No instruction of {case.counted} was counted: the function is no "
+            "longer called by that name, or was inlined. Correct Case in "
+            + __file__
         )
     return count
 
@@ -266,62 +289,91 @@ def judge_kernels(program, result, steps):
             )
 
 
-def judge(count, reference):
+def judge(name, count, reference):
     """The sentence and the exit status."""
+    if reference is None:
+        return 1, (
+            f"FAILED: {name} has no reference. Renew the references with --write."
+        )
     ratio = count / reference
     sentence = (
-        f"{count} instructions, {100 * (ratio - 1):+.2f} % of the reference "
-        f"{reference}."
+        f"{name}: {count} instructions, {100 * (ratio - 1):+.2f} % of the "
+        f"reference {reference}."
     )
     if ratio > 1 + TOLERANCE:
         return 1, (
-            f"FAILED: {sentence} The steps became slower; if that is wanted, "
+            f"FAILED: {sentence} The case became slower; if that is wanted, "
             "renew the reference with --write and say why in the commit."
         )
     if ratio < 1 - TOLERANCE:
         return 0, (
-            f"{sentence} The steps became faster: lower the reference with "
+            f"{sentence} The case became faster: lower the reference with "
             "--write, so that the gain is guarded, too."
         )
     return 0, sentence
 
 
-def main():
+def count_case(program, name):
+    """Returns the instructions of the case, and the exit status of its kernels."""
+    case = CASES[name]
+    steps, result = run_under_valgrind(program, case)
+    count = total(result, case)
+    if steps > 0:
+        print(f"{name}: {steps:.4g} point-steps, {count / steps:.1f} "
+              "instructions each.")
+    status = 0
+    if case.has_kernels:
+        for error in list(judge_kernels(program, result, steps)):
+            print("FAILED: " + error)
+            status = 1
+    return count, status
+
+
+def parse_arguments():
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
     parser.add_argument("build", help="build folder")
-    parser.add_argument("--write", action="store_true", help="renew the reference")
+    parser.add_argument("--write", action="store_true",
+                        help="renew the references")
+    parser.add_argument("--case", choices=list(CASES), action="append",
+                        help="count this case; repeatable; default: all")
     parser.add_argument("--program", help="talus for x86-64-v3, already built")
-    options = parser.parse_args()
-    build = os.path.abspath(options.build)
+    return parser.parse_args()
 
+
+def skip_unless_countable():
     if platform.machine() not in ("x86_64", "AMD64"):
-        skip(f"the count is that of {ARCH}, this is {platform.machine()}.")
+        skip(f"the count is for {ARCH}, this is {platform.machine()}.")
     if not shutil.which("valgrind"):
         skip("valgrind was not found; Debian's package valgrind brings it.")
     if not shutil.which("objdump"):
         skip("objdump was not found; Debian's package binutils brings it.")
-    program = options.program or build_program(build)
-    steps, result = run_under_valgrind(program)
-    count = total(result)
-    print(f"{steps:.4g} point-steps, {count / steps:.1f} instructions each.")
-    status = 0
-    for error in list(judge_kernels(program, result, steps)):
-        print("FAILED: " + error)
-        status = 1
 
+
+def main():
+    options = parse_arguments()
+    skip_unless_countable()
+    build = os.path.abspath(options.build)
+    program = options.program or build_program(build)
     compiler = compiler_version(cached(build, "CMAKE_CXX_COMPILER"))
+    expected, references = read_reference()
+    status, counts = 0, {}
+    for name in options.case or CASES:
+        counts[name], status_of_kernels = count_case(program, name)
+        status = max(status, status_of_kernels)
+        if options.write:
+            print(f"{name}: {counts[name]} instructions with {compiler}.")
+        elif compiler.split(".")[0] == expected.split(".")[0]:
+            status_of_count, sentence = judge(
+                name, counts[name], references.get(name)
+            )
+            status = max(status, status_of_count)
+            print(sentence, flush=True)
     if options.write:
-        write_reference(compiler, count)
-        print(f"{REFERENCE}: {count} instructions with {compiler}.")
-        sys.exit(status)
-    expected, reference = read_reference()
-    if compiler.split(".")[0] == expected.split(".")[0]:
-        total_status, sentence = judge(count, reference)
-        status = max(status, total_status)
-        print(sentence)
-    else:
+        others = references if compiler == expected else {}
+        write_reference(compiler, {**others, **counts})
+    elif compiler.split(".")[0] != expected.split(".")[0]:
         print(
             f"The compiler is {compiler}, but the reference was taken with "
             f"{expected}; the counts of two compilers do not compare."

@@ -26,10 +26,11 @@ from talus_tools.compare.pair import on_cells_of
 from talus_tools.errors import UserError
 from talus_tools.esri import read_grid
 from talus_tools.hdf5 import h5py
-from talus_tools.parameters import Defaults
+from talus_tools.parameters import Defaults, read_parameters
 from talus_tools.report.film import entries, painted, palette_image, rasters
 from talus_tools.report.places import routes_of, stations_of
 from talus_tools.report.run import Run
+from talus_tools.report.sections.bands import Layer
 from talus_tools.report.sections.cut import cut_points, cut_surface
 from talus_tools.report.sections.safety import line_of_motion, mechanism
 from talus_tools.report.sections.thalweg import columns_of
@@ -202,6 +203,40 @@ class Report(ReportCase):
         factor = re.search(r"factor of safety is ([\d.]+)", (folder / "log.txt").read_text())[1]
         self.assertIn(factor.rstrip("."), page.said("safety"))
         self.assertEqual(len(page.pictures("safety")), 1)
+
+    def test_shear_bands(self):
+        """Softening soil, with the critical length of the weak layer below the slab."""
+        folder = self.slide("bands", "Stages=dynamics", "Output/Boxes as cells=false",
+                            "End time=0.2", "Grid/Cell size=0.5", "Output/Runout=true",
+                            file="verification/shear-band.prm")
+        self.assertIn("--weak-layer, with the names", self.report(folder).said("bands"))
+        result = self.tool("talus-report", folder, "--slab", "slab", "--weak-layer", "weak")
+        self.assertEqual(result.returncode, 0, result.stderr)
+        page = Page(folder)
+        self.assertIn("longer than the critical length runs away", page.said("bands"))
+        rows = read_csv(folder / "bands.csv")
+        for column in list(rows[0])[1:]:
+            self.assertEqual(float(page.values[column]), max(float(row[column]) for row in rows))
+        self.assert_sentence(self.tool("talus-report", folder, "--slab", "slab"), "go together")
+        self.assert_sentence(self.tool("talus-report", folder, "--slab", "slab", "--weak-layer",
+                                       "week"), "'Bodies/week/Material'", "name two of its bodies")
+
+    def test_critical_length(self):
+        """L_cr = 2 (1 - r)/r l_u, or (2/r) sqrt(2 l_d^2 (1 - r + r ln r)) under Bingham."""
+        entries = read_parameters(ROOT / "prm" / "verification" / "shear-band.prm")
+        self.assertAlmostEqual(Layer(entries, "slab", "weak").critical_length(), 46.02, 2)
+        weak = "Materials/weak/"
+        entries[weak + "Softening displacement"] = ""
+        entries[weak + "Hardening modulus"] = "-60e3"
+        self.assertAlmostEqual(Layer(entries, "slab", "weak").critical_length(), 46.02, 2)
+        entries[weak + "Law"] = "Bingham"
+        entries[weak + "Remoulded strength ratio"] = str(1500 / 3500)
+        entries[weak + "Softening displacement"] = "0.15"
+        self.assertAlmostEqual(Layer(entries, "slab", "weak").critical_length(), 50.56, 2)
+        entries["Gravity/Slope angle"] = "2"
+        self.assertEqual(Layer(entries, "slab", "weak").critical_length(), math.inf)
+        entries["Gravity/Slope angle"] = "10"
+        self.assertEqual(Layer(entries, "slab", "weak").critical_length(), 0)
 
     def test_defaults_of_obstacles(self):
         """By their own section of the reference; what it lacks, by that of bodies."""

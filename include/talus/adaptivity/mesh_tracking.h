@@ -33,8 +33,8 @@ namespace talus
     is_urgent(const Grid<dim>                 &grid,
               const std::vector<unsigned int> &occupied_cells) const;
 
-    /// Return whether the mesh must be adapted after @p step steps, to coarsen
-    /// cells that the soil has left.
+    /// Return whether to look after @p step steps for cells that the soil has
+    /// left.
     bool
     is_due(unsigned long step) const
     {
@@ -49,9 +49,15 @@ namespace talus
     /// Adapt the mesh to the points: cells of size h around the cells occupied
     /// on any rank. If the mesh changed, Grid::prepare() must follow.
     /// Collective.
+    /// @param grid mesh
+    /// @param occupied_cells cells with points of this rank
+    /// @param is_urgent whether soil needs new small cells on any rank; if not,
+    ///   the mesh changes only if a tenth of the small cells is not needed
     /// @return Whether the mesh changed.
     bool
-    adapt(Grid<dim> &grid, const std::vector<unsigned int> &occupied_cells);
+    adapt(Grid<dim>                       &grid,
+          const std::vector<unsigned int> &occupied_cells,
+          bool                             is_urgent);
 
   private:
     using Lattice = typename Grid<dim>::Lattice;

@@ -77,7 +77,7 @@ namespace talus
     /// Apply the added impulses to the velocities. Components held by walls do
     /// not change: the wall bears the impulse. Collective.
     void
-    update_velocities(const State<dim> &state);
+    update_velocities();
 
     /// Copy the velocities to the nodes of @p state.
     void
@@ -100,6 +100,7 @@ namespace talus
 
     const Facets<dim>         &facets_;
     std::vector<unsigned int>  active_;   ///< owned nodes with soil
+    std::vector<double>        masses_;   ///< by entry of active_, kg
     std::vector<double>        records_;  ///< see Record
     std::vector<double>        impulses_; ///< in a sweep, N s
     std::vector<double>        totals_;   ///< in the step, N s

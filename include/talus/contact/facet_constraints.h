@@ -7,6 +7,7 @@
 #include <talus/contact/facet_coverage.h>
 #include <talus/contact/facets.h>
 #include <talus/contact/nodal_gaps.h>
+#include <talus/contact/surface_tables.h>
 #include <talus/state/state.h>
 
 #include <vector>
@@ -134,18 +135,17 @@ namespace talus
     find_shares(const ContactFacet<dim> &facet,
                 FacetConstraint<dim>    &constraint) const;
     void
-    require_uniform(const Cell<dim>         &cell,
-                    const ContactFacet<dim> &facet) const;
+    require_uniform(const ContactFacet<dim> &facet) const;
     void
     find_masses(const ContactFacet<dim> &facet,
-                double                   cell_size,
                 FacetConstraint<dim>    &constraint) const;
     double
     averaging_weight(const State<dim>           &state,
                      const ContactFacet<dim>    &facet,
                      const FacetConstraint<dim> &constraint) const;
-    double
-    volume_fraction(const ContactFacet<dim> &facet) const;
+    void
+    find_volume_fractions(const std::vector<ContactFacet<dim>> &facets,
+                          std::vector<double> &fractions) const;
     dealii::Tensor<1, dim>
     velocity(const ContactFacet<dim>    &facet,
              const FacetConstraint<dim> &constraint) const;
@@ -154,10 +154,13 @@ namespace talus
     const Facets<dim>                &facets_;
     const ContactNodes<dim>          &nodes_;
     const BedSlip<dim>               &slip_; ///< by facet; empty: not kept
+    SurfaceTables<dim>                tables_{obstacles_};
     NodalGaps<dim>                    gaps_; ///< surfaces: the obstacles
     FacetCoverage<dim>                coverage_{obstacles_, facets_};
     std::vector<FacetConstraint<dim>> constraints_;
     std::vector<unsigned int>         loaded_;
+    std::vector<double>               fractions_; ///< by owned facet [-]
+    std::vector<double> fractions_of_ghosts_;     ///< by ghost facet [-]
   };
 } // namespace talus
 

@@ -6,7 +6,6 @@
 #include <talus/grid/neighbor_exchange.h>
 #include <talus/state/state.h>
 
-#include <functional>
 #include <vector>
 
 namespace talus
@@ -22,9 +21,6 @@ namespace talus
   class FacetCoverage
   {
   public:
-    /// Volume fraction of soil at a facet [-].
-    using VolumeFraction = std::function<double(const ContactFacet<dim> &)>;
-
     FacetCoverage(const Obstacles<dim> &obstacles, const Facets<dim> &facets)
       : obstacles_(obstacles)
       , facets_(facets)
@@ -42,8 +38,12 @@ namespace talus
     /// Compute the covered share of each facet of Facets::owned(). Only facets
     /// with a volume fraction below 0.95 are sampled; other facets get the
     /// share 1. Collective.
+    /// @param fractions volume fractions of soil at Facets::owned() [-]
+    /// @param fractions_of_ghosts the same at Facets::ghosts()
     void
-    find(const State<dim> &state, const VolumeFraction &volume_fraction);
+    find(const State<dim>          &state,
+         const std::vector<double> &fractions,
+         const std::vector<double> &fractions_of_ghosts);
 
     /// Covered share of facet @p facet of Facets::owned() [-].
     double
@@ -71,6 +71,8 @@ namespace talus
       std::array<std::array<double, n_columns>, dim - 1> column{};
       /// Coordinate of each sample point along the axis, m.
       std::array<double, n_places> height{};
+      /// Sample points with the smallest and the largest coordinate there, m.
+      double lowest = 0, highest = 0;
 
       unsigned int
       size() const
@@ -123,7 +125,7 @@ namespace talus
                     const dealii::Tensor<1, dim> &half,
                     double                        beyond) const;
     void
-    pack_ghosts(const State<dim> &state, const VolumeFraction &volume_fraction);
+    pack_ghosts(const State<dim> &state, const std::vector<double> &fractions);
     void
     receive(const Grid<dim> &grid, const NeighborExchange::Message &message);
 

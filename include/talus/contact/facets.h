@@ -38,6 +38,11 @@ namespace talus
     bool   is_flat;
     double maximum_shear_stress; ///< Pa
 
+    // Set for the current mesh
+    double cell_size       = 0;     ///< m
+    bool   cell_is_uniform = false; ///< see Cell::uniform
+    bool   only_confines   = false; ///< whether no part of the contact
+
     /// Signed distance of @p x, m, from the plane of the facet, m; positive
     /// outside of the obstacle.
     double
@@ -86,29 +91,35 @@ namespace talus
     void
     for_each_in_cell(const unsigned int c, const Action &action) const
     {
-      if (const CutCell *const cut_cell = cut_cell_at_[c])
-        for (const auto *facets : {&cut_cell->facets, &cut_cell->hidden})
-          for (const ContactFacet<dim> &facet : *facets)
-            action(facet);
+      for (unsigned int i = in_cell_[c].begin; i < in_cell_[c].end; ++i)
+        action(surfaces_[i]);
     }
 
     /// Whether cell @p c contains a surface, see for_each_in_cell().
     bool
     is_cut(const unsigned int c) const
     {
-      return cut_cell_at_[c] != nullptr;
+      return in_cell_[c].begin != in_cell_[c].end;
     }
 
-    /// Return the only surface in cell @p c if the surface is flat; nullptr
+    /// Return the facet in cell @p c if it is the only surface there; nullptr
     /// otherwise.
+    const ContactFacet<dim> *
+    only_surface(const unsigned int c) const
+    {
+      const SurfacesInCell &range = in_cell_[c];
+      return range.end - range.begin == 1 &&
+                 !surfaces_[range.begin].only_confines
+               ? &surfaces_[range.begin]
+               : nullptr;
+    }
+
+    /// Return only_surface() if flat; nullptr otherwise.
     const ContactFacet<dim> *
     flat_facet(const unsigned int c) const
     {
-      const CutCell *const cut = cut_cell_at_[c];
-      return cut && cut->hidden.empty() && cut->facets.size() == 1 &&
-                 cut->facets[0].is_flat
-               ? cut->facets.data()
-               : nullptr;
+      const ContactFacet<dim> *const facet = only_surface(c);
+      return facet && facet->is_flat ? facet : nullptr;
     }
 
     /// Obstacles, ascending, which contain the whole of cell @p c and so have
@@ -116,7 +127,8 @@ namespace talus
     const std::vector<unsigned int> &
     containing(const unsigned int c) const
     {
-      return section_at_[c]->containing;
+      static const std::vector<unsigned int> none;
+      return in_cell_[c].is_contained ? section_at_[c]->containing : none;
     }
 
     /// Cells which share a corner with cell @p c, including @p c. Cell @p c,
@@ -242,7 +254,17 @@ namespace talus
       std::vector<ContactFacet<dim>>                 hidden;
       std::array<double, ContactFacet<dim>::n_nodes> open_volume;
       std::vector<unsigned int> touching; ///< cells within one cell
-      std::vector<unsigned int> near;     ///< cells within two cells
+      /// Cells within two cells. Empty if they follow from the neighbours of
+      /// the touching cells.
+      std::vector<unsigned int> near;
+    };
+
+    /// Range of a cell in surfaces_, and whether an obstacle contains the whole
+    /// cell.
+    struct SurfacesInCell
+    {
+      unsigned int begin = 0, end = 0;
+      bool         is_contained = false;
     };
 
     Section
@@ -264,6 +286,10 @@ namespace talus
     void
     collect(const Grid<dim> &grid, const Obstacles<dim> &obstacles);
     void
+    list_surfaces();
+    void
+    mark_near(const Grid<dim> &grid);
+    void
     add_open_volume(const Grid<dim> &grid, unsigned int c);
 
     void
@@ -273,10 +299,14 @@ namespace talus
 
     std::unordered_map<unsigned long, Section> sections_;  ///< by key of cell
     std::map<unsigned int, CutCell>            cut_cells_; ///< with ghosts
-    std::vector<const CutCell *> cut_cell_at_;  ///< by cell, for fast access
-    std::vector<const Section *> section_at_;   ///< by cell
-    std::set<unsigned int>       cells_inside_; ///< centre inside, near surface
-    std::vector<unsigned int>    listed_near_;
+    std::vector<const CutCell *> cut_cell_at_; ///< by cell, for fast access
+    std::vector<const Section *> section_at_;  ///< by cell
+    /// Facets and hidden surfaces of all cut cells, sorted by cell: the step
+    /// needs them without jumps in memory.
+    std::vector<ContactFacet<dim>> surfaces_;
+    std::vector<SurfacesInCell>    in_cell_; ///< by cell
+    std::set<unsigned int>    cells_inside_; ///< centre inside, near surface
+    std::vector<unsigned int> listed_near_;
     std::vector<ContactFacet<dim>> owned_, ghosts_;
     std::vector<unsigned int>      owned_nodes_, nodes_;
     std::vector<unsigned int>      owned_nodes_on_faces_, nodes_on_faces_;

@@ -2,12 +2,14 @@
 #ifndef talus_contact_nodal_gaps_h
 #define talus_contact_nodal_gaps_h
 
+#include <talus/contact/surface_table.h>
 #include <talus/state/state.h>
 
 #include <functional>
 #include <limits>
 #include <optional>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace talus
@@ -63,6 +65,12 @@ namespace talus
     /// the exact distances of boxes which are in contact anyway.
     using PlaneOfCell = std::function<std::optional<Plane>(unsigned int)>;
 
+    /// Table of the distances from the only surface in the given cell, with the
+    /// number of the surface; nullptr: exact distances.
+    using TableOfCell =
+      std::function<std::pair<const SurfaceTable<dim> *, unsigned int>(
+        unsigned int)>;
+
     /// Gap at a node which no box reaches.
     static constexpr double none = std::numeric_limits<double>::max();
 
@@ -80,7 +88,8 @@ namespace talus
             std::vector<Surface>      surfaces,
             std::vector<unsigned int> slots,
             Near                      near,
-            PlaneOfCell               plane_of_cell = {});
+            PlaneOfCell               plane_of_cell = {},
+            TableOfCell               table_of_cell = {});
 
     /// Slots of the surfaces, as set by prepare().
     const std::vector<unsigned int> &
@@ -133,6 +142,11 @@ namespace talus
     void
     find_of_point(const dealii::Point<dim>     &x,
                   const dealii::Tensor<1, dim> &half);
+    void
+    find_of_point(const SurfaceTable<dim>      &table,
+                  unsigned int                  surface,
+                  const dealii::Point<dim>     &x,
+                  const dealii::Tensor<1, dim> &half);
     bool
     is_in_contact(const Plane                  &plane,
                   double                        cell_size,
@@ -149,9 +163,11 @@ namespace talus
     std::vector<unsigned int>  slots_; ///< by surface
     Near                       near_;
     PlaneOfCell                plane_of_cell_;
+    TableOfCell                table_of_cell_;
     std::size_t                n_slots_ = 0;
-    std::vector<double>        gaps_;      ///< by node and slot, m
-    std::vector<unsigned char> is_open_;   ///< by node, used in find()
+    std::vector<double>        gaps_;    ///< by node and slot, m
+    std::vector<unsigned char> is_open_; ///< by node, used in find()
+    std::size_t                n_open_ = 0;
     std::vector<unsigned int>  near_cell_; ///< surfaces near the current cell
     std::vector<double>        of_point_;  ///< gaps of a point, by slot, m
     std::vector<unsigned int>  present_;   ///< nodes of the step

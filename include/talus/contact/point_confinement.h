@@ -3,8 +3,10 @@
 #define talus_contact_point_confinement_h
 
 #include <talus/contact/facets.h>
+#include <talus/contact/surface_tables.h>
 #include <talus/state/state.h>
 
+#include <utility>
 #include <vector>
 
 namespace talus
@@ -28,6 +30,7 @@ namespace talus
     PointConfinement(const Obstacles<dim> &obstacles, const Facets<dim> &facets)
       : obstacles_(obstacles)
       , facets_(facets)
+      , tables_(obstacles)
     {}
 
     /// Store the positions of the points of @p batch which may reach a surface
@@ -48,12 +51,20 @@ namespace talus
       unsigned int             obstacle;
       const ContactFacet<dim> *facet; ///< nullptr if the obstacle contains the
                                       ///< whole cell
-      dealii::Point<dim>     place;   ///< before the motion, m
-      dealii::Tensor<1, dim> half;    ///< half lengths of the box, m
+      const SurfaceTable<dim> *table; ///< nullptr: exact distances
+      dealii::Point<dim>       place; ///< before the motion, m
+      dealii::Tensor<1, dim>   half;  ///< half lengths of the box, m
     };
 
     void
     note_contained(const State<dim> &state, const Segment &segment);
+    void
+    note_at_facet(const State<dim>        &state,
+                  const Segment           &segment,
+                  const ContactFacet<dim> &facet);
+    std::pair<double, dealii::Tensor<1, dim>>
+    distance_and_normal(const Candidate          &candidate,
+                        const dealii::Point<dim> &x) const;
 
     bool
     confine(const Candidate    &candidate,
@@ -65,6 +76,7 @@ namespace talus
     const Facets<dim>         &facets_;
     std::vector<Candidate>     candidates_; ///< pairs of point and surface
     std::vector<unsigned char> is_moved_;   ///< by point, used in confine()
+    SurfaceTables<dim>         tables_;
   };
 } // namespace talus
 

@@ -61,6 +61,11 @@ namespace talus
     double
     signed_distance(const dealii::Point<dim> &x) const;
 
+    /// Return whether a part of @p box may lie in the region; false only if all
+    /// of the box is outside, at much lower cost than part_inside().
+    bool
+    may_overlap(const Box<dim> &box) const;
+
     /// Return the part of @p box in the region, from signed distances that are
     /// linear on simplices. The box is halved at least twice, until the
     /// distances are linear to a thousandth of the box, and near corners of

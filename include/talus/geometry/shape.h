@@ -60,6 +60,14 @@ namespace talus
       return std::abs(signed_distance(x)) < radius;
     }
 
+    /// Return whether a distance costs as much as hundreds of operations, so
+    /// that a table pays where many points need distances.
+    virtual bool
+    is_costly() const
+    {
+      return false;
+    }
+
     /// Width across the shape, m, if equal in all directions but one, for
     /// instance of a pipe in any direction. Infinite for all remaining shapes,
     /// whose thickness follows from the bounding box.

@@ -43,6 +43,13 @@ namespace talus
     bool
     may_cut_ball(const dealii::Point<dim> &x, double radius) const override;
 
+    /// Surfaces are rasters and expressions.
+    bool
+    is_costly() const override
+    {
+      return true;
+    }
+
     /// Return whether @p other is the opposite side of the same surface.
     bool
     is_beyond(const Shape<dim> &other) const;

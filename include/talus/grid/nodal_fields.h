@@ -188,6 +188,61 @@ namespace talus
 
 
 
+  /// The sum of the contributions of points. Unlike velocity times mass it is
+  /// not changed by the step.
+  template <int dim>
+  inline dealii::Tensor<1, dim>
+  NodalFields<dim>::momentum(const unsigned int node) const
+  {
+    dealii::Tensor<1, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = sum(node)[Sum::momentum + d];
+    return result;
+  }
+
+
+
+  /// Sum of the two parts of NodalSum.
+  template <int dim>
+  inline dealii::Tensor<1, dim>
+  NodalFields<dim>::force(const unsigned int node) const
+  {
+    const double          *s = sum(node);
+    dealii::Tensor<1, dim> result;
+    for (unsigned int d = 0; d < dim; ++d)
+      result[d] = s[Sum::force + d] + s[Sum::force_by_x + d];
+    return result;
+  }
+
+
+
+  template <int dim>
+  inline void
+  NodalFields<dim>::scale_inertia(const unsigned int node, const double factor)
+  {
+    sum(node)[Sum::mass] *= factor;
+    for (unsigned int d = 0; d < dim; ++d)
+      sum(node)[Sum::momentum + d] *= factor;
+  }
+
+
+
+  // A constant force over dt does exactly the work dt f . (v_before +
+  // v_after)/2; with v_after alone the energy budget would have an error of (dt
+  // f)^2/(2 m).
+  template <int dim>
+  inline dealii::Tensor<1, dim>
+  NodalFields<dim>::mean_velocity(const unsigned int node) const
+  {
+    dealii::Tensor<1, dim> v;
+    for (unsigned int d = 0; d < dim; ++d)
+      v[d] = motion(node)[Motion::velocity + d] -
+             0.5 * motion(node)[Motion::increment + d];
+    return v;
+  }
+
+
+
   template <int dim>
   inline dealii::Tensor<1, dim>
   NodalFields<dim>::velocity(const unsigned int node) const

@@ -47,6 +47,13 @@ namespace talus
     double
     shear_strength(const Points<dim> &points, unsigned int p) const override;
 
+    bool
+    softens() const override;
+
+    double
+    fraction_of_strength_loss(const Points<dim> &points,
+                              unsigned int       p) const override;
+
     std::string
     note(double cell_size) const override;
 
@@ -60,6 +67,8 @@ namespace talus
     HerschelBulkleyFlow
     flow_rule(double dt) const override;
 
+    std::string
+    name_of_consistency() const;
     double
     strain_to_remould(double cell_size) const;
     Strength

@@ -34,6 +34,33 @@ namespace talus
 
 
 
+  /// Strength as a function of the plastic shear strain of a step: falls
+  /// exponentially. Stresses in Pa.
+  template <typename Number, typename Modulus, typename Decay>
+  struct ExponentialSoftening
+  {
+    Number  strength; ///< at the start of the step
+    Number  loss;     ///< strength that remoulding can still remove
+    Decay   decay;    ///< rate of the loss per plastic shear strain [-]
+    Modulus modulus;  ///< elastic shear modulus
+
+    /// Change of the strength by the plastic shear strain @p x, and its slope.
+    TALUS_ALWAYS_INLINE std::pair<Number, Number>
+                        change(const Number x) const
+    {
+      return stress_taken(x, loss, 0., decay);
+    }
+
+    /// Upper bound of the plastic shear strain that takes up @p excess at rest.
+    TALUS_ALWAYS_INLINE Number
+    at_rest(const Number excess) const
+    {
+      return max_shear(excess, loss, modulus, decay);
+    }
+  };
+
+
+
   /// Radial return of the law of Herschel and Bulkley. The plastic variable is
   /// the plastic shear strain. Under a BandStrength all strains of remoulding
   /// are values of the softening.
@@ -61,6 +88,25 @@ namespace talus
             Number{});
       return {mu * d_xi / tau, d_xi};
     }
+
+    /// Factor of s:s in the square of tau.
+    static constexpr double square_of_stress = 0.5;
+
+    /// Strength without viscosity over the plastic shear strain of a step, see
+    /// plastic_increment() for rate effects.
+    template <typename Number, typename Factor>
+    TALUS_ALWAYS_INLINE auto
+    curve(const Number softening, const Factor &factor) const
+    {
+      const auto share   = share_of_strength(factor);
+      auto       modulus = modulus_of_point(resistance.modulus, factor);
+      auto       decay   = slope_of_point(resistance.decay, factor);
+      Number     loss    = Number(strength.loss) * share;
+      if (resistance.decay > 0.)
+        loss *= exp(-resistance.decay * softening);
+      return ExponentialSoftening<Number, decltype(modulus), decltype(decay)>{
+        Number(strength.remoulded) * share + loss, loss, decay, modulus};
+    }
   };
 
   template <>
@@ -74,9 +120,7 @@ namespace talus
   {
     Number shear_stress; ///< trial shear stress, Pa
     Number old_strain;   ///< plastic shear strain at the start of the step [-]
-    Number strength;     ///< at the start of the step, Pa
-    Number loss;         ///< strength that remoulding can still remove, Pa
-    Decay  decay;        ///< rate of the loss per plastic shear strain [-]
+    ExponentialSoftening<Number, Modulus, Decay> curve; ///< without viscosity
   };
 
 
@@ -99,23 +143,15 @@ namespace talus
                      const unsigned int                           p,
                      const Factor                                &factor)
   {
-    const Strength &strength = step.flow_rule.strength;
-    const double    decay    = step.flow_rule.resistance.decay;
-    const auto      share    = share_of_strength(factor);
-    const auto      trial    = rate_law_trial<dim, Number>(step, p, factor);
-    const auto     &s        = trial.stress.deviator_after;
-    const Number old_strain  = load<Number>(step.points.data(step.plastic) + p);
-    Number       loss        = Number(strength.loss) * share;
-    if (decay > 0.)
-      loss *= exp(
-        -decay *
-        softening_variable<Factor>(step.points, step.softening, p, old_strain));
+    const auto   trial      = rate_law_trial<dim, Number>(step, p, factor);
+    const auto  &s          = trial.stress.deviator_after;
+    const Number old_strain = load<Number>(step.points.data(step.plastic) + p);
     return {trial,
             sqrt(0.5 * contract(s, s) + std::numeric_limits<double>::min()),
             old_strain,
-            Number(strength.remoulded) * share + loss,
-            loss,
-            slope_of_point(decay, factor)};
+            step.flow_rule.curve(softening_variable<Factor>(
+                                   step.points, step.softening, p, old_strain),
+                                 factor)};
   }
 
 
@@ -190,23 +226,23 @@ namespace talus
         viscoplastic_trial<dim, Number>(step, p + i * width, factor_of(i));
     bool is_sound = true;
     if constexpr (n_parts == 1)
-      is_sound =
-        flow(step,
-             p,
-             trial[0],
-             plastic_shear<Number>(trial[0].shear_stress - trial[0].strength,
-                                   trial[0].loss,
-                                   with_modulus_and_decay(resistance,
-                                                          trial[0].moduli.mu,
-                                                          trial[0].decay)),
-             factor_of(0));
+      is_sound = flow(
+        step,
+        p,
+        trial[0],
+        plastic_shear<Number>(trial[0].shear_stress - trial[0].curve.strength,
+                              trial[0].curve.loss,
+                              with_modulus_and_decay(resistance,
+                                                     trial[0].moduli.mu,
+                                                     trial[0].curve.decay)),
+        factor_of(0));
     else
       {
         WideSimd<n_parts> excess, loss;
         for (unsigned int i = 0; i < n_parts; ++i)
           {
-            excess.part[i] = trial[i].shear_stress - trial[i].strength;
-            loss.part[i]   = trial[i].loss;
+            excess.part[i] = trial[i].shear_stress - trial[i].curve.strength;
+            loss.part[i]   = trial[i].curve.loss;
           }
         const auto shear = plastic_shear<WideSimd<n_parts>>(
           excess,
@@ -217,7 +253,7 @@ namespace talus
               return trial[i].moduli.mu;
             }),
             of_trials<n_parts>([&](const unsigned int i) TALUS_INLINE_LAMBDA {
-              return trial[i].decay;
+              return trial[i].curve.decay;
             })));
         for (unsigned int i = 0; i < n_parts; ++i)
           is_sound &=

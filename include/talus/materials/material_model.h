@@ -115,6 +115,22 @@ namespace talus
       return std::numeric_limits<double>::infinity();
     }
 
+    /// Return whether plastic flow reduces the strength.
+    virtual bool
+    softens() const
+    {
+      return false;
+    }
+
+    /// Fraction of the strength loss by softening that point @p p has suffered
+    /// [-], from 0 to 1, at the residual strength.
+    virtual double
+    fraction_of_strength_loss(const Points<dim> & /*points*/,
+                              unsigned int /*p*/) const
+    {
+      return 0.;
+    }
+
     /// Return whether the law softens with the displacement across a shear band
     /// as wide as a cell. The law then has the column `cell size`, to be set
     /// before each step, see Materials::set_cell_sizes().

@@ -90,12 +90,22 @@ namespace talus
       return is_plastic ? points.data(plastic_variable_)[p] : 0.;
     }
 
-  private:
     /// Flow rule for a step of @p dt seconds; infinite for load steps, which
     /// are infinitely slow.
     virtual FlowRule
     flow_rule(double dt) const = 0;
 
+    /// Implement update_stress() with @p rule as flow rule.
+    template <typename Rule>
+    void
+    update_stress_by(const Rule               &rule,
+                     Points<dim>              &points,
+                     const StepWorkspace<dim> &workspace,
+                     unsigned int              begin,
+                     unsigned int              end,
+                     double                    dt) const;
+
+  private:
     /// Columns by which strength and stiffness differ from point to point.
     virtual StrengthColumns
     strength_columns() const;

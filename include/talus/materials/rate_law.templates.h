@@ -123,11 +123,26 @@ namespace talus
                                         const unsigned int        end,
                                         const double              dt) const
   {
+    update_stress_by(flow_rule(dt), points, workspace, begin, end, dt);
+  }
+
+
+
+  template <int dim, typename FlowRule>
+  template <typename Rule>
+  void
+  RateLaw<dim, FlowRule>::update_stress_by(const Rule               &rule,
+                                           Points<dim>              &points,
+                                           const StepWorkspace<dim> &workspace,
+                                           const unsigned int        begin,
+                                           const unsigned int        end,
+                                           const double              dt) const
+  {
     Assert(!is_plastic ||
              plastic_variable_ != dealii::numbers::invalid_unsigned_int,
            dealii::ExcMessage("add_columns() was not called."));
     const Moduli       moduli    = this->moduli();
-    const FlowRule     flow      = flow_rule(dt);
+    const Rule         flow      = rule;
     const auto         columns   = points.view();
     const auto         work      = workspace.view(begin, end);
     const unsigned int plastic   = plastic_variable_;
@@ -135,9 +150,9 @@ namespace talus
     bool               is_sound  = true;
     with_strength(points, [&](const auto &factor) {
       // Constructed here, not captured, so that the compiler knows all values.
-      const RateLawStep<dim, FlowRule> step = {
+      const RateLawStep<dim, Rule> step = {
         columns, work, plastic, dt, moduli, flow, softening};
-      constexpr unsigned int n    = n_registers_at_once<FlowRule>;
+      constexpr unsigned int n    = n_registers_at_once<Rule>;
       unsigned int           rest = begin;
       if constexpr (n > 1)
         for (; rest + n * simd_width <= end; rest += n * simd_width)

@@ -214,11 +214,16 @@ namespace talus
   template <typename FlowRule>
   constexpr unsigned int n_registers_at_once = 1;
 
+  /// Whether the flow rule iterates, so that the increment of the plastic
+  /// variable may be NaN, not found.
+  template <typename FlowRule>
+  constexpr bool is_iterative = false;
+
 
 
   /// Advance the points from @p p on, in @p n registers, by one step of a law
-  /// in rate form. Returns false if a point is inverted. @p factor is a
-  /// function as in with_point_strength().
+  /// in rate form. Returns false if a point is inverted or its flow not found.
+  /// @p factor is a function as in with_point_strength().
   template <int dim,
             typename Number,
             unsigned int n,
@@ -246,6 +251,9 @@ namespace talus
         store(variable, before + flow.increment);
         soften(step.points, step.softening, p, flow.increment, factor_here);
         flow_plastically(step.points, p, trial, flow);
+        if constexpr (is_iterative<FlowRule>)
+          if (!all(flow.increment >= 0.))
+            return false;
       }
     return all(trial.motion.J_after > 0.);
   }

@@ -13,7 +13,8 @@ namespace talus
   /// The flow rule takes strength() and moduli(), and multiplies both by
   /// share_of_strength() and modulus_of_point(). With a softening displacement
   /// the rule takes the column "softening", 1 at that displacement, and
-  /// multiplies slopes by slope_of_point(). The functions are in
+  /// multiplies slopes by slope_of_point(). With a rate coefficient the rule is
+  /// applied as RateDependentFlow<FlowRule>. The functions are in
   /// undrained_law.templates.h, to be included by the .cc file of a law.
   template <int dim, typename FlowRule>
   class UndrainedLaw : public RateLaw<dim, FlowRule>
@@ -34,6 +35,13 @@ namespace talus
 
     void
     add_columns(Points<dim> &points) override;
+
+    void
+    update_stress(Points<dim>              &points,
+                  const StepWorkspace<dim> &workspace,
+                  unsigned int              begin,
+                  unsigned int              end,
+                  double                    dt) const override;
 
     void
     wave_modulus(const Points<dim> &points,
@@ -112,6 +120,24 @@ namespace talus
     check_softening_is_given_once(bool               is_given,
                                   const std::string &other) const;
 
+    bool
+    has_rate_effect() const
+    {
+      return rate_coefficient_ > 0.;
+    }
+
+    /// Factor by which the rate of shearing steepens the softening in the
+    /// return of a step [-]: R + 2 m at the highest rate, 1 without a rate
+    /// effect. See plastic_increment().
+    double
+    steepening_by_rate() const;
+
+    /// Throw ExcUser, naming the largest rate coefficient, if soil sheared
+    /// quickly would soften faster than it can unload elastically. Call at the
+    /// end of check().
+    void
+    check_rate_effect() const;
+
     /// Young's modulus, Pa, from the ratio E/s_u if given.
     double
     young_modulus() const override
@@ -132,6 +158,7 @@ namespace talus
     UndrainedStrength strength_{"2500"};
     // A single number, or empty if the parameter is not given.
     std::vector<double> stiffness_ratio_, softening_displacement_;
+    double              rate_coefficient_ = 0., reference_rate_ = 3e-6;
     unsigned int softening_column_ = dealii::numbers::invalid_unsigned_int;
     unsigned int cell_size_column_ = dealii::numbers::invalid_unsigned_int;
   };

@@ -2,10 +2,12 @@
 #ifndef talus_materials_undrained_law_templates_h
 #define talus_materials_undrained_law_templates_h
 
+#include <talus/materials/rate_effect_kernel.h>
 #include <talus/materials/rate_law.templates.h>
 #include <talus/materials/undrained_law.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace talus
@@ -50,6 +52,23 @@ namespace talus
         softening_strain + ". Empty: that is used.",
       ParameterAcceptor::prm,
       Patterns::List(Patterns::Double(1e-12), 0, 1));
+    this->add_parameter(
+      "Rate coefficient",
+      rate_coefficient_,
+      "Gain of strength per decade of the shear rate [-], 0.05 to 0.2 in clay: "
+      "soil sheared plastically at the rate gdot has R = 1 + mu/ln(10) "
+      "asinh(gdot/gdot_ref) times the strength. Static stages are infinitely "
+      "slow, R = 1. 0: no rate effect.",
+      ParameterAcceptor::prm,
+      Patterns::Double(0.));
+    this->add_parameter(
+      "Reference shear rate",
+      reference_rate_,
+      "Shear rate gdot_ref [1/s] below which the strength is the undrained "
+      "shear strength: the rate of the test that gave the strength, such as "
+      "3e-6 (1 % per hour) in the laboratory, about 0.5 with a T-bar.",
+      ParameterAcceptor::prm,
+      Patterns::Double(1e-12));
     strength_.variation().add_parameters(*this);
   }
 
@@ -91,6 +110,54 @@ namespace talus
 
 
 
+  namespace internal
+  {
+    // Soil is not sheared faster, 1/s.
+    inline constexpr double highest_shear_rate = 1e4;
+  } // namespace internal
+
+
+
+  template <int dim, typename FlowRule>
+  double
+  UndrainedLaw<dim, FlowRule>::steepening_by_rate() const
+  {
+    const double m = rate_coefficient_ / std::log(10.);
+    return 1. +
+           m *
+             (std::asinh(internal::highest_shear_rate / reference_rate_) + 2.);
+  }
+
+
+
+  // The largest strength factor F is inversely proportional to
+  // steepening_by_rate(), 1 + m (...), and F is to be at least 1.
+  template <int dim, typename FlowRule>
+  void
+  UndrainedLaw<dim, FlowRule>::check_rate_effect() const
+  {
+    const double factor = this->largest_strength_factor();
+    if (!has_rate_effect() || factor >= 1.)
+      return;
+    const double growth = steepening_by_rate();
+    const double largest =
+      rate_coefficient_ * std::max(factor * growth - 1., 0.) / (growth - 1.);
+    AssertThrow(false,
+                ExcUser(
+                  text("Section ",
+                       this->section(),
+                       ": `Rate coefficient` is ",
+                       rate_coefficient_,
+                       ", but quickly sheared material (up to ",
+                       internal::highest_shear_rate,
+                       " 1/s) must not soften faster than it can unload "
+                       "elastically. Give at most ",
+                       largest,
+                       ", or let the material soften over a larger strain.")));
+  }
+
+
+
   template <int dim, typename FlowRule>
   void
   UndrainedLaw<dim, FlowRule>::add_columns(Points<dim> &points)
@@ -126,6 +193,34 @@ namespace talus
                       cell_size_column_,
                       shear_per_plastic_variable() / softening_displacement()};
     return columns;
+  }
+
+
+
+  // A flow rule of its own, so that soil without rate effect does not pay.
+  template <int dim, typename FlowRule>
+  void
+  UndrainedLaw<dim, FlowRule>::update_stress(
+    Points<dim>              &points,
+    const StepWorkspace<dim> &workspace,
+    const unsigned int        begin,
+    const unsigned int        end,
+    const double              dt) const
+  {
+    const FlowRule rule = this->flow_rule(dt);
+    if (!has_rate_effect())
+      this->update_stress_by(rule, points, workspace, begin, end, dt);
+    else
+      this->update_stress_by(
+        RateDependentFlow<FlowRule>{rule,
+                                    {rate_coefficient_ / std::log(10.),
+                                     reference_rate_ * dt /
+                                       shear_per_plastic_variable()}},
+        points,
+        workspace,
+        begin,
+        end,
+        dt);
   }
 
 

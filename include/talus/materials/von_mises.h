@@ -36,6 +36,13 @@ namespace talus
     double
     shear_strength(const Points<dim> &points, unsigned int p) const override;
 
+    bool
+    softens() const override;
+
+    double
+    fraction_of_strength_loss(const Points<dim> &points,
+                              unsigned int       p) const override;
+
     std::string
     note(double cell_size) const override;
 
@@ -45,6 +52,9 @@ namespace talus
 
     VonMisesFlow
     flow_rule(double dt) const override;
+
+    double
+    strength_without_factor(const Points<dim> &points, unsigned int p) const;
 
     double hardening_         = 0.;
     double residual_strength_ = 0.;

@@ -76,6 +76,21 @@ namespace talus
       return facets_;
     }
 
+    /// Nodes of facets() without repetition, masters of hanging nodes among
+    /// them, and all nodes shared with other ranks.
+    const std::vector<unsigned int> &
+    nodes_of_facets() const
+    {
+      return nodes_of_facets_;
+    }
+
+    /// Hanging nodes of nodes_of_facets().
+    const std::vector<const HangingNode *> &
+    hanging_nodes_of_facets() const
+    {
+      return hanging_nodes_;
+    }
+
     /// Integral of the outward normal over the surface of the soil in cell
     /// @p cell, m^(dim-1); call after find().
     dealii::Tensor<1, dim>
@@ -131,6 +146,8 @@ namespace talus
     void
     make_facets(const std::vector<double> &rows, const Grid<dim> &grid);
     void
+    list_nodes_of_facets(const Grid<dim> &grid);
+    void
     list_cells(const State<dim> &state);
     void
     find_vector_areas(const Grid<dim> &grid);
@@ -150,8 +167,10 @@ namespace talus
     std::vector<unsigned int>  first_cell_, cells_; ///< by node, with ghosts
     NodalExchange<dim>         exchange_, exchange_of_soil_, exchange_of_areas_;
     std::vector<double>        records_, soil_;
-    std::vector<unsigned int>  nodes_of_soil_; ///< soil_ may be nonzero
-    std::vector<unsigned int>  filled_nodes_;  ///< records may be nonzero
+    std::vector<unsigned int>  nodes_of_facets_;
+    std::vector<unsigned char> is_node_of_facets_;   ///< by node
+    std::vector<const HangingNode *> hanging_nodes_; ///< among nodes_of_facets_
+    std::vector<unsigned int>        filled_nodes_;  ///< records may be nonzero
     std::vector<unsigned int>  soil_nodes_, previous_soil_nodes_; ///< f > 0
     std::vector<unsigned int>  listed_cells_;  ///< around soil_nodes_
     std::vector<unsigned int>  surface_cells_; ///< candidates for a facet

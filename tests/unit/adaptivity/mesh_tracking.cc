@@ -109,6 +109,33 @@ namespace
 
 
 
+  /// Small cells from x = 0 to 40 m; soil has left those beyond @p end.
+  /// Return whether the mesh is coarsened without need.
+  bool
+  is_coarsened(const double end)
+  {
+    Tracked<2> core(long_mesh<2>());
+    core.begin({Box<2>{{0.2, 0.1}, {39.8, 7.8}}});
+    for (double x = 0.25; x < end; x += 0.5)
+      for (double y = 0.25; y < 7.8; y += 0.5)
+        core.put(Point<2>(x, y));
+    core.relocation.rebuild(core.points, core.grid);
+    return core.follow(/*is_urgent=*/false);
+  }
+
+
+
+  // A column of blocks is 4 m long: the last column is less than a tenth of the
+  // small cells, two columns are more.
+  TEST(MeshTracking, CoarsensIfATenthIsNotNeeded)
+  {
+    EXPECT_FALSE(is_coarsened(39.9));
+    EXPECT_FALSE(is_coarsened(36.9));
+    EXPECT_TRUE(is_coarsened(27.9));
+  }
+
+
+
   // -------------------------------------------------------------- is it urgent
 
   /// Numbers over all ranks of the corners of the cells larger than h, and of

@@ -51,10 +51,11 @@ namespace
 
     /// Mesh of the points as they are. Returns whether it changed.
     bool
-    follow()
+    follow(const bool is_urgent = true)
     {
-      const bool changed =
-        tracking.adapt(this->grid, this->relocation.occupied_cells());
+      const bool changed = tracking.adapt(this->grid,
+                                          this->relocation.occupied_cells(),
+                                          is_urgent);
       prepare();
       return changed;
     }

@@ -76,7 +76,7 @@ TEST(ContactNodes, ImpulsesOfAllRanksChangeVelocities)
   for (unsigned int i = 0; i < 2; ++i)
     {
       // The second call has no impulses to apply.
-      soil.contact_nodes.update_velocities(soil);
+      soil.contact_nodes.update_velocities();
       soil.for_each_node_of_facets([&](const unsigned int node,
                                        const Point<2>    &x) {
         const Tensor<1, 2> expected =
@@ -116,7 +116,7 @@ TEST(ContactNodes, WallsHoldTheirComponents)
     for (unsigned int v = 0; v < facet.node.size(); ++v)
       soil.contact_nodes.add_impulse(facet.node[v],
                                      facet.shape_value[v] * Point<2>(10., 20.));
-  soil.contact_nodes.update_velocities(soil);
+  soil.contact_nodes.update_velocities();
   soil.for_each_node_of_facets([&](const unsigned int node, const Point<2> &x) {
     Tensor<1, 2> expected;
     if (x[1] < 2.5)

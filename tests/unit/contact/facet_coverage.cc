@@ -62,7 +62,9 @@ namespace
       coverage.prepare(this->grid);
       add_boxes();
       this->sort();
-      coverage.find(*this, [](const ContactFacet<dim> &) { return 0.3; });
+      coverage.find(*this,
+                    std::vector<double>(facets.owned().size(), 0.3),
+                    std::vector<double>(facets.ghosts().size(), 0.3));
       std::map<double, double> of_rank, all;
       for (unsigned int f = 0; f < facets.owned().size(); ++f)
         {

@@ -45,6 +45,8 @@ TEST_F(GroundTest, WithoutObstacles)
   const Ground<2> ground(mesh_2d);
   EXPECT_TRUE(ground.is_bottom_face());
   EXPECT_TRUE(ground.is_open(Point<2>(0, -3)));
+  EXPECT_FALSE(ground.encloses(Point<2>(0, -3)));
+  EXPECT_TRUE(ground.encloses(Point<2>(0, -4)));
   expect_level(ground, Point<2>(1, 2), -4.);
   const WithObstacles<2> none{};
   EXPECT_TRUE(Ground<2>(mesh_2d, &none.obstacles).is_bottom_face());
@@ -78,6 +80,7 @@ TEST_F(GroundTest, InclinedBed)
                         surface < -4. ? -4. : surface,
                         1e-10);
             EXPECT_EQ(ground.is_open(at), y > surface);
+            EXPECT_EQ(ground.encloses(at), y <= surface);
             if (surface > -4.)
               {
                 EXPECT_LT((ground.layer_normal(at) - normal).norm(), 1e-12);
@@ -95,6 +98,7 @@ TEST_F(GroundTest, APipeIsNone)
   const Ground<2>        ground(mesh_2d, &obstacles.obstacles);
   EXPECT_FALSE(ground.is_bottom_face());
   EXPECT_FALSE(ground.is_open(Point<2>(5, -3.5)));
+  EXPECT_FALSE(ground.encloses(Point<2>(5, -3.5)));
   expect_level(ground, Point<2>(5, -2), -4.);
   expect_level(ground, Point<2>(5, -3.5), -4.);
 }

@@ -225,6 +225,31 @@ namespace
 
 
 
+  // The surface of the disc, minus a solid, crosses or surrounds some boxes.
+  TEST(Region, BoxesThatMayOverlap)
+  {
+    const Ball<2> disc(Point<2>(0.1, -0.05), 0.7);
+    const Ball<2> solid(Point<2>(0.1, 0.4), 0.5);
+    Region<2>     region(disc);
+    region.cut_away({&solid});
+    constexpr unsigned int n         = 40;
+    unsigned int           n_outside = 0;
+    for (unsigned int i = 0; i < n * n; ++i)
+      {
+        const Point<2> lower(-2. + 4. * (i % n) / n, -2. + 4. * (i / n) / n);
+        const Box<2>   box{lower, lower + Point<2>(4. / n, 4. / n)};
+        if (region.may_overlap(box))
+          continue;
+        ++n_outside;
+        EXPECT_EQ(region.part_inside(box).volume, 0.);
+      }
+    // Only boxes beside the surface are in doubt: at most a ring of two boxes.
+    EXPECT_GT(n_outside, 0.85 * n * n);
+    EXPECT_TRUE(region.may_overlap({Point<2>(-9., -9.), Point<2>(9., 9.)}));
+  }
+
+
+
   // Smaller than the boxes, and between their nodes.
   TEST(Region, SmallAndThinOnes)
   {

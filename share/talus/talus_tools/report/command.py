@@ -13,8 +13,15 @@ def main():
     """Reports of the folders named; the last lines tell where they are."""
     parser = Parser(prog="talus-report", description=DESCRIPTION)
     parser.add_argument("folders", metavar="DIR", nargs="+", help="output folder of a run")
-    for folder in parser.parse_args().folders:
-        path, notices = write_report(folder)
+    for option, meaning in (("--slab", "body that lies on a weak layer"),
+                            ("--weak-layer", "body whose critical length is drawn")):
+        parser.add_argument(option, metavar="BODY", help=meaning)
+    given = parser.parse_args()
+    layer = (given.slab, given.weak_layer)
+    if None in layer and layer != (None, None):
+        parser.error("--slab and --weak-layer go together: give both, or none.")
+    for folder in given.folders:
+        path, notices = write_report(folder, layer if given.slab else None)
         for notice in notices:
             print(f"Notice: {notice}")
         print(f"Open {path} in a browser.")

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 """The sections of the page, in their order."""
 
+from talus_tools.report.sections.bands import bands
 from talus_tools.report.sections.budgets import energy, mass, momentum
 from talus_tools.report.sections.forces import faces, obstacles
 from talus_tools.report.sections.fracture import fracture
@@ -15,5 +16,5 @@ from talus_tools.report.sections.stations import stations
 from talus_tools.report.sections.thalweg import thalweg
 
 # Results first, then how far they can be trusted, then what was run.
-SECTIONS = [safety, maps, motion, runout, obstacles, stations, lines, thalweg, soil, faces,
-            fracture, mass, momentum, energy, remarks, parameters]
+SECTIONS = [safety, maps, motion, runout, bands, obstacles, stations, lines, thalweg, soil,
+            faces, fracture, mass, momentum, energy, remarks, parameters]

@@ -43,14 +43,15 @@ def has_rows(path):
 
 class Run:
     """Tables, parameters and log of a run; a table that is not there is None. `empty`: names
-    of the tables that have no complete row."""
+    of the tables that have no complete row; `layer`: names of the bodies that are slab and weak
+    layer, or None."""
 
-    def __init__(self, folder):
-        self.folder, self.empty = folder, []
+    def __init__(self, folder, layer=None):
+        self.folder, self.empty, self.layer = folder, [], layer
         self.check_folder()
         self.tables = {name: self.read(name + ".csv") for name in
                        ("statistics", "profile", "obstacles", "boundaries", "newton", "maps",
-                        "stations", "runout")}
+                        "stations", "runout", "bands")}
         self.statistics = self.tables["statistics"]
         self.entries = read_parameters(self.path("parameters.prm"))
         self.title = self.entries.get("Title", "")

@@ -53,10 +53,10 @@ def write_page(path, page):
     os.replace(path + ".part", path)
 
 
-def write_report(folder):
+def write_report(folder, layer=None):
     """Write report.html into the folder of a run and styles of QGIS beside its maps; return the
-    path of the report and the notices."""
-    run = Run(folder)
+    path of the report and the notices. `layer`: see Run."""
+    run = Run(folder, layer)
     path = run.path("report.html")
     try:
         write_page(path, render(run))

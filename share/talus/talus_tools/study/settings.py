@@ -36,7 +36,7 @@ MEMBER, STATUS, MOVING, HASH, REASON = ("member", "status", "moving at the end",
                                         "reason")
 # Tables of talus whose columns are all numbers.
 TABLES = ("statistics.csv", "profile.csv", "obstacles.csv", "boundaries.csv", "newton.csv",
-          "maps.csv", "stations.csv", "runout.csv")
+          "maps.csv", "stations.csv", "runout.csv", "bands.csv")
 TAKES = ("final", "maximum", "minimum")
 KINDS = ("Latin hypercube", "grid")
 # Numbers that each distribution needs, all in the unit of the parameter.
