@@ -141,14 +141,14 @@ namespace talus
   Equilibrium<dim>::begin(const StrainMeasure      measure,
                           const EquilibriumLimits &limits)
   {
-    limits_                             = limits;
-    newton_parameters_.measure          = measure;
-    newton_parameters_.is_well_balanced = limits.is_well_balanced;
-    load_                               = 0;
-    step_                               = 1. / limits.n_load_steps;
-    n_steps_ = n_settling_ = n_flowing_ = 0;
-    is_partial_                         = false;
-    imbalance_                          = 0;
+    limits_                              = limits;
+    newton_parameters_.measure           = measure;
+    newton_parameters_.is_well_balanced  = limits.is_well_balanced;
+    newton_parameters_.contact_tolerance = limits.contact_tolerance;
+    load_                                = 0;
+    step_                                = 1. / limits.n_load_steps;
+    n_steps_ = n_settling_ = n_failures_ = 0;
+    imbalance_                           = 0;
     is_found_ = is_stopped_ = false;
     imbalances_.clear();
     failure_.clear();
@@ -239,13 +239,22 @@ namespace talus
 
 
 
+  /// Return whether the imbalance fell by 10 % in the last @p n_steps settling
+  /// steps, or fewer steps were taken.
+  template <int dim>
+  bool
+  Equilibrium<dim>::is_falling(const unsigned int n_steps) const
+  {
+    const std::size_t n = imbalances_.size();
+    return n <= n_steps ||
+           imbalances_.back() < 0.9 * imbalances_[n - 1 - n_steps];
+  }
+
+
+
   /// Return whether the soil seems to come to rest at full load. Failing soil
-  /// flows on and on, with one of three signs:
-  /// - no settling steps are left;
-  /// - the imbalance did not fall by 10 % in the last 20 steps;
-  /// - at small strain: the imbalance did not fall by 10 % in two steps that
-  ///   removed only a part of the imbalance, since the whole did not converge.
-  ///   (At large strain, steps are also cut where points would be inverted.)
+  /// flows on and on: no settling steps are left, or the imbalance did not fall
+  /// in the last 20 steps.
   template <int dim>
   bool
   Equilibrium<dim>::is_settling()
@@ -254,17 +263,21 @@ namespace talus
     if (load_ < 1.)
       return true;
     imbalances_.push_back(imbalance_);
-    if (n_settling_ >= largest_settling_)
-      return false;
-    const std::size_t n          = imbalances_.size();
-    const auto        fell_since = [&](const unsigned int before) {
-      return n <= before ||
-             imbalances_.back() < 0.9 * imbalances_[n - 1 - before];
-    };
-    n_flowing_ += (is_partial_ && !fell_since(1));
-    const bool flows =
-      (newton_parameters_.measure == StrainMeasure::small && n_flowing_ >= 2);
-    return !flows && fell_since(patience);
+    return n_settling_ < largest_settling_ && is_falling(patience);
+  }
+
+
+
+  /// Return whether the soil flows, as a settling step with the whole imbalance
+  /// has failed: at small strain, if the previous step did not lower the
+  /// imbalance. (At large strain, steps also fail where points would be
+  /// inverted.)
+  template <int dim>
+  bool
+  Equilibrium<dim>::flows_on() const
+  {
+    return load_ >= 1. && !is_falling(1) &&
+           newton_parameters_.measure == StrainMeasure::small;
   }
 
 
@@ -303,14 +316,14 @@ namespace talus
           {
             failure_    = outcome.failure;
             is_stopped_ = outcome.is_stopped;
-            if (is_stopped_)
+            if (is_stopped_ || flows_on() ||
+                ++n_failures_ > limits_.max_failures)
               return false;
             continue;
           }
         newton_.commit(problem);
         // Count by the load before the step: the step that completes the load
         // does not settle.
-        is_partial_ = (load_ >= 1. && cut < 1.);
         n_settling_ += (load_ >= 1.);
         load_ = after;
         step_ = std::min(1.5 * cut * step_, 1. / limits_.n_load_steps);

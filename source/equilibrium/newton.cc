@@ -106,8 +106,8 @@ namespace talus
   /// fixed states the problem is smooth, so convergence is quadratic; and the
   /// matrix at small strain stays symmetric, while friction as a function of
   /// the normal force would make it unsymmetric. Each loop starts from the
-  /// displacements of the previous loop. The number of loops is limited, as a
-  /// set of states may recur.
+  /// displacements of the previous loop. Loops before the last need not be
+  /// exact. The number of loops is limited, as a set of states may recur.
   template <int dim>
   typename Newton<dim>::Outcome
   Newton<dim>::solve_with_contact(StaticProblem<dim> &problem,
@@ -117,11 +117,12 @@ namespace talus
     // matrices could recur.
     constexpr unsigned int max_singular = 3;
     unsigned int           n_singular   = 0;
+    double                 tolerance    = parameters_.contact_tolerance;
     // The state of a node may change several times.
     for (unsigned int trial = 0; trial < 50; ++trial)
       {
         equations_.constrain(problem);
-        const Outcome outcome = newton_loop(problem, observe);
+        const Outcome outcome = newton_loop(problem, tolerance, observe);
         if (!outcome.converged)
           {
             if (outcome.is_stopped)
@@ -138,8 +139,11 @@ namespace talus
             return outcome;
           }
         mechanism_ = u_;
-        if (equations_.update_contact(problem, residual_, u_) == 0)
+        if (equations_.update_contact(problem, residual_, u_) > 0)
+          continue;
+        if (outcome.residual <= parameters_.tolerance)
           return outcome;
+        tolerance = 0.;
       }
     return failure(
       "The contact with seabed and obstacles does not come to rest");
@@ -153,13 +157,17 @@ namespace talus
   /// is over all ranks. The residual is relative to
   /// StaticEquations::reference_force() and not to the first residual: a load
   /// step that starts nearly in balance could not reduce its residual by eight
-  /// orders of magnitude.
+  /// orders of magnitude. Where @p largest_tolerance is larger than the
+  /// tolerance, a residual of a hundredth of the first is enough.
   template <int dim>
   typename Newton<dim>::Outcome
-  Newton<dim>::newton_loop(StaticProblem<dim> &problem, const Observer &observe)
+  Newton<dim>::newton_loop(StaticProblem<dim> &problem,
+                           const double        largest_tolerance,
+                           const Observer     &observe)
   {
-    moves_freely_ = false;
-    n_updates_    = 0;
+    double tolerance = parameters_.tolerance;
+    moves_freely_    = false;
+    n_updates_       = 0;
     if (!equations_.compute_residual(problem, u_, residual_))
       return failure("A point would be turned inside out");
     const Outcome       stopped{false, "The search was stopped", true};
@@ -170,13 +178,17 @@ namespace talus
         const double    norm = equations_.unknowns().norm(residual_);
         NewtonIteration iteration{
           i, norm == 0. ? 0. : norm / equations_.reference_force(), 0, 0., 0.};
-        const bool converged = (iteration.residual <= parameters_.tolerance);
+        if (i == 0)
+          tolerance =
+            std::max(tolerance,
+                     std::min(largest_tolerance, 0.01 * iteration.residual));
+        const bool converged = (iteration.residual <= tolerance);
         if (converged || i == parameters_.largest_iterations ||
             !std::isfinite(norm))
           {
             if (!observe(iteration))
               return stopped;
-            return converged ? Outcome{true, "", false}
+            return converged ? Outcome{true, "", false, iteration.residual}
                              : failure(text(std::setprecision(6),
                                             "Newton's method has not converged "
                                             "in ",
@@ -184,7 +196,7 @@ namespace talus
                                             " iterations: the residual is ",
                                             iteration.residual,
                                             " of the forces, but at most ",
-                                            parameters_.tolerance,
+                                            tolerance,
                                             " is allowed"));
           }
         residuals.push_back(iteration.residual);

@@ -108,10 +108,8 @@ namespace talus
     // Entries are sorted on one rank; columns of ghosts may come in any order.
     int        place      = 0;
     const auto advance_to = [&](const int column) {
-      for (int n = 0; n < n_entries && entries[place % n_entries] != column;
-           ++n)
-        ++place;
-      place %= n_entries;
+      for (int n = 0; n < n_entries && entries[place] != column; ++n)
+        place = (place + 1 < n_entries ? place + 1 : 0);
       Assert(entries[place] == column, ExcInternalError());
     };
     for (const auto &[column, j] : columns_)

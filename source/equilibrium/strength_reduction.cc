@@ -182,11 +182,13 @@ namespace talus
   {
     limits.allowed_imbalance =
       allowed_imbalance_ > 0. ? allowed_imbalance_ : 0.02 * tolerance_;
+    limits.contact_tolerance = 0.1 * limits.allowed_imbalance;
     // No state with less strength to start from: the full load must be applied.
     if (lower_ == 0.)
       return limits;
     limits.n_load_steps = 1;
     const bool decides  = factor - lower_ <= nearby * tolerance_ * lower_;
+    limits.max_failures = decides ? 20 : 2;
     limits.smallest_step =
       decides ? std::min(smallest_step_, limits.smallest_step) : smallest_step_;
     return limits;

@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
 
 namespace talus
 {
@@ -31,21 +34,46 @@ namespace talus
 
 
 
+  namespace
+  {
+    /// Return a function that calls @p height at most once per vertical: points
+    /// of a lattice share verticals, and each search for the mudline takes some
+    /// 30 us.
+    template <int dim>
+    std::function<double(const Point<dim> &)>
+    with_memory(const std::function<double(const Point<dim> &)> &height)
+    {
+      const auto heights =
+        std::make_shared<std::map<std::pair<double, double>, double>>();
+      return [=](const Point<dim> &x) {
+        const auto [entry, is_new] =
+          heights->try_emplace({x[0], dim == 3 ? x[dim - 1] : 0.}, 0.);
+        if (is_new)
+          entry->second = height(x);
+        return entry->second;
+      };
+    }
+  } // namespace
+
+
+
   /// Compute
   ///   E_i = sum_p V (p' grad S_ip + S_ip grad p) + sum_f share_if p A n,
   /// with p' after the mean of B-bar and facet normals n into the soil.
   template <int dim>
   void
-  WellBalancedLoad<dim>::compute(const StaticProblem<dim>      &problem,
+  WellBalancedLoad<dim>::compute(const StaticProblem<dim>      &given,
                                  const ShapeFunctionCache<dim> &weights,
                                  const StaticFacets<dim>       &facets,
                                  Unknowns<dim>                 &unknowns)
   {
     clear();
     is_computed_ = true;
-    if (!problem.mudline || has_moved(problem))
+    if (!given.mudline || has_moved(given))
       return;
-    unit_weight_ = mean_unit_weight(problem);
+    StaticProblem<dim> problem = given;
+    problem.mudline            = with_memory<dim>(given.mudline);
+    unit_weight_               = mean_unit_weight(problem);
     if (!(unit_weight_ > 0.))
       return;
     find_pressure(problem);

@@ -117,6 +117,7 @@ namespace talus
     state_.nodes.clear();
     timer_.lap(PhaseTimer::points_to_grid);
     time_step_.begin();
+    groups_.clear();
     state_.points.for_each_batch([this](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
       time_step_.add_batch(state_.points,
@@ -126,7 +127,7 @@ namespace talus
                            transfer_.box_shape());
       timer_.lap(PhaseTimer::time_step);
       transfer_.apply_bbar_to_stress(state_.points, state_.workspace, batch);
-      transfer_.scatter(state_.with(problem_.loading.loads()), batch);
+      transfer_.scatter(state_.with(problem_.loading.loads()), batch, &groups_);
       timer_.lap(PhaseTimer::points_to_grid);
     });
   }
@@ -209,13 +210,16 @@ namespace talus
                             problem_.materials.strength_factor(),
                             state_.time,
                             state_.time + dt);
+    groups_.rewind();
     const BoxRule rule         = transfer_.box_shape().rule;
     double       &gravity_work = state_.accounts.energy("gravity work");
     state_.points.for_each_batch([&](const Batch &batch) {
       state_.workspace.reinit(batch.begin, batch.end);
       confinement_.note(state_, batch);
-      gravity_work +=
-        transfer_.gather(state_.with(problem_.loading.loads()), batch, dt);
+      gravity_work += transfer_.gather(state_.with(problem_.loading.loads()),
+                                       batch,
+                                       dt,
+                                       &groups_);
       confinement_.confine(state_);
       transfer_.apply_bbar_to_dilatation(state_.points,
                                          state_.workspace,

@@ -3,6 +3,7 @@
 #include <talus/transfer/weights_kernel.h>
 
 #include <algorithm>
+#include <type_traits>
 
 namespace talus
 {
@@ -166,47 +167,71 @@ namespace talus
           block.irregular_points[block.n_irregular_points++] = {
             k, block.cell_ranges[i].cell};
     }
+
+
+    /// Compute the weights of all points of the block. Along each axis a box has
+    /// weights at four nodes around its cell; a group uses three. All four are
+    /// computed for all points without a branch, from two integrals
+    /// (axis_weights()). The signs of the distances of the box from the faces
+    /// later select the three nodes; null as @p reach leaves them out. Weights
+    /// are computed in both sweeps of a step, because storing 16 doubles per
+    /// point (24 in 3-D) would cost more memory traffic.
+    template <int dim, typename OptionalReach>
+    TALUS_ALWAYS_INLINE void
+    compute_axis_weights(const PointsView<dim, const double> &points,
+                         const BoxShape                      &shape,
+                         Block<dim>                          &block,
+                         const OptionalReach                 &reach)
+    {
+      using Number                        = Simd<simd_width>;
+      constexpr unsigned int n            = Block<dim>::n_points;
+      const Number           inverse_size = 1. / block.cell_size;
+      // Whole registers: entries behind the last point of the block are computed,
+      // too, and never used.
+      for (unsigned int k = 0; k < block.size; k += simd_width)
+#pragma GCC unroll 3
+        for (unsigned int d = 0; d < dim; ++d)
+          {
+            const unsigned int p = block.begin + k;
+            const auto x = load<Number>(points.data(points.position, d) + p);
+            const auto lower = load<Number>(&block.cell_lower[d][k]);
+            const auto half =
+              half_length_in_cells<dim>(points, shape, d, p, inverse_size);
+            const auto    w  = axis_weights((x - lower) * inverse_size, half);
+            double *const to = &block.weights[d][k];
+            for (unsigned int i = 0; i < 4; ++i)
+              {
+                store(to + n * i, w.value[i]);
+                store(to + Block<dim>::begin_of_gradient + n * i,
+                      w.gradient[i]);
+              }
+            if constexpr (!std::is_null_pointer_v<OptionalReach>)
+              {
+                reach[d].below |= PointsOfBlock(w.lower_end.sign_bits()) << k;
+                reach[d].inside_above |= PointsOfBlock(w.upper_end.sign_bits())
+                                         << k;
+              }
+          }
+    }
   } // namespace
 
 
 
-  // Along each axis a box has weights at four nodes around its cell; a group
-  // uses three. All four are computed for all points without a branch, from two
-  // integrals (axis_weights()). The signs of the distances of the box from the
-  // faces later select the three nodes. Weights are computed in both sweeps of
-  // a step, because storing 16 doubles per point (24 in 3-D) would cost more
-  // memory traffic.
   template <int dim>
   void
   BlockWalk<dim>::compute_weights(Block<dim> &block) const
   {
-    using Number                        = Simd<simd_width>;
-    constexpr unsigned int n            = Block<dim>::n_points;
-    const auto             points       = points_.view();
-    const Number           inverse_size = 1. / block.cell_size;
-    Reach                  reach[dim];
-    // Whole registers: entries behind the last point of the block are computed,
-    // too, and never used.
-    for (unsigned int k = 0; k < block.size; k += simd_width)
-#pragma GCC unroll 3
-      for (unsigned int d = 0; d < dim; ++d)
-        {
-          const unsigned int p = block.begin + k;
-          const auto x     = load<Number>(points.data(points.position, d) + p);
-          const auto lower = load<Number>(&block.cell_lower[d][k]);
-          const auto half =
-            half_length_in_cells<dim>(points, shape_, d, p, inverse_size);
-          const auto    w  = axis_weights((x - lower) * inverse_size, half);
-          double *const to = &block.weights[d][k];
-          for (unsigned int i = 0; i < 4; ++i)
-            {
-              store(to + n * i, w.value[i]);
-              store(to + Block<dim>::begin_of_gradient + n * i, w.gradient[i]);
-            }
-          reach[d].below |= PointsOfBlock(w.lower_end.sign_bits()) << k;
-          reach[d].inside_above |= PointsOfBlock(w.upper_end.sign_bits()) << k;
-        }
+    const PointsView<dim, const double> points = points_.view();
+    if (restore_ != nullptr && restore_->restore(block))
+      {
+        compute_axis_weights<dim>(points, shape_, block, nullptr);
+        return;
+      }
+    Reach reach[dim];
+    compute_axis_weights<dim>(points, shape_, block, &reach[0]);
     find_groups(block, reach);
+    if (store_ != nullptr)
+      store_->store(block);
   }
 
 

@@ -121,7 +121,8 @@ namespace talus
   Transfer<dim>::gather(const StepContext<dim> &context,
                         const Batch            &batch,
                         const double            dt,
-                        const VelocityUpdate   &velocity_update) const
+                        const VelocityUpdate   &velocity_update,
+                        GroupMemory<dim>       *groups) const
   {
     StepWorkspace<dim>     &workspace = context.workspace;
     const auto              columns   = context.points.view();
@@ -130,7 +131,8 @@ namespace talus
     Block<dim>              block;
     InterpolatedMotion<dim> motion;
     NodeWeights<dim>        room;
-    BlockWalk<dim> walk(context.points, batch, context.grid, box_shape_);
+    BlockWalk<dim>          walk(
+      context.points, batch, context.grid, box_shape_, nullptr, groups);
     while (walk.next(block))
       {
         prefetch_nodes(block, [&](const unsigned int node) {
@@ -172,10 +174,12 @@ namespace talus
   Transfer<2>::gather(const StepContext<2> &,
                       const Batch &,
                       double,
-                      const VelocityUpdate &) const;
+                      const VelocityUpdate &,
+                      GroupMemory<2> *) const;
   template double
   Transfer<3>::gather(const StepContext<3> &,
                       const Batch &,
                       double,
-                      const VelocityUpdate &) const;
+                      const VelocityUpdate &,
+                      GroupMemory<3> *) const;
 } // namespace talus

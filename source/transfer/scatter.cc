@@ -22,7 +22,8 @@ namespace talus
   template <int dim>
   void
   Transfer<dim>::scatter(const StepContext<dim> &context,
-                         const Batch            &batch) const
+                         const Batch            &batch,
+                         GroupMemory<dim>       *groups) const
   {
     const Points<dim> &points  = context.points;
     const Grid<dim>   &grid    = context.grid;
@@ -32,7 +33,7 @@ namespace talus
     Block<dim>         block;
     Contributions<dim> contributions;
     NodeWeights<dim>   room;
-    BlockWalk<dim>     walk(points, batch, grid, box_shape_);
+    BlockWalk<dim>     walk(points, batch, grid, box_shape_, groups, nullptr);
     while (walk.next(block))
       {
         prefetch_nodes(block, [&](const unsigned int node) {
@@ -74,7 +75,11 @@ namespace talus
 
 
   template void
-  Transfer<2>::scatter(const StepContext<2> &, const Batch &) const;
+  Transfer<2>::scatter(const StepContext<2> &,
+                       const Batch &,
+                       GroupMemory<2> *) const;
   template void
-  Transfer<3>::scatter(const StepContext<3> &, const Batch &) const;
+  Transfer<3>::scatter(const StepContext<3> &,
+                       const Batch &,
+                       GroupMemory<3> *) const;
 } // namespace talus

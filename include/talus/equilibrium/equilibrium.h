@@ -32,6 +32,10 @@ namespace talus
     double       allowed_imbalance; ///< limit for soil in balance [-]
     /// Whether to subtract the error of the weight (WellBalancedLoad).
     bool is_well_balanced = true;
+    /// Newton::Parameters::contact_tolerance [-].
+    double contact_tolerance = 0.;
+    /// Number of load steps that may fail and be cut [-].
+    unsigned int max_failures = -1;
   };
 
 
@@ -176,7 +180,11 @@ namespace talus
     typename Newton<dim>::Parameters
     parameters_of_step(bool has_obstacles) const;
     bool
+    is_falling(unsigned int n_steps) const;
+    bool
     is_settling();
+    bool
+    flows_on() const;
     bool
     take_step(StaticProblem<dim> &problem, const Observer &observe);
 
@@ -190,18 +198,17 @@ namespace talus
     bool                             is_well_balanced_ = true;
     LinearSolver                     linear_solver_;
 
-    Newton<dim>       newton_;
-    double            load_ = 0;
-    double            step_ = 1;
-    EquilibriumLimits limits_{};
-    unsigned int      n_steps_    = 0;
-    unsigned int      n_settling_ = 0; ///< steps taken at full load
-    unsigned int      n_flowing_  = 0; ///< settling steps without success
-    bool        is_partial_ = false;   ///< last settling step removed a part
-    double      imbalance_  = 0;
-    bool        is_found_   = false;
-    bool        is_stopped_ = false;
-    std::string failure_;
+    Newton<dim>         newton_;
+    double              load_ = 0;
+    double              step_ = 1;
+    EquilibriumLimits   limits_{};
+    unsigned int        n_steps_    = 0;
+    unsigned int        n_settling_ = 0; ///< steps taken at full load
+    unsigned int        n_failures_ = 0; ///< load steps that failed
+    double              imbalance_  = 0;
+    bool                is_found_   = false;
+    bool                is_stopped_ = false;
+    std::string         failure_;
     std::vector<double> imbalances_; ///< history at full load [-]
   };
 } // namespace talus

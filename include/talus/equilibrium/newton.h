@@ -32,11 +32,14 @@ namespace talus
   public:
     struct Parameters
     {
-      StrainMeasure measure            = StrainMeasure::small;
-      double        tolerance          = 1e-8; ///< relative residual [-]
-      unsigned int  largest_iterations = 30;
-      double        ghost_penalty      = 0.01; ///< gamma [-]
-      bool          is_well_balanced   = true; ///< at small strain only
+      StrainMeasure measure   = StrainMeasure::small;
+      double        tolerance = 1e-8; ///< relative residual [-]
+      /// Relative residual that suffices for an update of the contact states
+      /// [-]; the states are updated again at the solution.
+      double       contact_tolerance  = 0.;
+      unsigned int largest_iterations = 30;
+      double       ghost_penalty      = 0.01; ///< gamma [-]
+      bool         is_well_balanced   = true; ///< at small strain only
     };
 
     /// Outcome of solve().
@@ -45,6 +48,7 @@ namespace talus
       bool        converged = false;
       std::string failure;            ///< a sentence; empty if converged
       bool        is_stopped = false; ///< stopped by the observer
+      double      residual   = 0.;    ///< relative residual if converged [-]
     };
 
     /// Receives each iteration; returns whether to continue, the same on all
@@ -120,9 +124,13 @@ namespace talus
     /// Solve for displacements and contact states together.
     Outcome
     solve_with_contact(StaticProblem<dim> &problem, const Observer &observe);
-    /// Solve for displacements with fixed contact states.
+    /// Solve for displacements with fixed contact states, up to the tolerance
+    /// of the relative residual; the tolerance may be raised to
+    /// @p largest_tolerance [-].
     Outcome
-    newton_loop(StaticProblem<dim> &problem, const Observer &observe);
+    newton_loop(StaticProblem<dim> &problem,
+                double              largest_tolerance,
+                const Observer     &observe);
     /// Take one Newton step. Returns the reason of a failure, as the end of a
     /// sentence.
     std::string

@@ -11,6 +11,7 @@
 #include <talus/simulation/step_agreement.h>
 #include <talus/simulation/time_step.h>
 #include <talus/state/state.h>
+#include <talus/transfer/group_memory.h>
 #include <talus/transfer/transfer.h>
 
 #include <string>
@@ -102,6 +103,7 @@ namespace talus
     Splitter<dim>         splitter_;
     Merger<dim>           merger_;
     TimeStep<dim>         time_step_;
+    GroupMemory<dim>      groups_; ///< scratch memory of a step
     StepAgreement         agreement_;
   };
 } // namespace talus

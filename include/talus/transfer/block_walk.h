@@ -6,10 +6,12 @@
 #include <talus/points/points.h>
 #include <talus/transfer/block.h>
 #include <talus/transfer/box_shape.h>
+#include <talus/transfer/group_memory.h>
 
 namespace talus
 {
-  /// Splits the points of a batch into blocks.
+  /// Splits the points of a batch into blocks. Optionally the groups of the
+  /// blocks are stored, or those of a previous walk restored.
   template <int dim>
   class BlockWalk
   {
@@ -17,13 +19,17 @@ namespace talus
     BlockWalk(const Points<dim> &points,
               const Batch       &batch,
               const Grid<dim>   &grid,
-              const BoxShape    &shape)
+              const BoxShape    &shape,
+              GroupMemory<dim>  *store,
+              GroupMemory<dim>  *restore)
       : points_(points)
       , grid_(grid)
       , shape_(shape)
       , segment_(batch.first_segment)
       , last_segment_(batch.last_segment)
       , n_segments_(batch.last_segment - batch.first_segment)
+      , store_(store)
+      , restore_(restore)
     {}
 
     /// Fill @p block with the next points. Return false if no point is left.
@@ -39,8 +45,9 @@ namespace talus
     const BoxShape    &shape_;
     unsigned int       segment_;
     unsigned int       last_segment_;
-    unsigned int       n_segments_; ///< number of segments in the batch
-    unsigned int       point_ = 0;  ///< next point
+    unsigned int       n_segments_;       ///< number of segments in the batch
+    unsigned int       point_ = 0;        ///< next point
+    GroupMemory<dim>  *store_, *restore_; ///< or null
   };
 } // namespace talus
 

@@ -12,6 +12,11 @@
 
 namespace talus
 {
+  template <int dim>
+  class GroupMemory;
+
+
+
   /// Transfers mass, momentum and forces from the points to the background grid
   /// and the motion of the grid back, with the weights of the generalized
   /// interpolation material point method. @cite bardenhagen2004
@@ -56,9 +61,12 @@ namespace talus
                          const Batch        &batch) const;
 
     /// Add mass, momentum, internal and external force and reference volume of
-    /// the points of a batch to their nodes.
+    /// the points of a batch to their nodes. Stores the groups of the points in
+    /// @p groups, if given.
     void
-    scatter(const StepContext<dim> &context, const Batch &batch) const;
+    scatter(const StepContext<dim> &context,
+            const Batch            &batch,
+            GroupMemory<dim>       *groups = nullptr) const;
 
     /// Update velocity and position of the points of a batch from the motion of
     /// the nodes. The workspace receives the velocity gradients, 1/s, and the
@@ -66,19 +74,22 @@ namespace talus
     ///
     /// @param dt time step, s
     /// @param velocity_update update of the velocities in place of scheme()
+    /// @param groups groups stored by scatter() for the same points, or null
     /// @return work of the loads, J
     double
     gather(const StepContext<dim> &context,
            const Batch            &batch,
            double                  dt,
-           const VelocityUpdate   &velocity_update) const;
+           const VelocityUpdate   &velocity_update,
+           GroupMemory<dim>       *groups = nullptr) const;
 
     double
     gather(const StepContext<dim> &context,
            const Batch            &batch,
-           const double            dt) const
+           const double            dt,
+           GroupMemory<dim>       *groups = nullptr) const
     {
-      return gather(context, batch, dt, scheme_.velocity_update());
+      return gather(context, batch, dt, scheme_.velocity_update(), groups);
     }
 
     /// Second half of the B-bar pair: replace the rate of volume change of each

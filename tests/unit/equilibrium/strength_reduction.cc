@@ -129,6 +129,8 @@ namespace
     EXPECT_EQ(reduction.limits(2.1, own).smallest_step, 0.2);
     EXPECT_EQ(reduction.limits(2.1, own).n_load_steps, 1u);
     EXPECT_EQ(reduction.limits(2.02, own).smallest_step, 1e-3);
+    EXPECT_LT(reduction.limits(2.1, own).max_failures,
+              reduction.limits(2.02, own).max_failures);
     EXPECT_EQ(reduction.limits(2.02, {7, 0.5, 1e-6}).smallest_step, 0.2);
     EXPECT_DOUBLE_EQ(reduction.limits(2., own).allowed_imbalance, 2e-4);
     EXPECT_EQ(Reduction("set Allowed imbalance = 3e-5")
