@@ -56,6 +56,8 @@ namespace talus
   StaticSolver<dim>::begin_stage()
   {
     equilibrium_.forget_well_balanced_load();
+    problem_.boundaries.seabed().slip().begin_step(state_.communicator());
+    problem_.contact.slip().begin_step(state_.communicator());
     if (is_first_rank(state_.communicator()))
       n_table_bytes_ = table_.length();
   }

@@ -55,8 +55,8 @@ namespace talus
   void
   StaticStages<dim>::run_next()
   {
+    solver_.begin_stage(); // slip of a checkpoint goes to its ranks
     const auto before = solver_.save();
-    solver_.begin_stage();
     if (stages_.next() == Stage::equilibrium)
       find_equilibrium(before);
     else

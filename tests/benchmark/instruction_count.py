@@ -318,9 +318,9 @@ def count_case(program, name):
     case = CASES[name]
     steps, result = run_under_valgrind(program, case)
     count = total(result, case)
-    if steps > 0:
-        print(f"{name}: {steps:.4g} point-steps, {count / steps:.1f} "
-              "instructions each.")
+    each = f", {count / steps:.1f} in each of {steps:.5g} point-steps"
+    print(f"{name}: {count} instructions{each if steps > 0 else ''}.",
+          flush=True)
     status = 0
     if case.has_kernels:
         for error in list(judge_kernels(program, result, steps)):

@@ -424,5 +424,50 @@ class StagesAndResume(KillAndResume):
                 self.assertIn(words, result.stderr)
 
 
+class StagesOnSofteningBed(Case):
+    """The strength reduction goes on with the slip that the equilibrium left."""
+
+    file = "verification/softening-seabed.prm"
+    stages = ["Stages=equilibrium, strength reduction", "Grid/Cell size=1",
+              "Grid/Lower corner=-50, 0", "Grid/Upper corner=50, 7",
+              "Bodies/slab/Lower corner=-50, 0", "Bodies/slab/Upper corner=50, 5",
+              "Strength reduction/Tolerance=0.2", "Equilibrium/Load steps=5",
+              "Trigger/Duration=0", "Trigger/Seabed shear stress fraction=1",
+              "Trigger/Seabed region="]
+
+    def make_reference(self):
+        # After every static stage there is a checkpoint, asked for or not.
+        self.assert_ends(self.run_talus("reference", NO_CHECKPOINTS))
+
+    def compare(self, settings):
+        self.settings = self.stages + settings
+        self.make_reference()
+        stopped = self.run_talus("run", ["Checkpoint/Wall time limit=1e-5"])
+        self.assertEqual(stopped.returncode, 75, stopped)
+        self.assert_ends(self.run_talus("run", [], ["--resume"]))
+        expected, found = self.content("reference"), self.content("run")
+        self.assertIn("newton.csv", expected)
+        self.assertEqual(list(expected), list(found))
+        for file in expected:
+            self.assertTrue(expected[file] == found[file], file)
+
+    def test_seabed(self):
+        self.compare(["Boundaries/Seabed/Maximum shear stress="
+                      "if(abs(x) < 6.5, 0, 3500)"])
+
+    def test_obstacle(self):
+        self.compare(["Boundaries/Bottom=free",
+                      "Boundaries/Seabed/Slip to remould=0",
+                      "Boundaries/Seabed/Remoulded shear stress ratio=1",
+                      "Obstacles/Names=bed", "Obstacles/bed/Shape=half-plane",
+                      "Obstacles/bed/Point=0, 0.2", "Obstacles/bed/Normal=0, 1",
+                      "Obstacles/bed/Maximum shear stress="
+                      "if(abs(x - 0.5) < 6.5, 0, 3500)",
+                      "Obstacles/bed/Slip to remould=0.12427",
+                      "Obstacles/bed/Remoulded shear stress ratio=0.428571428571",
+                      "Bodies/slab/Lower corner=-50, 0.2",
+                      "Bodies/slab/Upper corner=50, 5.2"])
+
+
 if __name__ == "__main__":
     main(globals())
