@@ -169,8 +169,8 @@ namespace talus
     }
 
 
-    /// Compute the weights of all points of the block. Along each axis a box has
-    /// weights at four nodes around its cell; a group uses three. All four are
+    /// Compute the weights of all points of the block. Along each axis a box
+    /// has weights at four nodes around its cell; a group uses three. All four are
     /// computed for all points without a branch, from two integrals
     /// (axis_weights()). The signs of the distances of the box from the faces
     /// later select the three nodes; null as @p reach leaves them out. Weights
@@ -186,8 +186,8 @@ namespace talus
       using Number                        = Simd<simd_width>;
       constexpr unsigned int n            = Block<dim>::n_points;
       const Number           inverse_size = 1. / block.cell_size;
-      // Whole registers: entries behind the last point of the block are computed,
-      // too, and never used.
+      // Whole registers: entries behind the last point of the block are
+      // computed, too, and never used.
       for (unsigned int k = 0; k < block.size; k += simd_width)
 #pragma GCC unroll 3
         for (unsigned int d = 0; d < dim; ++d)

@@ -21,8 +21,8 @@ namespace talus
   /// Return the axes of columns that cover the mesh before growth. In 3-D their
   /// faces coincide with cell faces of the raster of the surface @p surface, if
   /// there is one.
-  /// @param cell_size width of the columns, m; 0: that of the raster or, without
-  /// a raster, of the mesh
+  /// @param cell_size width of the columns, m; 0: width of the cells of the
+  /// raster or, without a raster, of the mesh
   template <int dim>
   MapAxes<dim>
   map_axes(const Problem<dim> &problem,

@@ -8,10 +8,10 @@
 
 namespace talus
 {
-  /// Groups of all blocks, in the order of the blocks. The first sweep of a step
-  /// stores them, and the second sweep, over the same points, boxes and cells,
-  /// restores them: the search for groups has branches that the processor cannot
-  /// predict.
+  /// Groups of all blocks, in the order of the blocks. The first sweep of a
+  /// step stores the groups, and the second sweep, over the same points, boxes
+  /// and cells, restores them: the search for groups has branches that the
+  /// processor cannot predict.
   template <int dim>
   class GroupMemory
   {

@@ -290,8 +290,7 @@ TEST(EquilibriumTest, SoilThatCannotStand)
   EXPECT_FALSE(bank.find());
   EXPECT_FALSE(bank.equilibrium.is_balanced());
   EXPECT_EQ(bank.equilibrium.load(), 0.);
-  EXPECT_TRUE(
-    contains(bank.equilibrium.failure(), "Newton's method diverges"))
+  EXPECT_TRUE(contains(bank.equilibrium.failure(), "Newton's method diverges"))
     << bank.equilibrium.failure();
   EXPECT_TRUE(contains(bank.equilibrium.failure(),
                        "the largest residual force of a node is"));
