@@ -170,8 +170,8 @@ namespace talus
 
 
     /// Compute the weights of all points of the block. Along each axis a box
-    /// has weights at four nodes around its cell; a group uses three. All four are
-    /// computed for all points without a branch, from two integrals
+    /// has weights at four nodes around its cell; a group uses three. All four
+    /// are computed for all points without a branch, from two integrals
     /// (axis_weights()). The signs of the distances of the box from the faces
     /// later select the three nodes; null as @p reach leaves them out. Weights
     /// are computed in both sweeps of a step, because storing 16 doubles per
