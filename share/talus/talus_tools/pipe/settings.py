@@ -4,6 +4,7 @@
 import dataclasses
 import math
 
+from talus_tools.entries import Entries
 from talus_tools.errors import UserError
 from talus_tools.parameters import read_parameters
 
@@ -58,12 +59,11 @@ class Springs:
     resistance: float
 
 
-class Settings:
+class Settings(Entries):
     """All entries of a parameter file of talus-pipe."""
 
     def __init__(self, path):
-        self.path = path
-        self.entries = read_parameters(path)
+        super().__init__(path, read_parameters(path), ENTRIES)
         for name in self.entries:
             if name not in ENTRIES:
                 raise UserError(f"'{path}' sets '{name}', which is no entry of talus-pipe; "
@@ -77,38 +77,6 @@ class Settings:
         self.length = self.number("Length", 1e-3)
         self.element_size = self.choose_element_size()
 
-    def error(self, name, expected):
-        """Error about the value of an entry."""
-        return UserError(f"'{self.path}': '{name} = {self.get(name)}' was found, where {expected} "
-                         "was expected.")
-
-    def get(self, name):
-        """Value of an entry or its default."""
-        return self.entries.get(name, ENTRIES[name]).strip()
-
-    def needed(self, name):
-        """Value of an entry without a default."""
-        if not self.get(name):
-            raise UserError(f"'{self.path}' does not set '{name}', which is needed; doc/pipe.md "
-                            "explains the entry.")
-        return self.get(name)
-
-    def one_of(self, name, words):
-        """One of several words."""
-        if self.get(name) not in words:
-            raise self.error(name, " or ".join(f"'{word}'" for word in words))
-        return self.get(name)
-
-    def number(self, name, smallest=0.0, largest=1e30):
-        """One number between limits."""
-        try:
-            value = float(self.needed(name))
-        except ValueError:
-            value = math.nan
-        if not smallest <= value <= largest:
-            raise self.error(name, f"a number from {smallest:g} to {largest:g}")
-        return value
-
     def optional(self, name, default):
         """One positive number, or the default of an empty entry."""
         return self.number(name, 1e-30) if self.get(name) else default
@@ -119,7 +87,7 @@ class Settings:
         wall = self.number("Pipe/Wall thickness", 1e-9, diameter / 2)
         modulus = self.number("Pipe/Young's modulus", 1e-30)
         pipe = Pipe(diameter, wall, self.number("Pipe/Yield stress", 1e-30), 0, 0,
-                    self.number("Pipe/Tension"))
+                    self.number("Pipe/Tension", 0))
         pipe.bending_stiffness = self.optional("Pipe/Bending stiffness",
                                                modulus * pipe.second_moment)
         pipe.axial_stiffness = self.optional("Pipe/Axial stiffness", modulus * pipe.area)
@@ -127,7 +95,7 @@ class Settings:
 
     def read_springs(self, section):
         """Springs without 'Ultimate resistance' are linear."""
-        return Springs(self.number(section + "/Stiffness"),
+        return Springs(self.number(section + "/Stiffness", 0),
                        self.optional(section + "/Ultimate resistance", math.inf))
 
     def choose_element_size(self):

@@ -2,11 +2,11 @@
 """What a study file says, checked."""
 
 import dataclasses
-import math
 import os
 import re
 import shlex
 
+from talus_tools.entries import Entries
 from talus_tools.errors import UserError
 from talus_tools.parameters import read_parameters
 from talus_tools.study.quantities import MapQuantity, Quantity
@@ -65,11 +65,10 @@ class Observation:
     deviation: float
 
 
-class Settings:
+class Settings(Entries):
     """All of a study file; `fixed` are entries over those of the case, for all members."""
 
     def __init__(self, path):
-        self.path = path
         entries = read_parameters(path)
         self.fixed = {name.partition("/")[2]: value for name, value in entries.items()
                       if name.startswith("Parameters/")}
@@ -78,7 +77,8 @@ class Settings:
                 raise UserError(f"'{path}': 'Parameters/{name} = {value}' was found, where a "
                                 "value without '{' was expected. Only 'Varied/NAME/Template' has "
                                 "braces, for the varied number.")
-        self.entries = {n: v for n, v in entries.items() if not n.startswith("Parameters/")}
+        super().__init__(path, {n: v for n, v in entries.items()
+                                if not n.startswith("Parameters/")}, ENTRIES)
         self.check_section_names()
         self.check_names()
         self.title = self.get("Title")
@@ -101,21 +101,9 @@ class Settings:
         self.check_varied()
         self.check_columns()
 
-    def error(self, name, expected):
-        """The sentence for a value that does not do."""
-        return UserError(f"'{self.path}': '{name} = {self.get(name)}' was found, where {expected} "
-                         "was expected.")
-
-    def get(self, name):
-        """Value of an entry or its default."""
-        pattern = re.sub(rf"^({'|'.join(NAMED)})/[^/]+/", r"\1/NAME/", name)
-        return self.entries.get(name, ENTRIES[pattern]).strip()
-
-    def needed(self, name):
-        """The same; it must be set."""
-        if not self.get(name):
-            raise UserError(f"'{self.path}' does not set '{name}', which is needed.")
-        return self.get(name)
+    def default(self, name):
+        """Default of an entry; NAME stands for the names of the user's."""
+        return ENTRIES[re.sub(rf"^({'|'.join(NAMED)})/[^/]+/", r"\1/NAME/", name)]
 
     def names(self, section):
         """Names that a section lists."""
@@ -160,29 +148,12 @@ class Settings:
                                 "section 'Parameters'; sections in 'Varied', 'Quantities' and "
                                 "'Observed' need to be listed in 'Names' there.")
 
-    def one_of(self, name, words):
-        """One of several words."""
-        if self.get(name) not in words:
-            raise self.error(name, " or ".join(f"'{word}'" for word in words))
-        return self.get(name)
-
     def whole(self, name, least, most=10**6):
         """A whole number. Each of a million members would have its folder."""
         text = self.get(name)
         if not text.isdigit() or not least <= int(text) <= most:
             raise self.error(name, f"a whole number of at least {least} and at most {most}")
         return int(text)
-
-    def numbers(self, name):
-        """A list of numbers, separated by commas."""
-        try:
-            numbers = [float(part) for part in self.get(name).split(",") if part.strip()]
-        except ValueError:
-            numbers = [math.nan]
-        # Squares of larger ones overflow.
-        if not all(abs(number) <= 1e100 for number in numbers):
-            raise self.error(name, "numbers separated by commas, none of them nan or beyond 1e100,")
-        return numbers
 
     def read_varied(self, name):
         """One section of Varied."""
@@ -230,14 +201,6 @@ class Settings:
         return MapQuantity(name, self.get(start + "Map"),
                            self.numbers(start + "Place") if place else None, outline or None,
                            self.number(start + "Threshold"))
-
-    def number(self, name):
-        """One number."""
-        self.needed(name)
-        found = self.numbers(name)
-        if len(found) != 1:
-            raise self.error(name, "one number")
-        return found[0]
 
     def read_observation(self, name):
         """One section of Observed."""
