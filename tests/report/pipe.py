@@ -197,7 +197,8 @@ class Refused(PipeCase):
         run = self.force("refused", 0.0, Q)
         for change, *parts in (
                 ({"Pipe/Diameter": 1}, "'Pipe/Diameter'", "no entry"),
-                ({"Length": "long"}, "'Length = long'", "a number from"),
+                ({"Length": "long"}, "'Length = long'", "numbers separated by commas"),
+                ({"Length": "400, 500"}, "'Length = 400, 500'", "one number"),
                 ({"Length": "1e9"}, "20000", "Element size"),
                 ({"Pipe/Wall thickness": 0.4}, "'Pipe/Wall thickness = 0.4'"),
                 ({"Ends": "loose"}, "'fixed' or 'pinned' or 'free'"),

@@ -52,11 +52,9 @@ class Entries:
     def number(self, name, smallest=-1e100, largest=1e100):
         """One number between limits; it must be set."""
         self.needed(name)
-        try:
-            value = float(self.get(name))
-        except ValueError:
-            value = math.nan
-        if not smallest <= value <= largest:
-            raise self.error(name, "one number, no list of numbers and not nan," if smallest < 0
-                             else f"a number from {smallest:g} to {largest:g}")
-        return value
+        found = self.numbers(name)
+        if len(found) != 1:
+            raise self.error(name, "one number")
+        if not smallest <= found[0] <= largest:
+            raise self.error(name, f"a number from {smallest:g} to {largest:g}")
+        return found[0]

@@ -10,8 +10,9 @@ from talus_tools.study.ensemble import make_members, program_version
 from talus_tools.study.results import Results, write_csv
 from talus_tools.study.settings import Settings
 
-DESCRIPTION = """Find the parameters with which the runs of a study fit an observed deposit: quantiles
-and a picture of their posterior distribution. Run talus-study before; see doc/study.md."""
+DESCRIPTION = """Find the parameters with which the runs of a study fit an observed deposit:
+quantiles and a picture of their posterior distribution. Run talus-study before; see
+doc/study.md."""
 
 
 def main():

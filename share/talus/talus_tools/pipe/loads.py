@@ -70,7 +70,8 @@ def of_obstacle(settings, folder):
         raise UserError(f"'{folder}' is a run in 3-D, whose obstacles have one force for their "
                         "whole length. Use 'Load/Source = stations' or 'line'.")
     width = settings.number("Load/Width", 1e-6)
-    centre = settings.number("Load/Centre", 0) if settings.get("Load/Centre") else settings.length / 2
+    centre = (settings.number("Load/Centre", 0) if settings.get("Load/Centre") else
+              settings.length / 2)
     data = table(folder, "obstacles.csv")
     column = f"{settings.needed('Load/Obstacle')} {settings.get('Load/Column')}"
     force = data[column]
