@@ -10,13 +10,13 @@ namespace bed_slip_test
 {
   TALUS_ALSO_ON_RANKS(BedSlip, 2, 3);
 
-  constexpr unsigned int n_places = 12;
-  const MPI_Comm         all      = MPI_COMM_WORLD;
+  constexpr unsigned int n_places  = 12;
+  const MPI_Comm         all_ranks = MPI_COMM_WORLD;
 
   unsigned int
   rank()
   {
-    return MPI::this_mpi_process(all);
+    return MPI::this_mpi_process(all_ranks);
   }
 
 
@@ -28,7 +28,7 @@ namespace bed_slip_test
   {
     std::vector<BedPlace<2>> result;
     for (unsigned int i = 0; i < n_places; ++i)
-      if ((i + shift) % MPI::n_mpi_processes(all) == rank() &&
+      if ((i + shift) % MPI::n_mpi_processes(all_ranks) == rank() &&
           !(is_partial && i % 3 == 0))
         result.push_back({{{1., double(i), 2., 0.}}, Point<2>(i, 0.), 0.5});
     return result;
@@ -50,8 +50,8 @@ namespace bed_slip_test
   {
     for (unsigned int i = 0; i < slip.places().size(); ++i)
       EXPECT_EQ(slip.state(i).slip, slip_of(slip.places()[i]));
-    EXPECT_EQ(MPI::sum(slip.slipped_area(), all), 0.5 * (n_places - 1));
-    EXPECT_EQ(MPI::max(slip.largest_slip(), all), 0.1 * (n_places - 1));
+    EXPECT_EQ(MPI::sum(slip.slipped_area(), all_ranks), 0.5 * (n_places - 1));
+    EXPECT_EQ(MPI::max(slip.largest_slip(), all_ranks), 0.1 * (n_places - 1));
   }
 
 
@@ -60,7 +60,7 @@ namespace bed_slip_test
   slipped()
   {
     BedSlip<2> slip;
-    slip.prepare(places(0), all);
+    slip.prepare(places(0), all_ranks);
     for (unsigned int i = 0; i < slip.places().size(); ++i)
       slip.add(i, slip_of(slip.places()[i]));
     return slip;
@@ -75,13 +75,13 @@ TEST(BedSlip, BelongsToThePlace)
   BedSlip<2> slip = slipped();
   expect_all(slip);
   // Other ranks have the places, and the mesh lacks some for a while.
-  slip.prepare(places(1, true), all);
+  slip.prepare(places(1, true), all_ranks);
   expect_all(slip);
   slip.update(places(1, false));
-  slip.prepare({}, all);
+  slip.prepare({}, all_ranks);
   expect_all(slip);
-  slip.prepare(places(2), all);
-  EXPECT_EQ(MPI::sum(slip.places().size(), all), n_places);
+  slip.prepare(places(2), all_ranks);
+  EXPECT_EQ(MPI::sum(slip.places().size(), all_ranks), n_places);
   expect_all(slip);
 }
 
@@ -91,16 +91,16 @@ TEST(BedSlip, SurvivesACheckpoint)
 {
   using namespace bed_slip_test;
   std::vector<double> rows;
-  for (const auto &of_rank : MPI::all_gather(all, slipped().rows()))
+  for (const auto &of_rank : MPI::all_gather(all_ranks, slipped().rows()))
     rows.insert(rows.end(), of_rank.begin(), of_rank.end());
   for (const bool is_partial : {false, true})
     {
       BedSlip<2> slip;
-      slip.prepare(places(1, is_partial), all);
+      slip.prepare(places(1, is_partial), all_ranks);
       slip.restore(rows);
       for (unsigned int i = 0; i < slip.places().size(); ++i)
         EXPECT_EQ(slip.state(i).slip, slip_of(slip.places()[i]));
-      slip.begin_step(all);
+      slip.begin_step(all_ranks);
       expect_all(slip);
     }
 }
@@ -113,8 +113,8 @@ TEST(BedSlip, RegionOfTheTrigger)
   BedSlip<2> slip;
   EXPECT_FALSE(slip.has_region());
   slip.set_region([](const Point<2> &x) { return x[0] > 8.5; });
-  slip.prepare(places(0), all);
-  EXPECT_EQ(MPI::sum(slip.n_triggered(), all), 3u);
+  slip.prepare(places(0), all_ranks);
+  EXPECT_EQ(MPI::sum(slip.n_triggered(), all_ranks), 3u);
   for (unsigned int i = 0; i < slip.places().size(); ++i)
     EXPECT_EQ(slip.state(i).is_triggered, slip.places()[i].x[0] > 8.5);
 }
