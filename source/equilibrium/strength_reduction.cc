@@ -212,16 +212,14 @@ namespace talus
                   ", where 'Strength reduction/Largest factor' ends the "
                   "search.");
     if (lower_ == 0.)
-      return text(
-        std::setprecision(6),
-        "The factor of safety is less than ",
-        upper_,
-        smallest_ >= min_factor()
-          ? ", where 'Strength reduction/Smallest factor' ends the "
-            "search."
-          : "; with more strength the soil would soften faster than it "
-            "unloads.",
-        cannot_stand);
+      return text(std::setprecision(6),
+                  "The factor of safety is less than ",
+                  upper_,
+                  smallest_ >= min_factor()
+                    ? ", where 'Strength reduction/Smallest factor' ends the "
+                      "search."
+                    : "; stronger soil would soften faster than it unloads.",
+                  cannot_stand);
     return text(std::setprecision(6),
                 "The factor of safety is ",
                 0.5 * (lower_ + upper_),

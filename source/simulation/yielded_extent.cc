@@ -164,9 +164,7 @@ namespace talus
     list += slipped;
     if (list.empty())
       return {};
-    return " Softening: " + list +
-           ". The strength lost there is the likely cause: the rest cannot "
-           "carry what softened soil and surfaces have lost.";
+    return " Softening: " + list + ", a likely cause.";
   }
 
 

@@ -79,7 +79,7 @@ namespace shear_bands_test
         EXPECT_DOUBLE_EQ(extent.yielded, 1.5);
         EXPECT_DOUBLE_EQ(extent.residual, 0.5);
         EXPECT_EQ(note_on_softening(soil, soil.problem)
-                    .rfind(" Softening: 1.5 of 2 m of 'slide' yielded.", 0),
+                    .rfind(" Softening: 1.5 of 2 m of 'slide' yielded,", 0),
                   0u);
       }
   }
