@@ -169,10 +169,8 @@ namespace
     EXPECT_EQ(reduction.tried.size(), 3u);
     EXPECT_TRUE(reduction.is_done());
     EXPECT_EQ(reduction.lower(), 0.);
-    EXPECT_TRUE(
-      contains(reduction.result(),
-               "less than 0.5; with more strength the soil would soften "
-               "faster"));
+    EXPECT_TRUE(contains(reduction.result(),
+                         "less than 0.5; stronger soil would soften faster"));
     reduction.search(0.55, 2.);
     EXPECT_LE(reduction.lower(), 0.55);
     EXPECT_GT(reduction.upper(), 0.55);
