@@ -88,15 +88,20 @@ namespace talus
   {
     if (n_faces_ == 0)
       return;
+    // Names of faces are compared here, not at each node.
+    unsigned int seabeds = 0;
+    for (unsigned int face = 0; face < 2 * dim; ++face)
+      if (boundaries_.is_seabed(face))
+        seabeds |= 1u << face;
     for (const unsigned int node : nodes_)
       {
         std::fill_n(areas_.begin() + std::size_t(n_faces_) * node,
                     n_faces_,
                     0.);
-        is_full_[node] = 0;
+        is_full_[node]           = 0;
+        const unsigned int faces = seabeds & state.grid.faces_of_node(node);
         for (unsigned int face = 0; face < 2 * dim; ++face)
-          if (boundaries_.is_seabed(face) &&
-              (state.grid.faces_of_node(node) & (1u << face)) &&
+          if ((faces & (1u << face)) &&
               volume_fraction_at_face(state.nodes, state.grid, face, node) >=
                 volume_fraction_of_full_cells)
             is_full_[node] |= 1u << face;
