@@ -59,27 +59,41 @@ namespace talus
 
 
 
-  /// Find the root of an increasing convex function by Newton's method from
-  /// @p x, at or above the root: the iterates fall towards the root with
-  /// quadratic convergence. A lane stops and keeps its value after a step of
-  /// less than 1e-8, or when round-off ends the fall, so its result does not
-  /// depend on neighbouring lanes. @p function returns value and slope; only
-  /// lanes in @p active change. A lane still active after 100 steps becomes NaN
-  /// (among a million extreme cases no lane needed more than 32).
-  template <typename Number, typename Mask, typename Function>
+  /// Value of a function of x, and its derivatives times x and x^2.
+  template <typename Number>
+  struct ScaledDerivatives
+  {
+    Number value, first, second;
+  };
+
+
+
+  /// Step of Halley's method towards the root of @p f, over x: the root is near
+  /// x (1 - step). Convergence is cubic. For increasing convex functions that
+  /// are sums of powers, from above the root, the step is less than 1.
+  template <typename Number>
   TALUS_ALWAYS_INLINE Number
-  newton_from_above(Number x, Mask active, const Function &function)
+  halley_step(const ScaledDerivatives<Number> &f)
+  {
+    return f.value * f.first / (f.first * f.first - 0.5 * f.value * f.second);
+  }
+
+
+
+  /// Repeat @p iterate(active), which improves the lanes in the mask @p active
+  /// and returns their last relative steps, until the steps are less than 1e-5.
+  /// A lane then stops, so its result does not depend on neighbouring lanes.
+  /// Returns the lanes still active after 100 steps.
+  template <typename Mask, typename Iterate>
+  TALUS_ALWAYS_INLINE Mask
+  until_converged(Mask active, const Iterate &iterate)
   {
     for (unsigned int i = 0; i < 100 && any(active); ++i)
       {
-        const auto [value, slope] = function(x);
-        const Number next         = x - value / slope;
-        active &= next < x;
-        const Mask more = active & (x - next > 1e-8 * x);
-        x               = select(active, next, x);
-        active          = more;
+        const auto step = iterate(active);
+        active &= step * step > 1e-10;
       }
-    return select(active, Number(std::numeric_limits<double>::quiet_NaN()), x);
+    return active;
   }
 
 
@@ -131,22 +145,33 @@ namespace talus
     if (is_power)
       start =
         min(start, r.dt * power_of(excess / r.consistency, 1. / r.exponent));
-    return newton_from_above(start, yields, [&](const Number x) {
-      auto [value, slope] = stress_taken(x, loss, linear, r.decay);
+    const auto resistance = [&](const Number x) {
+      const auto [value, slope]   = stress_taken(x, loss, linear, r.decay);
+      ScaledDerivatives<Number> f = {value - excess,
+                                     slope * x,
+                                     (linear - slope) * r.decay * x * x};
       if (is_power)
         {
-          const Number viscous =
-            r.consistency * power_of(x * (1. / r.dt), r.exponent);
-          value += viscous;
-          slope += r.exponent * viscous / x;
+          const double n       = r.exponent;
+          const Number viscous = r.consistency * power_of(x * (1. / r.dt), n);
+          f.value += viscous;
+          f.first += n * viscous;
+          f.second += n * (n - 1.) * viscous;
         }
-      return std::make_pair(value - excess, slope);
+      return f;
+    };
+    Number     x      = start;
+    const auto failed = until_converged(yields, [&](const Mask active) {
+      const Number step = halley_step(resistance(x));
+      x                 = select(active, x - step * x, x);
+      return step;
     });
+    return select(failed, Number(std::numeric_limits<double>::quiet_NaN()), x);
   }
 
 
 
-  /// Solve plastic_shear() for the overstress y if n < 1.
+  /// Solve plastic_shear() for the overstress y if n < 1; x is the shear.
   template <typename Number, typename Mask, typename Modulus, typename Decay>
   TALUS_ALWAYS_INLINE Number
   solve_for_overstress(const Number                             excess,
@@ -154,18 +179,36 @@ namespace talus
                        const Mask                               yields,
                        const ShearResistanceOf<Modulus, Decay> &r)
   {
-    const auto shear = [&](const Number y) {
-      return r.dt * power_of(y * (1. / r.consistency), 1. / r.exponent);
-    };
-    const Number most = max_shear(excess, loss, r.modulus, r.decay);
-    const Number start =
-      min(excess, r.consistency * power_of(most * (1. / r.dt), r.exponent));
-    return shear(newton_from_above(start, yields, [&](const Number y) {
-      const Number x            = shear(y);
+    const double q          = 1. / r.exponent;
+    const auto   resistance = [&](const Number x, const Number y) {
       const auto [value, slope] = stress_taken(x, loss, r.modulus, r.decay);
-      return std::make_pair(value + (y - excess),
-                            1. + slope * x / (r.exponent * y));
-    }));
+      const Number qx           = q * x;
+      return ScaledDerivatives<Number>{
+        value + (y - excess),
+        slope * qx + y,
+        qx * ((r.modulus - slope) * r.decay * qx + (q - 1.) * slope)};
+    };
+
+    // The upper bounds of the elastic resistance alone and of the viscous one
+    // alone. The first step starts from the elastic one, the shear of which is
+    // known without a power.
+    Number       x = max_shear(excess, loss, r.modulus, r.decay);
+    const Number elastic =
+      r.consistency * power_of(x * (1. / r.dt), r.exponent);
+    const Number first =
+      elastic - elastic * halley_step(resistance(x, elastic));
+    Number y = min(excess, select(first > 0., first, elastic));
+
+    Number     last   = 0.;
+    const auto failed = until_converged(yields, [&](const Mask active) {
+      x    = select(active, r.dt * power_of(y * (1. / r.consistency), q), x);
+      last = select(active, halley_step(resistance(x, y)), last);
+      y    = select(active, y - last * y, y);
+      return last;
+    });
+    // The last step of y changes x as (1 - last)^q.
+    x = x - q * last * x * (1. - 0.5 * (q - 1.) * last);
+    return select(failed, Number(std::numeric_limits<double>::quiet_NaN()), x);
   }
 
 
