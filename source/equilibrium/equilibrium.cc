@@ -145,6 +145,7 @@ namespace talus
     newton_parameters_.measure           = measure;
     newton_parameters_.is_well_balanced  = limits.is_well_balanced;
     newton_parameters_.contact_tolerance = limits.contact_tolerance;
+    newton_parameters_.facet_tolerance   = limits.facet_tolerance;
     load_                                = 0;
     step_                                = 1. / limits.n_load_steps;
     n_steps_ = n_settling_ = n_failures_ = 0;

@@ -139,7 +139,8 @@ namespace talus
             return outcome;
           }
         mechanism_ = u_;
-        if (equations_.update_contact(problem, residual_, u_) > 0)
+        if (equations_.update_contact(
+              problem, residual_, u_, parameters_.facet_tolerance) > 0)
           continue;
         if (outcome.residual <= parameters_.tolerance)
           return outcome;

@@ -377,7 +377,8 @@ namespace talus
   StaticContact<dim>::update_active_set(const StaticProblem<dim>  &problem,
                                         const Unknowns<dim>       &unknowns,
                                         const std::vector<double> &reaction,
-                                        std::vector<double>       &u)
+                                        std::vector<double>       &u,
+                                        const double facet_tolerance)
   {
     unsigned int n_changes = 0;
     for (Contact &contact : contacts_)
@@ -406,7 +407,8 @@ namespace talus
         if (was_open)
           u[dim * contact.node + contact.face / 2] = 0.;
       }
-    const bool facets_rest = facets_.update(problem, unknowns, u);
+    const bool facets_rest =
+      facets_.update(problem, unknowns, u, facet_tolerance);
     return (facets_rest ? 0 : 1) +
            Utilities::MPI::sum(n_changes, unknowns.communicator());
   }

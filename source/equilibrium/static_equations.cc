@@ -278,13 +278,14 @@ namespace talus
   unsigned int
   StaticEquations<dim>::update_contact(StaticProblem<dim>        &problem,
                                        const std::vector<double> &residual,
-                                       std::vector<double>       &u)
+                                       std::vector<double>       &u,
+                                       const double facet_tolerance)
   {
     std::vector<double> reaction = residual;
     for (double &force : reaction)
       force = -force;
-    const unsigned int n_changed =
-      contact_.update_active_set(problem, unknowns_, reaction, u);
+    const unsigned int n_changed = contact_.update_active_set(
+      problem, unknowns_, reaction, u, facet_tolerance);
     if (n_changed > 0)
       unknowns_.copy_to_ghosts(u);
     return n_changed;

@@ -21,11 +21,8 @@ namespace talus
     // redundant.
     constexpr double spring = 100.;
 
-    // Facets may give way by this fraction of the displacements of the step, or
-    // by the error left after the largest number of loops. Forces that
-    // alternate from facet to facet hardly move the soil: they converge slowly
-    // and need not converge.
-    constexpr double       tolerance = 1e-5;
+    // Largest number of loops. Forces that alternate from facet to facet hardly
+    // move the soil: they converge slowly and need not converge.
     constexpr unsigned int max_loops = 5;
 
     // Slack for the round-off of forces cut to the friction.
@@ -386,7 +383,8 @@ namespace talus
   bool
   StaticFacets<dim>::update(const StaticProblem<dim>  &problem,
                             const Unknowns<dim>       &unknowns,
-                            const std::vector<double> &u)
+                            const std::vector<double> &u,
+                            const double               tolerance)
   {
     if (problem.contact.obstacles().empty())
       return true;

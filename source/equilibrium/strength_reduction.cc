@@ -68,6 +68,11 @@ namespace talus
     // leaves lengths slightly above the tolerance, since the tolerance is
     // relative to the lower end.
     constexpr double nearby = 1.25;
+
+    // Facets of obstacles may give way by this share of the displacements of a
+    // trial. The limits of their forces hold anyway, and the factors of all
+    // cases of verification are those with 1e-5.
+    constexpr double trial_facet_tolerance = 1e-3;
   } // namespace
 
 
@@ -183,6 +188,7 @@ namespace talus
     limits.allowed_imbalance =
       allowed_imbalance_ > 0. ? allowed_imbalance_ : 0.02 * tolerance_;
     limits.contact_tolerance = 0.1 * limits.allowed_imbalance;
+    limits.facet_tolerance   = trial_facet_tolerance;
     // No state with less strength to start from: the full load must be applied.
     if (lower_ == 0.)
       return limits;

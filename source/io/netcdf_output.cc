@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/io/coordinate_system.h>
 #include <talus/io/files.h>
 #include <talus/io/gdal.h>
 #include <talus/io/surface_motion.h>
@@ -95,9 +96,14 @@ namespace talus
         y.push_back(frame.y(frame.n_rows - 1 - j));
       for (unsigned int k = 0; k < motion.n_blocks; ++k)
         time.push_back(motion.start_time + k * motion.interval);
-      const auto t_axis = file.add_axis("time", "s", time);
-      const auto y_axis = file.add_axis("y", "m", y);
-      const auto x_axis = file.add_axis("x", "m", x);
+      const auto t_axis     = file.add_axis("time", "s", time);
+      const bool in_degrees = frame.coordinate_system == wgs_84;
+      const auto y_axis     = file.add_axis(in_degrees ? "lat" : "y",
+                                        in_degrees ? "degrees_north" : "m",
+                                        y);
+      const auto x_axis = file.add_axis(in_degrees ? "lon" : "x",
+                                        in_degrees ? "degrees_east" : "m",
+                                        x);
       const auto variable =
         file.add_variable("dz", "m", {t_axis, y_axis, x_axis});
       if (variable == nullptr)

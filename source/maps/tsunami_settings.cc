@@ -20,6 +20,14 @@ namespace talus
                   writes_netcdf_,
                   "Write the same numbers as tsunami-source.nc, too. Needs "
                   "talus built with GDAL.");
+    add_parameter("Coordinates",
+                  coordinates_,
+                  "Coordinates of the source: those of the 'map', m, or "
+                  "'degrees', longitude and latitude in WGS 84. Degrees need "
+                  "a 3-D mesh on a raster with a coordinate system, and talus "
+                  "built with GDAL.",
+                  this->prm,
+                  Patterns::Selection("map|degrees"));
     add_parameter("Interval",
                   interval_,
                   "Time between two blocks of the source [s]. A fifth of the "
@@ -68,6 +76,10 @@ namespace talus
                               width_,
                               " m, but a 3-D slide has a width of its own. "
                               "Remove the entry.")));
+    AssertThrow(dim == 3 || !is_in_degrees(),
+                ExcUser("'Tsunami source/Coordinates' is degrees, but a 2-D "
+                        "section has no place on a map. Use map, or a 3-D "
+                        "mesh."));
     if (writes_netcdf_)
       check_netcdf();
   }

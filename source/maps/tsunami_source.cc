@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
+#include <talus/io/coordinate_system.h>
 #include <talus/io/files.h>
+#include <talus/maps/geographic_motion.h>
 #include <talus/maps/tsunami_source.h>
 #include <talus/points/points_kernel.h>
 
@@ -44,6 +46,13 @@ namespace talus
   TsunamiSource<dim>::check(const State<dim> &state) const
   {
     settings_.check(dim);
+    AssertThrow(!settings_.is_in_degrees() ||
+                  map_unit(coordinate_system()) == MapUnit::metres,
+                ExcUser("'Tsunami source/Coordinates' is degrees, but the "
+                        "coordinate system of the map is not known: it is "
+                        "that of the raster of 'Maps/Raster', or of the first "
+                        "surface with a raster. Give a raster with a "
+                        "coordinate system in metres, or use map."));
     const MapAxes<dim> axes = this->axes(state);
     double             n = (dim == 2 ? settings_.width() / axes[0].size : 1.);
     for (const auto &axis : axes)
@@ -55,6 +64,16 @@ namespace talus
                              max_cells,
                              " are the most. Make 'Tsunami source/Cell size' "
                              "larger.")));
+  }
+
+
+
+  template <int dim>
+  std::string
+  TsunamiSource<dim>::coordinate_system() const
+  {
+    const Raster *raster = problem_.surfaces().raster(maps_->raster());
+    return raster != nullptr ? raster->coordinate_system : "";
   }
 
 
@@ -171,9 +190,12 @@ namespace talus
       return;
     if (is_between)
       blocks_.push_back(now);
-    write_dtopo(folder_ / name_of_dtopo, motion());
+    const SurfaceMotion source = settings_.is_in_degrees()
+                                   ? on_degrees(motion(), coordinate_system())
+                                   : motion();
+    write_dtopo(folder_ / name_of_dtopo, source);
     if (settings_.writes_netcdf())
-      write_netcdf(folder_ / name_of_netcdf, motion());
+      write_netcdf(folder_ / name_of_netcdf, source);
     write_table();
     if (is_between)
       blocks_.pop_back();

@@ -341,6 +341,11 @@ namespace talus
       note_resume();
     else
       note_start(LogLevel::info);
+    // A run without dynamics ends at 0.
+    const Stages &stages = static_stages_.stages();
+    if (is_resumed && resumed_from_.head.end_time == 0 &&
+        stages.contain(Stage::dynamics) && !stages.next_is_static())
+      static_stages_.continue_with_dynamics();
     // The checkpoint of a finished run must not look finished now.
     if (is_resumed && resumed_from_.head.time >= resumed_from_.head.end_time)
       write_checkpoint();

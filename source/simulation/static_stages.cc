@@ -61,7 +61,8 @@ namespace talus
       find_equilibrium(before);
     else
       reduce_strength(before);
-    if (!solver_.is_stopped() && stages_.next_is_last_static())
+    if (!solver_.is_stopped() && stages_.next_precedes_dynamics() &&
+        equilibrium().newton().equations().has_well_balanced_load())
       let_weight_act();
     state_.workspace.clear();
     if (solver_.is_stopped())
@@ -208,6 +209,19 @@ namespace talus
 
 
 
+  template <int dim>
+  void
+  StaticStages<dim>::continue_with_dynamics()
+  {
+    if (!equilibrium().limits(StrainMeasure::small).is_well_balanced)
+      return;
+    solver_.begin_stage();
+    let_weight_act();
+    state_.workspace.clear();
+  }
+
+
+
   /// The explicit scheme has no well-balanced load: the correction is released
   /// in a further load step. If the soil at the mudline cannot carry the
   /// additional load, the dynamics starts from the balance with the
@@ -217,8 +231,7 @@ namespace talus
   StaticStages<dim>::let_weight_act()
   {
     if (!stages_.contain(Stage::equilibrium) || standing_factor_ != 1. ||
-        equilibrium().measure() == StrainMeasure::large ||
-        !equilibrium().newton().equations().has_well_balanced_load())
+        equilibrium().measure() == StrainMeasure::large)
       return;
     const auto before = solver_.save();
     if (solver_.find_with_weight(label(1.)))

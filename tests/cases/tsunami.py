@@ -180,6 +180,12 @@ class Tsunami(Case):
                 ("landslide-quick.prm", self.SECTION
                  + ["Tsunami source/Width=1e30"], "are the most"),
                 ("landslide-quick.prm", self.SECTION
+                 + ["Tsunami source/Coordinates=degrees"],
+                 "section has no place on a map"),
+                ("landslide-3d.prm", self.SLIDE_3D
+                 + ["Tsunami source/Coordinates=degrees"],
+                 "coordinate system of the map is not known"),
+                ("landslide-quick.prm", self.SECTION
                  + ["Tsunami source/Interval=1e-6"],
                  "shorter than the time step")):
             result = self.start("run", 1, settings, file)

@@ -34,6 +34,8 @@ namespace talus
     bool is_well_balanced = true;
     /// Newton::Parameters::contact_tolerance [-].
     double contact_tolerance = 0.;
+    /// Newton::Parameters::facet_tolerance [-].
+    double facet_tolerance = 1e-5;
     /// Number of load steps that may fail and be cut [-].
     unsigned int max_failures = -1;
   };

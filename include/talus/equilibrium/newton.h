@@ -36,7 +36,10 @@ namespace talus
       double        tolerance = 1e-8; ///< relative residual [-]
       /// Relative residual that suffices for an update of the contact states
       /// [-]; the states are updated again at the solution.
-      double       contact_tolerance  = 0.;
+      double contact_tolerance = 0.;
+      /// Distance by which facets of obstacles may give way in a load step,
+      /// over the largest displacement [-].
+      double       facet_tolerance    = 1e-5;
       unsigned int largest_iterations = 30;
       double       ghost_penalty      = 0.01; ///< gamma [-]
       bool         is_well_balanced   = true; ///< at small strain only

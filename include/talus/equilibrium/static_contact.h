@@ -66,13 +66,15 @@ namespace talus
     /// @param unknowns Unknowns of the load step.
     /// @param reaction Force of the boundary on the soil, N, at the nodes.
     /// @param u Displacement of the step, m, at the nodes.
+    /// @param facet_tolerance See StaticFacets::update() [-].
     /// @return Number of nodes on all ranks whose state or friction changed,
     ///   plus 1 if the forces of the facets have not converged.
     unsigned int
     update_active_set(const StaticProblem<dim>  &problem,
                       const Unknowns<dim>       &unknowns,
                       const std::vector<double> &reaction,
-                      std::vector<double>       &u);
+                      std::vector<double>       &u,
+                      double                     facet_tolerance);
 
     /// Let slipping nodes and facets stick again if their friction would push
     /// the soil along @p direction, in which the soil moves freely: as soon as

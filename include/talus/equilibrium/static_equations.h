@@ -107,7 +107,8 @@ namespace talus
     unsigned int
     update_contact(StaticProblem<dim>        &problem,
                    const std::vector<double> &residual,
-                   std::vector<double>       &u);
+                   std::vector<double>       &u,
+                   double                     facet_tolerance);
 
     /// See StaticContact::stick_again(). Collective.
     unsigned int

@@ -68,13 +68,15 @@ namespace talus
     }
 
     /// Make the forces computed with the displacements @p u, m, the given
-    /// forces of the next loop. Returns whether the loops may end: the forces
-    /// hardly change, so the soil neither enters obstacles nor moves where it
-    /// sticks, or the number of loops is used up. Collective.
+    /// forces of the next loop. Returns whether the loops may end: facets give
+    /// way by less than @p tolerance times the largest displacement, so the
+    /// soil neither enters obstacles nor moves where it sticks, or the number
+    /// of loops is used up. Collective.
     bool
     update(const StaticProblem<dim>  &problem,
            const Unknowns<dim>       &unknowns,
-           const std::vector<double> &u);
+           const std::vector<double> &u,
+           double                     tolerance);
 
     /// Let slipping contact points start by sticking if their friction would
     /// push the soil along @p direction. Returns the number of changes on this

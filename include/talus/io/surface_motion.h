@@ -34,7 +34,8 @@ namespace talus
 
 
   /// Write the motion as netCDF-4 with the variables x, y [m], time [s] and
-  /// dz(time, y, x) [m]; y increases. Throws ExcUser if the file cannot be
+  /// dz(time, y, x) [m]; y increases. A raster in WGS 84 has lon and lat
+  /// [degrees] in place of x and y. Throws ExcUser if the file cannot be
   /// written, and for the reasons of check_netcdf().
   void
   write_netcdf(const std::filesystem::path &file, const SurfaceMotion &motion);

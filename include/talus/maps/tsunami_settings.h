@@ -4,6 +4,8 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <string>
+
 namespace talus
 {
   /// Settings of the user in section Tsunami source.
@@ -27,6 +29,13 @@ namespace talus
     writes_netcdf() const
     {
       return writes_netcdf_;
+    }
+
+    /// Return whether the source is on longitude and latitude.
+    bool
+    is_in_degrees() const
+    {
+      return coordinates_ == "degrees";
     }
 
     /// Time between two blocks, s.
@@ -72,6 +81,8 @@ namespace talus
     double cell_size_     = 0;
     double width_         = 0;
     double water_depth_   = 0;
+
+    std::string coordinates_ = "map";
   };
 } // namespace talus
 

@@ -12,6 +12,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -78,6 +79,8 @@ namespace talus
 
     MapAxes<dim>
     axes(const State<dim> &state) const;
+    std::string
+    coordinate_system() const;
     Raster
     frame() const;
     Block

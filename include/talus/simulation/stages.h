@@ -48,12 +48,11 @@ namespace talus
       return n_done_ < stages_.size() && stages_[n_done_] != Stage::dynamics;
     }
 
-    /// Return whether the next stage is not followed by another static stage,
-    /// so that the dynamics may follow, now or in a resumed run.
+    /// Return whether the dynamics follows the next stage.
     bool
-    next_is_last_static() const
+    next_precedes_dynamics() const
     {
-      return n_done_ + 1 >= stages_.size() ||
+      return n_done_ + 1 < stages_.size() &&
              stages_[n_done_ + 1] == Stage::dynamics;
     }
 

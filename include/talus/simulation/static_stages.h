@@ -53,6 +53,11 @@ namespace talus
     void
     run_next();
 
+    /// Prepare the soil of a finished run without dynamics for the dynamics of
+    /// a resumed run, as run_next() does before the dynamics. Collective.
+    void
+    continue_with_dynamics();
+
     /// Throw ExcUser if the dynamics would start from a balance that needs more
     /// than the actual strength.
     void

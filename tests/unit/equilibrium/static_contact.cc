@@ -300,7 +300,7 @@ namespace
         }
       const StaticProblem<2> all = problem();
       const unsigned int     n =
-        contact.update_active_set(all, parts.unknowns, forces, u);
+        contact.update_active_set(all, parts.unknowns, forces, u, 1e-5);
       for (unsigned int d = 0; d < 2; ++d)
         displacement[d] = u[2 * node + d];
       return n;
