@@ -62,6 +62,12 @@ install(FILES
     ${CMAKE_BINARY_DIR}/talusConfigVersion.cmake
     cmake/any_linker.cmake
   DESTINATION ${config_folder} COMPONENT development)
-install(DIRECTORY include/talus ${CMAKE_BINARY_DIR}/include/talus
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+include(cmake/public_headers.cmake)
+foreach(header ${talus_public_headers})
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES include/${header}
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT development)
+endforeach()
+install(FILES ${CMAKE_BINARY_DIR}/include/talus/version.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/talus COMPONENT development)
 install(DIRECTORY doc/examples DESTINATION share/talus COMPONENT development)

@@ -95,6 +95,6 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "How far the soil runs, how fast, and how it comes to rest: in plane strain and
 in 3-D, from equilibrium and factor of safety to the run-out, with obstacles.")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
-"Headers and the files of CMake for programs with constitutive laws of their
-own, and an example of such a program.")
+"Headers and the files of CMake for programs that lead runs or have constitutive
+laws of their own, and an example of such a program.")
 include(CPack)

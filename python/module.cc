@@ -22,7 +22,7 @@ namespace
 
   /// Turn errors of talus into talus.Error with the same sentence.
   void
-  translate(const std::exception_ptr &error)
+  translate(std::exception_ptr error)
   {
     try
       {
