@@ -106,7 +106,7 @@ namespace talus::python
 
   LedRun::~LedRun()
   {
-    close();
+    open_runs.erase(this);
   }
 
 

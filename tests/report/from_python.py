@@ -308,7 +308,7 @@ alone.advance_to()
                          (self.folder / "program-2/statistics.csv").read_bytes())
         for rank in (0, 1):
             self.assert_same(f"alone-{rank}", "program-1")
-            self.assertIn("Talus", (self.folder / f"alone-{rank}/log.txt").read_text().title())
+            self.assertIn("Mesh", (self.folder / f"alone-{rank}/log.txt").read_text())
 
     def test_error_of_one_rank_ends_all(self):
         result = self.run_on_two_ranks(
