@@ -166,9 +166,12 @@ class State(FromPython):
         run = self.run_of("accounts")
         run.advance_to()
         table = talus.read(run.folder).table("statistics")
-        self.assertEqual(run.accounts["gravity work [J]"], table["gravity work"][-1])
-        self.assertGreater(run.accounts["gravity work [J]"], 1e3)
-        self.assertEqual(run.statistics["grid kinetic energy [J]"], table["grid kinetic energy"][-1])
+        # The table has 16 digits.
+        work, energy = run.accounts["gravity work [J]"], run.statistics["grid kinetic energy [J]"]
+        self.assertGreater(work, 1e3)
+        self.assertGreater(energy, 1e3)
+        self.assertAlmostEqual(work / table["gravity work"][-1], 1, delta=1e-15)
+        self.assertAlmostEqual(energy / table["grid kinetic energy"][-1], 1, delta=1e-15)
 
     def test_exception_of_a_callback_leaves_the_run(self):
         program(self.folder / "undisturbed", SLIDE, SETTINGS)
@@ -202,11 +205,10 @@ class Obstacles(FromPython):
         self.assertLess(pipe.force[0], 0)
         tables = [{path: data for path, data in content(self.folder / folder).items()
                    if path.suffix == ".csv"} for folder in ("expression", "function")]
-        self.assertEqual(len(tables[0]), len(tables[1]))
-        self.assertGreater(len(tables[0]), 2)
+        self.assertEqual({path.name for path in tables[0]}, {"statistics.csv", "obstacles.csv"})
         self.assertEqual(*tables)
         table = talus.read(run.folder).table("obstacles")
-        self.assertEqual(table["pipe impulse x"][-1], pipe.impulse[0])
+        self.assertAlmostEqual(table["pipe impulse x"][-1] / pipe.impulse[0], 1, delta=1e-15)
 
     def pipe(self, name, velocity, **options):
         return talus.Run(PIPE, {**COARSE_PIPE, "Obstacles/pipe/Velocity": ""},
@@ -233,7 +235,7 @@ class Obstacles(FromPython):
         self.assert_error("has 1 components .* expected 2", run.advance_to)
         self.assert_error("cannot go on in this object", run.advance_to)
         run = self.pipe("nan", lambda time: [math.nan, 0])
-        self.assert_error("'pipe'.* nan .*at most 1e6", run.advance_to)
+        self.assert_error("'pipe'.*nan.*at most 1e6", run.advance_to)
         run = self.pipe("raises", lambda time: [1 / 0, 0])
         with self.assertRaises(ZeroDivisionError):
             run.advance_to()
@@ -308,7 +310,7 @@ alone.advance_to()
                          (self.folder / "program-2/statistics.csv").read_bytes())
         for rank in (0, 1):
             self.assert_same(f"alone-{rank}", "program-1")
-            self.assertIn("Mesh", (self.folder / f"alone-{rank}/log.txt").read_text())
+            self.assertIn("The mesh fills", (self.folder / f"alone-{rank}/log.txt").read_text())
 
     def test_error_of_one_rank_ends_all(self):
         result = self.run_on_two_ranks(
