@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-// The compiled part of the Python module talus. share/talus/talus/run.py derives
-// from the class Run here, and describes the functions for users.
+// The compiled part of the Python module talus. share/talus/talus/run.py
+// derives from the class Run here, and describes the functions for users.
 #include <pybind11/functional.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>

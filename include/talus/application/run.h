@@ -117,7 +117,8 @@ namespace talus
     std::string
     write_checkpoint();
 
-    /// Throw ExcUser if advance_to() would refuse the output folder. Collective.
+    /// Throw ExcUser if advance_to() would refuse the output folder.
+    /// Collective.
     void
     check_output_folder() const;
 
