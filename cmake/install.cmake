@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-# What `cmake --install` puts where. Two components: `program`, to run, and
-# `development`, to build programs with laws of their own (find_package(talus)).
+# What `cmake --install` puts where. Components: `program`, to run, `development`, to
+# build programs with laws of their own (find_package(talus)), and `python`, the
+# Python module, see python/CMakeLists.txt.
 include(CMakePackageConfigHelpers)
 
 install(TARGETS talus COMPONENT program)
@@ -19,6 +20,9 @@ install(PROGRAMS share/talus/talus-report share/talus/talus-study share/talus/ta
     share/talus/talus-compare share/talus/talus-pipe
   DESTINATION bin COMPONENT program)
 install(DIRECTORY share/talus/talus_tools DESTINATION share/talus
+  COMPONENT program PATTERN __pycache__ EXCLUDE)
+# Readers of results for Python; runs need the component `python`.
+install(DIRECTORY share/talus/talus DESTINATION share/talus
   COMPONENT program PATTERN __pycache__ EXCLUDE)
 install(FILES share/talus/study-example.prm share/talus/pipe-example.prm share/talus/paraview.py
     doc/parameters.prm
@@ -58,6 +62,12 @@ install(FILES
     ${CMAKE_BINARY_DIR}/talusConfigVersion.cmake
     cmake/any_linker.cmake
   DESTINATION ${config_folder} COMPONENT development)
-install(DIRECTORY include/talus ${CMAKE_BINARY_DIR}/include/talus
-  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
+include(cmake/public_headers.cmake)
+foreach(header ${talus_public_headers})
+  get_filename_component(folder ${header} DIRECTORY)
+  install(FILES include/${header}
+    DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder} COMPONENT development)
+endforeach()
+install(FILES ${CMAKE_BINARY_DIR}/include/talus/version.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/talus COMPONENT development)
 install(DIRECTORY doc/examples DESTINATION share/talus COMPONENT development)

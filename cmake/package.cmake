@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
 # Packages for Debian: `cpack` in the folder of the preset `dist`. `talus` is the
 # program, with a library for each level of processors; `talus-dev` is for programs
-# with laws of their own.
+# with laws of their own; `python3-talus` is the Python module, if it was built.
 # The date is that of the commit, so that the same sources give the same package.
 execute_process(COMMAND git log -1 --format=%cD
   WORKING_DIRECTORY ${CMAKE_SOURCE_DIR}
@@ -36,7 +36,13 @@ file(WRITE ${CMAKE_BINARY_DIR}/overrides.talus-dev
 file(WRITE ${CMAKE_BINARY_DIR}/shlibs
   "libtalus 0.1 talus (= ${PROJECT_VERSION}-1)\n")
 file(WRITE ${CMAKE_BINARY_DIR}/triggers "activate-noawait ldconfig\n")
-foreach(pair program:talus development:talus-dev)
+set(packages program:talus development:talus-dev)
+if(talus_has_python)
+  file(WRITE ${CMAKE_BINARY_DIR}/overrides.python3-talus
+    "python3-talus: initial-upload-closes-no-bugs\n")
+  list(APPEND packages python:python3-talus)
+endif()
+foreach(pair ${packages})
   string(REPLACE ":" ";" pair ${pair})
   list(GET pair 0 component)
   list(GET pair 1 package)
@@ -52,6 +58,9 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_COMPONENTS_ALL program development)
+if(talus_has_python)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${maintainer})
@@ -69,10 +78,23 @@ set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_SOURCE_DIR}/cmake/without_rpath.cmake)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "talus (= ${PROJECT_VERSION}-1), libdeal.ii-dev, libxsimd-dev, libboost-program-options-dev")
+if(talus_has_python)
+  # The compiled part is for one version of Python.
+  math(EXPR next_minor "${Python_VERSION_MINOR} + 1")
+  string(CONCAT CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
+    "talus (= ${PROJECT_VERSION}-1), python3-numpy, "
+    "python3 (>= 3.${Python_VERSION_MINOR}), python3 (<< 3.${next_minor})")
+endif()
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS "python3-h5py, python3-mpi4py")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+"The Python module talus: runs that a program leads step by step, with points as
+arrays of numpy and obstacles moved by functions, and readers of results.")
 set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
 "How far the soil runs, how fast, and how it comes to rest: in plane strain and
 in 3-D, from equilibrium and factor of safety to the run-out, with obstacles.")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
-"Headers and the files of CMake for programs with constitutive laws of their
-own, and an example of such a program.")
+"Headers and the files of CMake for programs that lead runs or have constitutive
+laws of their own, and an example of such a program.")
 include(CPack)

@@ -114,7 +114,7 @@ namespace talus
     preview.surfaces  = {"mudline"};
     for (const std::string &law : material_names<2>())
       preview.materials.push_back({law, law});
-    Simulation<2> simulation(preview);
+    Simulation<2> simulation(preview, MPI_COMM_SELF);
     dealii::ParameterAcceptor::declare_all_parameters();
     dealii::ParameterAcceptor::prm.print_parameters(
       out, dealii::ParameterHandler::Text);

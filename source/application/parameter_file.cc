@@ -108,10 +108,10 @@ namespace talus
     /// several ranks would each get a part of a pipe and wait for the rest.
     /// Collective.
     std::string
-    read_by_first_rank(const std::string &name)
+    read_by_first_rank(const std::string &name, const MPI_Comm communicator)
     {
       std::string content, error;
-      if (is_first_rank(MPI_COMM_WORLD))
+      if (is_first_rank(communicator))
         try
           {
             content = read_parameter_file(name, Pipes::read);
@@ -120,9 +120,9 @@ namespace talus
           {
             error = message(exception);
           }
-      error = first_sentence(error, MPI_COMM_WORLD);
+      error = first_sentence(error, communicator);
       AssertThrow(error.empty(), ExcUser(error));
-      return Utilities::MPI::broadcast(MPI_COMM_WORLD, content);
+      return Utilities::MPI::broadcast(communicator, content);
     }
 
 
@@ -147,13 +147,43 @@ namespace talus
   /// stack. The record of an earlier run is not protected: the new run replaces
   /// it by an equal record.
   ParameterFile::ParameterFile(const std::string              &file_name,
-                               const std::vector<std::string> &overrides)
-    : file_name_(file_name)
-    , content_(read_by_first_rank(file_name))
-    , overrides_(overrides)
+                               const std::vector<std::string> &overrides,
+                               const MPI_Comm                  communicator)
+    : ParameterFile(file_name,
+                    read_by_first_rank(file_name, communicator),
+                    overrides)
   {
     if (!is_run_record(file_name_))
       protect_input(file_name_);
+    check();
+  }
+
+
+
+  ParameterFile::ParameterFile(const std::string              &file_name,
+                               const std::string              &content,
+                               const std::vector<std::string> &overrides)
+    : file_name_(file_name)
+    , content_(content)
+    , overrides_(overrides)
+  {}
+
+
+
+  ParameterFile
+  ParameterFile::from_text(const std::string              &text,
+                           const std::vector<std::string> &overrides)
+  {
+    ParameterFile result("parameters given as text", text, overrides);
+    result.check();
+    return result;
+  }
+
+
+
+  void
+  ParameterFile::check()
+  {
     unsigned int n_includes = 1000;
     check(content_, {file_name_}, n_includes);
     for (const std::string &override_text : overrides_)
@@ -364,14 +394,15 @@ namespace talus
 
 
 
-  /// An undeclared entry is an error here: most are misspelt.
+  /// An undeclared entry is an error here: most are misspelt. All parameters are
+  /// declared by add_parameter(), which fills the members while parsing:
+  /// ParameterAcceptor::parse_all_parameters() would also enter the sections of
+  /// other runs in the process.
   void
   ParameterFile::parse() const
   {
-    ParameterAcceptor::declare_all_parameters();
     parse_into(ParameterAcceptor::prm, /*skip_undefined=*/false);
     check_has_names(ParameterAcceptor::prm);
     check_sizes(ParameterAcceptor::prm);
-    ParameterAcceptor::parse_all_parameters();
   }
 } // namespace talus

@@ -3,10 +3,10 @@
 #include <talus/application/message.h>
 #include <talus/application/parameter_file.h>
 #include <talus/application/program.h>
+#include <talus/application/run.h>
 #include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/base/mpi_setup.h>
-#include <talus/simulation/simulation.h>
 
 #include <deal.II/base/mpi.h>
 
@@ -50,71 +50,8 @@ namespace
 
 
 
-  /// Save the last state after an error and return a sentence about it. If the
-  /// saving fails, too, the first error must still be reported.
-  template <int dim>
-  std::string
-  saved_state(Simulation<dim> &simulation)
-  {
-    try
-      {
-        const unsigned int rank =
-          dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD);
-        const bool is_alone =
-          dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD) == 1;
-        return (is_alone ? " The last state is in '"
-                         : text(" The points of rank ", rank, " are in '")) +
-               simulation.write_last_state() + "'.";
-      }
-    catch (const ExcUser &exception)
-      {
-        return " The last state was not saved: " + message(exception);
-      }
-  }
-
-
-
-  /// Make all objects, which declare the parameters, then fill and run the
-  /// simulation. Returns the exit status. An error of a point is rethrown with
-  /// the place of the last state; only run_program() prints errors.
-  template <int dim>
-  int
-  run(const CommandLine &command_line, const ParameterFile &file)
-  {
-    Simulation<dim> simulation(file.preview());
-    file.parse();
-    if (!command_line.output_folder.empty())
-      simulation.output().set_folder(command_line.output_folder);
-    if (command_line.overwrite)
-      simulation.allow_overwriting();
-    if (command_line.resume)
-      simulation.resume();
-    else
-      simulation.set_up();
-    if (command_line.validate)
-      {
-        simulation.check_output_folder();
-        simulation.forecast();
-        const std::string remarks = simulation.count_of_remarks();
-        if (is_first_rank(MPI_COMM_WORLD))
-          std::cout << command_line.parameter_file << " is valid"
-                    << (remarks.empty() ? "" : ", with " + remarks) << "."
-                    << std::endl;
-        return 0;
-      }
-    try
-      {
-        return simulation.run() ? 0 : stopped;
-      }
-    catch (const ExcPoint &exception)
-      {
-        throw ExcPoint(message(exception) + saved_state(simulation));
-      }
-  }
-
-
-
-  /// Choose the template argument by the dimension in the parameter file.
+  /// Make the run and advance it to the end, or describe it. Returns the exit
+  /// status. Only run_program() prints errors.
   int
   act(const CommandLine &command_line)
   {
@@ -125,9 +62,23 @@ namespace
         return 0;
       }
     const ParameterFile file(command_line.parameter_file,
-                             command_line.overrides);
-    return file.preview().dimension == 2 ? run<2>(command_line, file)
-                                         : run<3>(command_line, file);
+                             command_line.overrides,
+                             MPI_COMM_WORLD);
+    RunOptions          options;
+    options.output_folder = command_line.output_folder;
+    options.resume        = command_line.resume;
+    options.overwrite     = command_line.overwrite;
+    Run run(file, options, MPI_COMM_WORLD);
+    if (!command_line.validate)
+      return run.advance_to_end() ? 0 : stopped;
+    run.check_output_folder();
+    run.forecast();
+    const std::string remarks = run.count_of_remarks();
+    if (is_first_rank(MPI_COMM_WORLD))
+      std::cout << command_line.parameter_file << " is valid"
+                << (remarks.empty() ? "" : ", with " + remarks) << "."
+                << std::endl;
+    return 0;
   }
 } // namespace
 

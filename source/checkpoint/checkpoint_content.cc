@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/agreement.h>
 #include <talus/base/errors.h>
 #include <talus/checkpoint/checkpoint_content.h>
 #include <talus/io/checksum.h>
@@ -226,7 +227,11 @@ namespace talus
         if (&table == &list.tables().front())
           file.create_group("tables");
         const std::string name = "tables/" + checked(table.name);
-        file.write(name, table.get(), table.n_columns);
+        const bool        is_saved =
+          !table.is_common || is_first_rank(file.communicator());
+        file.write(name,
+                   is_saved ? table.get() : std::vector<double>(),
+                   table.n_columns);
         file.set_attribute(name, "columns", table.columns);
       }
   }

@@ -91,6 +91,26 @@ namespace talus
                                                     velocity_text_,
                                                     dim,
                                                     constants);
+    check_motion();
+    prepare_reference_point();
+    velocity(0.); // throws here rather than in the first step
+  }
+
+
+
+  /// Throw ExcUser if the obstacle has properties that belong to an obstacle at
+  /// rest, or two velocities.
+  template <int dim>
+  void
+  Obstacle<dim>::check_motion() const
+  {
+    AssertThrow(!prescribed_velocity_ || velocity_text_.empty(),
+                ExcUser(text(path("Velocity"),
+                             " = ",
+                             velocity_text_,
+                             " is given, but the program that leads the run "
+                             "prescribes the velocity by a function, too. "
+                             "Remove one of the two.")));
     AssertThrow(!moves() || !depends_on_depth(),
                 ExcUser(text(path("Maximum shear stress"),
                              " = ",
@@ -112,8 +132,6 @@ namespace talus
                              path("Velocity"),
                              "). Slip is kept by place, and only surfaces at "
                              "rest can soften. Remove one of the entries.")));
-    prepare_reference_point();
-    velocity(0.); // throws here rather than in the first step
   }
 
 
@@ -150,7 +168,16 @@ namespace talus
   Obstacle<dim>::fact() const
   {
     const std::string place = shape_parameters_.place_in_words();
-    return place.empty() ? "" : "The obstacle '" + name_ + "' " + place;
+    const std::string fact =
+      place.empty() ? "" : "The obstacle '" + name_ + "' " + place;
+    return fact +
+           (!prescribed_velocity_
+              ? ""
+              : text(fact.empty() ? "" : " ",
+                     "The velocity of the obstacle '",
+                     name_,
+                     "' is prescribed by the program that leads the run, "
+                     "not by a parameter."));
   }
 
 
@@ -193,6 +220,8 @@ namespace talus
   Tensor<1, dim>
   Obstacle<dim>::velocity(const double t) const
   {
+    if (prescribed_velocity_)
+      return velocity_of_step_;
     Tensor<1, dim> v;
     if (moves())
       for (unsigned int d = 0; d < dim; ++d)
@@ -212,11 +241,28 @@ namespace talus
 
 
 
-  // Velocities of the soil also belong to the middle of the step.
+  // Velocities of the soil also belong to the middle of the step. A function
+  // that prescribes the velocity may integrate an equation of motion: hence one
+  // call per step.
   template <int dim>
   void
   Obstacle<dim>::advance(const double t, const double dt)
   {
+    if (prescribed_velocity_)
+      {
+        velocity_of_step_ = prescribed_velocity_(t + 0.5 * dt);
+        // NaN is no number at all.
+        AssertThrow(velocity_of_step_.norm_square() <= 1e12,
+                    ExcUser(text("The velocity of the obstacle '",
+                                 name_,
+                                 "', prescribed by the program that leads the "
+                                 "run, is (",
+                                 velocity_of_step_,
+                                 ") m/s at t = ",
+                                 t + 0.5 * dt,
+                                 " s; expected at most 1e6 m/s. Correct the "
+                                 "function.")));
+      }
     displacement_ += dt * velocity(t + 0.5 * dt);
   }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
+#include <talus/base/errors.h>
 #include <talus/contact/obstacles.h>
 
 #include <algorithm>
@@ -31,6 +32,32 @@ namespace talus
     for (const auto &obstacle : obstacles_)
       obstacle->prepare(constants, surfaces);
     locate();
+  }
+
+
+
+  template <int dim>
+  void
+  Obstacles<dim>::prescribe_velocity(
+    const std::string                            &name,
+    const typename Obstacle<dim>::VelocityOfTime &velocity)
+  {
+    std::string names;
+    for (const auto &obstacle : obstacles_)
+      {
+        if (obstacle->name() == name)
+          {
+            obstacle->prescribe_velocity(velocity);
+            return;
+          }
+        names += (names.empty() ? "'" : ", '") + obstacle->name() + "'";
+      }
+    AssertThrow(false,
+                ExcUser("The velocity of an obstacle '" + name +
+                        "' is prescribed, but " +
+                        (names.empty() ? "there are no obstacles"
+                                       : "the obstacles are " + names) +
+                        ". Give a name of 'Obstacles/Names'."));
   }
 
 

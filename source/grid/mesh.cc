@@ -33,7 +33,10 @@ namespace talus
                     const bool                       grow,
                     const std::array<bool, dim>     &periodic)
   {
-    const auto trees = this->lay_out(may_move, grow, periodic);
+    const auto trees = this->lay_out(triangulation_.get_communicator(),
+                                     may_move,
+                                     grow,
+                                     periodic);
     triangulation_.clear();
     GridGenerator::subdivided_hyper_rectangle(triangulation_,
                                               trees,

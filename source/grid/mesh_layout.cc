@@ -292,13 +292,15 @@ namespace talus
   // first.
   template <int dim>
   std::vector<unsigned int>
-  MeshLayout<dim>::lay_out(const std::array<bool, 2 * dim> &may_move,
+  MeshLayout<dim>::lay_out(const MPI_Comm                   communicator,
+                           const std::array<bool, 2 * dim> &may_move,
                            const bool                       grow,
                            const std::array<bool, dim>     &periodic)
   {
     domain_          = box_of_parameters();
     grows_           = grow;
-    memory_per_rank_ = talus::memory_per_rank(MPI_COMM_WORLD);
+    memory_per_rank_ = talus::memory_per_rank(communicator);
+    n_ranks_         = Utilities::MPI::n_mpi_processes(communicator);
     for (unsigned int d = 0; d < dim; ++d)
       fit_axis(d, may_move[2 * d + 1], 1);
     domain_before_growth_ = domain_;
@@ -356,9 +358,8 @@ namespace talus
   MeshLayout<dim>::check_memory(const double n_cells) const
   {
     constexpr double bytes_per_cell = (dim == 2 ? 720. : 1470.);
-    const double     n_ranks = Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD);
-    const double     bytes   = n_cells * bytes_per_cell / n_ranks;
-    AssertThrow(n_cells < max_n_cells(n_ranks) && bytes < memory_per_rank_,
+    const double     bytes          = n_cells * bytes_per_cell / n_ranks_;
+    AssertThrow(n_cells < max_n_cells(n_ranks_) && bytes < memory_per_rank_,
                 ExcUser(
                   text("The mesh would have ",
                        n_cells,
@@ -367,10 +368,10 @@ namespace talus
                        " GB of memory on each rank. ",
                        memory_per_rank_ / 1e9,
                        " GB are available, and ",
-                       max_n_cells(n_ranks),
+                       max_n_cells(n_ranks_),
                        " cells are the maximum on ",
-                       n_ranks,
-                       n_ranks == 1 ? " rank" : " ranks",
+                       n_ranks_,
+                       n_ranks_ == 1 ? " rank" : " ranks",
                        ". Choose a larger Grid/Cell size than ",
                        cell_size_,
                        " m, a smaller box",

@@ -338,6 +338,8 @@ namespace talus
   void
   CsvFile::sync()
   {
+    if (!file_.is_open())
+      return;
     flush();
     AssertThrow(sync_to_disk(path_).empty(),
                 ExcUser(failed_write_by_errno(path_)));

@@ -24,7 +24,7 @@ namespace talus
   void
   Log::open(const std::filesystem::path &folder, const Beginning beginning)
   {
-    if (!is_first_rank(MPI_COMM_WORLD))
+    if (!is_first_rank(communicator_))
       return;
     file_.open(folder / "log.txt", beginning);
     is_open_ = true;
@@ -37,7 +37,7 @@ namespace talus
   void
   Log::say(const LogLevel level, const std::string &sentence)
   {
-    if (!is_first_rank(MPI_COMM_WORLD))
+    if (!is_first_rank(communicator_))
       return;
     if (is_open_)
       file_.add_line(sentence);
@@ -51,7 +51,7 @@ namespace talus
   void
   Log::remark(const std::string &sentence)
   {
-    if (!is_first_rank(MPI_COMM_WORLD))
+    if (!is_first_rank(communicator_))
       return;
     ++n_remarks_;
     say(LogLevel::result, text("Remark ", n_remarks_, ": ", sentence));

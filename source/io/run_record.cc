@@ -88,10 +88,10 @@ namespace talus
   /// Without date and host: runs with the same parameters have the same file.
   void
   write_run_record(const std::filesystem::path &path,
-                   const ParameterHandler      &parameters)
+                   const std::string           &parameters)
   {
-    const std::string record = text(
-      first_line, '\n', versions("#   "), '\n', parameters_as_text(parameters));
+    const std::string record =
+      text(first_line, '\n', versions("#   "), '\n', parameters);
     write_file(path, [&](std::ostream &out) {
       out << record << last_line << checksum(record) << '\n';
     });

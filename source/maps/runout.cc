@@ -271,7 +271,7 @@ namespace talus
 
 
 
-  /// All ranks have the same path; the first rank saves the path.
+  /// All ranks have the same path.
   template <int dim>
   void
   Runout<dim>::list_state(StateList &list)
@@ -283,16 +283,16 @@ namespace talus
                     2,
                     [this]() {
                       std::vector<double> rows;
-                      if (is_first_rank(MPI_COMM_WORLD))
-                        for (const Point<2> &corner : way_)
-                          rows.insert(rows.end(), {corner[0], corner[1]});
+                      for (const Point<2> &corner : way_)
+                        rows.insert(rows.end(), {corner[0], corner[1]});
                       return rows;
                     },
                     [this](const std::vector<double> &rows) {
                       way_.clear();
                       for (std::size_t i = 0; i + 1 < rows.size(); i += 2)
                         way_.emplace_back(rows[i], rows[i + 1]);
-                    }});
+                    },
+                    /*is_common=*/true});
     list.add_table({"columns with soil at the start",
                     "column",
                     1,

@@ -98,12 +98,13 @@ namespace talus
                             const Beginning /*beginning*/)
   {
     folder_ = settings.folder;
+    writes_ = is_first_rank(state.communicator());
     axes_   = axes(state);
     sums_   = std::make_unique<ColumnSums<dim>>(
       std::make_shared<LatticeColumns<dim>>(axes_));
     gravity_ = state.constants.gravity.norm();
     // A checkpoint gives its rows to all ranks.
-    if (!is_first_rank(state.communicator()))
+    if (!writes_)
       {
         thickness_at_start_.clear();
         blocks_.clear();
@@ -403,7 +404,7 @@ namespace talus
   void
   TsunamiSource<dim>::sync()
   {
-    if (!is_first_rank(MPI_COMM_WORLD))
+    if (!writes_)
       return;
     for (const char *name : {name_of_dtopo, name_of_netcdf, name_of_table})
       if (std::filesystem::exists(folder_ / name))

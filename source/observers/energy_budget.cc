@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
-#include <talus/base/agreement.h>
 #include <talus/observers/energy_budget.h>
 
 #include <deal.II/base/mpi.h>
@@ -115,21 +114,18 @@ namespace talus
 
 
 
-  // The first rank saves the sums, which are identical on all ranks: a
-  // checkpoint may be read by another number of ranks. A resumed run, in which
-  // begin() is not called, saves them, too.
+  // The sums are identical on all ranks. A resumed run, in which begin() is not
+  // called, saves the sums, too.
   template <int dim>
   void
   EnergyBudget<dim>::list_state(StateList &list)
   {
-    list.add_table(
-      {"energies at the start",
-       "energy [J], by term of the energy budget",
-       1,
-       [this]() {
-         return is_first_rank(MPI_COMM_WORLD) ? start_ : std::vector<double>();
-       },
-       [this](const std::vector<double> &rows) { start_ = rows; }});
+    list.add_table({"energies at the start",
+                    "energy [J], by term of the energy budget",
+                    1,
+                    [this]() { return start_; },
+                    [this](const std::vector<double> &rows) { start_ = rows; },
+                    /*is_common=*/true});
   }
 
 

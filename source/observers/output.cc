@@ -190,9 +190,10 @@ namespace talus
   /// earlier results are touched. Collective.
   template <int dim>
   void
-  Output<dim>::begin(const State<dim> &state,
-                     const double      end_time,
-                     const Beginning   beginning)
+  Output<dim>::begin(const State<dim>  &state,
+                     const double       end_time,
+                     const std::string &parameters,
+                     const Beginning    beginning)
   {
     const MPI_Comm communicator = state.grid.communicator();
     if (is_first_rank(communicator))
@@ -203,7 +204,7 @@ namespace talus
         const bool had_a_run = is_run_record(record);
         // The first write tests whether the folder is writable, and replaces an
         // earlier file only on success.
-        write_run_record(record, this->prm);
+        write_run_record(record, parameters);
         if (beginning == Beginning::resumed || had_a_run)
           remove_results(folder_, beginning);
       }
@@ -414,14 +415,14 @@ namespace talus
 
   template <int dim>
   void
-  Output<dim>::sync()
+  Output<dim>::sync(const MPI_Comm communicator)
   {
     for (const Schedule *schedule : {&rows_, &fields_})
       for (const auto &observer : schedule->observers)
         if (observer->is_enabled(settings_))
           observer->sync();
     // Force the names of the field files, listed in a checkpoint, to disk, too.
-    if (is_first_rank(MPI_COMM_WORLD))
+    if (is_first_rank(communicator))
       sync_to_disk(folder_);
   }
 

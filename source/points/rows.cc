@@ -53,12 +53,15 @@ namespace talus
     after.length_           = length;
     after.pitch_            = pitch_of(length);
     const std::size_t bytes = after.memory_consumption();
-    after.memory_           = {static_cast<double *>(map_large_pages(bytes)),
-                               Unmap{bytes}};
+    after.memory_.reset(static_cast<double *>(map_large_pages(bytes)),
+                        Unmap{bytes});
+    // Somebody outside may still read the old rows.
+    const bool is_shared = memory_.use_count() > 1;
     for (unsigned int i = 0; i < std::min(n_rows, n_rows_); ++i)
       {
         std::copy_n((*this)[i], std::min(length, length_), after[i]);
-        empty_large_pages(memory_.get(), (*this)[i + 1]);
+        if (!is_shared)
+          empty_large_pages(memory_.get(), (*this)[i + 1]);
       }
     *this = std::move(after);
   }

@@ -28,9 +28,11 @@ namespace talus
   /// run. Output does not know the splitter: a function adds the columns of the
   /// splitter.
   template <int dim>
-  Simulation<dim>::Simulation(const ParameterPreview &preview)
+  Simulation<dim>::Simulation(const ParameterPreview &preview,
+                              const MPI_Comm          communicator)
     : ParameterAcceptor("/")
-    , state_(MPI_COMM_WORLD)
+    , log_(communicator)
+    , state_(communicator)
     , problem_(preview)
     , mesh_(state_, problem_, transfer_, timer_)
     , scheme_(state_, problem_, transfer_, mesh_, timer_)
@@ -110,6 +112,7 @@ namespace talus
   void
   Simulation<dim>::prepare()
   {
+    parameters_ = parameters_as_text(this->prm);
     static_stages_.check_list();
     state_.grid.check();
     transfer_.check();
@@ -181,7 +184,7 @@ namespace talus
     Hdf5InputFile     file(resumed_from_.path / state_file_name, communicator);
     const std::string parameters = file.read_text("parameters");
     check_read(file);
-    check_parameter_changes(parameters, parameters_as_text(this->prm));
+    check_parameter_changes(parameters, parameters_);
 
     mesh_.load((resumed_from_.path / mesh_file_name).string(),
                file,
@@ -211,32 +214,72 @@ namespace talus
 
 
 
-  /// Steps know nothing of output and checkpoints: both happen here, between
-  /// the steps.
+  /// Signals are remembered only here: another caller of begin() and step() may
+  /// have handlers of its own.
   template <int dim>
   bool
   Simulation<dim>::run()
+  {
+    remember_signals();
+    if (!begin())
+      return false;
+    while (!is_finished())
+      if (!step())
+        return false;
+    end();
+    return true;
+  }
+
+
+
+  template <int dim>
+  bool
+  Simulation<dim>::begin()
   {
     begin_run();
     if (!run_static_stages())
       return false;
     output_.start(state_);
-    while (!is_finished())
-      {
-        const RunRequest request = scheme_.advance(end_time_, local_request());
-        rest_.update(state_, problem_.time_of_last_change());
-        if (output_.observe(state_, is_finished()))
-          note_time_step(LogLevel::detail);
-        if (handle_request(request))
-          return false;
-      }
+    return true;
+  }
+
+
+
+  /// The scheme knows nothing of output and checkpoints: both happen here,
+  /// between the steps.
+  template <int dim>
+  bool
+  Simulation<dim>::step()
+  {
+    const RunRequest request = scheme_.advance(end_time_, local_request());
+    rest_.update(state_, problem_.time_of_last_change());
+    if (output_.observe(state_, is_finished()))
+      note_time_step(LogLevel::detail);
+    return !handle_request(request);
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::stop()
+  {
+    note_stop("as the program that leads the run asked for",
+              write_checkpoint());
+  }
+
+
+
+  template <int dim>
+  void
+  Simulation<dim>::end()
+  {
     note_end();
     output_.check_complete(state_.communicator());
     const std::string remarks = log_.count_of_remarks();
     log_.say(remarks.empty() ? LogLevel::info : LogLevel::result,
              "A report of this run: talus-report " + output_.folder() +
                (remarks.empty() ? "" : " (" + remarks + ")"));
-    return true;
   }
 
 
@@ -336,7 +379,6 @@ namespace talus
         return;
       }
     begin_files();
-    remember_signals();
     if (is_resumed)
       note_resume();
     else
@@ -388,7 +430,7 @@ namespace talus
   Simulation<dim>::begin_files()
   {
     check_output_folder();
-    output_.begin(state_, end_time_, beginning());
+    output_.begin(state_, end_time_, parameters_, beginning());
     static_stages_.begin(output_.folder(), beginning());
     checkpoint_.begin(output_.folder(),
                       state_.communicator(),
@@ -547,22 +589,34 @@ namespace talus
       return false;
 
     const std::string signal = remembered_signal();
+    note_stop(!signal.empty()                  ? "after the signal " + signal
+              : checkpoint_.limit_is_reached() ? "after the limit of wall time"
+                                               : "after a signal to another "
+                                                 "rank",
+              path);
+    return true;
+  }
+
+
+
+  /// Log why the run stops, and how to continue from the checkpoint @p path.
+  template <int dim>
+  void
+  Simulation<dim>::note_stop(const std::string           &reason,
+                             const std::filesystem::path &path)
+  {
+    const std::string remarks = log_.count_of_remarks();
     log_.say(LogLevel::result,
              text("Stopped at t = ",
                   state_.time,
                   " s, step ",
                   state_.step,
-                  !signal.empty() ? ", after the signal " + signal
-                  : checkpoint_.limit_is_reached()
-                    ? ", after the limit of wall time"
-                    : ", after a signal to another rank",
+                  ", ",
+                  reason,
                   "; the state is in '",
                   path.string(),
                   "'. Continue with the same command and --resume.",
-                  log_.count_of_remarks().empty()
-                    ? ""
-                    : " (" + log_.count_of_remarks() + ")"));
-    return true;
+                  remarks.empty() ? "" : " (" + remarks + ")"));
   }
 
 
@@ -575,14 +629,13 @@ namespace talus
   Simulation<dim>::write_checkpoint()
   {
     PhaseTimer::Scope scope(timer_, "checkpoint");
-    output_.sync();
+    output_.sync(state_.communicator());
     const std::vector<double> cell_weights = mesh_.cell_weights();
     const StateList           list         = list_state();
-    const std::string         parameters   = parameters_as_text(this->prm);
     return checkpoint_.write({state_.points,
                               cell_weights,
                               list,
-                              parameters,
+                              parameters_,
                               state_.step,
                               state_.time,
                               end_of_run()},

@@ -53,14 +53,17 @@ namespace talus
                   "front of the slide.",
                   this->prm,
                   Patterns::Double(0., 1e-3));
-    parse_parameters_call_back.connect([this]() {
-      box_shape_.rule =
-        box_rule_ == "fixed"                  ? BoxRule::fixed
-        : box_rule_ == "deformation gradient" ? BoxRule::deformation_gradient
-        : box_rule_ == "right stretch"        ? BoxRule::right_stretch
-        : box_rule_ == "convected domain"     ? BoxRule::convected_domain
-                                              : BoxRule::left_stretch;
+    // Set at each parse, for this object alone.
+    this->enter_my_subsection(this->prm);
+    this->prm.add_action("Box rule", [this](const std::string &rule) {
+      box_shape_.rule = rule == "fixed" ? BoxRule::fixed
+                        : rule == "deformation gradient"
+                          ? BoxRule::deformation_gradient
+                        : rule == "right stretch"    ? BoxRule::right_stretch
+                        : rule == "convected domain" ? BoxRule::convected_domain
+                                                     : BoxRule::left_stretch;
     });
+    this->leave_my_subsection(this->prm);
   }
 
 

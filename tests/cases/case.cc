@@ -27,8 +27,11 @@ namespace talus::cases
   template <int dim>
   Case<dim>::Case(const std::string &file, const Overrides &overrides)
   {
-    const ParameterFile parameters(parameter_file(file), overrides);
-    simulation_ = std::make_unique<Simulation<dim>>(parameters.preview());
+    const ParameterFile parameters(parameter_file(file),
+                                   overrides,
+                                   MPI_COMM_WORLD);
+    simulation_ =
+      std::make_unique<Simulation<dim>>(parameters.preview(), MPI_COMM_WORLD);
     parameters.parse();
     simulation_->set_up();
     simulation_->allow_overwriting(); // what an earlier run of the test left

@@ -6,6 +6,8 @@
 
 #include <deal.II/base/parameter_handler.h>
 
+#include <mpi.h>
+
 #include <string>
 #include <vector>
 
@@ -14,15 +16,29 @@ namespace talus
   /// Parameter file, which may include more files by lines `include FILE`, with
   /// the overrides of the command line. The file is read once, so it may be a
   /// pipe.
+  ///
+  /// deal.II's parameters are global: the handler ParameterAcceptor::prm refers
+  /// to the members of all objects made since it was cleared. Several runs can
+  /// exist in a process because the handler is cleared before and after the
+  /// objects of each run are made and parse() has filled them, see Run.
   class ParameterFile
   {
   public:
-    /// Read the file. @p overrides have the form
-    /// "Section/Subsection/Entry=value". Throws ExcUser if a file cannot be
-    /// read or has a line that check_lines() refuses, if files include each
-    /// other in a circle, or if an override is malformed.
+    /// Read the file on the first rank of @p communicator. @p overrides have
+    /// the form "Section/Subsection/Entry=value". Throws ExcUser if a file
+    /// cannot be read or has a line that check_lines() refuses, if files
+    /// include each other in a circle, or if an override is malformed.
+    /// Collective.
     ParameterFile(const std::string              &file_name,
-                  const std::vector<std::string> &overrides);
+                  const std::vector<std::string> &overrides,
+                  MPI_Comm                        communicator);
+
+    /// Take the content of a parameter file from @p text. Files that the
+    /// parameters name are relative to the current folder. Throws as the
+    /// constructor.
+    static ParameterFile
+    from_text(const std::string              &text,
+              const std::vector<std::string> &overrides);
 
     /// First, tolerant pass: read only the parameters that determine which
     /// parameters exist.
@@ -36,6 +52,14 @@ namespace talus
     parse() const;
 
   private:
+    ParameterFile(const std::string              &file_name,
+                  const std::string              &content,
+                  const std::vector<std::string> &overrides);
+
+    /// Check all lines and overrides.
+    void
+    check();
+
     /// Check the lines of a file and of all included files, which become
     /// protected inputs.
     /// @param content Text of the file.

@@ -57,6 +57,9 @@ namespace talus
       unsigned int                                     n_columns;
       std::function<std::vector<double>()>             get; ///< local rows
       std::function<void(const std::vector<double> &)> set; ///< all rows
+      /// Whether all ranks have the same rows: the rows of the first rank are
+      /// saved.
+      bool is_common = false;
     };
 
     /// Add a number. Integers up to 2^53 are exact as doubles.

@@ -109,7 +109,7 @@ namespace talus
 
     bool                  may_overwrite_ = false;
     std::filesystem::path output_folder_;
-    MPI_Comm              communicator_ = MPI_COMM_WORLD;
+    MPI_Comm              communicator_ = MPI_COMM_NULL;
     Clock::time_point     start_        = Clock::now();
     Clock::time_point     last_time_    = start_;
     std::filesystem::path last_; // empty if none

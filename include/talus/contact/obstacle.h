@@ -11,6 +11,7 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -31,6 +32,20 @@ namespace talus
     void
     prepare(const Constants          &constants,
             const SurfaceSource<dim> *surfaces = nullptr);
+
+    /// Velocity at the middle of a step, m/s, from the time there, s.
+    using VelocityOfTime =
+      std::function<dealii::Tensor<1, dim>(const double time)>;
+
+    /// Let a function prescribe the velocity in place of the parameter. Each
+    /// step calls the function once, on every rank, which must all get the same
+    /// velocity. Before the first step the obstacle is at rest. Call before
+    /// prepare().
+    void
+    prescribe_velocity(const VelocityOfTime &velocity)
+    {
+      prescribed_velocity_ = velocity;
+    }
 
     const std::string &
     name() const
@@ -129,10 +144,12 @@ namespace talus
     bool
     moves() const
     {
-      return velocity_ != nullptr;
+      return velocity_ != nullptr || prescribed_velocity_;
     }
 
-    /// Velocity at time @p t, s, in m/s; zero if the obstacle is at rest.
+    /// Velocity at time @p t, s, in m/s; zero if the obstacle is at rest. If a
+    /// function prescribes the velocity: in the last step that has begun,
+    /// whatever @p t is.
     dealii::Tensor<1, dim>
     velocity(double t) const;
 
@@ -158,6 +175,8 @@ namespace talus
   private:
     void
     prepare_reference_point();
+    void
+    check_motion() const;
 
     std::string
     path(const std::string &entry) const
@@ -180,6 +199,8 @@ namespace talus
     std::unique_ptr<Expression<dim>> velocity_;        ///< m/s; null: at rest
     dealii::Point<dim>               reference_point_; ///< at the start, m
     dealii::Tensor<1, dim>           displacement_;
+    VelocityOfTime                   prescribed_velocity_; ///< may be empty
+    dealii::Tensor<1, dim>           velocity_of_step_;    ///< m/s, prescribed
   };
 } // namespace talus
 

@@ -28,6 +28,13 @@ namespace talus
     prepare(const Constants          &constants,
             const SurfaceSource<dim> *surfaces = nullptr);
 
+    /// Let a function prescribe the velocity of the obstacle @p name, see
+    /// Obstacle::prescribe_velocity(). Call before prepare(). Throws ExcUser
+    /// without an obstacle of this name.
+    void
+    prescribe_velocity(const std::string                            &name,
+                       const typename Obstacle<dim>::VelocityOfTime &velocity);
+
     unsigned int
     size() const
     {

@@ -152,7 +152,7 @@ namespace talus
     // mass, volume.
     static constexpr unsigned int width = 4;
 
-    MPI_Comm                  communicator_ = MPI_COMM_WORLD;
+    MPI_Comm                  communicator_ = MPI_COMM_NULL;
     unsigned int              n_nodes_      = 0;
     std::vector<unsigned int> active_nodes_;
     std::vector<double>       records_;

@@ -10,6 +10,8 @@
 
 #include <deal.II/base/parameter_acceptor.h>
 
+#include <mpi.h>
+
 #include <array>
 #include <string>
 #include <vector>
@@ -117,9 +119,10 @@ namespace talus
     MeshLayout();
 
     /// Set up the box and the trees, see Mesh::create(). Return the number of
-    /// trees along each axis.
+    /// trees along each axis. Collective.
     std::vector<unsigned int>
-    lay_out(const std::array<bool, 2 * dim> &may_move,
+    lay_out(MPI_Comm                         communicator,
+            const std::array<bool, 2 * dim> &may_move,
             bool                             grow,
             const std::array<bool, dim>     &periodic);
 
@@ -173,6 +176,7 @@ namespace talus
     unsigned int                    base_level_      = 0;
     bool                            grows_           = false;
     double                          memory_per_rank_ = 0; // bytes
+    unsigned int                    n_ranks_         = 1;
     std::vector<RefinementBox<dim>> boxes_;
     Periodicity<dim>                periodicity_;
   };

@@ -130,7 +130,8 @@ namespace talus
     void
     flush();
 
-    /// Bring all rows to the disk. Throws ExcUser on failure.
+    /// Bring all rows to the disk, if the file is open on this rank. Throws
+    /// ExcUser on failure.
     void
     sync();
 

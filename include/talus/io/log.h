@@ -5,6 +5,8 @@
 #include <talus/base/state_list.h>
 #include <talus/io/files.h>
 
+#include <mpi.h>
+
 #include <filesystem>
 #include <string>
 
@@ -31,6 +33,10 @@ namespace talus
   class Log
   {
   public:
+    explicit Log(const MPI_Comm communicator)
+      : communicator_(communicator)
+    {}
+
     /// Open log.txt in @p folder on the first rank. Throws ExcUser on failure.
     void
     open(const std::filesystem::path &folder, Beginning beginning);
@@ -58,6 +64,7 @@ namespace talus
     }
 
   private:
+    MPI_Comm      communicator_;
     LogFile       file_;
     bool          is_open_   = false;
     unsigned long n_remarks_ = 0;

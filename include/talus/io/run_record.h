@@ -22,12 +22,12 @@ namespace talus
 
 
 
-  /// Write the parameters as understood, with defaults, to the file @p path, in
-  /// a form that talus can read again; the header lists the versions of talus
-  /// and of the libraries. Throws ExcUser if the file cannot be written.
+  /// Write the text of parameters_as_text() to the file @p path, in a form that
+  /// talus can read again; the header lists the versions of talus and of the
+  /// libraries. Throws ExcUser if the file cannot be written.
   void
-  write_run_record(const std::filesystem::path    &path,
-                   const dealii::ParameterHandler &parameters);
+  write_run_record(const std::filesystem::path &path,
+                   const std::string           &parameters);
 
 
 

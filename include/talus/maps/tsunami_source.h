@@ -108,6 +108,7 @@ namespace talus
     std::unique_ptr<ColumnSums<dim>>   sums_;
     unsigned int                       n_blocks_ = 0; ///< on all ranks
     unsigned long                      step_of_last_block_ = 0;
+    bool                               writes_ = false; ///< on the first rank
 
     // On the first rank only
     std::vector<std::pair<unsigned int, double>> thickness_at_start_; ///< m

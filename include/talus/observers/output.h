@@ -61,6 +61,14 @@ namespace talus
     void
     set_folder(const std::string &folder);
 
+    /// Return the row that statistics.csv would have now. Collective; complete
+    /// on the first rank.
+    Quantities
+    statistics(const State<dim> &state) const
+    {
+      return statistics_->evaluate(state, settings_.write_runout);
+    }
+
     /// Averaging window for the forces on obstacles and mesh faces, s.
     double
     force_averaging_time() const
@@ -99,14 +107,15 @@ namespace talus
     void
     check_folder(MPI_Comm communicator, Beginning beginning) const;
 
-    /// Create the folder, write parameters.prm and open all files of a run to
-    /// @p end_time, s; a resumed run continues the existing files. Throws
-    /// ExcUser if the folder is not writable; then all files of an earlier run
-    /// are untouched.
+    /// Create the folder, write @p parameters to parameters.prm and open all
+    /// files of a run to @p end_time, s; a resumed run continues the existing
+    /// files. Throws ExcUser if the folder is not writable; then all files of
+    /// an earlier run are untouched.
     void
-    begin(const State<dim> &state,
-          double            end_time,
-          Beginning         beginning = Beginning::fresh);
+    begin(const State<dim>  &state,
+          double             end_time,
+          const std::string &parameters,
+          Beginning          beginning = Beginning::fresh);
 
     /// Write the output due at the start of the motion, unless already written.
     void
@@ -132,7 +141,7 @@ namespace talus
 
     /// Force all rows and fields written so far to disk.
     void
-    sync();
+    sync(MPI_Comm communicator);
 
     /// Write the output due after a step. Call after each step. In the @p last
     /// step all output is due, and the throughput is printed. Returns whether

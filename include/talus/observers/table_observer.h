@@ -51,8 +51,7 @@ namespace talus
     void
     sync() override
     {
-      if (is_first_rank(MPI_COMM_WORLD))
-        file_.sync();
+      file_.sync();
     }
 
   protected:

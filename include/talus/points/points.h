@@ -9,6 +9,7 @@
 #include <deal.II/base/point.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -131,6 +132,14 @@ namespace talus
     data(const unsigned int column, const unsigned int component = 0) const
     {
       return arrays_[column + component];
+    }
+
+    /// Owner of the memory of all arrays, for readers outside of the run, which
+    /// may keep views for longer than the points exist.
+    std::shared_ptr<const double>
+    memory() const
+    {
+      return arrays_.memory();
     }
 
     /// View for functions of one point; valid until points or columns are

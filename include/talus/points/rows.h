@@ -70,6 +70,14 @@ namespace talus
       return pitch_;
     }
 
+    /// Return the memory of all rows as an owner: the memory outlives the rows
+    /// as long as the owner exists, and reshape() then leaves it unchanged.
+    std::shared_ptr<const double>
+    memory() const
+    {
+      return memory_;
+    }
+
     std::size_t
     memory_consumption() const
     {
@@ -84,11 +92,11 @@ namespace talus
       operator()(double *memory) const;
     };
 
-    std::unique_ptr<double, Unmap> memory_;
-    unsigned int                   n_rows_ = 0;
-    std::size_t                    length_ = 0;
-    std::size_t                    pitch_  = 0;
-    std::vector<double>            jumping_; ///< scratch of move()
+    std::shared_ptr<double> memory_;
+    unsigned int            n_rows_ = 0;
+    std::size_t             length_ = 0;
+    std::size_t             pitch_  = 0;
+    std::vector<double>     jumping_; ///< scratch of move()
   };
 } // namespace talus
 

@@ -27,7 +27,20 @@ namespace talus
   class Simulation : public dealii::ParameterAcceptor
   {
   public:
-    explicit Simulation(const ParameterPreview &preview);
+    /// Declare all parameters. They must be parsed before another simulation is
+    /// constructed, and are read no more after set_up() or resume(): deal.II's
+    /// parameters are global, see ParameterFile.
+    Simulation(const ParameterPreview &preview, MPI_Comm communicator);
+
+    /// Let a function of the caller prescribe the velocity of an obstacle, see
+    /// Obstacle::prescribe_velocity(). Call after parsing. Throws ExcUser
+    /// without an obstacle of this name.
+    void
+    prescribe_velocity(const std::string                            &obstacle,
+                       const typename Obstacle<dim>::VelocityOfTime &velocity)
+    {
+      problem_.obstacles.prescribe_velocity(obstacle, velocity);
+    }
 
     /// Make mesh and points from the parsed parameters. Throws ExcUser if
     /// parameters contradict each other. Writes nothing. Collective.
@@ -67,11 +80,43 @@ namespace talus
     }
 
     /// Compute from the start, or the checkpoint, to the end of the run, with
-    /// output. A run ends at the end time, or when the soil is at rest or has
-    /// left the mesh. Return false if a signal or the limit of wall time
-    /// stopped the run earlier; resume() can then continue.
+    /// output: begin(), step() until is_finished(), end(). Return false if a
+    /// signal or the limit of wall time stopped the run earlier; resume() can
+    /// then continue. Collective.
     bool
     run();
+
+    /// Begin the files and run the static stages. Return false if the run was
+    /// stopped between two stages. Collective.
+    bool
+    begin();
+
+    /// Advance by one step, with the output and the checkpoint that are due.
+    /// Return false if a signal or the limit of wall time stops the run here;
+    /// a checkpoint has then been written. Call after begin(), unless
+    /// is_finished(). Collective.
+    bool
+    step();
+
+    /// Write a checkpoint and log that the caller stops the run. Call between
+    /// two steps. Collective.
+    void
+    stop();
+
+    /// Log the end, and throw ExcUser if results have been deleted meanwhile.
+    /// Call once, when is_finished(). Collective.
+    void
+    end();
+
+    /// Whether the run has reached its end: the end time, or an earlier time
+    /// when the soil is at rest or has left the mesh.
+    bool
+    is_finished() const;
+
+    /// Write a checkpoint and return its path. Call after begin(), between two
+    /// steps. Collective.
+    std::filesystem::path
+    write_checkpoint();
 
     /// Run the stages before the dynamics. Part of run(); without run(), call
     /// once before advance(). Return false if the run was stopped between two
@@ -105,6 +150,19 @@ namespace talus
       return state_;
     }
 
+    double
+    end_time() const
+    {
+      return end_time_;
+    }
+
+    /// Obstacles and the forces of the soil on them.
+    const FacetContact<dim> &
+    contact() const
+    {
+      return problem_.contact;
+    }
+
     const ExplicitScheme<dim> &
     scheme() const
     {
@@ -134,10 +192,10 @@ namespace talus
     note_resume();
     void
     note_time_step(LogLevel level);
-    bool
-    is_finished() const;
     void
     note_end();
+    void
+    note_stop(const std::string &reason, const std::filesystem::path &path);
     double
     end_of_run() const;
     StateList
@@ -146,14 +204,13 @@ namespace talus
     local_request() const;
     bool
     handle_request(RunRequest request);
-    std::filesystem::path
-    write_checkpoint();
 
     // Parameters
     std::string  title_        = "";
     unsigned int dimension_    = dim;
     double       end_time_     = 1.;
     bool         ends_at_rest_ = true;
+    std::string  parameters_; ///< all of the run, as text
 
     PhaseTimer          timer_;
     Log                 log_;

@@ -73,6 +73,13 @@ namespace talus
       return energies_;
     }
 
+    /// Impulses in the order of opening.
+    const std::deque<Impulse> &
+    impulses() const
+    {
+      return impulses_;
+    }
+
     void
     list_state(StateList &list);
 

@@ -17,52 +17,39 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy
 
-# The readers of talus's own tools, in the folder above this file's.
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from talus_tools.esri import read_grid
-from talus_tools.hdf5 import Hdf5Series
-from talus_tools.parameters import read_parameters
-from talus_tools.tables import read_table
-from talus_tools.vtu import VtuSeries
+# The module is in the folder above this file's, unless it is installed for Python.
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import talus
 
-FOLDER = sys.argv[1] if len(sys.argv) > 1 else "."
-
-
-def path(name):
-    """Path of a file of the run."""
-    return os.path.join(FOLDER, name)
-
+results = talus.read(sys.argv[1] if len(sys.argv) > 1 else ".")
 
 # 1. Parameters, as the run understood them: a dictionary of texts.
-parameters = read_parameters(path("parameters.prm"))
+parameters = results.parameters
 print(f"title: {parameters.get('Title', '')}, cell size {parameters['Grid/Cell size']} m")
 
-# 2. A table: columns by their names, which have units (doc/output.md explains each).
-statistics = read_table(path("statistics.csv"))
-time, velocity = statistics["time [s]"], statistics["centre velocity x [m/s]"]
+# 2. A table: columns by their names (doc/output.md explains each).
+statistics = results.table("statistics")
+time, velocity = statistics["time"], statistics["centre velocity x"]
 fastest = numpy.argmax(numpy.abs(velocity))
 print(f"largest velocity of the centre: {velocity[fastest]:.4g} m/s at t = {time[fastest]:.4g} s")
 figure, (above, below) = plt.subplots(2, 1, figsize=(8, 6), constrained_layout=True)
 above.plot(time, velocity)
 above.set(xlabel="time [s]", ylabel="velocity of the centre along x [m/s]")
 
-# 3. Fields: the material points at one time. corners: shape (points, vertices, 3); values:
-# arrays by name, here the speed and the mass of each point.
-points = (VtuSeries(path("points.pvd")) if os.path.isfile(path("points.pvd")) else
-          Hdf5Series(path("points.xdmf")) if os.path.isfile(path("points.xdmf")) else None)
-if points is not None:
-    corners, values = points.read(points.times[-1])
-    places = corners.mean(axis=1)
-    centre = values["mass [kg]"] @ places / values["mass [kg]"].sum()
-    print(f"{len(places)} points at t = {points.times[-1]:.4g} s, centre of mass at "
+# 3. Fields: the material points at one time, by default the last one.
+if len(results.times("points")):
+    points = results.points()
+    places, mass = points.places, points["mass"]
+    centre = mass @ places / mass.sum()
+    print(f"{len(points)} points at t = {points.time:.4g} s, centre of mass at "
           f"x = {centre[0]:.4g} m, y = {centre[1]:.4g} m")
-    drawn = below.scatter(places[:, 0], places[:, 1], c=values["speed [m/s]"], s=1)
+    drawn = below.scatter(places[:, 0], places[:, 1], c=points["speed"], s=1)
     figure.colorbar(drawn, ax=below, label="speed [m/s]")
     below.set(xlabel="x [m]", ylabel="y [m]")
 
 # 4. Maps of a 3-D run: grids with easting and northing, NaN where there was no soil.
-if os.path.isfile(path("maps/maximum-thickness.asc")):
-    grid = read_grid(path("maps/maximum-thickness.asc"))
+if "maximum-thickness" in results.names_of_maps():
+    grid = results.map("maximum-thickness")
     row, column = numpy.unravel_index(numpy.nanargmax(grid.values), grid.values.shape)
     east, north = grid.place(row, column)
     area = numpy.count_nonzero(grid.values > 0.5) * grid.dx * grid.dy

@@ -11,8 +11,24 @@ from talus_tools.errors import UserError
 LINE = "line"  # column of lines.csv with the names
 
 
+def find_column(names, name):
+    """The column `name` among the names, which end with a unit in brackets: with its unit or
+    without it. None if there is none, or if several columns differ in the unit alone."""
+    if name in names:
+        return name
+    found = [other for other in names if split_unit(other)[0] == name]
+    return found[0] if len(found) == 1 else None
+
+
+def split_unit(name):
+    """Name and unit of a column "name [unit]"; the unit is empty for a number without one."""
+    start = name.rfind(" [")
+    return (name[:start], name[start + 2:-1]) if start > 0 and name.endswith("]") else (name, "")
+
+
 class Table:
-    """Columns by name, as numbers; the text of the last row as it was written."""
+    """Columns by name, with the unit or without it, as numbers; the text of the last row as it
+    was written."""
 
     def __init__(self, path, names, rows, left_out):
         self.path = path
@@ -22,12 +38,18 @@ class Table:
         self.left_out = left_out
 
     def __contains__(self, name):
-        return name in self.names
+        return find_column(self.names, name) is not None
 
     def __getitem__(self, name):
-        if name not in self.names:
+        found = find_column(self.names, name)
+        if found is None:
             raise UserError(f"'{self.path}' has no column '{name}'.")
-        return self.values[:, self.names.index(name)]
+        return self.values[:, self.names.index(found)]
+
+    @property
+    def units(self):
+        """Unit of each column by its name without the unit."""
+        return dict(map(split_unit, self.names))
 
     def __len__(self):
         return len(self.values)

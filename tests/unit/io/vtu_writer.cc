@@ -449,7 +449,7 @@ namespace
   TEST_F(VtuTest, LastState)
   {
     PhaseTimer timer;
-    Log        log;
+    Log        log{MPI_COMM_WORLD};
     Output<2>  output(timer, log);
     Scene<2>   s("0, 0", "8, 4");
     s.add({0.5, 0.5});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LGPL-2.1-or-later
 #include <talus/base/errors.h>
+#include <talus/io/run_record.h>
 #include <talus/observers/output.h>
 
 #include <gtest/gtest.h>
@@ -47,7 +48,7 @@ namespace
   {
   protected:
     PhaseTimer timer;
-    Log        log;
+    Log        log{MPI_COMM_WORLD};
   };
 
 
@@ -59,7 +60,7 @@ namespace
     s.add({0.5, 0.5});
     s.sort();
     output.set_folder(folder / "a" / "b");
-    output.begin(s, 1.25);
+    output.begin(s, 1.25, parameters_as_text(output.prm));
     output.start(s);
     for (s.step = 1; s.step <= 12; ++s.step)
       {
@@ -90,7 +91,7 @@ namespace
     s.add({0.5, 0.5});
     s.sort();
     output.set_folder(folder);
-    output.begin(s, 1.);
+    output.begin(s, 1., parameters_as_text(output.prm));
     output.start(s);
     log.say(LogLevel::detail, "It begins.");
     s.step = 1;
@@ -115,7 +116,7 @@ namespace
     s.add({0.5, 0.5});
     s.sort();
     output.set_folder(folder);
-    output.begin(s, 1.);
+    output.begin(s, 1., parameters_as_text(output.prm));
     output.start(s);
     std::string record;
     for (const std::string &line : lines("parameters.prm"))
@@ -149,8 +150,8 @@ namespace
         s.add({0.5, 0.5});
         s.sort();
         output.set_folder(path);
-        const std::string sentence =
-          sentence_thrown_by([&]() { output.begin(s, 1.); });
+        const std::string sentence = sentence_thrown_by(
+          [&]() { output.begin(s, 1., parameters_as_text(output.prm)); });
         EXPECT_NE(sentence.find("The output folder '" + path.string()),
                   std::string::npos)
           << sentence;
@@ -169,7 +170,8 @@ namespace
     s.sort();
     output.set_folder(folder);
     fs::create_symlink("/dev/full", folder / "statistics.csv");
-    std::string sentence = sentence_thrown_by([&]() { output.begin(s, 1.); });
+    std::string sentence = sentence_thrown_by(
+      [&]() { output.begin(s, 1., parameters_as_text(output.prm)); });
     EXPECT_NE(sentence.find("The file '" +
                             (folder / "statistics.csv").string() +
                             "' could not be written (No space left on device"),

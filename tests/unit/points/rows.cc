@@ -176,3 +176,21 @@ TEST(Rows, PointsGrow)
       ASSERT_EQ(points.data(added)[p], 0.);
     }
 }
+
+
+
+TEST(Rows, ReadersKeepTheirMemory)
+{
+  Rows rows;
+  rows.reshape(3, 1000);
+  number(rows, 1000);
+  const std::shared_ptr<const double> memory = rows.memory();
+  const std::size_t                   pitch  = rows.pitch();
+  rows.reshape(3, 100000);
+  expect_numbered(rows, 3, 1000);
+  EXPECT_NE(memory.get(), rows[0]);
+  rows = Rows();
+  for (unsigned int r = 0; r < 3; ++r)
+    for (unsigned int i = 0; i < 1000; ++i)
+      ASSERT_EQ(memory.get()[r * pitch + i], 1000. * r + i);
+}

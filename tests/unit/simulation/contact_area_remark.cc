@@ -28,7 +28,7 @@ namespace contact_area_remark_test
       return log.count_of_remarks();
     }
 
-    Log                  log;
+    Log                  log{MPI_COMM_WORLD};
     ContactAreaRemark<2> remark{boundaries, contact, log};
     Quantities           row; ///< contact area and footprint, m
   };

@@ -20,7 +20,7 @@ TEST(SplitLimitRemark, PointsThatCannotBeSplitAreToldOnce)
   };
   add(1.5, 1.);
   core.sort();
-  Log                 log;
+  Log                 log{MPI_COMM_WORLD};
   SplitLimitRemark<2> remark(core.splitter, log);
   remark.observe(core);
   EXPECT_EQ(log.count_of_remarks(), "");

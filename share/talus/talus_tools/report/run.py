@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: LGPL-2.1-or-later
-"""All that a folder holds of a run."""
+"""All that a folder holds of a run, for a report."""
 
 import fcntl
 import hashlib
@@ -10,11 +10,9 @@ import re
 import numpy
 
 from talus_tools.errors import UserError
-from talus_tools.hdf5 import Hdf5Series, h5py
-from talus_tools.parameters import Defaults, changed_entries, read_parameters
+from talus_tools.parameters import Defaults, changed_entries
 from talus_tools.report.log import Log
-from talus_tools.tables import read_table
-from talus_tools.vtu import VtuSeries
+from talus_tools.results import Results
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 # The reference of all parameters: installed beside the tools, or in the source tree.
@@ -41,19 +39,19 @@ def has_rows(path):
         return stream.readline().endswith(b"\n") and stream.readline().endswith(b"\n")
 
 
-class Run:
+class Run(Results):
     """Tables, parameters and log of a run; a table that is not there is None. `empty`: names
     of the tables that have no complete row; `layer`: names of the bodies that are slab and weak
     layer, or None."""
 
     def __init__(self, folder, layer=None):
-        self.folder, self.empty, self.layer = folder, [], layer
-        self.check_folder()
+        super().__init__(folder)
+        self.empty, self.layer = [], layer
         self.tables = {name: self.read(name + ".csv") for name in
                        ("statistics", "profile", "obstacles", "boundaries", "newton", "maps",
                         "stations", "runout", "bands")}
         self.statistics = self.tables["statistics"]
-        self.entries = read_parameters(self.path("parameters.prm"))
+        self.entries = self.parameters
         self.title = self.entries.get("Title", "")
         self.dimension = int(self.entries.get("Dimension", "2"))
         self.stages = self.entries.get("Stages", "dynamics")
@@ -67,23 +65,10 @@ class Run:
         self.parameter_text = content.decode("utf-8", errors="replace")
         self.versions = re.findall(r"^#   (.*)$", self.parameter_text, re.MULTILINE)
 
-    def path(self, name):
-        """Path of a file of the run."""
-        return os.path.join(self.folder, name)
-
-    def has(self, name):
-        """Whether the run has this file."""
-        return os.path.isfile(self.path(name))
-
     def check_folder(self):
-        """Errors that a user makes: no folder, the wrong one, a run that has not begun."""
-        if not os.path.isdir(self.folder):
-            raise UserError(f"'{self.folder}' is no folder. Name the output folder of a run, "
-                            "Output/Folder in its parameters.")
-        if not os.path.isfile(self.path("parameters.prm")):
-            raise UserError(f"'{self.folder}' has no parameters.prm, so it is no output folder of "
-                            "talus.")
-        if not os.path.isfile(self.path("statistics.csv")):
+        """Errors that a user makes, besides: a run that has not begun."""
+        super().check_folder()
+        if not self.has("statistics.csv"):
             raise UserError(f"'{self.folder}' has no statistics.csv: the run has not begun to "
                             "move, or failed before. Its log.txt may tell.")
 
@@ -95,16 +80,7 @@ class Run:
         if name != "statistics.csv" and not has_rows(path):
             self.empty.append(name)
             return None
-        return read_table(path)
-
-    def series(self, name):
-        """Fields by time, of VTU or HDF5 files; None where there are none that can be read."""
-        kinds = {".pvd": VtuSeries} | ({".xdmf": Hdf5Series} if h5py else {})
-        for ending, kind in kinds.items():
-            if self.has(name + ending):
-                series = kind(self.path(name + ending))
-                return series if len(series.times) else None
-        return None
+        return self.table(name.removesuffix(".csv"))
 
     @property
     def time(self):
